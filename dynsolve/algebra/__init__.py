@@ -1,0 +1,1 @@
+"""Exact expressions: the trigonometric polynomial ring and its compact form."""

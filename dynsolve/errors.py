@@ -1,0 +1,98 @@
+"""Every error of dynsolve, by what the user must do about it.
+
+An input error is a list of `Finding`s: all faults of a file come at once, each
+with its place, what is wrong and what to do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+
+
+class ExitCode(IntEnum):
+    """What the process ends with."""
+
+    DONE = 0
+    FALLS_SHORT = 1
+    USAGE = 2
+    FAILED = 3
+    INTERRUPTED = 130
+
+
+class DynsolveError(Exception):
+    """The base of every error that dynsolve raises on purpose."""
+
+    exit_code = ExitCode.FAILED
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One fault of an input file, with its place and its remedy.
+
+    `line` and `column` count from 1; 0 where the fault has no place.  `length`
+    is how many characters the caret underlines, `excerpt` the source line.
+    """
+
+    message: str
+    help: str = ""
+    file: str = ""
+    line: int = 0
+    column: int = 0
+    length: int = 1
+    excerpt: str = ""
+    code: str = ""
+
+    def __str__(self) -> str:
+        place = ":".join(str(part) for part in (self.file, self.line, self.column) if part)
+        lines = [f"{place}: {self.message}" if place else self.message]
+        if self.excerpt and self.column:
+            lines += [f"  {self.excerpt}", "  " + " " * (self.column - 1) + "^" * max(self.length, 1)]
+        if self.help:
+            lines.append(f"help: {self.help}")
+        return "\n".join(lines)
+
+
+class InputError(DynsolveError):
+    """What the user gave cannot be used; `findings` says where and why."""
+
+    exit_code = ExitCode.USAGE
+
+    def __init__(self, findings: Sequence[Finding]) -> None:
+        self.findings = tuple(findings)
+        super().__init__("\n".join(map(str, self.findings)))
+
+
+class ProblemError(InputError):
+    """A problem file is faulty: mend the file."""
+
+
+class UsageError(DynsolveError):
+    """A command or a call was put wrongly: call again, corrected."""
+
+    exit_code = ExitCode.USAGE
+
+
+class ReadError(DynsolveError):
+    """A formula could not be read; `offset` and `length` count characters of its text."""
+
+    exit_code = ExitCode.USAGE
+
+    def __init__(self, message: str, offset: int = 0, length: int = 1, help: str = "") -> None:
+        super().__init__(message)
+        self.message, self.offset, self.length, self.help = message, offset, length, help
+
+
+class AlgebraError(DynsolveError):
+    """A formula has no exact meaning here (a zero denominator, a pole, a bare number as an angle)."""
+
+    exit_code = ExitCode.USAGE
+
+    def __init__(self, message: str, help: str = "") -> None:
+        super().__init__(message)
+        self.message, self.help = message, help
+
+
+class VerificationError(DynsolveError):
+    """The results disagree with the independent computation: a fault of dynsolve, never of the user."""
