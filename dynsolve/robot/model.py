@@ -1,0 +1,159 @@
+"""What a manipulator is: joints in a Denavit-Hartenberg table, and bodies that have mass.
+
+Everything here is exact, frozen and whole.  Lengths, masses and inertias are
+elements of one ring (`robot.ring`); angles are linear forms in the coordinates.
+A `Robot` knows no file and no printing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.notation.tree import Node
+from dynsolve.robot.shapes import Shape
+
+
+class Convention(Enum):
+    """How the four Denavit-Hartenberg parameters make a transformation.
+
+    STANDARD: A_i = Rot_z(θ) Trans_z(d) Trans_x(a) Rot_x(α)   (Spong)
+    MODIFIED: A_i = Rot_x(α) Trans_x(a) Rot_z(θ) Trans_z(d)   (Craig)
+    """
+
+    STANDARD = "standard"
+    MODIFIED = "modified"
+
+
+class JointType(Enum):
+    """What a coordinate is: an angle or a length."""
+
+    REVOLUTE = "revolute"
+    PRISMATIC = "prismatic"
+
+
+@dataclass(frozen=True, slots=True)
+class Coordinate:
+    """A generalized coordinate q_i; `index` counts from 1."""
+
+    name: str
+    type: JointType
+    index: int
+
+    @property
+    def velocity(self) -> str:
+        """The name of its velocity in plain text."""
+        return f"{self.name}_dot"
+
+    @property
+    def acceleration(self) -> str:
+        """The name of its acceleration in plain text."""
+        return f"{self.name}_ddot"
+
+    @property
+    def force(self) -> str:
+        """The generalized force: a torque τ_i for an angle, a force f_i for a length."""
+        return f"{'tau' if self.type is JointType.REVOLUTE else 'f'}{self.index}"
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """One row of the table: the step from frame i-1 to frame i; `index` i counts from 1.
+
+    `variable` is "theta" or "d" where that column holds the joint variable, None
+    for a fixed frame.  The joint variable is Σ rate·q_k plus a constant:
+    `rates` holds (index of the coordinate from 0, rate).  `written` are the four
+    columns θ, d, a, α as they stand in the table.
+    """
+
+    index: int
+    theta: Angle
+    d: Expr
+    a: Expr
+    alpha: Angle
+    variable: str | None
+    rates: tuple[tuple[int, Fraction], ...]
+    written: tuple[Node, Node, Node, Node]
+
+    @property
+    def type(self) -> JointType | None:
+        """Revolute, prismatic, or None for a fixed frame."""
+        return {"theta": JointType.REVOLUTE, "d": JointType.PRISMATIC, None: None}[self.variable]
+
+
+class AxesKind(Enum):
+    """What a body-attached frame is given relative to.
+
+    LINK: R_b = R_i · rotation; turns with frame i.
+    REST: parallel to frame 0 at q = 0, and turns with the link.
+    BASE: R_b is `rotation` itself, given from frame 0, a function of q.
+    """
+
+    LINK = "link"
+    REST = "rest"
+    BASE = "base"
+
+
+@dataclass(frozen=True, slots=True)
+class Axes:
+    """The orientation of a body-attached frame; `rotation` is 3×3."""
+
+    kind: AxesKind
+    rotation: Matrix
+    written: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A body that has mass, rigidly fixed to frame `link`.
+
+    `center` is the mass centre in frame `link` (3×1).  `inertia` is the tensor in
+    the body-attached frame (3×3, kg m²), about `about_point` (3×1 in frame `link`)
+    or, where that is None, about the mass centre.  A point mass has inertia None.
+    `center_written` and `about` say how the file gave them (`tip`, `midpoint`,
+    `origin`, ...), for the explanation.
+    """
+
+    name: str
+    mass: Expr
+    link: int
+    center: Matrix
+    axes: Axes
+    inertia: Matrix | None = None
+    shape: Shape | None = None
+    about: str = "center"
+    about_point: Matrix | None = None
+    center_written: str = ""
+
+    @property
+    def is_point(self) -> bool:
+        """Whether the body has no inertia about its own mass centre."""
+        return self.inertia is None
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """A manipulator.
+
+    `base_rotation` (3×3) and `base_position` (3×1) place frame 0 in the world;
+    `gravity` (3×1, world) is the acceleration of gravity, pointing down.
+    """
+
+    ring: Ring
+    convention: Convention
+    coordinates: tuple[Coordinate, ...]
+    joints: tuple[Joint, ...]
+    bodies: tuple[Body, ...]
+    gravity: Matrix
+    base_rotation: Matrix
+    base_position: Matrix
+    parameters: tuple[str, ...] = field(default=())
+
+    @property
+    def n(self) -> int:
+        """The number of degrees of freedom."""
+        return len(self.coordinates)
