@@ -1,0 +1,174 @@
+"""Angles as linear forms, exact: Σ rᵢ·atomᵢ + degrees.
+
+An atom is a monomial of names, `(("theta1", 1),)` for the coordinate θ₁ and
+`(("L", -1), ("s", 1))` for the quotient s/L; rᵢ are rational.  An angle that is a
+product of coordinates is an atom too, so that nothing is refused for its form.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from dynsolve.errors import AlgebraError
+from dynsolve.notation.tree import (
+    Degrees,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+
+Atom = tuple[tuple[str, int], ...]
+"""A monomial: names with their exponents, sorted by name."""
+
+_Laurent = dict[Atom, Fraction]
+"""A polynomial in names and their inverses; π counts as the name `pi`."""
+
+_DEGREES_PER_PI = 180
+_PI: Atom = (("pi", 1),)
+
+
+@dataclass(frozen=True, slots=True)
+class Angle:
+    """Σ rᵢ·atomᵢ + degrees, the atoms sorted.
+
+    >>> from dynsolve.notation.tree import Symbol, Sum, Degrees
+    >>> angle_from_tree(Sum((Symbol("theta1"), Degrees(90)))) - Angle.of("theta1")
+    Angle(terms=(), degrees=Fraction(90, 1))
+    """
+
+    terms: tuple[tuple[Atom, Fraction], ...] = ()
+    degrees: Fraction = Fraction(0)
+
+    @staticmethod
+    def zero() -> Angle:
+        """The angle 0."""
+        return Angle()
+
+    @staticmethod
+    def of(name: str, rate: Fraction | int = 1) -> Angle:
+        """The angle rate·name."""
+        return Angle((((((name, 1),)), Fraction(rate)),)) if rate else Angle()
+
+    def __add__(self, other: Angle) -> Angle:
+        total = dict(self.terms)
+        for atom, rate in other.terms:
+            total[atom] = total.get(atom, Fraction(0)) + rate
+        return _angle(total, self.degrees + other.degrees)
+
+    def __neg__(self) -> Angle:
+        return self * Fraction(-1)
+
+    def __sub__(self, other: Angle) -> Angle:
+        return self + -other
+
+    def __mul__(self, factor: Fraction | int) -> Angle:
+        return _angle({atom: rate * factor for atom, rate in self.terms}, self.degrees * factor)
+
+    @property
+    def linear(self) -> Angle:
+        """The angle without its constant degrees."""
+        return Angle(self.terms)
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether the angle is a number of degrees and nothing else."""
+        return not self.terms
+
+
+def _angle(terms: _Laurent, degrees: Fraction) -> Angle:
+    return Angle(tuple(sorted((a, r) for a, r in terms.items() if r)), Fraction(degrees))
+
+
+def angle_from_tree(node: Node) -> Angle:
+    """Read a tree as an angle: `theta1 + 90deg`, `pi/6 - beta/2`, `p2 - p1`.
+
+    Raises AlgebraError for a bare number (90 for 90deg), for a function or a sum
+    in a denominator inside an angle.
+    """
+    terms = _laurent(node)
+    degrees = terms.pop(_PI, Fraction(0)) * _DEGREES_PER_PI
+    bare = terms.pop((), Fraction(0))
+    if bare:
+        raise AlgebraError(
+            f"the bare number {bare} stands as an angle",
+            f"did you mean {bare}deg? Angles are written in degrees (90deg) or with pi (pi/2)",
+        )
+    return _angle(terms, degrees)
+
+
+def _laurent(node: Node) -> _Laurent:
+    match node:
+        case Number(p, q):
+            return {(): Fraction(p, q)} if p else {}
+        case Degrees(p, q):
+            return {_PI: Fraction(p, q * _DEGREES_PER_PI)} if p else {}
+        case Symbol(name, 0):
+            return {((name, 1),): Fraction(1)}
+        case Negative(argument):
+            return {atom: -rate for atom, rate in _laurent(argument).items()}
+        case Parenthesized(argument):
+            return _laurent(argument)
+        case Sum(terms):
+            total: _Laurent = {}
+            for term in terms:
+                for atom, rate in _laurent(term).items():
+                    total[atom] = total.get(atom, Fraction(0)) + rate
+            return {atom: rate for atom, rate in total.items() if rate}
+        case Product(factors):
+            product: _Laurent = {(): Fraction(1)}
+            for factor in factors:
+                product = _times(product, _laurent(factor))
+            return product
+        case Quotient(numerator, denominator):
+            return _times(_laurent(numerator), _inverse(_laurent(denominator)))
+        case Power(base, Number(p, 1)):
+            return _power(_laurent(base), p)
+        case Power(base, Negative(Number(p, 1))):
+            return _power(_inverse(_laurent(base)), p)
+    raise AlgebraError("an angle must be a sum of names and degrees", "name the angle with a symbol of its own")
+
+
+def _times(left: _Laurent, right: _Laurent) -> _Laurent:
+    total: _Laurent = {}
+    for a, ra in left.items():
+        for b, rb in right.items():
+            exponents = dict(a)
+            for name, exponent in b:
+                exponents[name] = exponents.get(name, 0) + exponent
+            atom = tuple(sorted((n, e) for n, e in exponents.items() if e))
+            total[atom] = total.get(atom, Fraction(0)) + ra * rb
+    return {atom: rate for atom, rate in total.items() if rate}
+
+
+def _inverse(terms: _Laurent) -> _Laurent:
+    if len(terms) != 1:
+        raise AlgebraError("an angle is divided by a sum, or by zero", "name the angle with a symbol of its own")
+    ((atom, rate),) = terms.items()
+    return {tuple((name, -exponent) for name, exponent in atom): 1 / rate}
+
+
+_MOST_TERMS = 1000
+
+
+def _power(terms: _Laurent, exponent: int) -> _Laurent:
+    product: _Laurent = {(): Fraction(1)}
+    for _ in range(exponent):
+        product = _times(product, terms)
+        if len(product) > _MOST_TERMS:
+            raise AlgebraError("an angle has too many terms", "name the angle with a symbol of its own")
+    return product
+
+
+def names_of(angle: Angle) -> Iterator[str]:
+    """The names that occur in an angle."""
+    for atom, _ in angle.terms:
+        for name, _ in atom:
+            yield name
