@@ -1,0 +1,60 @@
+"""Forward kinematics: A_i from a row of the table, H_i as their product.
+
+Spong, Hutchinson, Vidyasagar, Robot Modeling and Control, section 3.2;
+Craig, Introduction to Robotics, section 3.4, for the modified convention.
+"""
+
+from __future__ import annotations
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.robot.model import Convention, Joint, Robot
+
+
+def dh_matrix(robot: Robot, joint: Joint) -> Matrix:
+    """A_i, 4×4: frame i seen from frame i-1.
+
+    Standard:  [[cθ, -sθ cα,  sθ sα, a cθ], [sθ,  cθ cα, -cθ sα, a sθ], [0, sα, cα, d], [0, 0, 0, 1]]
+    Modified:  [[cθ, -sθ, 0, a], [sθ cα, cθ cα, -sα, -d sα], [sθ sα, cθ sα, cα, d cα], [0, 0, 0, 1]]
+    """
+    ring = robot.ring
+    c, s = ring.cos(joint.theta), ring.sin(joint.theta)
+    ca, sa = ring.cos(joint.alpha), ring.sin(joint.alpha)
+    a, d, zero, one = joint.a, joint.d, ring.zero, ring.one
+    if robot.convention is Convention.STANDARD:
+        rows = [[c, -s * ca, s * sa, a * c], [s, c * ca, -c * sa, a * s], [zero, sa, ca, d]]
+    else:
+        rows = [[c, -s, zero, a], [s * ca, c * ca, -sa, -d * sa], [s * sa, c * sa, ca, d * ca]]
+    return Matrix.of(ring, [*rows, [zero, zero, zero, one]])
+
+
+def base_transform(robot: Robot) -> Matrix:
+    """H_0, 4×4: frame 0 in the world; the identity unless the file turns or moves the base."""
+    ring = robot.ring
+    rotation, position = robot.base_rotation, robot.base_position
+    rows = [[*row, p] for row, p in zip(rotation.rows, position.entries, strict=True)]
+    return Matrix.of(ring, [*rows, [ring.zero, ring.zero, ring.zero, ring.one]])
+
+
+def frame(before: Matrix, step: Matrix) -> Matrix:
+    """H_i = H_{i-1} A_i, 4×4."""
+    return before @ step
+
+
+def rotation(H: Matrix) -> Matrix:
+    """R, 3×3, of a homogeneous transformation."""
+    return H.block(0, 3, 0, 3)
+
+
+def origin(H: Matrix) -> Matrix:
+    """o, 3×1, of a homogeneous transformation."""
+    return H.block(0, 3, 3, 4)
+
+
+def axis(H: Matrix) -> Matrix:
+    """z, 3×1, of a homogeneous transformation."""
+    return H.block(0, 3, 2, 3)
+
+
+def point(H: Matrix, local: Matrix) -> Matrix:
+    """R·local + o, 3×1: a point fixed in the frame, seen from the base."""
+    return rotation(H) @ local + origin(H)
