@@ -1,0 +1,78 @@
+"""An arm as Pinocchio sees it: one joint a row that moves, mapped to the coordinates by a constant matrix.
+
+With q_rows = E q, the model in the coordinates is D = Eᵀ M E, tau = Eᵀ tau_rows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+
+from tests.oracle.reading import Arm, Array
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """Every quantity that is compared, at one state."""
+
+    H: list[Array]
+    r_c: list[Array]
+    P: float
+    K: float
+    tau: Array
+    D: Array
+    Cqd: Array
+    g: Array
+
+
+def dynamics(arm: Arm, q: Array, qd: Array, qdd: Array) -> Dynamics:
+    """What Pinocchio computes for `arm` at a state."""
+    model, frames, E = _model(arm)
+    data = model.createData()
+    rows, rates, accelerations = E @ q, E @ qd, E @ qdd
+    pin.forwardKinematics(model, data, rows, rates)
+    H = [(data.oMi[joint] * place).homogeneous for joint, place in frames]
+    r_c = [(H[body.link - 1] @ np.append(body.center, 1))[:3] for body in arm.masses]
+    on_ground = sum(
+        -body.mass * float(arm.gravity @ point)
+        for body, point in zip(arm.masses, r_c, strict=True)
+        if frames[body.link - 1][0] == 0
+    )
+    M = np.array(pin.crba(model, data, rows))
+    M = np.triu(M) + np.triu(M, 1).T
+    gravity = pin.computeGeneralizedGravity(model, data, rows)
+    bias = np.array(pin.nonLinearEffects(model, data, rows, rates))
+    return Dynamics(
+        H=H,
+        r_c=r_c,
+        P=pin.computePotentialEnergy(model, data, rows) + on_ground,
+        K=pin.computeKineticEnergy(model, data, rows, rates),
+        tau=E.T @ pin.rnea(model, data, rows, rates, accelerations),
+        D=E.T @ M @ E,
+        Cqd=E.T @ (bias - gravity),
+        g=E.T @ gravity,
+    )
+
+
+def _model(arm: Arm) -> tuple[pin.Model, list[tuple[int, pin.SE3]], Array]:
+    """The model; for each frame of the table its joint and its place on it; and E."""
+    model = pin.Model()
+    model.gravity.linear = arm.gravity
+    joint, place = 0, pin.SE3(arm.base)
+    frames, E = [], []
+    for index, row in enumerate(arm.rows):
+        place = place * pin.SE3(row.before)
+        if row.kind != "fixed":
+            kind = pin.JointModelRZ() if row.kind == "revolute" else pin.JointModelPZ()
+            joint = model.addJoint(joint, kind, place, f"row{index + 1}")
+            place = pin.SE3.Identity()
+            E.append(row.rates)
+        place = place * pin.SE3(row.after)
+        frames.append((joint, place))
+    for body in arm.masses:
+        joint, place = frames[body.link - 1]
+        if joint:
+            model.appendBodyToJoint(joint, pin.Inertia(body.mass, body.center, body.tensor), place)
+    return model, frames, np.array(E).reshape(-1, len(arm.coordinates))

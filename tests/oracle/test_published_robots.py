@@ -1,0 +1,16 @@
+"""Every robot of the library and of the textbooks against Pinocchio."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.oracle.comparison import assert_agrees
+from tests.oracle.reading import load
+from tests.support import LIBRARY, TEXTBOOKS, solve_json
+
+
+@pytest.mark.parametrize("path", LIBRARY + TEXTBOOKS, ids=lambda path: path.stem)
+def test_agrees_with_pinocchio(path: Path) -> None:
+    assert_agrees(load(path), solve_json(path))

@@ -1,0 +1,16 @@
+"""Robots that nobody chose, against Pinocchio."""
+
+from __future__ import annotations
+
+from hypothesis import given, note
+
+from tests.oracle.comparison import assert_agrees
+from tests.oracle.reading import load
+from tests.robots import robots
+from tests.support import solve_json
+
+
+@given(text=robots())
+def test_agrees_with_pinocchio(text: str) -> None:
+    note(text)
+    assert_agrees(load(text), solve_json(text), states=2)

@@ -1,0 +1,123 @@
+"""What physics says of every manipulator, held on random robots.
+
+K = ½ q̇ᵀ D q̇;  D is symmetric and positive semidefinite;  Ḋ - 2C is
+skew-symmetric (Spong, Hutchinson, Vidyasagar 2006, chapter 7);  the power of
+the joints is the rate of the energy, d/dt (K + P) = q̇ᵀ τ;  g = ∂P/∂q.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, note
+
+from tests.oracle.comparison import random_state
+from tests.oracle.reading import load
+from tests.robots import robots
+from tests.support import LIBRARY, assert_close, numbers, solve_json
+
+STEP = 1e-5
+
+
+@dataclass(frozen=True)
+class State:
+    """A solved robot at a state."""
+
+    results: Mapping[str, Any]
+    names: tuple[str, ...]
+    values: Mapping[str, float]
+
+    def at(self, name: str, **moved: float) -> Any:
+        """A result with numbers put in, some of the values moved."""
+        return numbers(self.results[name], {**self.values, **moved})
+
+    def vector(self, suffix: str = "") -> np.ndarray:
+        """q, or a derivative of it."""
+        return np.array([self.values[name + suffix] for name in self.names])
+
+    def slope(self, name: str, direction: np.ndarray) -> Any:
+        """The derivative of a result along a direction of q; central differences, fourth order."""
+
+        def shifted(steps: int) -> Any:
+            moved = self.vector() + steps * STEP * 100 * direction
+            return np.asarray(self.at(name, **dict(zip(self.names, map(float, moved), strict=True))))
+
+        return (shifted(-2) - 8 * shifted(-1) + 8 * shifted(1) - shifted(2)) / (12 * STEP * 100)
+
+
+def kinetic_energy_is_half_qd_D_qd(state: State) -> None:
+    qd = state.vector("_dot")
+    assert_close(state.at("K"), qd @ state.at("D") @ qd / 2, "K")
+
+
+def D_is_symmetric_and_positive_semidefinite(state: State) -> None:
+    D = state.at("D")
+    assert_close(D, D.T, "D")
+    assert np.linalg.eigvalsh(D).min() >= -1e-9 * max(1.0, np.abs(D).max())
+
+
+def D_dot_minus_2C_is_skew_symmetric(state: State) -> None:
+    N = state.slope("D", state.vector("_dot")) - 2 * state.at("C")
+    assert_close(N + N.T, np.zeros_like(N), "N + Nᵀ", tolerance=1e-6)
+
+
+def tau_is_D_qdd_plus_C_qd_plus_g(state: State) -> None:
+    parts = (
+        state.at("D") @ state.vector("_ddot") + state.at("C") @ state.vector("_dot") + state.at("g").ravel()
+    )
+    assert_close(state.at("tau"), parts, "tau")
+
+
+def power_is_the_rate_of_the_energy(state: State) -> None:
+    qd, qdd = state.vector("_dot"), state.vector("_ddot")
+    rate = qd @ state.at("D") @ qdd + state.slope("K", qd) + state.slope("P", qd)
+    assert_close(qd @ state.at("tau").ravel(), rate, "power", tolerance=1e-6)
+
+
+def g_is_the_gradient_of_P(state: State) -> None:
+    gradient = [state.slope("P", direction) for direction in np.eye(len(state.names))]
+    assert_close(state.at("g"), gradient, "g", tolerance=1e-6)
+
+
+def L_is_K_minus_P(state: State) -> None:
+    assert_close(state.at("L"), state.at("K") - state.at("P"), "L")
+
+
+IDENTITIES = [
+    kinetic_energy_is_half_qd_D_qd,
+    D_is_symmetric_and_positive_semidefinite,
+    D_dot_minus_2C_is_skew_symmetric,
+    tau_is_D_qdd_plus_C_qd_plus_g,
+    power_is_the_rate_of_the_energy,
+    g_is_the_gradient_of_P,
+    L_is_K_minus_P,
+]
+
+
+def _state(problem: Mapping[str, Any], solution: Mapping[str, Any], seed: int) -> State:
+    names = tuple(coordinate["name"] for coordinate in solution["coordinates"])
+    return State(solution["results"], names, random_state(problem, seed)[0])
+
+
+@lru_cache(maxsize=1)
+def _library() -> list[tuple[str, State]]:
+    return [(path.stem, _state(load(path), solve_json(path), seed=7)) for path in LIBRARY]
+
+
+@pytest.mark.parametrize("identity", IDENTITIES, ids=lambda identity: identity.__name__)
+def test_the_library_obeys_physics(identity: Callable[[State], None]) -> None:
+    for _, state in _library():
+        identity(state)
+
+
+@given(text=robots(max_joints=3, physical=True))
+def test_random_robots_obey_physics(text: str) -> None:
+    note(text)
+    state = _state(load(text), solve_json(text), seed=7)
+    for identity in IDENTITIES:
+        identity(state)

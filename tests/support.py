@@ -1,0 +1,49 @@
+"""What several tests need: solving a problem, and putting numbers into what comes out.
+
+Results are taken from the JSON of `dynsolve solve --json`, the contract with
+other programs, so that what is tested is what a user gets.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+ROOT = Path(__file__).parent.parent
+LIBRARY = sorted((ROOT / "problems").glob("*.yaml"))
+TEXTBOOKS = sorted((ROOT / "tests" / "golden" / "textbooks").glob("*.yaml"))
+
+FUNCTIONS: dict[str, Any] = {"__builtins__": {}, "sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
+
+
+def solve_json(problem: Path | str) -> dict[str, Any]:
+    """The JSON of a solution; `problem` is a path, or the text of a problem file."""
+    path, text = (str(problem), None) if isinstance(problem, Path) else ("-", problem)
+    command = [sys.executable, "-m", "dynsolve", "solve", path, "--json"]
+    done = subprocess.run(command, input=text, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, f"{done.stderr}\n{text or path}"
+    return json.loads(done.stdout)
+
+
+def numbers(entries: Any, values: Mapping[str, float]) -> Any:
+    """A string, or nested lists of strings, as a number or an array."""
+    if isinstance(entries, str):
+        return float(eval(compile(entries, "<result>", "eval"), dict(FUNCTIONS), dict(values)))  # noqa: S307
+    return np.array([numbers(entry, values) for entry in entries], dtype=float)
+
+
+def assert_close(ours: Any, theirs: Any, what: str, tolerance: float = 1e-9) -> None:
+    """`ours` equals `theirs`, to `tolerance` of the largest entry."""
+    ours, theirs = np.asarray(ours, dtype=float), np.asarray(theirs, dtype=float)
+    assert ours.size == theirs.size, f"{what}: {ours.shape} is not {theirs.shape}"
+    ours = ours.reshape(theirs.shape)
+    scale = max(1.0, float(np.abs(theirs).max(initial=0.0)))
+    error = float(np.abs(ours - theirs).max(initial=0.0)) / scale
+    assert error <= tolerance, f"{what}: off by {error:.1e}\nours\n{ours}\ntheirs\n{theirs}"
