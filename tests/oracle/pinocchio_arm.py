@@ -74,5 +74,9 @@ def _model(arm: Arm) -> tuple[pin.Model, list[tuple[int, pin.SE3]], Array]:
     for body in arm.masses:
         joint, place = frames[body.link - 1]
         if joint:
-            model.appendBodyToJoint(joint, pin.Inertia(body.mass, body.center, body.tensor), place)
+            inertia = pin.Inertia(body.mass, body.center, np.eye(3))
+            inertia.inertia = (
+                body.tensor
+            )  # the constructor refuses a tensor that no real body has; exercises do not
+            model.appendBodyToJoint(joint, inertia, place)
     return model, frames, np.array(E).reshape(-1, len(arm.coordinates))
