@@ -1,0 +1,223 @@
+"""Numbers put into trees.
+
+Trees share their parts heavily, so they are compiled once into a flat list of
+operations, each part of which is computed once; the list is then run at as many
+points as wanted.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from dynsolve.notation.tree import (
+    Degrees,
+    Function,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+
+DOTS = ("", "_dot", "_ddot")
+
+_FUNCTIONS: dict[str, Callable[[float], float]] = {
+    "sin": math.sin,
+    "cos": math.cos,
+    "tan": math.tan,
+    "sqrt": math.sqrt,
+}
+
+_Operation = tuple[Callable[[Any], float], Callable[[Any], Any]]
+"""(what is done, how its operands are taken from the values so far)"""
+
+
+def plain_name(symbol: Symbol) -> str:
+    """The name of a symbol in plain text: `theta1_dot`."""
+    return symbol.name + DOTS[symbol.dots]
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """Trees as a list of operations on one growing list of values.
+
+    `places` are the places of the results in that list: a number for a scalar,
+    rows of them for a matrix.
+    """
+
+    constants: tuple[float, ...]
+    symbols: tuple[str, ...]
+    operations: tuple[_Operation, ...]
+    places: tuple[Any, ...]
+
+    def run(self, values: Mapping[str, float]) -> list[Any]:
+        """The value of each tree: a float, or rows of floats for a matrix.
+
+        Raises KeyError for a symbol without a value, ValueError or
+        ZeroDivisionError where a tree has none.
+        """
+        stack = [*self.constants, *(math.pi if name == "pi" else values[name] for name in self.symbols)]
+        append = stack.append
+        for operation, operands in self.operations:
+            append(operation(operands(stack)))
+        return [_gather(place, stack) for place in self.places]
+
+
+def _gather(place: Any, stack: list[float]) -> Any:
+    if isinstance(place, int):
+        return stack[place]
+    return [[stack[entry] for entry in row] for row in place]
+
+
+def compile_trees(trees: Iterable[Node]) -> Program:
+    """Compile trees for evaluation; a `Matrix` may only stand on top.
+
+    >>> x = Symbol("x")
+    >>> program = compile_trees([Sum((x, Number(1, 2))), Matrix(((x, Power(x, Number(3))),))])
+    >>> program.run({"x": 2.0})
+    [2.5, [[2.0, 8.0]]]
+    """
+    trees = tuple(trees)
+    compiler = _Compiler()
+    for tree in trees:
+        compiler.survey(tree)
+    places = tuple(compiler.place(tree) for tree in trees)
+    return Program(tuple(compiler.constants), tuple(compiler.symbols), tuple(compiler.operations), places)
+
+
+def evaluate(tree: Node, values: Mapping[str, float]) -> Any:
+    """The value of one tree at plain names (`theta1`, `theta1_dot`, parameters), angles in radians."""
+    return compile_trees([tree]).run(values)[0]
+
+
+class _Compiler:
+    """Constants come first in the list of values, then symbols, then results in order."""
+
+    __slots__ = ("constants", "symbols", "operations", "leaves", "seen", "offset")
+
+    def __init__(self) -> None:
+        self.constants: dict[float, int] = {}
+        self.symbols: dict[str, int] = {}
+        self.operations: list[_Operation] = []
+        self.leaves: list[Node] = []
+        self.seen: dict[int, int] = {}
+        self.offset = 0
+
+    def survey(self, tree: Node) -> None:
+        """Give every constant and symbol its place, before any operation."""
+        pending, met = [tree], self.seen
+        while pending:
+            node = pending.pop()
+            if id(node) in met:
+                continue
+            met[id(node)] = -1
+            match node:
+                case Number(p, q):
+                    self.constants.setdefault(p / q, len(self.constants))
+                case Degrees(p, q):
+                    self.constants.setdefault(math.radians(p / q), len(self.constants))
+                case Symbol():
+                    self.symbols.setdefault(plain_name(node), len(self.symbols))
+                case Matrix(rows):
+                    pending.extend(entry for row in rows for entry in row)
+                case _:
+                    pending.extend(_operands(node))
+
+    def place(self, tree: Node) -> Any:
+        if not self.offset:
+            self.offset = len(self.constants) + len(self.symbols)
+        if isinstance(tree, Matrix):
+            return tuple(tuple(self.scalar(entry) for entry in row) for row in tree.rows)
+        return self.scalar(tree)
+
+    def scalar(self, node: Node) -> int:
+        place = self.seen[id(node)]
+        if place < 0:
+            place = self.seen[id(node)] = self.compiled(node)
+        return place
+
+    def compiled(self, node: Node) -> int:
+        match node:
+            case Number(p, q):
+                return self.constants[p / q]
+            case Degrees(p, q):
+                return self.constants[math.radians(p / q)]
+            case Symbol():
+                return len(self.constants) + self.symbols[plain_name(node)]
+            case Parenthesized(argument):
+                return self.scalar(argument)
+        operands = [self.scalar(part) for part in _operands(node)]
+        if not operands:
+            raise TypeError(f"a tree with {type(node).__name__} has no value")
+        operation = _operation(node) if len(operands) > 1 or not isinstance(node, Sum | Product) else _same
+        self.operations.append((operation, operator.itemgetter(*operands)))
+        return self.offset + len(self.operations) - 1
+
+
+def _operands(node: Node) -> tuple[Node, ...]:
+    match node:
+        case Sum(parts) | Product(parts):
+            return parts
+        case Quotient(numerator, denominator):
+            return (numerator, denominator)
+        case Power(base, exponent):
+            return (base,) if _whole(exponent) is not None else (base, exponent)
+        case Negative(argument) | Parenthesized(argument) | Function(_, argument):
+            return (argument,)
+    return ()
+
+
+def _operation(node: Node) -> Callable[[Any], float]:
+    match node:
+        case Sum():
+            return sum
+        case Product():
+            return math.prod
+        case Quotient():
+            return _divide
+        case Negative():
+            return operator.neg
+        case Function(name):
+            return _FUNCTIONS[name]
+        case Power(_, exponent):
+            whole = _whole(exponent)
+            return _raise if whole is None else _raised_to(whole)
+    raise TypeError(f"a tree with {type(node).__name__} has no value")
+
+
+def _whole(exponent: Node) -> int | None:
+    match exponent:
+        case Number(p, 1):
+            return p
+        case Negative(Number(p, 1)):
+            return -p
+    return None
+
+
+def _same(value: float) -> float:
+    return value
+
+
+def _divide(pair: tuple[float, float]) -> float:
+    return pair[0] / pair[1]
+
+
+def _raise(pair: tuple[float, float]) -> float:
+    return float(pair[0] ** pair[1])
+
+
+@cache
+def _raised_to(exponent: int) -> Callable[[float], float]:
+    if exponent == 2:
+        return lambda x: x * x
+    return lambda x: x**exponent
