@@ -1,14 +1,16 @@
-"""Trees -> LaTeX (with amsmath): \\dot{\\theta}_{1}, s_{12}, \\frac{1}{2} I_{1,zz}."""
+r"""Trees -> LaTeX (with amsmath): \dot{\theta}_{1}, s_{12}, \frac{1}{2} I_{1,zz}."""
 
 from __future__ import annotations
 
 import re
+from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import (
     PLAIN,
     Printer,
+    Rules,
     Style,
     decimal_text,
     is_numeric,
@@ -103,28 +105,29 @@ class LatexPrinter(Printer):
         self._symbols: dict[tuple[str, int], str] = {}
 
     def parenthesized(self, text: str) -> str:
+        """The text in parentheses, which grow where it is tall."""
         if any(mark in text for mark in _TALL):
             return rf"\left( {text} \right)"
         return f"({text})"
 
     # Numbers and names
 
-    def number(self, node: Number) -> str:
+    def _number(self, node: Number) -> str:
         if node.q == 1:
             return str(node.p)
         if self.style.decimal and (decimal := decimal_text(node.p, node.q)):
             return decimal
         return ("-" if node.p < 0 else "") + rf"\frac{{{abs(node.p)}}}{{{node.q}}}"
 
-    def degrees(self, node: Degrees) -> str:
+    def _degrees(self, node: Degrees) -> str:
         text = decimal_text(node.p, node.q)
         return rf"{text}^{{\circ}}" if text else rf"\left( \frac{{{node.p}}}{{{node.q}}} \right)^{{\circ}}"
 
-    def symbol(self, node: Symbol) -> str:
-        text = self.unmarked(node)
+    def _symbol(self, node: Symbol) -> str:
+        text = self._unmarked(node)
         return rf"{text}^{{{_STAR}}}" if node.star and self.style.star else text
 
-    def unmarked(self, node: Symbol) -> str:
+    def _unmarked(self, node: Symbol) -> str:
         """A symbol without its star."""
         key = (node.name, node.dots)
         text = self._symbols.get(key)
@@ -136,7 +139,7 @@ class LatexPrinter(Printer):
             self._symbols[key] = text
         return text
 
-    def letter(self, node: Letter) -> str:
+    def _letter(self, node: Letter) -> str:
         if node.base in GREEK:
             base = "\\" + node.base
             base = rf"\boldsymbol{{{base}}}" if node.style == "bold" else base
@@ -151,34 +154,33 @@ class LatexPrinter(Printer):
             text += f"^{{{self.text(node.sup)}}}"
         return text
 
-    def words(self, node: Words) -> str:
+    def _words(self, node: Words) -> str:
         return rf"\text{{{escaped(node.text)}}}"
 
     # Arithmetic
 
-    def product(self, node: Product) -> str:
+    def _product(self, node: Product) -> str:
         if not node.factors:
             return "1"
         pieces: list[str] = []
         last = len(node.factors) - 1
         for position, factor in enumerate(node.factors):
             text = self.text(factor)
-            if type(factor) in (Sum, Cross, Relation) or (pieces and text.startswith("-")):
-                text = self.parenthesized(text)
-            elif type(factor) is BigSum and position < last:
+            joined = type(factor) in (Sum, Cross, Relation) or (type(factor) is BigSum and position < last)
+            if joined or (pieces and text.startswith("-")):
                 text = self.parenthesized(text)
             elif pieces and (is_numeric(factor) or text[:1].isdecimal()):
                 text = r"\cdot " + text
             pieces.append(text)
         return " ".join(pieces)
 
-    def quotient(self, node: Quotient) -> str:
+    def _quotient(self, node: Quotient) -> str:
         return rf"\frac{{{self.text(node.numerator)}}}{{{self.text(node.denominator)}}}"
 
-    def power(self, node: Power) -> str:
+    def _power(self, node: Power) -> str:
         base, exponent = node.base, self.text(node.exponent)
         if type(base) is Symbol and base.star and self.style.star:
-            return rf"{self.unmarked(base)}^{{{_STAR} {exponent}}}"
+            return rf"{self._unmarked(base)}^{{{_STAR} {exponent}}}"
         if type(base) is Function and base.name != "sqrt":
             if shorthand(base, self.style) is None and is_whole(node.exponent):
                 return rf"\{base.name}^{{{exponent}}}{self.parenthesized(self.text(base.argument))}"
@@ -187,7 +189,7 @@ class LatexPrinter(Printer):
         bare = type(base) in _BARE_BASES or is_whole(base) or (type(base) is Letter and base.sup is None)
         return f"{text if bare else self.parenthesized(text)}^{{{exponent}}}"
 
-    def function(self, node: Function) -> str:
+    def _function(self, node: Function) -> str:
         if short := shorthand(node, self.style):
             return f"{short[0]}_{{{','.join(map(_group, short[1].split(',')))}}}"
         argument = self.text(node.argument)
@@ -195,34 +197,34 @@ class LatexPrinter(Printer):
             return rf"\sqrt{{{argument}}}"
         return rf"\{node.name}{self.parenthesized(argument)}"
 
-    def in_parentheses(self, node: Parenthesized) -> str:
+    def _in_parentheses(self, node: Parenthesized) -> str:
         return self.parenthesized(self.text(node.argument))
 
     # Formulas of the textbook
 
-    def matrix(self, node: Matrix) -> str:
+    def _matrix(self, node: Matrix) -> str:
         rows = r" \\ ".join(" & ".join(map(self.text, row)) for row in node.rows)
         return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
 
-    def row(self, node: Row) -> str:
+    def _row(self, node: Row) -> str:
         return " ".join(map(self.text, node.parts))
 
-    def transpose(self, node: Transpose) -> str:
+    def _transpose(self, node: Transpose) -> str:
         argument = node.argument
         text = self.text(argument)
         bare = type(argument) in (Symbol, Parenthesized, Matrix)
         bare = bare or (type(argument) is Letter and argument.sup is None)
         return f"{text if bare else self.parenthesized(text)}^{{T}}"
 
-    def cross(self, node: Cross) -> str:
-        return rf"{self.operand(node.left)} \times {self.operand(node.right)}"
+    def _cross(self, node: Cross) -> str:
+        return rf"{self._operand(node.left)} \times {self._operand(node.right)}"
 
-    def operand(self, node: Node) -> str:
+    def _operand(self, node: Node) -> str:
         text = self.text(node)
         compound = type(node) in (Sum, Product, Cross, BigSum, Derivative, Relation)
         return self.parenthesized(text) if compound or text.startswith("-") else text
 
-    def derivative(self, node: Derivative) -> str:
+    def _derivative(self, node: Derivative) -> str:
         by = self.text(node.by)
         d = "d" if node.total else r"\partial"
         below = f"d{by}" if node.total and by[:1].isalpha() else f"{d} {by}"
@@ -235,39 +237,39 @@ class LatexPrinter(Printer):
         inner = of if type(node.of) is Parenthesized else self.parenthesized(of)
         return rf"\frac{{{d}}}{{{below}}} {inner}"
 
-    def big_sum(self, node: BigSum) -> str:
+    def _big_sum(self, node: BigSum) -> str:
         bounds = f"_{{{self.text(node.index)}={self.text(node.lower)}}}^{{{self.text(node.upper)}}}"
         body = self.text(node.body)
         if type(node.body) in (Sum, Relation) or body.startswith("-"):
             body = self.parenthesized(body)
         return rf"\sum{bounds} {body}"
 
-    def relation(self, node: Relation) -> str:
+    def _relation(self, node: Relation) -> str:
         text = self.text(node.parts[0]) if node.parts else ""
         for sign, part in zip(node.signs, node.parts[1:], strict=True):
             text += f" {_SIGNS.get(sign, sign)} {self.text(part)}"
         return text
 
-    rules = {
-        Symbol: symbol,
-        Number: number,
-        Product: product,
-        Sum: Printer.sum,
-        Power: power,
-        Negative: Printer.negative,
-        Quotient: quotient,
-        Function: function,
-        Degrees: degrees,
-        Matrix: matrix,
-        Letter: letter,
-        Row: row,
-        Words: words,
-        Transpose: transpose,
-        Cross: cross,
-        Derivative: derivative,
-        BigSum: big_sum,
-        Parenthesized: in_parentheses,
-        Relation: relation,
+    rules: ClassVar[Rules] = {
+        Symbol: _symbol,
+        Number: _number,
+        Product: _product,
+        Sum: Printer._sum,
+        Power: _power,
+        Negative: Printer._negative,
+        Quotient: _quotient,
+        Function: _function,
+        Degrees: _degrees,
+        Matrix: _matrix,
+        Letter: _letter,
+        Row: _row,
+        Words: _words,
+        Transpose: _transpose,
+        Cross: _cross,
+        Derivative: _derivative,
+        BigSum: _big_sum,
+        Parenthesized: _in_parentheses,
+        Relation: _relation,
     }
 
 

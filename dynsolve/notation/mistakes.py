@@ -11,17 +11,19 @@ from dynsolve.notation.tokens import FUNCTIONS, Token
 
 _FUNCTIONS = ", ".join(FUNCTIONS[:-1]) + f" and {FUNCTIONS[-1]}"
 _KNOWN_ELSEWHERE = frozenset(
-    "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh sec csc cot sgn abs pow max min sind cosd "
-    "sine cosine tangent root".split()
+    "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh sec csc cot sgn abs pow max min "
+    "sind cosd sine cosine tangent root".split()
 )
 _EXCERPT = 60
 
 
 def empty(text: str) -> ReadError:
+    """A text without a formula."""
     return ReadError("there is no formula here", 0, max(len(text), 1), "write a number, a name or a formula")
 
 
 def too_deep(token: Token) -> ReadError:
+    """More levels than are read."""
     message = f"more than {MAX_NESTING} levels of parentheses, signs and powers"
     return ReadError(message, token.start, 1, "name a part of it with a symbol of its own")
 
@@ -99,6 +101,7 @@ def no_factor(text: str, before: Token | None, token: Token) -> ReadError:
 
 
 def empty_parentheses(opening: Token, closing: Token) -> ReadError:
+    """Parentheses around nothing."""
     length = closing.end - opening.start
     return ReadError(
         "there is nothing between these parentheses", opening.start, length, "write what belongs there"
@@ -106,6 +109,7 @@ def empty_parentheses(opening: Token, closing: Token) -> ReadError:
 
 
 def unclosed(text: str, opening: Token, token: Token) -> ReadError:
+    """A parenthesis that does not close before `token`."""
     if token.kind == "end":
         return ReadError("this `(` is never closed", opening.start, 1, "add the `)` that it belongs to")
     if token.kind == ",":
@@ -115,11 +119,13 @@ def unclosed(text: str, opening: Token, token: Token) -> ReadError:
 
 
 def second_power(token: Token) -> ReadError:
+    """x²³ or x²^3: which of the two is meant?"""
     message = "a power of a power needs parentheses"
     return ReadError(message, token.start, token.end - token.start, "write (x^2)^3, or x^6")
 
 
 def exponent(sign: Token, start: int, end: int) -> ReadError:
+    """An exponent that is no small whole number."""
     message = f"an exponent is a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}"
     return ReadError(message, start, max(end - start, 1), "a square root is written sqrt(x) or x^(1/2)")
 
@@ -134,15 +140,18 @@ def no_argument(text: str, name: Token, token: Token) -> ReadError:
 
 
 def inverse_function(name: Token, sign: Token) -> ReadError:
+    """sin^-1(x), or a power of a root."""
     help = f"a power is written {name.text}(x)^2; there are no inverse functions"
     return ReadError(f"this power of `{name.text}` cannot be read", name.start, sign.end - name.start, help)
 
 
 def bare_degrees(token: Token) -> ReadError:
+    """A `deg` that follows no number."""
     length = token.end - token.start
     return ReadError("`deg` stands directly after a number", token.start, length, "write 90deg, or x*pi/180")
 
 
 def glued_pi(token: Token) -> ReadError:
+    """`πr`, one name to the reader."""
     help = f"products are written out: π*{token.text[1:]}"
     return ReadError(f"a `*` is missing after the π of `{token.text}`", token.start, 1, help)

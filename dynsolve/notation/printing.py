@@ -77,9 +77,10 @@ class Printer:
         return text
 
     def parenthesized(self, text: str) -> str:
+        """The text in parentheses as the notation writes them."""
         return f"({text})"
 
-    def sum(self, node: Sum) -> str:
+    def _sum(self, node: Sum) -> str:
         """Terms with their signs between them: a minus that leads a term becomes the sign."""
         if not node.terms:
             return "0"
@@ -90,7 +91,7 @@ class Printer:
         pieces[0] = "" if pieces[0] == " + " else "-"
         return "".join(pieces)
 
-    def negative(self, node: Negative) -> str:
+    def _negative(self, node: Negative) -> str:
         text = self.text(node.argument)
         if type(node.argument) is Sum or text.startswith("-"):
             text = self.parenthesized(text)

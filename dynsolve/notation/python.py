@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from keyword import iskeyword
+from typing import ClassVar
 
-from dynsolve.notation.printing import Printer, Style, decimal_text, is_whole
+from dynsolve.notation.printing import Printer, Rules, Style, decimal_text, is_whole
 from dynsolve.notation.tree import (
     Degrees,
     Function,
@@ -49,19 +50,19 @@ class PythonPrinter(Printer):
 
     notation = "Python"
 
-    def number(self, node: Number) -> str:
+    def _number(self, node: Number) -> str:
         if node.q == 1:
             return str(node.p)
         decimal = decimal_text(node.p, node.q) if self.style.decimal else None
         return decimal or f"{node.p}/{node.q}"
 
-    def degrees(self, node: Degrees) -> str:
+    def _degrees(self, node: Degrees) -> str:
         return f"{node.p}*pi/{180 * node.q}"
 
-    def symbol(self, node: Symbol) -> str:
+    def _symbol(self, node: Symbol) -> str:
         return python_name(node.name, node.dots)
 
-    def product(self, node: Product) -> str:
+    def _product(self, node: Product) -> str:
         if not node.factors:
             return "1"
         pieces: list[str] = []
@@ -72,7 +73,7 @@ class PythonPrinter(Printer):
             pieces.append(text)
         return "*".join(pieces)
 
-    def quotient(self, node: Quotient) -> str:
+    def _quotient(self, node: Quotient) -> str:
         numerator = self.text(node.numerator)
         if type(node.numerator) is Sum:
             numerator = f"({numerator})"
@@ -81,7 +82,7 @@ class PythonPrinter(Printer):
             denominator = f"({denominator})"
         return f"{numerator}/{denominator}"
 
-    def power(self, node: Power) -> str:
+    def _power(self, node: Power) -> str:
         base, exponent = self.text(node.base), self.text(node.exponent)
         if type(node.base) not in _BARE_BASES and not is_whole(node.base):
             base = f"({base})"
@@ -89,26 +90,26 @@ class PythonPrinter(Printer):
             exponent = f"({exponent})"
         return f"{base}**{exponent}"
 
-    def function(self, node: Function) -> str:
+    def _function(self, node: Function) -> str:
         return f"{node.name}({self.text(node.argument)})"
 
-    def in_parentheses(self, node: Parenthesized) -> str:
+    def _in_parentheses(self, node: Parenthesized) -> str:
         return f"({self.text(node.argument)})"
 
-    def matrix(self, node: Matrix) -> str:
+    def _matrix(self, node: Matrix) -> str:
         rows = (f"[{', '.join(map(self.text, row))}]" for row in node.rows)
         return f"[{', '.join(rows)}]"
 
-    rules = {
-        Symbol: symbol,
-        Number: number,
-        Product: product,
-        Sum: Printer.sum,
-        Power: power,
-        Negative: Printer.negative,
-        Quotient: quotient,
-        Function: function,
-        Degrees: degrees,
-        Parenthesized: in_parentheses,
-        Matrix: matrix,
+    rules: ClassVar[Rules] = {
+        Symbol: _symbol,
+        Number: _number,
+        Product: _product,
+        Sum: Printer._sum,
+        Power: _power,
+        Negative: Printer._negative,
+        Quotient: _quotient,
+        Function: _function,
+        Degrees: _degrees,
+        Parenthesized: _in_parentheses,
+        Matrix: _matrix,
     }

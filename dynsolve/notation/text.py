@@ -39,7 +39,7 @@ _RAISED = str.maketrans("⁻" + SUPERSCRIPT_DIGITS, "-0123456789")
 
 @dataclass(frozen=True, slots=True)
 class Name:
-    """A symbol's name where it stands in the text; `star` says that it carries the mark of a joint variable."""
+    """A symbol's name where it stands in the text; `star`: it carries the mark of a joint variable."""
 
     name: str
     offset: int

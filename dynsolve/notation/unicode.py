@@ -7,12 +7,14 @@ braces where the subscript has more than letters and digits (I_{xx,1}).
 from __future__ import annotations
 
 import re
+from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import (
     PLAIN,
     Printer,
+    Rules,
     Style,
     decimal_text,
     flat_factors,
@@ -149,18 +151,18 @@ class UnicodePrinter(Printer):
 
     # Numbers and names
 
-    def number(self, node: Number) -> str:
+    def _number(self, node: Number) -> str:
         if node.q == 1:
             return str(node.p)
         if self.style.decimal and (decimal := decimal_text(node.p, node.q)):
             return decimal
         return _FRACTIONS.get((node.p, node.q)) or f"{node.p}/{node.q}"
 
-    def degrees(self, node: Degrees) -> str:
+    def _degrees(self, node: Degrees) -> str:
         text = decimal_text(node.p, node.q)
         return f"{text}°" if text else f"({node.p}/{node.q})°"
 
-    def symbol(self, node: Symbol) -> str:
+    def _symbol(self, node: Symbol) -> str:
         key = (node.name, node.dots)
         text = self._symbols.get(key)
         if text is None:
@@ -170,18 +172,18 @@ class UnicodePrinter(Printer):
             )
         return text + _STAR if node.star and self.style.star else text
 
-    def letter(self, node: Letter) -> str:
+    def _letter(self, node: Letter) -> str:
         base = printable(node.base)
         if node.style == "script" and len(base) == 1 and "A" <= base <= "Z":
             base = _SCRIPT.get(base) or chr(0x1D49C + ord(base) - ord("A"))
         text = _accented(base, node.dots)
         if node.sub is not None:
-            text += lowered(self.index(node.sub))
+            text += lowered(self._index(node.sub))
         if node.sup is not None:
-            text += raised(self.index(node.sup))
+            text += raised(self._index(node.sup))
         return text
 
-    def index(self, node: Node) -> str:
+    def _index(self, node: Node) -> str:
         """What stands in a subscript, on one level: v_1 is `v1`."""
         match node:
             case Symbol():
@@ -189,40 +191,40 @@ class UnicodePrinter(Printer):
                 return _accented(base, node.dots) + _joined(groups)
             case Letter():
                 parts = [part for part in (node.sub, node.sup) if part is not None]
-                return _accented(printable(node.base), node.dots) + "".join(map(self.index, parts))
+                return _accented(printable(node.base), node.dots) + "".join(map(self._index, parts))
             case Row():
-                return "".join(map(self.index, node.parts))
+                return "".join(map(self._index, node.parts))
             case Product():
-                return "".join(map(self.index, node.factors))
+                return "".join(map(self._index, node.factors))
             case Words():
                 return printable(node.text)
         return self.text(node).replace(" ", "")
 
-    def words(self, node: Words) -> str:
+    def _words(self, node: Words) -> str:
         return printable(node.text)
 
     # Arithmetic
 
-    def product(self, node: Product) -> str:
+    def _product(self, node: Product) -> str:
         factors = flat_factors(node)
         if not factors:
             return "1"
         last = len(factors) - 1
-        text = before = self.factor(factors[0], True, last == 0)
+        text = before = self._factor(factors[0], True, last == 0)
         for position in range(1, last + 1):
             factor = factors[position]
-            piece = self.factor(factor, False, position == last)
+            piece = self._factor(factor, False, position == last)
             text += _between(before, piece) + piece
             before = piece
         return text
 
-    def factor(self, node: Node, first: bool, last: bool) -> str:
+    def _factor(self, node: Node, first: bool, last: bool) -> str:
         """A factor, in parentheses where it would run into its neighbours."""
         kind = type(node)
         if kind is Symbol:
-            return self.symbol(node)  # type: ignore[arg-type]
+            return self._symbol(node)  # type: ignore[arg-type]
         if kind is Negative and first:
-            return "-" + self.factor(node.argument, False, last)  # type: ignore[attr-defined]
+            return "-" + self._factor(node.argument, False, last)  # type: ignore[attr-defined]
         text = self.text(node)
         if kind is Sum or kind is Cross or kind is Relation or text.startswith("-"):
             return f"({text})"
@@ -231,18 +233,18 @@ class UnicodePrinter(Printer):
         open_ended = kind is Quotient or kind is BigSum or kind is Product or _is_applied(node)
         return f"({text})" if open_ended and not last else text
 
-    def quotient(self, node: Quotient) -> str:
+    def _quotient(self, node: Quotient) -> str:
         if is_numeric(node) and (sign := _fraction_sign(node)):
             return sign
-        numerator = self.numerator(node.numerator)
+        numerator = self._numerator(node.numerator)
         denominator = self.text(node.denominator)
         if not (type(node.denominator) in _BARE_DENOMINATORS or is_whole(node.denominator)):
             denominator = f"({denominator})"
         return f"{numerator}/{denominator}"
 
-    def numerator(self, node: Node) -> str:
+    def _numerator(self, node: Node) -> str:
         if type(node) is Negative:
-            return "-" + self.numerator(node.argument)
+            return "-" + self._numerator(node.argument)
         text = self.text(node)
         end = (flat_factors(node) or (node,))[-1] if type(node) is Product else node
         runs_on = type(end) in (Sum, Quotient, BigSum, Cross, Relation) and end is node
@@ -251,8 +253,8 @@ class UnicodePrinter(Printer):
             return f"({text})"
         return text
 
-    def power(self, node: Power) -> str:
-        exponent = self.exponent(node.exponent)
+    def _power(self, node: Power) -> str:
+        exponent = self._exponent(node.exponent)
         base = node.base
         if type(base) is Function and base.name != "sqrt":
             if shorthand(base, self.style) is None and is_whole(node.exponent):
@@ -262,13 +264,13 @@ class UnicodePrinter(Printer):
         bare = type(base) in _BARE_BASES or is_whole(base) or (type(base) is Letter and base.sup is None)
         return (text if bare else f"({text})") + exponent
 
-    def exponent(self, node: Node) -> str:
+    def _exponent(self, node: Node) -> str:
         text = self.text(node)
         if all(character in _SUPERSCRIPTS for character in text):
             return raised(text)
         return f"^{text}" if type(node) is Symbol else f"^({text})"
 
-    def function(self, node: Function) -> str:
+    def _function(self, node: Function) -> str:
         if short := shorthand(node, self.style):
             return short[0] + lowered(short[1])
         argument = self.text(node.argument)
@@ -277,35 +279,35 @@ class UnicodePrinter(Printer):
             return f"√{argument}" if bare else f"√({argument})"
         return f"{node.name}({argument})"
 
-    def in_parentheses(self, node: Parenthesized) -> str:
+    def _in_parentheses(self, node: Parenthesized) -> str:
         return f"({self.text(node.argument)})"
 
     # Formulas of the textbook
 
-    def matrix(self, node: Matrix) -> str:
+    def _matrix(self, node: Matrix) -> str:
         rows = (f"[{', '.join(map(self.text, row))}]" for row in node.rows)
         return f"[{', '.join(rows)}]"
 
-    def row(self, node: Row) -> str:
+    def _row(self, node: Row) -> str:
         return "".join(map(self.text, node.parts))
 
-    def transpose(self, node: Transpose) -> str:
+    def _transpose(self, node: Transpose) -> str:
         argument = node.argument
         text = self.text(argument)
         bare = type(argument) in _BARE_TRANSPOSED or (type(argument) is Letter and argument.sup is None)
         return (text if bare else f"({text})") + "ᵀ"
 
-    def cross(self, node: Cross) -> str:
-        return f"{self.operand(node.left)} × {self.operand(node.right)}"
+    def _cross(self, node: Cross) -> str:
+        return f"{self._operand(node.left)} × {self._operand(node.right)}"
 
-    def operand(self, node: Node) -> str:
+    def _operand(self, node: Node) -> str:
         text = self.text(node)
         compound = type(node) in (Sum, Product, Quotient, Cross, BigSum, Derivative, Relation)
         return f"({text})" if compound or text.startswith("-") else text
 
-    def derivative(self, node: Derivative) -> str:
+    def _derivative(self, node: Derivative) -> str:
         d = "d" if node.total else "∂"
-        by = self.operand(node.by)
+        by = self._operand(node.by)
         if node.of is None:
             return f"{d}/{d}{by}"
         of = self.text(node.of)
@@ -313,39 +315,39 @@ class UnicodePrinter(Printer):
             return f"{d}{of}/{d}{by}"
         return f"{d}/{d}{by} {of if type(node.of) is Parenthesized else f'({of})'}"
 
-    def big_sum(self, node: BigSum) -> str:
-        below = f"{self.index(node.index)}={self.index(node.lower)}"
+    def _big_sum(self, node: BigSum) -> str:
+        below = f"{self._index(node.index)}={self._index(node.lower)}"
         body = self.text(node.body)
         if type(node.body) in (Sum, Relation) or body.startswith("-"):
             body = f"({body})"
-        return f"Σ{lowered(below)}{raised(self.index(node.upper))} {body}"
+        return f"Σ{lowered(below)}{raised(self._index(node.upper))} {body}"
 
-    def relation(self, node: Relation) -> str:
+    def _relation(self, node: Relation) -> str:
         text = self.text(node.parts[0]) if node.parts else ""
         for sign, part in zip(node.signs, node.parts[1:], strict=True):
             text += f" {sign} {self.text(part)}"
         return text
 
-    rules = {
-        Symbol: symbol,
-        Number: number,
-        Product: product,
-        Sum: Printer.sum,
-        Power: power,
-        Negative: Printer.negative,
-        Quotient: quotient,
-        Function: function,
-        Degrees: degrees,
-        Matrix: matrix,
-        Letter: letter,
-        Row: row,
-        Words: words,
-        Transpose: transpose,
-        Cross: cross,
-        Derivative: derivative,
-        BigSum: big_sum,
-        Parenthesized: in_parentheses,
-        Relation: relation,
+    rules: ClassVar[Rules] = {
+        Symbol: _symbol,
+        Number: _number,
+        Product: _product,
+        Sum: Printer._sum,
+        Power: _power,
+        Negative: Printer._negative,
+        Quotient: _quotient,
+        Function: _function,
+        Degrees: _degrees,
+        Matrix: _matrix,
+        Letter: _letter,
+        Row: _row,
+        Words: _words,
+        Transpose: _transpose,
+        Cross: _cross,
+        Derivative: _derivative,
+        BigSum: _big_sum,
+        Parenthesized: _in_parentheses,
+        Relation: _relation,
     }
 
 
