@@ -1,0 +1,217 @@
+"""Expressions in a problem file: read where they stand, their errors at the very character."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from math import pi
+
+from dynsolve.algebra.angles import Angle, angle_from_tree
+from dynsolve.algebra.survey import rational_value
+from dynsolve.errors import AlgebraError, ReadError
+from dynsolve.notation.text import Name, read
+from dynsolve.notation.tokens import rational, tokens
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+from dynsolve.problem.fields import describe
+from dynsolve.problem.source import Report
+from dynsolve.problem.yaml_nodes import Faulty, Scalar, Span
+from dynsolve.problem.yaml_nodes import Node as YamlNode
+from dynsolve.problem.yaml_nodes import Sequence as ListNode
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """An expression of the file: what it is called in messages, its tree, its names, its place."""
+
+    what: str
+    tree: Node
+    names: tuple[Name, ...]
+    text: str
+    start: int
+
+    @property
+    def span(self) -> Span:
+        """Where it stands."""
+        return self.start, self.start + len(self.text)
+
+    def span_of(self, name: Name) -> Span:
+        """Where one of its names stands."""
+        return self.start + name.offset, self.start + name.offset + name.length
+
+
+def made_cell(what: str, text: str, start: int = 0) -> Cell:
+    """The cell of a default, which stands nowhere in the file."""
+    reading = read(text)
+    return Cell(what, reading.tree, reading.names, "", start)
+
+
+def read_cell(report: Report, node: YamlNode | None, what: str, *, stars: bool = False) -> Cell | None:
+    """The expression of a node, None (reported) where it cannot be read.
+
+    `stars` says that a joint variable may be marked here.
+    """
+    if node is None or isinstance(node, Faulty):
+        return None
+    if not isinstance(node, Scalar):
+        report.error(node.span, f"{what} is an expression, not {describe(node)}", "write a number, a name or a formula")
+        return None
+    if not node.text.strip():
+        report.error(node.span, f"{what} has no value", "write one, or delete the key")
+        return None
+    return read_text(report, node.text, node.start, what, stars=stars)
+
+
+def read_text(report: Report, text: str, start: int, what: str, *, stars: bool = False) -> Cell | None:
+    """The expression that stands at character `start` of the file, None (reported) where it cannot be read."""
+    try:
+        reading = read(text, stars=stars)
+    except ReadError as error:
+        if stars or not _report_star(report, text, start, what):
+            at = start + error.offset
+            report.error((at, at + error.length), error.message, error.help)
+        return None
+    return Cell(what, reading.tree, reading.names, text, start)
+
+
+def _report_star(report: Report, text: str, start: int, what: str) -> bool:
+    """Whether the text would be readable with marks of joint variables, which have no place here."""
+    try:
+        marked = [name for name in read(text, stars=True).names if name.star]
+    except ReadError:
+        return False
+    for name in marked:
+        at = start + name.offset
+        message = f"`{name.name}*` marks a joint variable, but {what} is constant"
+        help = f"joint variables stand in theta (revolute) and d (prismatic); here write {name.name}"
+        report.error((at, at + name.length + 1), message, help)
+    return bool(marked)
+
+
+def read_vector(report: Report, node: YamlNode | None, what: str) -> tuple[Cell, ...] | None:
+    """Three expressions [x, y, z], None (reported) where they are none."""
+    if node is None or isinstance(node, Faulty):
+        return None
+    if not isinstance(node, ListNode):
+        report.error(node.span, f"{what} is a list [x, y, z], not {describe(node)}", "write three components")
+        return None
+    if len(node.items) != 3:
+        report.error(node.span, f"{what} has {len(node.items)} components, not 3", "write [x, y, z]")
+        return None
+    cells = tuple(read_cell(report, item, f"{what}, {axis}") for item, axis in zip(node.items, "xyz", strict=True))
+    return None if None in cells else tuple(cell for cell in cells if cell)
+
+
+def read_matrix(report: Report, node: ListNode, what: str) -> tuple[tuple[Cell, ...], ...] | None:
+    """A 3×3 list of rows, None (reported) where it is none."""
+    if len(node.items) != 3:
+        report.error(node.span, f"{what} has {len(node.items)} rows, not 3", "write [[..., ..., ...], [...], [...]]")
+        return None
+    rows = [_matrix_row(report, row, f"{what}, row {i}") for i, row in enumerate(node.items, 1)]
+    return None if None in rows else tuple(row for row in rows if row)
+
+
+def _matrix_row(report: Report, node: YamlNode, what: str) -> tuple[Cell, ...] | None:
+    if isinstance(node, Faulty):
+        return None
+    if not isinstance(node, ListNode) or len(node.items) != 3:
+        found = f"{len(node.items)} entries" if isinstance(node, ListNode) else describe(node)
+        report.error(node.span, f"{what}: three entries are expected, not {found}", "write [..., ..., ...]")
+        return None
+    cells = [read_cell(report, item, what) for item in node.items]
+    return None if None in cells else tuple(cell for cell in cells if cell)
+
+
+def read_angle(report: Report, cell: Cell) -> Angle | None:
+    """The angle that a cell is, None (reported) where it is none: a bare number above all."""
+    try:
+        return angle_from_tree(cell.tree)
+    except AlgebraError as error:
+        for start, end, text in _bare_numbers(cell):
+            message = f"the bare number {text} stands as an angle"
+            report.error((cell.start + start, cell.start + end), message, _in_degrees(text))
+            return None
+        report.error(cell.span, f"{cell.what}: {error.message}", error.help)
+    return None
+
+
+def _bare_numbers(cell: Cell) -> Iterator[tuple[int, int, str]]:
+    """The numbers of a formula that are terms by themselves, save 0."""
+    if not cell.text:
+        return
+    found = tokens(cell.text)
+    kinds = ["+", *(token.kind for token in found)]
+    for before, token, after in zip(kinds, found, kinds[2:], strict=False):
+        alone = before in ("+", "-", "(") and after in ("+", "-", ")", "end")
+        if token.kind == "number" and alone and rational(token):
+            yield token.start, token.end, token.text
+
+
+def _in_degrees(text: str) -> str:
+    degrees = float(text) * 180 / pi
+    whole = round(degrees / 15) * 15
+    if whole and abs(degrees - whole) < 0.05:
+        return f"did you mean {whole}deg? Angles are written in degrees (90deg) or with pi (pi/2)"
+    return f"did you mean {text}deg? Angles are written in degrees (90deg) or with pi (pi/2)"
+
+
+def constant_value(node: Node) -> Fraction | None:
+    """The value of an expression made of numbers alone, else None."""
+    return rational_value(node)
+
+
+def children(node: Node) -> tuple[Node, ...]:
+    """The parts of an expression's node."""
+    match node:
+        case Sum(parts) | Product(parts):
+            return parts
+        case Quotient(numerator, denominator):
+            return numerator, denominator
+        case Power(base, _):
+            return (base,)
+        case Negative(argument) | Parenthesized(argument) | Function(_, argument):
+            return (argument,)
+    return ()
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """A node and everything in it."""
+    yield node
+    for part in children(node):
+        yield from walk(part)
+
+
+def names_in(node: Node) -> set[str]:
+    """The names of the symbols in an expression."""
+    return {part.name for part in walk(node) if isinstance(part, Symbol)}
+
+
+def denominators(node: Node) -> Iterator[Node]:
+    """What an expression divides by."""
+    for part in walk(node):
+        match part:
+            case Quotient(_, denominator):
+                yield denominator
+            case Power(base, Negative()):
+                yield base
+            case Function("tan", argument):
+                yield argument
+
+
+def forbid(report: Report, cells: Iterable[Cell | None], coordinates: Iterable[str], help: str) -> None:
+    """Report every coordinate in cells that must be constant."""
+    for cell in cells:
+        for name in cell.names if cell else ():
+            if cell and name.name in coordinates:
+                message = f"{cell.what} contains the coordinate {name.name}"
+                report.error(cell.span_of(name), message, help)

@@ -1,0 +1,144 @@
+"""The structure of a problem file: which keys a mapping has, what kind of value each holds."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
+from difflib import get_close_matches
+
+from dynsolve.problem.source import Report
+from dynsolve.problem.yaml_nodes import Faulty, Mapping, Node, Scalar, Span
+from dynsolve.problem.yaml_nodes import Sequence as ListNode
+
+
+def describe(node: Node) -> str:
+    """What a node is, for a message."""
+    if isinstance(node, Mapping):
+        return "a mapping"
+    if isinstance(node, ListNode):
+        return "a list"
+    return f"`{_short(node.text)}`" if isinstance(node, Scalar) and node.text else "nothing"
+
+
+def _short(text: str) -> str:
+    text = " ".join(text.split())
+    return text if len(text) <= 40 else text[:37] + "..."
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """`did you mean `mass`?`, or nothing where no known word is near."""
+    folded = {name.lower(): name for name in known}
+    if word.lower() in folded:
+        return f"did you mean `{folded[word.lower()]}`?"
+    close = get_close_matches(word.lower()[:60], folded, 1, 0.6)
+    return f"did you mean `{folded[close[0]]}`?" if close else ""
+
+
+def odd_letter(word: str) -> str:
+    """A word on the first letter that is not Latin, which may only look as if it were."""
+    for character in word:
+        if not character.isascii():
+            name = unicodedata.name(character, "?").lower()
+            return f"`{character}` is U+{ord(character):04X} ({name})"
+    return ""
+
+
+def unknown(report: Report, key: Scalar, value: Node, known: Sequence[str], what: str) -> None:
+    """Note an unknown key with what was probably meant."""
+    word = key.decoded
+    name, colon, _ = word.partition(":")
+    if colon and name.strip() in known and isinstance(value, Scalar) and not value.text:
+        message = f"a blank is missing after the colon of `{name}:`"
+        help = f"write `{name}: {word.partition(':')[2].strip()}`"
+        return report.error(key.span, message, help)
+    odd = odd_letter(word)
+    plain = "".join(c if c.isascii() else "?" for c in word)
+    help = did_you_mean(plain, known) or f"known are {', '.join(known)}"
+    if odd:
+        help = f"{odd}; {help}"
+    return report.error(key.span, f"unknown key `{_short(word)}` in {what}", help)
+
+
+class Fields:
+    """A mapping with known keys; unknown ones are reported when it is made."""
+
+    def __init__(self, report: Report, node: Mapping, known: Sequence[str], what: str) -> None:
+        self.report, self.span, self.what = report, node.span, what
+        self._values: dict[str, Node] = {}
+        self._keys: dict[str, Scalar] = {}
+        for key, value in node.entries:
+            if key.decoded in known:
+                self._values[key.decoded], self._keys[key.decoded] = value, key
+            else:
+                unknown(report, key, value, known, what)
+
+    def __contains__(self, key: str) -> bool:
+        return key in self._values
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def get(self, key: str) -> Node | None:
+        """The value of a key, None where it is not given."""
+        return self._values.get(key)
+
+    def key_span(self, key: str) -> Span:
+        """Where a key stands; where it does not, the mapping."""
+        return self._keys[key].span if key in self._keys else self.span
+
+    def span_of(self, key: str) -> Span:
+        """Where the value of a key stands; where it does not, the mapping."""
+        node = self._values.get(key)
+        if node is None:
+            return self.span
+        return node.span if node.span[1] > node.span[0] else self.key_span(key)
+
+
+def mapping(report: Report, node: Node | None, known: Sequence[str], what: str, help: str) -> Fields | None:
+    """A mapping's fields, or None (reported) where it is none."""
+    if isinstance(node, Mapping):
+        return Fields(report, node, known, what)
+    if node is not None and not isinstance(node, Faulty):
+        report.error(node.span, f"{what} must be a mapping, not {describe(node)}", help)
+    return None
+
+
+def items(report: Report, node: Node | None, what: str, help: str) -> tuple[Node, ...]:
+    """The items of a list; empty (and reported) where it is none."""
+    if isinstance(node, ListNode):
+        return node.items
+    if node is not None and not isinstance(node, Faulty):
+        report.error(node.span, f"{what} must be a list, not {describe(node)}", help)
+    return ()
+
+
+def word(report: Report, node: Node | None, known: Sequence[str], what: str) -> str | None:
+    """One of a few words, None (reported) where it is another."""
+    if node is None or isinstance(node, Faulty):
+        return None
+    text = node.text if isinstance(node, Scalar) else ""
+    if text in known:
+        return text
+    choices = ", ".join(known)
+    help = did_you_mean(text, known) if text else ""
+    report.error(node.span, f"{what} is one of {choices}, not {describe(node)}", help or f"write one of {choices}")
+    return None
+
+
+def whole_number(report: Report, node: Node | None, what: str, help: str) -> int | None:
+    """A number 0, 1, 2, ... of few digits, None (reported) where it is none."""
+    if node is None or isinstance(node, Faulty):
+        return None
+    if isinstance(node, Scalar) and node.text.isascii() and node.text.isdigit() and len(node.text) <= 4:
+        return int(node.text)
+    report.error(node.span, f"{what} is a whole number, not {describe(node)}", help)
+    return None
+
+
+def free_text(report: Report, node: Node | None, what: str) -> str:
+    """A line of prose; empty where there is none."""
+    if isinstance(node, Scalar):
+        return " ".join(node.decoded.split())
+    if node is not None and not isinstance(node, Faulty):
+        report.error(node.span, f"{what} is a line of text, not {describe(node)}", "write it on one line")
+    return ""

@@ -1,0 +1,64 @@
+"""A problem: a robot, what the exercise says about it, and where in its file everything stands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from pathlib import PurePath
+
+from dynsolve.errors import Finding
+from dynsolve.robot.model import Convention, Robot
+
+Path = tuple[str | int, ...]
+"""The way to a part of a file: ("masses", 0, "axes"), list items from 0."""
+
+FIND = ("tau", "D", "C", "g")
+"""What an exercise asks for unless it says otherwise."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a part of a file stands; line and column from 1."""
+
+    line: int
+    column: int
+    length: int
+    excerpt: str
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One problem file, read and checked.
+
+    `find` and the keys of `marks` are names of answers in their canonical form
+    (`D`, never `M`).  `values` are the numbers for numeric results, angles in radians.
+    `places` tells where each part of the file stands; `warnings` are what deserves
+    a look and is no error.
+    """
+
+    title: str
+    source: str
+    file: str
+    robot: Robot
+    convention: Convention
+    find: tuple[str, ...] = FIND
+    marks: Mapping[str, Fraction] = field(default_factory=dict)
+    values: Mapping[str, Fraction] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    places: Mapping[Path, Place] = field(default_factory=dict)
+    warnings: tuple[Finding, ...] = ()
+
+    @property
+    def stem(self) -> str:
+        """The name of its file without folder and ending: what an answer file calls it."""
+        return PurePath(self.file).stem
+
+    def finding(self, path: Path, message: str, help: str = "", code: str = "") -> Finding:
+        """A finding at a part of the file, or at the nearest part around it that has a place."""
+        while path and path not in self.places:
+            path = path[:-1]
+        if not path:
+            return Finding(message, help, self.file, code=code)
+        place = self.places[path]
+        return Finding(message, help, self.file, place.line, place.column, place.length, place.excerpt, code)

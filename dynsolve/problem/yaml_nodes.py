@@ -1,0 +1,202 @@
+"""YAML text -> nodes that know their place, and nothing else that YAML can do.
+
+Only PyYAML's parser of events is used: no composer (it recurses and expands
+aliases), no constructor (it runs code for tags), no resolver (it takes `no` for
+a boolean, `010` for 8 and `1:30` for 90).  A scalar is its source text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from dynsolve.problem.source import Report
+from dynsolve.problem.yaml_errors import explain
+
+MAX_DEPTH = 12
+"""A problem file needs five levels."""
+
+MAX_EVENTS = 50_000
+
+Span = tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A value: `text` is the source between its quotes, which begins at character `start`.
+
+    `decoded` is what YAML makes of it (escapes resolved, lines folded): for titles.
+    """
+
+    text: str
+    start: int
+    span: Span
+    decoded: str
+
+
+@dataclass(frozen=True, slots=True)
+class Sequence:
+    """A list."""
+
+    items: tuple[Node, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Mapping:
+    """Keys with their values, in order."""
+
+    entries: tuple[tuple[Scalar, Node], ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Faulty:
+    """Something that was reported already; whoever meets it leaves it alone."""
+
+    span: Span
+
+
+Node = Scalar | Sequence | Mapping | Faulty
+
+
+def read_nodes(report: Report) -> Node | None:
+    """The root node of the source of `report`, or None where there is none or YAML's syntax fails."""
+    import yaml
+
+    loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    text = report.source.text
+    tree = _Tree(report)
+    try:
+        for event, _ in zip(_events(yaml, text, loader), range(MAX_EVENTS)):
+            if not tree.take(event):
+                return tree.root
+    except yaml.MarkedYAMLError as error:
+        explain(report, error)
+        return None
+    report.error(
+        (len(text), len(text)), f"the file has more than {MAX_EVENTS} parts", "give the problem file itself"
+    )
+    return None
+
+
+def _events(yaml: Any, text: str, loader: Any) -> Iterator[Any]:
+    events: Iterator[Any] = yaml.parse(text, Loader=loader)
+    return events
+
+
+class _Open:
+    """A list or mapping whose end has not come yet."""
+
+    def __init__(self, kind: str, start: int) -> None:
+        self.kind, self.start = kind, start
+        self.items: list[Node] = []
+
+
+class _Tree:
+    """Builds nodes from events on a stack of its own: no depth of nesting can exhaust Python's."""
+
+    def __init__(self, report: Report) -> None:
+        self.report = report
+        self.root: Node | None = None
+        self.open: list[_Open] = []
+        self.documents = 0
+
+    def take(self, event: Any) -> bool:
+        """Take one event in; False ends the reading."""
+        kind = type(event).__name__
+        start, end = event.start_mark.index, event.end_mark.index
+        if kind == "StreamEndEvent":
+            return False
+        if kind == "DocumentStartEvent":
+            return self._document(start, end)
+        if kind in ("SequenceStartEvent", "MappingStartEvent"):
+            self._properties(event)
+            self.open.append(_Open(kind, start))
+            if len(self.open) > MAX_DEPTH:
+                self.report.error(
+                    (start, start + 1), f"more than {MAX_DEPTH} levels of nesting", "write it flatter"
+                )
+                self.root = None
+                return False
+        elif kind in ("SequenceEndEvent", "MappingEndEvent"):
+            self._place(self._closed(end))
+        elif kind == "ScalarEvent":
+            self._properties(event)
+            self._place(self._scalar(event, start, end))
+        elif kind == "AliasEvent":
+            self._alias(event.anchor, start, end)
+        return True
+
+    def _document(self, start: int, end: int) -> bool:
+        self.documents += 1
+        if self.documents == 2:
+            message = "a second document begins here; a problem file holds one robot"
+            self.report.error(
+                (start, max(end, start + 3)), message, "put the other robot in a file of its own"
+            )
+        return self.documents < 2
+
+    def _properties(self, event: Any) -> None:
+        """Anchors and tags: neither has a use here."""
+        start = event.start_mark.index
+        if event.anchor:
+            span = (start, start + len(event.anchor) + 1)
+            self.report.error(
+                span, f"`&{event.anchor}` is a YAML anchor, which a problem file has no use for", "delete it"
+            )
+        if event.tag:
+            text = self.report.source.text
+            length = len(text[start:].split(None, 1)[0]) if text[start : start + 1] == "!" else 1
+            message = "a YAML tag (`!...`) has no meaning in a problem file"
+            self.report.error((start, start + length), message, "delete it")
+
+    def _alias(self, name: str, start: int, end: int) -> None:
+        message = f"`*{name}` is a YAML alias, which a problem file has no use for"
+        help = f"the star of a joint variable stands after its name: {name}*"
+        self.report.error((start, end), message, help)
+        self._place(Faulty((start, end)))
+
+    def _scalar(self, event: Any, start: int, end: int) -> Scalar:
+        source = self.report.source.text
+        style = event.style
+        text_start, text_end = start, end
+        if event.anchor or event.tag:
+            text_start = max(start, end - len(event.value)) if not style else source.find(style, start, end)
+        if style in ("'", '"'):
+            text_start, text_end = text_start + 1, end - 1
+        elif style in ("|", ">"):
+            line_end = source.find("\n", start, end)
+            text_start = line_end + 1 if line_end >= 0 else end
+            text_end = text_start + len(source[text_start:text_end].rstrip())
+        return Scalar(source[text_start:text_end], text_start, (start, max(end, start)), event.value)
+
+    def _closed(self, end: int) -> Node:
+        done = self.open.pop()
+        text = self.report.source.text
+        end = done.start + len(text[done.start : end].rstrip())
+        if done.kind == "SequenceStartEvent":
+            return Sequence(tuple(done.items), (done.start, end))
+        return Mapping(self._entries(done.items), (done.start, end))
+
+    def _entries(self, items: list[Node]) -> tuple[tuple[Scalar, Node], ...]:
+        entries: dict[str, tuple[Scalar, Node]] = {}
+        for key, value in zip(items[::2], items[1::2], strict=True):
+            if isinstance(key, Faulty):
+                continue
+            if not isinstance(key, Scalar):
+                self.report.error(key.span, "a key is a word, not a list or a mapping", "write `key: value`")
+            elif key.decoded in entries:
+                line, _ = self.report.source.position(entries[key.decoded][0].span[0])
+                message = f"`{key.decoded}` is given twice, first in line {line}"
+                self.report.error(key.span, message, "keep one of them")
+            else:
+                entries[key.decoded] = (key, value)
+        return tuple(entries.values())
+
+    def _place(self, node: Node) -> None:
+        if self.open:
+            self.open[-1].items.append(node)
+        elif self.root is None:
+            self.root = node

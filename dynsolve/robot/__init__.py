@@ -1,0 +1,1 @@
+"""What a manipulator is: joints, bodies, shapes.  Knows no file and no printing."""

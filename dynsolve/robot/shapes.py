@@ -1,0 +1,169 @@
+"""Uniform bodies and their inertia about the mass centre.
+
+The principal moments stand as formulas of one text, in the letters of the
+textbook: the same text is evaluated for a robot and printed in the explanation.
+Adding a shape is adding one record to `KINDS`.
+
+Source: Spong, Hutchinson, Vidyasagar, Robot Modeling and Control (2006), section
+7.2.1, for the box; Craig, Introduction to Robotics, 3rd ed., section 6.3, for the
+method; Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., chapter 5, for the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
+from dynsolve.notation.text import read
+from dynsolve.notation.tree import Node, Number, Power, Product, Quotient, Sum, Symbol
+
+AXES = ("x", "y", "z")
+"""The axes of a body-attached frame."""
+
+MASS = "m"
+"""The letter of the mass in the formulas."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A shape: its dimensions and its principal moments.
+
+    `dimensions` are (key in the file, letter in the formulas).  `moments` are
+    I_xx, I_yy, I_zz about the mass centre with the body's own axis along z.
+    `has_axis` says whether the file may turn that axis, `along_link` whether it
+    lies along the link by default.
+    """
+
+    name: str
+    dimensions: tuple[tuple[str, str], ...]
+    moments: tuple[str, str, str] | None
+    has_axis: bool = False
+    along_link: bool = False
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The names of its dimensions in a file."""
+        return tuple(key for key, _ in self.dimensions)
+
+
+_ROUND_SIDE = "m*(3*r^2 + l^2)/12"
+_HOLLOW_SIDE = "m*(3*(ro^2 + ri^2) + l^2)/12"
+
+KINDS: Mapping[str, Kind] = {
+    kind.name: kind
+    for kind in (
+        Kind("point", (), None),
+        Kind(
+            "box",
+            (("x", "x"), ("y", "y"), ("z", "z")),
+            ("m*(y^2 + z^2)/12", "m*(x^2 + z^2)/12", "m*(x^2 + y^2)/12"),
+        ),
+        Kind(
+            "cylinder",
+            (("radius", "r"), ("length", "l")),
+            (_ROUND_SIDE, _ROUND_SIDE, "m*r^2/2"),
+            has_axis=True,
+            along_link=True,
+        ),
+        Kind(
+            "hollow_cylinder",
+            (("outer", "ro"), ("inner", "ri"), ("length", "l")),
+            (_HOLLOW_SIDE, _HOLLOW_SIDE, "m*(ro^2 + ri^2)/2"),
+            has_axis=True,
+            along_link=True,
+        ),
+        Kind(
+            "rod",
+            (("length", "l"),),
+            ("m*l^2/12", "m*l^2/12", "0"),
+            has_axis=True,
+            along_link=True,
+        ),
+        Kind("disk", (("radius", "r"),), ("m*r^2/4", "m*r^2/4", "m*r^2/2"), has_axis=True),
+        Kind("sphere", (("radius", "r"),), ("2*m*r^2/5",) * 3),
+        Kind("shell", (("radius", "r"),), ("2*m*r^2/3",) * 3),
+    )
+}
+"""Every shape by its name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A uniform body: its kind, its dimensions (m) and the body-attached axis it is turned to.
+
+    `axis` is empty where the kind has none.
+    """
+
+    kind: str
+    dimensions: tuple[tuple[str, Expr], ...] = ()
+    axis: str = ""
+
+    @property
+    def formulas(self) -> tuple[tuple[str, Node], ...]:
+        """(`xx`, I_xx), (`yy`, I_yy), (`zz`, I_zz) as the textbook prints them; none for a point."""
+        moments = KINDS[self.kind].moments
+        if moments is None:
+            return ()
+        turned = _turned(moments, self.axis or "z")
+        return tuple((2 * axis, _formula(text)) for axis, text in zip(AXES, turned, strict=True))
+
+    @property
+    def letters(self) -> tuple[tuple[str, Expr], ...]:
+        """(letter in the formulas, its value here) of every dimension."""
+        letters = dict(KINDS[self.kind].dimensions)
+        return tuple((letters[key], value) for key, value in self.dimensions)
+
+    def principal_moments(self, mass: Expr) -> tuple[Expr, Expr, Expr]:
+        """I_xx, I_yy, I_zz (kg m²) about the mass centre, in the body-attached frame."""
+        values = {MASS: mass, **dict(self.letters)}
+        if not self.formulas:
+            return (mass.ring.zero,) * 3
+        xx, yy, zz = (_value(formula, values) for _, formula in self.formulas)
+        return xx, yy, zz
+
+    def inertia(self, mass: Expr) -> Matrix:
+        """The tensor, 3×3 diagonal (kg m²), about the mass centre, in the body-attached frame."""
+        moments, zero = self.principal_moments(mass), mass.ring.zero
+        return Matrix.of(mass.ring, ([moments[i] if i == j else zero for j in range(3)] for i in range(3)))
+
+
+def _turned(moments: tuple[str, str, str], axis: str) -> tuple[str, str, str]:
+    """The moments of a body whose own axis lies along `axis` instead of z; the other two are equal."""
+    if axis == "z":
+        return moments
+    across, _, along = moments
+    return (along, across, across) if axis == "x" else (across, along, across)
+
+
+@lru_cache(maxsize=64)
+def _formula(text: str) -> Node:
+    return read(text).tree
+
+
+def _value(node: Node, values: Mapping[str, Expr]) -> Expr:
+    """A formula of this module's table with values put in."""
+    ring = values[MASS].ring
+    match node:
+        case Number(p, q):
+            return ring.constant(Fraction(p, q))
+        case Symbol(name):
+            return values[name]
+        case Sum(terms):
+            total = ring.zero
+            for term in terms:
+                total = total + _value(term, values)
+            return total
+        case Product(factors):
+            product = ring.one
+            for factor in factors:
+                product = product * _value(factor, values)
+            return product
+        case Quotient(numerator, Number(p, q)):
+            return _value(numerator, values) / Fraction(p, q)
+        case Power(base, Number(p, 1)):
+            return _value(base, values) ** p
+    raise TypeError(f"a formula of a shape is not made of {type(node).__name__}")
