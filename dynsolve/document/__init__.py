@@ -1,0 +1,88 @@
+"""What solutions, feedback and reports are made of: frozen data, no markup.
+
+Prose is a sequence of words and formulas; a block is a heading, a paragraph, a
+displayed formula, a list, a note, a table or a fold of further blocks.  Renderers
+in `dynsolve.render` turn documents into what a person sees.
+
+To add a kind of block, add its dataclass here and its case to each renderer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dynsolve.notation.tree import Node
+
+Inline = str | Node
+"""A piece of a sentence: words, or a formula among them."""
+
+Prose = tuple[Inline, ...]
+"""A sentence or several."""
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """A heading; level 1 is the document's title."""
+
+    text: str
+    level: int = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A paragraph."""
+
+    parts: Prose
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """A displayed formula.
+
+    `source` is where the textbook has it.  `entries` names the entries of a matrix
+    that is too wide to be laid out: a matrix of names, of its shape.
+    """
+
+    node: Node
+    source: str = ""
+    entries: tuple[tuple[Node, ...], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class List:
+    """Items, one under another."""
+
+    items: tuple[Prose, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A remark beside the text: a pitfall that applies here."""
+
+    parts: Prose
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of cells under a header."""
+
+    header: Prose
+    rows: tuple[Prose, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Fold:
+    """Blocks that belong together under a title and may be folded away."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+
+Block = Heading | Text | Formula | List | Note | Table | Fold
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """Blocks in order."""
+
+    blocks: tuple[Block, ...]

@@ -1,0 +1,1 @@
+"""Documents -> what a person sees.  A renderer lays out and computes nothing."""

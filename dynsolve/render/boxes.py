@@ -1,0 +1,166 @@
+"""Formulas laid out in characters: boxes of lines that stand side by side on one baseline."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from dynsolve.notation.tree import (
+    Cross,
+    Matrix,
+    Negative,
+    Node,
+    Parenthesized,
+    Product,
+    Relation,
+    Sum,
+    Transpose,
+)
+from dynsolve.notation.unicode import UnicodePrinter, width
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """Lines of one width; `baseline` is the line that stands level with its neighbours."""
+
+    lines: tuple[str, ...]
+    width: int
+    baseline: int = 0
+
+    @staticmethod
+    def of(text: str) -> Box:
+        """One line."""
+        return Box((text,), width(text))
+
+
+def beside(boxes: Sequence[Box]) -> Box:
+    """Boxes side by side, baselines level."""
+    above = max(box.baseline for box in boxes)
+    below = max(len(box.lines) - box.baseline for box in boxes)
+    padded = [_padded(box, above, below) for box in boxes]
+    lines = tuple("".join(parts) for parts in zip(*padded, strict=True))
+    return Box(lines, sum(box.width for box in boxes), above)
+
+
+def _padded(box: Box, above: int, below: int) -> list[str]:
+    blank = " " * box.width
+    over = above - box.baseline
+    under = below - (len(box.lines) - box.baseline)
+    return [blank] * over + list(box.lines) + [blank] * under
+
+
+def centered(text: str, cells: int) -> str:
+    """`text` in the middle of a number of terminal cells."""
+    space = cells - width(text)
+    return " " * (space // 2) + text + " " * (space - space // 2)
+
+
+_BRACKETS = {"[": ("[", "⎡⎢⎣"), "]": ("]", "⎤⎥⎦"), "(": ("(", "⎛⎜⎝"), ")": (")", "⎞⎟⎠")}
+
+
+def bracket(sign: str, height: int) -> list[str]:
+    """A bracket of a height."""
+    single, (top, middle, bottom) = _BRACKETS[sign]
+    return [single] if height == 1 else [top, *[middle] * (height - 2), bottom]
+
+
+def matrix_box(matrix: Matrix, printer: UnicodePrinter) -> Box:
+    """A matrix between brackets, each column centred."""
+    cells = [[printer.text(entry) for entry in row] for row in matrix.rows]
+    widths = [max(map(width, column)) for column in zip(*cells, strict=True)]
+    rows = ["  ".join(map(centered, row, widths)) for row in cells]
+    return _enclosed(Box(tuple(rows), width(rows[0]), (len(rows) - 1) // 2), "[", "]")
+
+
+def _enclosed(box: Box, left: str, right: str) -> Box:
+    height = len(box.lines)
+    sides = zip(bracket(left, height), box.lines, bracket(right, height), strict=True)
+    return Box(tuple(a + line + b for a, line, b in sides), box.width + 2, box.baseline)
+
+
+_SHALLOW = 4
+
+
+def holds_matrix(node: Node, depth: int = _SHALLOW) -> bool:
+    """Whether a matrix stands in a formula, near enough to its top to be laid out."""
+    if isinstance(node, Matrix):
+        return True
+    if depth == 0:
+        return False
+    return any(holds_matrix(part, depth - 1) for part in _parts(node))
+
+
+def _parts(node: Node) -> tuple[Node, ...]:
+    match node:
+        case Relation(parts) | Sum(parts) | Product(parts):
+            return parts
+        case Transpose(argument) | Negative(argument) | Parenthesized(argument):
+            return (argument,)
+        case Cross(left, right):
+            return (left, right)
+    return ()
+
+
+def pieces(node: Node, printer: UnicodePrinter) -> Iterator[Box | Node]:
+    """A formula that holds matrices, as boxes that may be set side by side.
+
+    A matrix stays a node, so that whoever sets it may choose how.
+    """
+    match node:
+        case Matrix():
+            yield node
+        case Relation(parts, signs):
+            yield from pieces(parts[0], printer)
+            for sign, part in zip(signs, parts[1:], strict=True):
+                yield Box.of(f" {sign} ")
+                yield from pieces(part, printer)
+        case Sum(terms) if holds_matrix(node):
+            yield from _sum(terms, printer)
+        case Product(factors) if holds_matrix(node):
+            for i, factor in enumerate(factors):
+                if i:
+                    yield Box.of(" ")
+                yield from _factor(factor, printer)
+        case Negative(argument) if holds_matrix(node):
+            yield Box.of("-")
+            yield from _factor(argument, printer)
+        case Transpose(Matrix() as matrix):
+            box = matrix_box(matrix, printer)
+            yield beside([box, Box(("ᵀ", *[" "] * (len(box.lines) - 1)), 1, box.baseline)])
+        case Cross(left, right) if holds_matrix(node):
+            yield from _factor(left, printer)
+            yield Box.of(" × ")
+            yield from _factor(right, printer)
+        case Parenthesized(argument) if holds_matrix(node):
+            yield _enclosed(box_of(argument, printer), "(", ")")
+        case _:
+            yield Box.of(printer.text(node))
+
+
+def _sum(terms: Iterable[Node], printer: UnicodePrinter) -> Iterator[Box | Node]:
+    for i, term in enumerate(terms):
+        negative = isinstance(term, Negative)
+        if i or negative:
+            sign = "-" if negative else "+"
+            yield Box.of(f" {sign} " if i else sign)
+        yield from pieces(term.argument if isinstance(term, Negative) else term, printer)
+
+
+def _factor(factor: Node, printer: UnicodePrinter) -> Iterator[Box | Node]:
+    """A factor of a product: a sum stands between parentheses."""
+    if isinstance(factor, Sum | Negative | Relation):
+        yield _enclosed(box_of(factor, printer), "(", ")")
+    else:
+        yield from pieces(factor, printer)
+
+
+def box_of(node: Node, printer: UnicodePrinter) -> Box:
+    """A whole formula in one box, however wide."""
+    boxes = [
+        p if isinstance(p, Box) else matrix_box(p, printer) for p in pieces(node, printer) if _is_piece(p)
+    ]
+    return beside(boxes)
+
+
+def _is_piece(piece: Box | Node) -> bool:
+    return isinstance(piece, Box | Matrix)

@@ -1,0 +1,151 @@
+"""Displayed formulas set to a width: on one line, or a line a member, or entry by entry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from dynsolve.document import Formula
+from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation
+from dynsolve.notation.unicode import UnicodePrinter, lowered, width
+from dynsolve.render.boxes import Box, beside, matrix_box, pieces
+from dynsolve.render.breaking import break_sum
+
+_HANG = 4
+_LONGEST_HANG = 12
+
+Group = tuple[str, Box | Matrix]
+"""What stands before a piece (` = `, ` + `, a space) and the piece itself."""
+
+
+def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
+    """The lines of a displayed formula in `room` cells."""
+    groups = list(_grouped(pieces(formula.node, printer)))
+    boxes = [beside([Box.of(lead), _boxed(piece, printer)]) for lead, piece in groups]
+    whole = beside(boxes)
+    if whole.width <= room:
+        return list(whole.lines)
+    members = list(_members(groups))
+    left = width(_text(members[0], printer))
+    hang = left + 1 if left + 1 <= _LONGEST_HANG else _HANG
+    lines: list[str] = []
+    start = members[0]
+    if len(members) > 1 and left <= room // 2:
+        start = [*members[0], *members[1]]
+        members = members[1:]
+    lines += _set_member(start, formula, printer, room, 0, hang + 2)
+    for member in members[1:]:
+        lines += _set_member(member, formula, printer, room, hang, hang + 2)
+    return lines
+
+
+def _grouped(parts: Iterator[Box | Node]) -> Iterator[Group]:
+    lead = ""
+    for part in parts:
+        if isinstance(part, Matrix):
+            yield lead, part
+            lead = ""
+        elif isinstance(part, Box):
+            text = part.lines[0]
+            if len(part.lines) == 1 and (not text.strip(" =+-×≠≈⇒≤,") or text == " "):
+                lead += text
+            else:
+                yield lead, part
+                lead = ""
+
+
+def _boxed(piece: Box | Matrix, printer: UnicodePrinter) -> Box:
+    return piece if isinstance(piece, Box) else matrix_box(piece, printer)
+
+
+def _members(groups: Sequence[Group]) -> Iterator[list[Group]]:
+    """The members of a chain of equations."""
+    member: list[Group] = []
+    for lead, piece in groups:
+        if "=" in lead and member:
+            yield member
+            member = []
+        member.append((lead, piece))
+    yield member
+
+
+def _text(member: Sequence[Group], printer: UnicodePrinter) -> str:
+    return beside([beside([Box.of(lead), _boxed(piece, printer)]) for lead, piece in member]).lines[0]
+
+
+def _set_member(
+    member: Sequence[Group], formula: Formula, printer: UnicodePrinter, room: int, indent: int, hang: int
+) -> list[str]:
+    """One member of a chain, its pieces side by side as far as they go."""
+    lines: list[str] = []
+    row = Box.of(" " * indent)
+    for lead, piece in member:
+        if not row.lines[0].strip() and len(row.lines) == 1:
+            lead = lead.lstrip()
+        before = Box.of(lead)
+        box = _boxed(piece, printer)
+        if row.width + before.width + box.width <= room:
+            row = beside([row, before, box])
+        elif hang + before.width + box.width <= room and len(box.lines) > 1:
+            lines += _flushed(row)
+            row = beside([Box.of(" " * hang), Box.of(lead.lstrip()), box])
+        elif isinstance(piece, Matrix):
+            if row.lines[0].strip() != _left_side(formula, printer):
+                lines += _flushed(row)
+            lines += _entry_by_entry(piece, formula, printer, room)
+            row = Box.of(" " * hang)
+        elif len(box.lines) > 1:
+            lines += [*_flushed(row), *_flushed(beside([Box.of(" " * hang), before, box]))]
+            row = Box.of(" " * hang)
+        else:
+            if len(row.lines) > 1:
+                lines += _flushed(row)
+                row = Box.of(" " * hang)
+            text = row.lines[0] + lead + box.lines[0]
+            first, *others = break_sum(text.lstrip(), room - _margin(text), room - hang)
+            lines.append(" " * _margin(text) + first)
+            lines += [" " * hang + other for other in others[:-1]]
+            row = Box.of(" " * hang + others[-1]) if others else Box.of(" " * hang)
+            if not others:
+                continue
+    return lines + _flushed(row)
+
+
+def _left_side(formula: Formula, printer: UnicodePrinter) -> str:
+    """The letter that the entries of a matrix are named after, so that it need not stand alone."""
+    left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
+    return printer.text(left) if isinstance(left, Letter) else ""
+
+
+def _margin(text: str) -> int:
+    return len(text) - len(text.lstrip())
+
+
+def _flushed(row: Box) -> list[str]:
+    return [line.rstrip() for line in row.lines] if any(line.strip() for line in row.lines) else []
+
+
+def _entry_by_entry(matrix: Matrix, formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
+    """`d₁₂ = ...` a line for each entry; equal ones in one chain, those that are 0 last."""
+    chains: dict[str, list[str]] = {}
+    for i, row in enumerate(matrix.rows):
+        for j, entry in enumerate(row):
+            text = "0" if entry == Number(0) else printer.text(entry)
+            chains.setdefault(text, []).append(_name(i, j, matrix, formula, printer))
+    zeros = chains.pop("0", [])
+    lines: list[str] = []
+    for text, names in [*chains.items(), *([("0", zeros)] if zeros else [])]:
+        first, *others = break_sum(f"{' = '.join(names)} = {text}", room - 2, room - _HANG - 2)
+        lines += ["  " + first, *("  " + " " * _HANG + other for other in others)]
+    return lines
+
+
+def _name(i: int, j: int, matrix: Matrix, formula: Formula, printer: UnicodePrinter) -> str:
+    """The name of an entry: given, or the letter on the left with the entry's place."""
+    if len(formula.entries) == len(matrix.rows) and len(formula.entries[i]) == len(matrix.rows[i]):
+        return printer.text(formula.entries[i][j])
+    place = str(i + 1) if len(matrix.rows[0]) == 1 else f"{i + 1}{j + 1}"
+    left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
+    if isinstance(left, Letter):
+        letter = printer.text(left)
+        return (f"({letter})" if left.sub or left.sup else letter) + lowered(place)
+    return f"[{', '.join(place)}]"

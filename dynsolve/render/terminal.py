@@ -1,0 +1,130 @@
+"""Documents -> lines of a terminal.
+
+Lines are laid out here to the width that there is; a terminal's colours are put on
+by whoever prints them.  In a pipe a line is its text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Note, Prose, Table, Text
+from dynsolve.notation.printing import PLAIN, Style
+from dynsolve.notation.unicode import UnicodePrinter, printable, width
+from dynsolve.render.breaking import HARD_SPACE, wrap
+from dynsolve.render.formulas import set_formula
+
+WIDTH = 100
+"""The width where none is known, in a pipe."""
+
+NARROWEST = 40
+
+_PROSE = 88
+_INDENT = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line and what it is: `title`, `heading`, `step`, `formula`, `note`, `source` or plain text."""
+
+    text: str
+    kind: str = ""
+
+
+def render(document: Document, columns: int = WIDTH, style: Style = PLAIN) -> Iterator[Line]:
+    """Lay a document out.
+
+    >>> from dynsolve.notation.tree import Symbol, equation
+    >>> lines = render(Document((Heading("Energy"), Formula(equation(Symbol("P1"), Symbol("m1"))))))
+    >>> [line.text for line in lines]
+    ['Energy', '──────', '', '    P₁ = m₁', '']
+    """
+    page = _Page(max(columns, NARROWEST), UnicodePrinter(style))
+    for block in document.blocks:
+        yield from page.block(block)
+
+
+@dataclass(frozen=True, slots=True)
+class _Page:
+    columns: int
+    printer: UnicodePrinter
+
+    def block(self, block: Block) -> Iterator[Line]:
+        match block:
+            case Heading(text, level):
+                yield from self.heading(printable(text), level)
+            case Text(parts):
+                yield from self.paragraph(parts)
+            case Formula():
+                yield from self.formula(block)
+            case List(items):
+                for item in items:
+                    yield from self.hanging(item, "• ", "")
+                yield Line("")
+            case Note(parts):
+                yield from self.hanging(parts, "Note: ", "note")
+                yield Line("")
+            case Table():
+                yield from self.table(block)
+            case Fold(title, blocks):
+                yield Line(printable(title), "step")
+                for inner in blocks:
+                    yield from self.block(inner)
+
+    def heading(self, text: str, level: int) -> Iterator[Line]:
+        kind = "title" if level == 1 else "heading"
+        for line in wrap(text, self.columns, self.columns):
+            yield Line(line, kind)
+        yield Line(("═" if level == 1 else "─") * min(width(text), self.columns), kind)
+        yield Line("")
+
+    def words(self, parts: Prose) -> str:
+        """Prose as one text, its formulas unbroken."""
+        return "".join(
+            printable(part) if isinstance(part, str) else self.printer.text(part).replace(" ", HARD_SPACE)
+            for part in parts
+        )
+
+    def paragraph(self, parts: Prose) -> Iterator[Line]:
+        room = min(self.columns, _PROSE)
+        for line in wrap(self.words(parts), room, room):
+            yield Line(line)
+        yield Line("")
+
+    def hanging(self, parts: Prose, sign: str, kind: str) -> Iterator[Line]:
+        room = min(self.columns, _PROSE) - _INDENT - len(sign)
+        for i, line in enumerate(wrap(self.words(parts), room, room)):
+            yield Line(" " * _INDENT + (" " * len(sign) if i else sign) + line, kind)
+
+    def formula(self, formula: Formula) -> Iterator[Line]:
+        lines = set_formula(formula, self.printer, self.columns - _INDENT)
+        source = f"({formula.source})" if formula.source else ""
+        middle = (len(lines) - 1) // 2
+        beside = source and width(lines[middle]) + len(source) + _INDENT + 3 <= self.columns
+        for i, line in enumerate(lines):
+            text = " " * _INDENT + line.rstrip()
+            if beside and i == middle:
+                text += " " * (min(self.columns, _PROSE) - width(text) - len(source)) + source
+                if width(text) < width(line) + _INDENT + 3 + len(source):
+                    text = " " * _INDENT + line.rstrip() + "   " + source
+            yield Line(text, "formula")
+        if source and not beside:
+            yield Line(" " * max(min(self.columns, _PROSE) - len(source), 0) + source, "source")
+        yield Line("")
+
+    def table(self, table: Table) -> Iterator[Line]:
+        cells = [[self.words(cell if isinstance(cell, tuple) else (cell,)) for cell in row]
+                 for row in (table.header, *table.rows)]  # fmt: skip
+        cells = [[cell.replace(HARD_SPACE, " ") for cell in row] for row in cells]
+        widths = [max(map(width, column)) for column in zip(*cells, strict=True)]
+        for i, row in enumerate(cells):
+            yield Line(" " * _INDENT + _padded(row, widths))
+            if i == 0:
+                yield Line(" " * _INDENT + "─" * (sum(widths) + 3 * (len(widths) - 1)))
+        yield Line("")
+
+
+def _padded(row: Sequence[str], widths: Sequence[int]) -> str:
+    cells = (cell + " " * (cells - width(cell)) for cell, cells in zip(row, widths, strict=True))
+    return "   ".join(cells).rstrip()
