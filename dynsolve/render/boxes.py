@@ -101,7 +101,7 @@ def _parts(node: Node) -> tuple[Node, ...]:
     return ()
 
 
-def pieces(node: Node, printer: UnicodePrinter) -> Iterator[Box | Node]:
+def pieces(node: Node, printer: UnicodePrinter) -> Iterator[Box | Matrix]:
     """A formula that holds matrices, as boxes that may be set side by side.
 
     A matrix stays a node, so that whoever sets it may choose how.
@@ -137,7 +137,7 @@ def pieces(node: Node, printer: UnicodePrinter) -> Iterator[Box | Node]:
             yield Box.of(printer.text(node))
 
 
-def _sum(terms: Iterable[Node], printer: UnicodePrinter) -> Iterator[Box | Node]:
+def _sum(terms: Iterable[Node], printer: UnicodePrinter) -> Iterator[Box | Matrix]:
     for i, term in enumerate(terms):
         negative = isinstance(term, Negative)
         if i or negative:
@@ -146,7 +146,7 @@ def _sum(terms: Iterable[Node], printer: UnicodePrinter) -> Iterator[Box | Node]
         yield from pieces(term.argument if isinstance(term, Negative) else term, printer)
 
 
-def _factor(factor: Node, printer: UnicodePrinter) -> Iterator[Box | Node]:
+def _factor(factor: Node, printer: UnicodePrinter) -> Iterator[Box | Matrix]:
     """A factor of a product: a sum stands between parentheses."""
     if isinstance(factor, Sum | Negative | Relation):
         yield _enclosed(box_of(factor, printer), "(", ")")
@@ -156,11 +156,9 @@ def _factor(factor: Node, printer: UnicodePrinter) -> Iterator[Box | Node]:
 
 def box_of(node: Node, printer: UnicodePrinter) -> Box:
     """A whole formula in one box, however wide."""
-    boxes = [
-        p if isinstance(p, Box) else matrix_box(p, printer) for p in pieces(node, printer) if _is_piece(p)
-    ]
-    return beside(boxes)
+    return beside([boxed(piece, printer) for piece in pieces(node, printer)])
 
 
-def _is_piece(piece: Box | Node) -> bool:
-    return isinstance(piece, Box | Matrix)
+def boxed(piece: Box | Matrix, printer: UnicodePrinter) -> Box:
+    """A piece in a box."""
+    return piece if isinstance(piece, Box) else matrix_box(piece, printer)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from dynsolve.document import Formula
-from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation
+from dynsolve.notation.tree import Letter, Matrix, Number, Relation
 from dynsolve.notation.unicode import UnicodePrinter, lowered, width
-from dynsolve.render.boxes import Box, beside, matrix_box, pieces
+from dynsolve.render.boxes import Box, beside, boxed, pieces
 from dynsolve.render.breaking import break_sum
 
 _HANG = 4
@@ -20,7 +20,7 @@ Group = tuple[str, Box | Matrix]
 def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
     """The lines of a displayed formula in `room` cells."""
     groups = list(_grouped(pieces(formula.node, printer)))
-    boxes = [beside([Box.of(lead), _boxed(piece, printer)]) for lead, piece in groups]
+    boxes = [beside([Box.of(lead), boxed(piece, printer)]) for lead, piece in groups]
     whole = beside(boxes)
     if whole.width <= room:
         return list(whole.lines)
@@ -38,23 +38,19 @@ def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[st
     return lines
 
 
-def _grouped(parts: Iterator[Box | Node]) -> Iterator[Group]:
+def _grouped(parts: Iterator[Box | Matrix]) -> Iterator[Group]:
     lead = ""
     for part in parts:
         if isinstance(part, Matrix):
             yield lead, part
             lead = ""
-        elif isinstance(part, Box):
+        else:
             text = part.lines[0]
             if len(part.lines) == 1 and (not text.strip(" =+-×≠≈⇒≤,") or text == " "):
                 lead += text
             else:
                 yield lead, part
                 lead = ""
-
-
-def _boxed(piece: Box | Matrix, printer: UnicodePrinter) -> Box:
-    return piece if isinstance(piece, Box) else matrix_box(piece, printer)
 
 
 def _members(groups: Sequence[Group]) -> Iterator[list[Group]]:
@@ -69,7 +65,7 @@ def _members(groups: Sequence[Group]) -> Iterator[list[Group]]:
 
 
 def _text(member: Sequence[Group], printer: UnicodePrinter) -> str:
-    return beside([beside([Box.of(lead), _boxed(piece, printer)]) for lead, piece in member]).lines[0]
+    return beside([beside([Box.of(lead), boxed(piece, printer)]) for lead, piece in member]).lines[0]
 
 
 def _set_member(
@@ -82,7 +78,7 @@ def _set_member(
         if not row.lines[0].strip() and len(row.lines) == 1:
             lead = lead.lstrip()
         before = Box.of(lead)
-        box = _boxed(piece, printer)
+        box = boxed(piece, printer)
         if row.width + before.width + box.width <= room:
             row = beside([row, before, box])
         elif hang + before.width + box.width <= room and len(box.lines) > 1:
