@@ -31,7 +31,7 @@ def too_deep(token: Token) -> ReadError:
 def missing_product(text: str, tokens: Sequence[Token], position: int) -> ReadError:
     """Two factors side by side: the remedy shows the text with its `*`."""
     before, after = tokens[position - 1], tokens[position]
-    if after.text == "deg":
+    if after.text.startswith("deg"):
         return bare_degrees(after)
     offset, length = before.end, max(after.start - before.end, 1)
     left, right = text[max(0, before.end - _EXCERPT) : before.end], text[after.start : after.start + _EXCERPT]
@@ -148,6 +148,8 @@ def inverse_function(name: Token, sign: Token) -> ReadError:
 def bare_degrees(token: Token) -> ReadError:
     """A `deg` that follows no number."""
     length = token.end - token.start
+    if token.text != "deg":
+        return ReadError(f"degrees are written `deg`, not `{token.text}`", token.start, length, "write 90deg")
     return ReadError("`deg` stands directly after a number", token.start, length, "write 90deg, or x*pi/180")
 
 

@@ -15,7 +15,7 @@ from dynsolve.notation.characters import GREEK, SPELLED, SUBSCRIPT_DIGITS, chara
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _GROUP = re.compile(r"[A-Za-z]*[0-9]+|[A-Za-z]+")
 _LETTERS = re.compile(r"[A-Za-z]+")
-_INERTIA = re.compile(r"[IJ](?=[xyz]{2}(?![a-wA-Z]))")
+_INERTIA = re.compile(r"[IJ](?=[xyz]{2})")
 _WORD_LENGTH = 4
 _ASCII = SPELLED | {digit: str(value) for value, digit in enumerate(SUBSCRIPT_DIGITS)}
 _LONGEST_FIRST = tuple(sorted(GREEK, key=len, reverse=True))

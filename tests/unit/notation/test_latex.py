@@ -1,0 +1,134 @@
+"""LaTeX, as the course's document writes it."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+
+from dynsolve.notation.latex import escaped, to_latex
+from dynsolve.notation.printing import Style
+from dynsolve.notation.text import read
+from dynsolve.notation.tree import (
+    BigSum,
+    Cross,
+    Degrees,
+    Derivative,
+    Letter,
+    Matrix,
+    Negative,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Relation,
+    Row,
+    Sum,
+    Symbol,
+    Transpose,
+    Words,
+    equation,
+)
+from tests.unit.notation.trees import trees
+
+COORDINATES = Style(shorthand={"theta1": "1", "theta2": "2", "q10": "10"})
+
+TEXTS = [
+    ("theta1", r"\theta_{1}"),
+    ("theta1_dot", r"\dot{\theta}_{1}"),
+    ("theta1_ddot^2", r"\ddot{\theta}_{1}^{2}"),
+    ("Omega", r"\Omega"),
+    ("I1zz", "I_{1,zz}"),
+    ("lc1", "l_{c1}"),
+    ("m_load", r"m_{\mathrm{load}}"),
+    ("load1_dot", r"\dot{\mathrm{load}}_{1}"),
+    ("J_omega1", r"J_{\omega 1}"),
+    ("sin(theta1)^2", "s_{1}^{2}"),
+    ("cos(theta1 + theta2)", "c_{12}"),
+    ("cos(theta1 + q10)", "c_{1,10}"),
+    ("sin(2*theta1)", r"\sin(2 \theta_{1})"),
+    ("cos(2*theta1)^2", r"\cos^{2}(2 \theta_{1})"),
+    ("sin(theta1/2)", r"\sin\left( \frac{\theta_{1}}{2} \right)"),
+    ("sqrt(2)", r"\sqrt{2}"),
+    ("sqrt(2)^2", r"(\sqrt{2})^{2}"),
+    ("1/2*m1", r"\frac{1}{2} m_{1}"),
+    ("m1*g*L1/2", r"\frac{m_{1} g L_{1}}{2}"),
+    ("(a + b)/2", r"\frac{a + b}{2}"),
+    ("a*(b + c)", "a (b + c)"),
+    ("a*(b + c/2)", r"a \left( b + \frac{c}{2} \right)"),
+    ("(a/b)^2", r"\left( \frac{a}{b} \right)^{2}"),
+    ("2*3", r"2 \cdot 3"),
+    ("2*(1/2)", r"2 \cdot \frac{1}{2}"),
+    ("a*2", r"a \cdot 2"),
+    ("a*(-b)", "a (-b)"),
+    ("-a - b", "-a - b"),
+    ("-(a + b)", "-(a + b)"),
+    ("x^-2", "x^{-2}"),
+    ("90deg", r"90^{\circ}"),
+    ("9.81", r"\frac{981}{100}"),
+]
+
+
+@pytest.mark.parametrize(("text", "printed"), TEXTS, ids=[text for text, _ in TEXTS])
+def test_formulas(text, printed):
+    assert to_latex(read(text, dots=True).tree, COORDINATES) == printed
+
+
+i, t = Letter("i"), Symbol("t")
+LAGRANGIAN = Letter("L", style="script")
+RATE = Derivative(LAGRANGIAN, Symbol("theta1", 1))
+TEXTBOOK = [
+    (Letter("J", sub=Letter("v", sub=Number(1)), style="bold"), r"\mathbf{J}_{v_{1}}"),
+    (Letter("H", sub=Number(2), sup=Number(0), style="bold"), r"\mathbf{H}_{2}^{0}"),
+    (Letter("omega", sub=i, style="bold"), r"\boldsymbol{\omega}_{i}"),
+    (Letter("q", dots=1, style="bold"), r"\dot{\mathbf{q}}"),
+    (Letter("I", sub=Number(1), style="script"), r"\mathcal{I}_{1}"),
+    (Letter("tr", style="upright"), r"\mathrm{tr}"),
+    (Letter("r", sub=Row((Letter("c"), i))), "r_{c i}"),
+    (Transpose(Letter("J", sub=i)), "J_{i}^{T}"),
+    (Transpose(Letter("R", sub=Number(1), sup=Number(0))), "(R_{1}^{0})^{T}"),
+    (Cross(Letter("z"), Parenthesized(Sum((Symbol("a"), Negative(Symbol("b")))))), r"z \times (a - b)"),
+    (RATE, r"\frac{\partial \mathcal{L}}{\partial \dot{\theta}_{1}}"),
+    (
+        Derivative(RATE, t, total=True),
+        r"\frac{d}{dt} \left( \frac{\partial \mathcal{L}}{\partial \dot{\theta}_{1}} \right)",
+    ),
+    (Derivative(Symbol("x"), t, total=True), r"\frac{dx}{dt}"),
+    (BigSum(Product((Letter("m", i), Symbol("g"))), i, Number(1), Letter("n")), r"\sum_{i=1}^{n} m_{i} g"),
+    (
+        Matrix(((Number(1), Symbol("a")), (Number(0), Number(1)))),
+        r"\begin{bmatrix} 1 & a \\ 0 & 1 \end{bmatrix}",
+    ),
+    (equation(Symbol("a"), Symbol("b")), "a = b"),
+    (Relation((Symbol("a"), Symbol("b")), ("≈",)), r"a \approx b"),
+    (Words(r"50% {a}_b \x"), r"\text{50\% \{a\}\_b \textbackslash{}x}"),
+    (Degrees(100, 3), r"\left( \frac{100}{3} \right)^{\circ}"),
+]
+
+
+@pytest.mark.parametrize(("tree", "printed"), TEXTBOOK, ids=[printed for _, printed in TEXTBOOK])
+def test_formulas_of_the_textbook(tree, printed):
+    assert to_latex(tree, COORDINATES) == printed
+
+
+def test_the_star_with_its_power():
+    """As in equation (22) of the course's dynamics overview."""
+    tree = Power(Symbol("L2", 1, star=True), Number(2))
+    assert to_latex(tree, Style(star=True)) == r"\dot{L}_{2}^{\star 2}"
+    assert to_latex(tree.base, Style(star=True)) == r"\dot{L}_{2}^{\star}"
+    assert to_latex(tree) == r"\dot{L}_{2}^{2}"
+
+
+def test_decimals_where_they_are_asked_for():
+    assert to_latex(Number(981, 100), Style(decimal=True)) == "9.81"
+
+
+@given(trees)
+def test_any_tree_has_balanced_braces(tree):
+    text = to_latex(tree, COORDINATES)
+    assert text.count("{") == text.count("}")
+    assert text.count("(") == text.count(")")
+    assert text.count(r"\left") == text.count(r"\right")
+
+
+def test_text_is_escaped():
+    assert escaped("a&b#~^$") == r"a\&b\#\textasciitilde{}\textasciicircum{}\$"
