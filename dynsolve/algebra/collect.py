@@ -1,0 +1,338 @@
+"""Collecting a polynomial in plain symbols: common factors out, sums of lengths kept together.
+
+Polynomials here are dictionaries {monomial: factor}, a monomial a sorted tuple of
+(atom, exponent).  Atoms are numbered by an `Atoms` table, which knows how each is
+printed; a sum that recurs as a whole, a₃ + x₃, becomes an atom of its own.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from enum import IntEnum
+from fractions import Fraction
+from math import gcd
+from typing import Any
+
+from dynsolve.algebra.build import cost, negated, split_sign, times, total
+from dynsolve.notation.tree import (
+    ZERO,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+
+Mono = tuple[tuple[int, int], ...]
+Poly = dict[Mono, Fraction]
+
+SEARCHED = 14
+"""Up to this number of terms every promising split is tried; above it the likeliest alone."""
+
+JOINED = 60
+"""Up to this number of terms sums that recur as a whole are looked for."""
+
+
+class Rank(IntEnum):
+    """The place of a factor in a product, and of a term in a sum."""
+
+    LEADING = 0
+    PARAMETER = 1
+    COORDINATE = 2
+    SUM = 3
+    WAVE = 4
+    WAVE_SUM = 5
+    RATE = 6
+    RATE_SUM = 7
+
+
+class Atoms:
+    """What the numbers in a monomial stand for, and in which order they are printed."""
+
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+        self.ranks: list[tuple[Rank, int]] = []
+        self._numbers: dict[Node, int] = {}
+
+    def number(self, node: Node, rank: Rank | None = None) -> int:
+        """The atom of a node, the same for equal nodes; a sum ranks by what it is made of."""
+        found = self._numbers.get(node)
+        if found is None:
+            found = self._numbers[node] = len(self.nodes)
+            self.nodes.append(node)
+            self.ranks.append((self._rank(node) if rank is None else rank, found))
+        return found
+
+    def _rank(self, node: Node) -> Rank:
+        highest = max(map(self._part_rank, leaves(node)), default=Rank.SUM)
+        return {Rank.WAVE: Rank.WAVE_SUM, Rank.RATE: Rank.RATE_SUM}.get(highest, Rank.SUM)
+
+    def _part_rank(self, leaf: Node) -> Rank:
+        if leaf in self._numbers:
+            return self.ranks[self._numbers[leaf]][0]
+        return Rank.WAVE if isinstance(leaf, Function) and leaf.name != "sqrt" else Rank.SUM
+
+    def is_leading(self, atom: int) -> bool:
+        """Whether it is a mass or a moment of inertia."""
+        return self.ranks[atom][0] is Rank.LEADING
+
+
+def leaves(node: Node) -> Iterator[Node]:
+    """The symbols and functions of a tree, without what stands inside functions."""
+    match node:
+        case Sum(parts) | Product(parts):
+            for part in parts:
+                yield from leaves(part)
+        case Negative(part) | Power(part):
+            yield from leaves(part)
+        case Quotient(numerator, denominator):
+            yield from leaves(numerator)
+            yield from leaves(denominator)
+        case Symbol() | Function():
+            yield node
+
+
+def multiply(left: Mono, right: Mono) -> Mono:
+    """The product of two monomials."""
+    exponents = dict(left)
+    for atom, exponent in right:
+        exponents[atom] = exponents.get(atom, 0) + exponent
+    return tuple(sorted((a, e) for a, e in exponents.items() if e))
+
+
+def divide(mono: Mono, by: Mono) -> Mono:
+    """mono / by"""
+    return multiply(mono, tuple((atom, -exponent) for atom, exponent in by))
+
+
+def content(factors: Iterable[Fraction]) -> Fraction:
+    """What is worth drawing out of rational factors: their common divisor, and a denominator that most share."""
+    factors = list(factors)
+    shared = gcd(*(f.numerator for f in factors))
+    denominators = Counter(f.denominator for f in factors)
+    denominator, count = denominators.most_common(1)[0]
+    if 2 * count < len(factors) or any(denominator % d for d in denominators):
+        denominator = 1
+    return Fraction(shared, denominator)
+
+
+def common(monos: Iterable[Mono]) -> Mono:
+    """The largest monomial that divides all; an inverse is common where all have it."""
+    monos = list(monos)
+    first = dict(monos[0])
+    for mono in monos[1:]:
+        other = dict(mono)
+        for atom in list(first):
+            exponent = other.get(atom, 0)
+            mine = first[atom]
+            if mine > 0 and exponent > 0:
+                first[atom] = min(mine, exponent)
+            elif mine < 0 and exponent < 0:
+                first[atom] = max(mine, exponent)
+            else:
+                del first[atom]
+    return tuple(sorted(first.items()))
+
+
+class Collector:
+    """Writes polynomials in plain symbols as trees, each once."""
+
+    def __init__(self, atoms: Atoms) -> None:
+        self.atoms = atoms
+        self._known: dict[frozenset[tuple[Mono, Fraction]], Node] = {}
+        self._costs: dict[int, tuple[Node, int]] = {}
+
+    def cost(self, node: Node) -> int:
+        """The operations of a tree, counted once a tree."""
+        found = self._costs.get(id(node))
+        if found is None:
+            found = self._costs[id(node)] = (node, cost(node))
+        return found[1]
+
+    def form(self, poly: Poly) -> Node:
+        """The collected tree of a polynomial."""
+        if not poly:
+            return ZERO
+        factor, mono, rest = self.primitive(poly)
+        if len(rest) == 1:
+            ((left, sign),) = rest.items()
+            return self.product(factor * sign, multiply(mono, left), ())
+        return self.product(factor, mono, (self._sum(rest),))
+
+    def primitive(self, poly: Poly) -> tuple[Fraction, Mono, Poly]:
+        """(factor, monomial, rest) with poly = factor · monomial · rest, the rest's first factor positive."""
+        factor = content(poly.values())
+        mono = self._worth_drawing(poly, common(poly))
+        if (factor != 1 or mono) and sum(f < 0 for f in poly.values()) * 2 > len(poly):
+            factor = -factor
+        return factor, mono, {divide(m, mono): f / factor for m, f in poly.items()}
+
+    def _worth_drawing(self, poly: Poly, shared: Mono) -> Mono:
+        """The common monomial without lengths that stay behind in some terms: l² + l a c, not l (l + a c)."""
+        if len(poly) > SEARCHED or len(poly) == 1:
+            return shared
+        kept = []
+        for atom, exponent in shared:
+            left = {dict(mono)[atom] - exponent for mono in poly}
+            if self.atoms.ranks[atom][0] is not Rank.PARAMETER or len(left) == 1:
+                kept.append((atom, exponent))
+        return tuple(kept)
+
+    def product(self, factor: Fraction | int, mono: Mono, more: Iterable[Node]) -> Node:
+        """factor · monomial · more as a tree, in printing order."""
+        atoms = [*mono, *((self.atoms.number(node), 1) for node in more)]
+        atoms.sort(key=lambda item: self.atoms.ranks[item[0]])
+        return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms])
+
+    def decompose(self, node: Node) -> tuple[Fraction, Mono]:
+        """(factor, monomial) of a tree that is a product; a sum counts as one atom."""
+        match node:
+            case Negative(argument):
+                factor, mono = self.decompose(argument)
+                return -factor, mono
+            case Number(p, q):
+                return Fraction(p, q), ()
+            case Product(factors):
+                return self._decompose_all(factors)
+            case Quotient(numerator, denominator):
+                f, above = self.decompose(numerator)
+                g, below = self.decompose(denominator)
+                return f / g, divide(above, below)
+            case Power(base, Number(p, 1)):
+                factor, mono = self.decompose(base)
+                return factor**p, tuple((atom, e * p) for atom, e in mono)
+        return Fraction(1), ((self.atoms.number(node), 1),)
+
+    def _decompose_all(self, factors: Iterable[Node]) -> tuple[Fraction, Mono]:
+        factor, mono = Fraction(1), ()
+        for part in factors:
+            f, m = self.decompose(part)
+            factor, mono = factor * f, multiply(mono, m)
+        return factor, mono
+
+    def sum_of(self, nodes: Iterable[Node]) -> Node:
+        """The sum of trees, with what they share drawn out."""
+        poly: Poly = {}
+        for node in nodes:
+            sign, inner = split_sign(node)
+            for term in inner.terms if isinstance(inner, Sum) else (inner,):
+                factor, mono = self.decompose(term)
+                value = poly.get(mono, Fraction(0)) + sign * factor
+                if value:
+                    poly[mono] = value
+                else:
+                    poly.pop(mono, None)
+        return self.form(poly)
+
+    def _sum(self, poly: Poly) -> Node:
+        key = frozenset(poly.items())
+        found = self._known.get(key)
+        if found is None:
+            joined = self._joined(poly)
+            found = self._known[key] = self.form(joined) if joined else self._split(poly)
+        return found
+
+    def _split(self, poly: Poly) -> Node:
+        plain = total([self.product(f, m, ()) for m, f in self.ordered(poly)])
+        best = plain
+        for atom in self._worth_splitting(poly):
+            node = self._split_by(poly, atom)
+            gain = self.cost(best) - self.cost(node)
+            if gain > 0:
+                best = node
+        return best
+
+    def _worth_splitting(self, poly: Poly) -> list[int]:
+        """The atoms that most terms share, leading ones first."""
+        counts = Counter(atom for mono in poly for atom, e in mono if e > 0)
+        shared = [a for a, n in counts.items() if n > 1]
+        if len(poly) <= SEARCHED:
+            shared = [a for a in shared if not self._is_own_square(poly, a)]
+        shared.sort(key=lambda a: (-counts[a], self.atoms.ranks[a]))
+        return shared if len(poly) <= SEARCHED else shared[:1]
+
+    def _is_own_square(self, poly: Poly, atom: int) -> bool:
+        """Whether a length stands squared in one term and once in another, which no book draws out."""
+        powers = {e for mono in poly for a, e in mono if a == atom and e > 0}
+        return len(powers) > 1 and self.atoms.ranks[atom][0] in (Rank.PARAMETER, Rank.SUM)
+
+    def _split_by(self, poly: Poly, atom: int) -> Node:
+        having = {m: f for m, f in poly.items() if any(a == atom and e > 0 for a, e in m)}
+        rest = {m: f for m, f in poly.items() if m not in having}
+        parts = [having, rest] if min(poly, key=self.order) in having else [rest, having]
+        return total([self.form(part) for part in parts if part])
+
+    def order(self, mono: Mono) -> tuple[object, ...]:
+        """The place of a term in a sum: what has angles comes last, then by its symbols, squares before products."""
+        ranks = sorted((self.atoms.ranks[atom], -exponent) for atom, exponent in mono)
+        waves = [rank for rank in ranks if rank[0][0] is Rank.WAVE]
+        return waves, ranks
+
+    def ordered(self, poly: Poly) -> list[tuple[Mono, Fraction]]:
+        """The terms in printing order."""
+        return sorted(poly.items(), key=lambda item: self.order(item[0]))
+
+    # -- sums that recur as a whole --------------------------------------------------------------
+
+    def _joined(self, poly: Poly) -> Poly | None:
+        """The polynomial with x + y as one atom where it depends on x and y through their sum alone."""
+        if not 3 <= len(poly) <= JOINED:
+            return None
+        found = joined_pair(poly)
+        if found is None:
+            return None
+        x, y, sign = found
+        return join(poly, x, y, self.atoms.number(self.sum_node(x, y, sign)))
+
+    def sum_node(self, x: int, y: int, sign: int) -> Node:
+        """x ± y as a tree."""
+        left, right = self.atoms.nodes[x], self.atoms.nodes[y]
+        return total([left, right if sign > 0 else negated(right)])
+
+
+def joined_pair(poly: Poly) -> tuple[int, int, int] | None:
+    """(x, y, ±1) where the polynomial is one in x ± y: ∂/∂x = ±∂/∂y, and not merely linear in them."""
+    slopes = {atom: slope(poly, atom) for atom in sorted({atom for mono in poly for atom, e in mono if e > 0})}
+    squares = [atom for atom, part in slopes.items() if len(part) > 1]
+    for i, x in enumerate(squares):
+        for y in squares[i + 1 :]:
+            if slopes[x] == slopes[y]:
+                return x, y, 1
+            if slopes[x] == {m: -f for m, f in slopes[y].items()}:
+                return x, y, -1
+    return None
+
+
+def slope(poly: Poly, atom: int) -> Poly:
+    """∂poly/∂atom"""
+    result: Poly = {}
+    for mono, f in poly.items():
+        for a, e in mono:
+            if a == atom:
+                result[divide(mono, ((a, 1),))] = f * e
+    return result
+
+
+def join(poly: Poly, x: int, y: int, whole: int) -> Poly:
+    """A polynomial in x ± y, with y put to 0 and x replaced by the atom `whole`."""
+    result: Poly = {}
+    for mono, f in poly.items():
+        exponents = dict(mono)
+        if y in exponents:
+            continue
+        if x in exponents:
+            exponents[whole] = exponents.pop(x)
+        result[tuple(sorted(exponents.items()))] = f
+    return result
+
+
+def scaled_key(poly: Mapping[Any, Fraction]) -> tuple[frozenset[tuple[Any, Fraction]], Fraction]:
+    """(key, factor): polynomials that differ by a rational factor share the key."""
+    lead = poly[min(poly)]
+    return frozenset((m, f / lead) for m, f in poly.items()), lead
+
