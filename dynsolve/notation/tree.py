@@ -12,15 +12,36 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any, ClassVar, TypeVar, dataclass_transform
 
 
 class Node:
-    """A formula or a part of one."""
+    """A formula or a part of one; trees share parts, so each part is hashed once."""
 
-    __slots__ = ()
+    __slots__ = ("_hash",)
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+    _hash: int
+
+    def __hash__(self) -> int:
+        try:
+            return self._hash
+        except AttributeError:
+            found = hash((type(self), *(getattr(self, name) for name in self.__dataclass_fields__)))
+            object.__setattr__(self, "_hash", found)
+            return found
 
 
-@dataclass(frozen=True, slots=True)
+_T = TypeVar("_T")
+
+
+@dataclass_transform(frozen_default=True)
+def _node(cls: type[_T]) -> type[_T]:
+    """A frozen dataclass that keeps the hash of `Node`."""
+    cls.__hash__ = Node.__hash__  # type: ignore[assignment]
+    return dataclass(frozen=True, slots=True)(cls)
+
+
+@_node
 class Number(Node):
     """An exact rational p/q; negative numbers are written `Negative(Number(...))`."""
 
@@ -28,7 +49,7 @@ class Number(Node):
     q: int = 1
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Degrees(Node):
     """An angle in degrees, p/q°."""
 
@@ -36,7 +57,7 @@ class Degrees(Node):
     q: int = 1
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Symbol(Node):
     """A named quantity; `dots` time derivatives of it; `star` marks a joint variable."""
 
@@ -45,21 +66,21 @@ class Symbol(Node):
     star: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Sum(Node):
     """t₁ + t₂ + ...; a `Negative` term is printed with a minus."""
 
     terms: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Product(Node):
     """f₁ f₂ ..."""
 
     factors: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Quotient(Node):
     """numerator / denominator"""
 
@@ -67,7 +88,7 @@ class Quotient(Node):
     denominator: Node
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Power(Node):
     """base^exponent"""
 
@@ -75,14 +96,14 @@ class Power(Node):
     exponent: Node
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Negative(Node):
     """-argument"""
 
     argument: Node
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Function(Node):
     """sin, cos, tan or sqrt of an argument."""
 
@@ -90,14 +111,14 @@ class Function(Node):
     argument: Node
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Matrix(Node):
     """Rows of entries, all rows of one length."""
 
     rows: tuple[tuple[Node, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Letter(Node):
     """A symbol of the textbook with its indices: **J**_{v_1}, H_2^0, 𝓘_1.
 
@@ -113,28 +134,28 @@ class Letter(Node):
     dots: int = 0
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Row(Node):
     """Nodes side by side with nothing between them: a subscript `v_1 i`, a list with commas."""
 
     parts: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Words(Node):
     """Upright words inside a formula."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Transpose(Node):
     """argumentᵀ"""
 
     argument: Node
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Cross(Node):
     """left × right"""
 
@@ -142,7 +163,7 @@ class Cross(Node):
     right: Node
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Derivative(Node):
     """∂of/∂by, or d of/d by where `total`; `of` None gives the bare operator."""
 
@@ -151,7 +172,7 @@ class Derivative(Node):
     total: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class BigSum(Node):
     """Σ_{index=lower}^{upper} body"""
 
@@ -161,14 +182,14 @@ class BigSum(Node):
     upper: Node
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Parenthesized(Node):
     """(argument), where the parentheses are wanted though no rule of precedence asks for them."""
 
     argument: Node
 
 
-@dataclass(frozen=True, slots=True)
+@_node
 class Relation(Node):
     """part₁ sign₁ part₂ sign₂ ...: an equation or a chain of them."""
 

@@ -244,7 +244,8 @@ class UnicodePrinter(Printer):
 
     def _numerator(self, node: Node) -> str:
         if type(node) is Negative:
-            return "-" + self._numerator(node.argument)
+            text = self._numerator(node.argument)
+            return f"-({text})" if text.startswith("-") else "-" + text
         text = self.text(node)
         end = (flat_factors(node) or (node,))[-1] if type(node) is Product else node
         runs_on = type(end) in (Sum, Quotient, BigSum, Cross, Relation) and end is node

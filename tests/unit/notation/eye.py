@@ -19,9 +19,13 @@ _PIECE = re.compile("|".join(_PIECES + sorted(map(re.escape, _VALUES), key=len, 
 
 
 class Eye:
-    """The value a person reads from a line: factors side by side multiply, from left to right with `/`."""
+    """The value a person reads from a line.
 
-    def __init__(self, text):
+    Some read a/b c as (a/b) c, some (`tight`) as a/(b c): a good line says the same to both.
+    """
+
+    def __init__(self, text, tight):
+        self.tight = tight
         self.pieces = _PIECE.findall(text)
         assert "".join(self.pieces) == text.replace(" ", "")
 
@@ -41,16 +45,26 @@ class Eye:
         if self.next_is("-"):
             self.take()
             return -self.product()
-        value = self.power()
+        value = self.factors()
         while self.pieces and not self.next_is("+", "-", ")"):
             if self.next_is("/"):
                 self.take()
-                value /= self.power()
+                value /= self.factors()
             else:
-                if self.next_is("·"):
-                    self.take()
-                value *= self.power()
+                value *= self.factor()
         return value
+
+    def factors(self):
+        """What stands on one side of a `/`."""
+        value = self.factor()
+        while self.tight and self.pieces and not self.next_is("+", "-", ")", "/"):
+            value *= self.factor()
+        return value
+
+    def factor(self):
+        if self.next_is("·"):
+            self.take()
+        return self.power()
 
     def power(self):
         value = self.atom()

@@ -124,7 +124,7 @@ def test_a_printer_keeps_what_it_remembers():
 
 
 @given(trees)
-@settings(suppress_health_check=[HealthCheck.filter_too_much])
+@settings(suppress_health_check=[HealthCheck.filter_too_much], max_examples=200)
 def test_python_reads_the_value_of_the_tree(tree):
     try:
         value = tree_value(tree)
@@ -135,7 +135,7 @@ def test_python_reads_the_value_of_the_tree(tree):
 
 
 @given(trees)
-@settings(suppress_health_check=[HealthCheck.filter_too_much])
+@settings(suppress_health_check=[HealthCheck.filter_too_much], max_examples=200)
 def test_the_reader_reads_the_value_of_the_tree(tree):
     try:
         value = tree_value(tree)
@@ -145,11 +145,15 @@ def test_the_reader_reads_the_value_of_the_tree(tree):
     assert tree_value(reading.tree) == value
 
 
-@given(trees)
-@settings(suppress_health_check=[HealthCheck.filter_too_much])
-def test_reading_and_printing_again_changes_nothing(tree):
-    try:
-        text = to_python(read(to_python(tree), dots=True).tree)
-    except ReadError:
-        assume(False)
+FORMULAS = [
+    "m1*L1**2*cos(theta1 + theta2)",
+    "-m2*l1*lc2*sin(q2)",
+    "I1zz*theta1_dot**2/2 + m2*(L2_dot**2 + L2**2*theta1_dot**2)/2",
+    "(m1*lc1 + m2*l1)*g*cos(q1) - (a - b)**2/(2*c)",
+    "lambda_*sqrt(2)/(1 - x**(-2))",
+]
+
+
+@pytest.mark.parametrize("text", FORMULAS)
+def test_what_is_read_is_printed_as_it_was(text):
     assert to_python(read(text, dots=True).tree) == text

@@ -98,6 +98,11 @@ TEXTS = [
     # powers and roots
     ("(1/2)^2", "(½)²"),
     ("(a + b)^2", "(a + b)²"),
+    ("(-a)^2", "(-a)²"),
+    ("(2*a)^2", "(2a)²"),
+    ("-(a + b)", "-(a + b)"),
+    ("--a/b", "-(-a/b)"),
+    ("(--a)/b", "-(-a)/b"),
     ("x^-2", "x⁻²"),
     ("(x^2)^3", "(x²)³"),
     ("sqrt(2)", "√2"),
@@ -150,6 +155,8 @@ TEXTBOOK = [
     (BigSum(Sum((Letter("K", i), Symbol("g"))), i, Number(1), Number(12)), "Σᵢ₌₁¹² (Kᵢ + g)"),
     (Matrix(((Number(1, 2), Symbol("a")), (Number(0), Negative(Symbol("b"))))), "[[½, a], [0, -b]]"),
     (equation(Symbol("a"), Symbol("b"), Number(1)), "a = b = 1"),
+    (Product((Negative(Symbol("a")), Symbol("b"))), "-a b"),
+    (Product((Negative(Quotient(Symbol("a"), Symbol("b"))), Symbol("c"))), "-(a/b) c"),
     (Words("no mass"), "no mass"),
     (Words("\x1b[2J\u202e"), "\ufffd[2J\ufffd"),
     (Degrees(100, 3), "(100/3)°"),
@@ -193,13 +200,14 @@ def test_any_tree_is_printed_on_one_line_with_balanced_parentheses(tree):
 
 
 @given(trees)
-@settings(suppress_health_check=[HealthCheck.filter_too_much])
+@settings(suppress_health_check=[HealthCheck.filter_too_much], max_examples=200)
 def test_the_eye_reads_the_value_of_the_tree(tree):
     try:
         value = tree_value(tree)
     except ZeroDivisionError:
         assume(False)
     for style in (Style(), Style(decimal=True)):
-        eye = Eye(to_unicode(tree, style))
-        assert eye.sum() == value
-        assert not eye.pieces
+        for tight in (False, True):
+            eye = Eye(to_unicode(tree, style), tight)
+            assert eye.sum() == value
+            assert not eye.pieces

@@ -40,11 +40,12 @@ exponents = st.one_of(
 
 
 def _grow(parts):
-    several = st.lists(parts, min_size=1, max_size=4).map(tuple)
+    several = st.lists(parts, min_size=2, max_size=3).map(tuple) | st.tuples(parts)
     return st.one_of(
         st.builds(Sum, several),
         st.builds(Product, several),
         st.builds(Quotient, parts, parts),
+        st.builds(Product, several.map(lambda factors: (Negative(factors[0]), *factors[1:]))),
         st.builds(Power, parts, exponents),
         st.builds(Negative, parts),
         st.builds(Function, st.sampled_from(FUNCTIONS), parts),
@@ -52,7 +53,7 @@ def _grow(parts):
     )
 
 
-trees = st.recursive(leaves, _grow, max_leaves=12)
+trees = _grow(_grow(leaves | _grow(leaves)))
 
 
 def symbol_value(name: str) -> Fraction:
