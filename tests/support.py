@@ -11,6 +11,7 @@ import math
 import subprocess
 import sys
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +21,16 @@ ROOT = Path(__file__).parent.parent
 LIBRARY = sorted((ROOT / "problems").glob("*.yaml"))
 TEXTBOOKS = sorted((ROOT / "tests" / "golden" / "textbooks").glob("*.yaml"))
 
-FUNCTIONS: dict[str, Any] = {"__builtins__": {}, "sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
+FUNCTIONS: dict[str, Any] = {
+    "__builtins__": {},
+    "sin": math.sin,
+    "cos": math.cos,
+    "sqrt": math.sqrt,
+    "pi": math.pi,
+}
 
 
+@cache
 def solve_json(problem: Path | str) -> dict[str, Any]:
     """The JSON of a solution; `problem` is a path, or the text of a problem file."""
     path, text = (str(problem), None) if isinstance(problem, Path) else ("-", problem)

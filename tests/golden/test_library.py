@@ -1,0 +1,60 @@
+"""The library of problems: whole, with its sources, and every file of it solved and verified."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.oracle.reading import load
+from tests.support import LIBRARY, solve_json
+
+STEMS = {
+    "box-cylinder-rod-sphere",
+    "cartesian-pp",
+    "crustcrawler-2r",
+    "cylindrical-rpp",
+    "elbow-3r",
+    "in3140-rp",
+    "numeric-2r",
+    "panda-7r",
+    "planar-2r",
+    "planar-2r-remote",
+    "puma560",
+    "puma560-first3",
+    "rp-vertical",
+    "scara-rrpr",
+    "spherical-rrp",
+    "stanford-6",
+}
+
+
+def test_the_library_is_whole() -> None:
+    assert {path.stem for path in LIBRARY} == STEMS
+
+
+@pytest.mark.parametrize("path", LIBRARY, ids=lambda path: path.stem)
+def test_a_problem_says_what_it_is_and_where_it_comes_from(path: Path) -> None:
+    problem = load(path)
+    assert problem["title"]
+    assert len(problem["source"]) > 20
+    assert {"D", "C", "g"} <= set(problem["find"])
+
+
+@pytest.mark.parametrize("path", LIBRARY, ids=lambda path: path.stem)
+def test_a_solution_is_as_the_contract_says(path: Path) -> None:
+    solution = solve_json(path)
+    n = len(solution["coordinates"])
+    problem, results = load(path), solution["results"]
+    assert solution["format"] == "dynsolve-solution/1"
+    assert solution["problem"]["title"] == problem["title"]
+    assert solution["problem"]["source"] == problem["source"]
+    assert solution["problem"]["convention"] == problem.get("convention", "standard")
+    assert len(results["A"]) == len(results["H"]) == len(problem["dh"])
+    assert len(results["bodies"]) == len(problem["masses"])
+    assert len(results["euler_lagrange"]) == n
+    assert [len(results[name]) for name in ("Jv", "Jw", "tau", "D", "C", "g")] == [3, 3, n, n, n, n]
+    assert all(step["id"] and step["title"] and step["stage"] for step in solution["steps"])
+    assert len({step["id"] for step in solution["steps"]}) == len(solution["steps"])
+    assert solution["verified"]["states"] >= 5
+    assert solution["verified"]["max_relative_error"] < 1e-9
