@@ -544,7 +544,7 @@ class Ring:
     def depends_on_coordinates(self, expr: Expr) -> bool:
         """Whether a coordinate, its velocity or acceleration occurs."""
         degrees = expr.poly.degrees()
-        return any(degrees[i] for i in self._moving)
+        return any(degrees[i] > 0 for i in self._moving)  # of 0 they are -1
 
     # -- numbers -----------------------------------------------------------------------------------
 

@@ -64,7 +64,9 @@ def read_cell(report: Report, node: YamlNode | None, what: str, *, stars: bool =
     if node is None or isinstance(node, Faulty):
         return None
     if not isinstance(node, Scalar):
-        report.error(node.span, f"{what} is an expression, not {describe(node)}", "write a number, a name or a formula")
+        report.error(
+            node.span, f"{what} is an expression, not {describe(node)}", "write a number, a name or a formula"
+        )
         return None
     if not node.text.strip():
         report.error(node.span, f"{what} has no value", "write one, or delete the key")
@@ -108,14 +110,18 @@ def read_vector(report: Report, node: YamlNode | None, what: str) -> tuple[Cell,
     if len(node.items) != 3:
         report.error(node.span, f"{what} has {len(node.items)} components, not 3", "write [x, y, z]")
         return None
-    cells = tuple(read_cell(report, item, f"{what}, {axis}") for item, axis in zip(node.items, "xyz", strict=True))
+    cells = tuple(
+        read_cell(report, item, f"{what}, {axis}") for item, axis in zip(node.items, "xyz", strict=True)
+    )
     return None if None in cells else tuple(cell for cell in cells if cell)
 
 
 def read_matrix(report: Report, node: ListNode, what: str) -> tuple[tuple[Cell, ...], ...] | None:
     """A 3×3 list of rows, None (reported) where it is none."""
     if len(node.items) != 3:
-        report.error(node.span, f"{what} has {len(node.items)} rows, not 3", "write [[..., ..., ...], [...], [...]]")
+        report.error(
+            node.span, f"{what} has {len(node.items)} rows, not 3", "write [[..., ..., ...], [...], [...]]"
+        )
         return None
     rows = [_matrix_row(report, row, f"{what}, row {i}") for i, row in enumerate(node.items, 1)]
     return None if None in rows else tuple(row for row in rows if row)

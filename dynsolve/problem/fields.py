@@ -121,7 +121,9 @@ def word(report: Report, node: Node | None, known: Sequence[str], what: str) -> 
         return text
     choices = ", ".join(known)
     help = did_you_mean(text, known) if text else ""
-    report.error(node.span, f"{what} is one of {choices}, not {describe(node)}", help or f"write one of {choices}")
+    report.error(
+        node.span, f"{what} is one of {choices}, not {describe(node)}", help or f"write one of {choices}"
+    )
     return None
 
 

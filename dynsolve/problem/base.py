@@ -1,0 +1,85 @@
+"""Gravity and the base frame in a problem file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dynsolve.notation.tree import Node as Tree
+from dynsolve.problem.cells import Cell, constant_value, forbid, made_cell, read_vector
+from dynsolve.problem.fields import Fields, describe
+from dynsolve.problem.rotations import RotationSheet, read_rotation
+from dynsolve.problem.source import Report
+from dynsolve.problem.yaml_nodes import Faulty, Mapping, Node, Scalar, Sequence
+
+_GRAVITY_HELP = "write gravity: [0, 0, -g], the acceleration of gravity, or none"
+_CONSTANT = "joint variables stand in the table alone"
+
+
+@dataclass(frozen=True, slots=True)
+class BaseSheet:
+    """Frame 0 in the world; None for no rotation, no displacement."""
+
+    rotation: RotationSheet | None
+    move: tuple[Cell, ...] | None
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """Every expression in it."""
+        return (self.rotation.cells if self.rotation else ()) + (self.move or ())
+
+
+def read_gravity(report: Report, fields: Fields, coordinates: tuple[str, ...]) -> tuple[Cell, ...] | None:
+    """The three components of gravity; None where they were reported."""
+    node = fields.get("gravity")
+    if "gravity" not in fields or isinstance(node, Faulty):
+        return _components("0", "0", "-g")
+    if isinstance(node, Scalar) and node.text == "none":
+        return _components("0", "0", "0")
+    if not isinstance(node, Sequence):
+        span = fields.span_of("gravity")
+        report.error(span, f"gravity is a vector, not {describe(node) if node else 'nothing'}", _GRAVITY_HELP)
+        return None
+    cells = read_vector(report, node, "gravity")
+    forbid(report, cells or (), coordinates, _CONSTANT)
+    if cells and _points_up(cells):
+        message = "gravity points upwards here"
+        help = (
+            "the acceleration of gravity points downwards: [0, 0, -g]; "
+            "books that write P = m gᵀ r (Spong's [0, 0, g] in an exercise) mean the opposite vector"
+        )
+        report.warn(node.span, message, help, "gravity-upward")
+    return cells
+
+
+def _components(*texts: str) -> tuple[Cell, ...]:
+    return tuple(made_cell("gravity", text) for text in texts)
+
+
+def _points_up(cells: tuple[Cell, ...]) -> bool:
+    """Whether it is [0, 0, g] or [0, 0, 9.81]: upwards along z for every reader."""
+    x, y, z = cells
+    return _is_zero(x.tree) and _is_zero(y.tree) and not _is_zero(z.tree) and not _begins_with_minus(z)
+
+
+def _is_zero(tree: Tree) -> bool:
+    return constant_value(tree) == 0
+
+
+def _begins_with_minus(cell: Cell) -> bool:
+    return cell.text.lstrip(" (").startswith(("-", "−"))
+
+
+def read_base(report: Report, node: Node | None, coordinates: tuple[str, ...]) -> BaseSheet:
+    """The base frame; what is wrong with it is reported and left out."""
+    sheet = _read_base(report, node)
+    forbid(report, sheet.cells, coordinates, "the base does not move: " + _CONSTANT)
+    return sheet
+
+
+def _read_base(report: Report, node: Node | None) -> BaseSheet:
+    if isinstance(node, Mapping):
+        fields = Fields(report, node, ("rotate", "move"), "base")
+        rotation = read_rotation(report, fields.get("rotate"), "base")
+        move = read_vector(report, fields.get("move"), "the position of the base")
+        return BaseSheet(rotation, move)
+    return BaseSheet(read_rotation(report, node, "base"), None)

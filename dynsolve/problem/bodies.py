@@ -1,0 +1,331 @@
+"""The bodies of a problem file: what each entry of `masses:` says, before anything is computed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix, read_vector
+from dynsolve.problem.fields import Fields, describe, did_you_mean, items, whole_number, word
+from dynsolve.problem.rotations import RotationSheet, check_moving, read_rotation
+from dynsolve.problem.source import Report
+from dynsolve.problem.yaml_nodes import Faulty, Node, Scalar, Sequence, Span
+from dynsolve.problem.yaml_nodes import Mapping as MappingNode
+from dynsolve.robot.model import AxesKind
+from dynsolve.robot.shapes import AXES, KINDS
+
+MAX_BODIES = 100
+KEYS = ("mass", "name", "link", "center", "shape", "inertia", "about", "axes")
+CENTERS = ("tip", "origin", "midpoint")
+ABOUT = ("center", "origin", "joint")
+TENSOR = ("xx", "yy", "zz", "xy", "xz", "yz")
+_NAME = re.compile(r"[A-Za-uxyzXYZ]?[0-9]*")
+_EXAMPLE = "a body is written {mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}"
+_CENTER_HELP = "write tip, origin, midpoint, {along: 1/2}, {near: [lc1, 0, 0]} or [x, y, z]"
+_SHAPE_HELP = "write point, or a shape with its dimensions: {rod: {length: l1}}"
+_TENSOR_HELP = "write {zz: I1}, {xx: ..., yy: ..., zz: ...} or a symmetric 3×3 list"
+
+
+@dataclass(frozen=True, slots=True)
+class CenterSheet:
+    """Where the mass centre is: `kind` is tip, origin, midpoint, along (one cell), near or at (three)."""
+
+    kind: str
+    span: Span
+    cells: tuple[Cell, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeSheet:
+    """A shape with its dimensions; `axis` is empty where the file does not say."""
+
+    kind: str
+    span: Span
+    dimensions: Mapping[str, Cell]
+    axis: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class TensorSheet:
+    """An inertia tensor: 3×3 cells, None where an entry is 0; `listed` where a full list was given."""
+
+    span: Span
+    rows: tuple[tuple[Cell | None, ...], ...]
+    listed: bool
+
+
+@dataclass(frozen=True, slots=True)
+class AxesSheet:
+    """The body-attached axes; `rotation` None for those of the link or of the base."""
+
+    kind: AxesKind
+    span: Span
+    rotation: RotationSheet | None
+    written: str
+
+
+@dataclass(frozen=True, slots=True)
+class BodySheet:
+    """One entry of `masses:`; None where a part was reported or is not given.
+
+    `faulty` tells the two apart: something of the entry was reported.
+    """
+
+    index: int
+    span: Span
+    fields: Fields
+    name: str
+    mass: Cell | None
+    link: int | None
+    center: CenterSheet | None
+    shape: ShapeSheet | None
+    tensor: TensorSheet | None
+    about: str
+    axes: AxesSheet | None
+    faulty: bool
+
+    @property
+    def values(self) -> list[Cell]:
+        """Every expression in it whose value is constant in the link: all but angles."""
+        cells = [self.mass, *(self.center.cells if self.center else ())]
+        if self.shape:
+            cells += self.shape.dimensions.values()
+        if self.tensor:
+            cells += [cell for row in self.tensor.rows for cell in row]
+        if self.axes and self.axes.rotation and self.axes.kind is AxesKind.LINK:
+            cells += self.axes.rotation.entries
+        return list(dict.fromkeys(cell for cell in cells if cell))
+
+    @property
+    def turns(self) -> list[Cell]:
+        """The angles of its axes relative to the link."""
+        if self.axes and self.axes.rotation and self.axes.kind is AxesKind.LINK:
+            return [turn.cell for turn in self.axes.rotation.turns]
+        return []
+
+
+def read_bodies(
+    report: Report, node: Node | None, rows: int, coordinates: Mapping[str, str]
+) -> tuple[BodySheet, ...]:
+    """The entries under `masses:`; everything wrong with one is reported."""
+    nodes = items(report, node, "masses", f"a list of bodies; {_EXAMPLE}") if not _is_empty(node) else ()
+    if len(nodes) > MAX_BODIES and node:
+        report.error(node.span, f"{len(nodes)} bodies; at most {MAX_BODIES} are read", "leave some out")
+        nodes = nodes[:MAX_BODIES]
+    sheets = [_read_body(report, entry, i, rows, coordinates) for i, entry in enumerate(nodes, 1)]
+    bodies = tuple(sheet for sheet in sheets if sheet)
+    _check_names(report, bodies)
+    return bodies
+
+
+def _is_empty(node: Node | None) -> bool:
+    return isinstance(node, Scalar) and node.text in ("", "none")
+
+
+def _read_body(
+    report: Report, node: Node, index: int, rows: int, coordinates: Mapping[str, str]
+) -> BodySheet | None:
+    before = len(report.errors)
+    if not isinstance(node, MappingNode):
+        if not isinstance(node, Faulty):
+            report.error(node.span, f"body {index} is not a mapping but {describe(node)}", _EXAMPLE)
+        return None
+    fields = Fields(report, node, KEYS, f"body {index}")
+    for key in ("mass", "link"):
+        if key not in fields:
+            help = "mass: m1" if key == "mass" else "link: 1, the row of the table that the body moves with"
+            report.error(node.span, f"body {index} has no `{key}`", f"add {help}")
+    shape = _read_shape(report, fields.get("shape"), f"body {index}")
+    tensor = _read_tensor(report, fields.get("inertia"), f"body {index}")
+    sheet = BodySheet(
+        index=index,
+        span=node.span,
+        fields=fields,
+        name=_read_name(report, fields.get("name"), index),
+        mass=read_cell(report, fields.get("mass"), f"the mass of body {index}"),
+        link=_read_link(report, fields.get("link"), rows),
+        center=_read_center(report, fields, index),
+        shape=shape,
+        tensor=tensor,
+        about=_read_about(report, fields, index),
+        axes=_read_axes(report, fields.get("axes"), index, coordinates),
+        faulty=False,
+    )
+    forbid(
+        report,
+        (*sheet.values, *sheet.turns),
+        coordinates,
+        "it is constant in the link: joint variables stand in the table",
+    )
+    return replace(sheet, faulty=len(report.errors) > before)
+
+
+def _read_name(report: Report, node: Node | None, index: int) -> str:
+    if node is None or isinstance(node, Faulty):
+        return str(index)
+    text = node.text if isinstance(node, Scalar) else ""
+    if text and len(text) <= 8 and _NAME.fullmatch(text):
+        return text
+    help = "a name is at most one letter, not v or w, and then digits: 2, p, m2"
+    report.error(node.span, f"the name of body {index} cannot be {describe(node)}", help)
+    return str(index)
+
+
+def _check_names(report: Report, bodies: tuple[BodySheet, ...]) -> None:
+    first: dict[str, BodySheet] = {}
+    for body in bodies:
+        other = first.setdefault(body.name, body)
+        if other is not body:
+            message = f"body {body.index} has the name {body.name}, which body {other.index} has already"
+            report.error(
+                body.fields.span_of("name"),
+                message,
+                "give each a name of its own; the default is its place in the list",
+            )
+
+
+def _read_link(report: Report, node: Node | None, rows: int) -> int | None:
+    help = f"links are counted by the rows of the table, from 1 to {rows}" if rows else "write link: 1"
+    link = whole_number(report, node, "link", help)
+    if node is None or link is None:
+        return None
+    if link == 0:
+        report.error(node.span, "link 0 is the ground, whose bodies do not move", help)
+        return None
+    if rows and link > rows:
+        report.error(node.span, f"there is no link {link}: the table has {rows} row{'s' * (rows > 1)}", help)
+        return None
+    return link
+
+
+def _read_center(report: Report, fields: Fields, index: int) -> CenterSheet | None:
+    node, what = fields.get("center"), f"the centre of body {index}"
+    if node is None:
+        if "inertia" in fields or isinstance(fields.get("shape"), MappingNode):
+            report.error(fields.span, f"body {index} is no point, and has no `center`", _CENTER_HELP)
+            return None
+        return CenterSheet("tip", fields.span)
+    if isinstance(node, Sequence):
+        cells = read_vector(report, node, what)
+        return CenterSheet("at", node.span, cells) if cells else None
+    if isinstance(node, MappingNode):
+        return _read_measured(report, node, what)
+    kind = word(report, node, CENTERS, what)
+    return CenterSheet(kind, node.span) if kind else None
+
+
+def _read_measured(report: Report, node: MappingNode, what: str) -> CenterSheet | None:
+    fields = Fields(report, node, ("along", "near"), what)
+    given = tuple(fields)
+    if len(given) == 2 or not node.entries:
+        report.error(node.span, f"{what} takes one of along and near", _CENTER_HELP)
+    if len(given) != 1:
+        return None
+    if "along" in fields:
+        cell = read_cell(report, fields.get("along"), f"along in {what}")
+        return CenterSheet("along", node.span, (cell,)) if cell else None
+    cells = read_vector(report, fields.get("near"), f"near in {what}")
+    return CenterSheet("near", node.span, cells) if cells else None
+
+
+def _read_shape(report: Report, node: Node | None, body: str) -> ShapeSheet | None:
+    if node is None or isinstance(node, Faulty):
+        return None
+    if isinstance(node, Scalar):
+        return _bare_shape(report, node, body)
+    if not isinstance(node, MappingNode) or len(node.entries) != 1:
+        report.error(node.span, f"the shape of {body} is one shape with its dimensions", _SHAPE_HELP)
+        return None
+    key, value = node.entries[0]
+    if key.decoded not in KINDS or key.decoded == "point":
+        help = did_you_mean(key.decoded, KINDS) or f"shapes are {', '.join(KINDS)}"
+        report.error(key.span, f"`{key.decoded}` is no shape with dimensions", help)
+        return None
+    if not isinstance(value, MappingNode):
+        _missing_dimensions(report, key.span, key.decoded)
+        return None
+    return _read_dimensions(report, key.decoded, value, body, node.span)
+
+
+def _bare_shape(report: Report, node: Scalar, body: str) -> ShapeSheet | None:
+    if node.text == "point":
+        return ShapeSheet("point", node.span, {})
+    if node.text in KINDS:
+        _missing_dimensions(report, node.span, node.text)
+        return None
+    help = did_you_mean(node.text, KINDS) or f"shapes are {', '.join(KINDS)}"
+    report.error(node.span, f"the shape of {body} cannot be {describe(node)}", help)
+    return None
+
+
+def _missing_dimensions(report: Report, span: Span, kind: str) -> None:
+    dimensions = ", ".join(f"{key}: ..." for key in KINDS[kind].keys)
+    report.error(span, f"a {kind} needs its dimensions", f"write shape: {{{kind}: {{{dimensions}}}}}")
+
+
+def _read_dimensions(
+    report: Report, kind: str, node: MappingNode, body: str, span: Span
+) -> ShapeSheet | None:
+    record = KINDS[kind]
+    known = (*record.keys, "axis") if record.has_axis else record.keys
+    fields = Fields(report, node, known, f"the {kind} of {body}")
+    missing = [key for key in record.keys if key not in fields]
+    if missing:
+        help = f"a {kind} has {', '.join(record.keys)}"
+        report.error(node.span, f"the {kind} of {body} lacks {' and '.join(missing)}", help)
+    cells = {key: read_cell(report, fields.get(key), f"{key} of the {kind}") for key in record.keys}
+    axis = word(report, fields.get("axis"), AXES, f"axis of the {kind}") if "axis" in fields else ""
+    found = {key: cell for key, cell in cells.items() if cell}
+    if len(found) < len(record.keys) or axis is None:
+        return None
+    return ShapeSheet(kind, span, found, axis)
+
+
+def _read_tensor(report: Report, node: Node | None, body: str) -> TensorSheet | None:
+    if node is None or isinstance(node, Faulty):
+        return None
+    if isinstance(node, Sequence):
+        rows = read_matrix(report, node, f"the inertia of {body}")
+        return TensorSheet(node.span, rows, listed=True) if rows else None
+    if not isinstance(node, MappingNode) or not node.entries:
+        report.error(node.span, f"the inertia of {body} is a tensor, not {describe(node)}", _TENSOR_HELP)
+        return None
+    fields = Fields(report, node, TENSOR, f"the inertia of {body}")
+    cells = {key: read_cell(report, fields.get(key), f"I_{key} of {body}") for key in fields}
+    if None in cells.values():
+        return None
+    entry = [["xx", "xy", "xz"], ["xy", "yy", "yz"], ["xz", "yz", "zz"]]
+    return TensorSheet(node.span, tuple(tuple(cells.get(key) for key in row) for row in entry), listed=False)
+
+
+def _read_about(report: Report, fields: Fields, index: int) -> str:
+    about = word(report, fields.get("about"), ABOUT, f"about of body {index}") or "center"
+    if about != "center" and "inertia" not in fields:
+        message = f"body {index} has `about: {about}` but no `inertia` that it belongs to"
+        report.error(
+            fields.key_span("about"), message, "delete it: the inertia of a shape is about its centre"
+        )
+        return "center"
+    return about
+
+
+def _read_axes(
+    report: Report, node: Node | None, index: int, coordinates: Mapping[str, str]
+) -> AxesSheet | None:
+    """None stands for the axes of the link's frame, and for axes that were reported."""
+    what = f"the axes of body {index}"
+    if node is None or isinstance(node, Faulty):
+        return None
+    if isinstance(node, Scalar) and node.text == "base":
+        return AxesSheet(AxesKind.REST, node.span, None, "base")
+    if isinstance(node, MappingNode):
+        fields = Fields(report, node, ("base",), what)
+        if "base" not in fields:
+            report.error(node.span, f"{what}: the key `base` is expected", "write axes: {base: Rz(theta1)}")
+            return None
+        rotation = read_rotation(report, fields.get("base"), what)
+        sound = rotation and check_moving(report, rotation, what, coordinates)
+        return AxesSheet(AxesKind.BASE, node.span, rotation, rotation.written) if rotation and sound else None
+    rotation = read_rotation(report, node, what)
+    return AxesSheet(AxesKind.LINK, node.span, rotation, rotation.written) if rotation else None

@@ -1,0 +1,71 @@
+"""Where a link's ends are, seen from its own frame.
+
+Standard convention: link i reaches from o_{i-1} to o_i; frame i is at its far end.
+Modified convention: from o_i to o_{i+1}; frame i is at its near end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Ring
+from dynsolve.problem.rotations import elementary
+from dynsolve.robot.model import Convention, Joint
+from dynsolve.robot.parallel import moving_part
+
+
+class Links:
+    """The links of a table."""
+
+    def __init__(
+        self, ring: Ring, convention: Convention, joints: Sequence[Joint], coordinates: Collection[str]
+    ) -> None:
+        self.ring, self.convention, self.joints = ring, convention, joints
+        self.coordinates = coordinates
+
+    @property
+    def modified(self) -> bool:
+        """Whether the table is Craig's."""
+        return self.convention is Convention.MODIFIED
+
+    def near_end(self, link: int) -> Matrix:
+        """The near end of link i in frame i, 3×1.
+
+        Standard: o_{i-1} = (-a, -d sin α, -d cos α).  Modified: o_i = 0.
+        """
+        return self.origin() if self.modified else -self._step(self.joints[link - 1])
+
+    def far_end(self, link: int) -> Matrix | None:
+        """The far end of link i in frame i, 3×1; None where a modified table ends before it.
+
+        Standard: o_i = 0.  Modified: o_{i+1} = (a, -d sin α, d cos α) of row i + 1.
+        """
+        if not self.modified:
+            return self.origin()
+        return self._step(self.joints[link]) if link < len(self.joints) else None
+
+    def origin(self) -> Matrix:
+        """0, 3×1."""
+        return Matrix.zero(self.ring, 3, 1)
+
+    def _step(self, joint: Joint) -> Matrix:
+        """o_i - o_{i-1}: in frame i (standard) or in frame i-1 (modified)."""
+        sine, cosine = self.ring.sin(joint.alpha), self.ring.cos(joint.alpha)
+        across = -(joint.d * sine) if self.modified else joint.d * sine
+        return Matrix.column(self.ring, (joint.a, across, joint.d * cosine))
+
+    def is_fixed(self, point: Matrix) -> bool:
+        """Whether a point of a link's frame does not move in it."""
+        return not any(map(self.ring.depends_on_coordinates, point.entries))
+
+    def rotation_at_rest(self, link: int) -> Matrix:
+        """The axes of frame i seen from frame 0 at q = 0, 3×3."""
+        rotation = Matrix.identity(self.ring, 3)
+        for joint in self.joints[:link]:
+            theta: Angle = joint.theta - moving_part(joint.theta, self.coordinates)
+            about_z = elementary(self.ring, "z", theta)
+            about_x = elementary(self.ring, "x", joint.alpha)
+            rotation = rotation @ (about_x @ about_z if self.modified else about_z @ about_x)
+        return rotation

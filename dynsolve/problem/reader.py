@@ -1,0 +1,142 @@
+"""Problem files: bytes -> Problem, with all errors of a file at once.
+
+The way goes text -> YAML nodes -> sheet (every expression read, every name known)
+-> robot (every value exact).  Each step reports what it finds and goes on with
+what is sound; the errors are raised together at the end.
+"""
+
+from __future__ import annotations
+
+import os
+from fractions import Fraction
+from pathlib import Path
+
+from dynsolve.errors import Finding, ProblemError
+from dynsolve.problem.base import read_base, read_gravity
+from dynsolve.problem.bodies import read_bodies
+from dynsolve.problem.build import build_robot
+from dynsolve.problem.exercise import Exercise, read_exercise
+from dynsolve.problem.fields import Fields, describe, free_text, word
+from dynsolve.problem.model import Place, Problem
+from dynsolve.problem.sheet import Sheet
+from dynsolve.problem.source import MAX_BYTES, Report, as_source
+from dynsolve.problem.symbols import check_symbols
+from dynsolve.problem.table import read_table
+from dynsolve.problem.yaml_nodes import Mapping, Node, Scalar, Sequence, read_nodes
+from dynsolve.robot.model import Convention, Robot
+
+KEYS = (
+    "title",
+    "source",
+    "convention",
+    "gravity",
+    "base",
+    "dh",
+    "coordinates",
+    "masses",
+    "values",
+    "units",
+    "marks",
+    "find",
+)
+"""The keys of a problem file, in the order of the documentation."""
+
+
+def load(path: str | os.PathLike[str]) -> Problem:
+    """Read a problem file.
+
+    Raises ProblemError with every fault of the file, or for a file that cannot be read.
+    """
+    file = os.fspath(path)
+    try:
+        with open(file, "rb") as stream:
+            content = stream.read(MAX_BYTES + 1)
+    except OSError as error:
+        message = f"the file cannot be read: {(error.strerror or str(error)).lower()}"
+        raise ProblemError([Finding(message, "check the path", file)]) from None
+    except ValueError:
+        raise ProblemError([Finding("this is no path", "check the path", file.replace("\0", "?"))]) from None
+    return read_problem(content, file)
+
+
+def read_problem(content: str | bytes, file: str = "") -> Problem:
+    """Read the text of a problem file; `file` is the name that errors carry.
+
+    Raises ProblemError with every fault of the text.
+
+    >>> text = "dh: [{theta: q1*, a: l1}]\\ngravity: [0, -g, 0]\\nmasses: [{mass: m1, link: 1}]"
+    >>> [c.name for c in read_problem(text).robot.coordinates]
+    ['q1']
+    """
+    report = Report(as_source(content, file))
+    root = read_nodes(report)
+    fields = _root_fields(report, root)
+    if fields is None:
+        report.raise_errors()
+        raise AssertionError("a file without a root has an error")
+    sheet = _sheet(report, fields)
+    check_symbols(report, sheet)
+    exercise = read_exercise(report, fields, sheet)
+    robot = build_robot(report, sheet)
+    report.raise_errors()
+    assert robot is not None
+    return _problem(report, fields, robot, exercise, root)
+
+
+def _root_fields(report: Report, root: Node | None) -> Fields | None:
+    if isinstance(root, Mapping):
+        return Fields(report, root, KEYS, "a problem file")
+    if not report.errors:
+        help = "`dynsolve new problem.yaml` writes one to start from"
+        message = (
+            "the file is empty" if root is None else f"the file is {describe(root)}, not keys with values"
+        )
+        report.error(root.span if root else (0, 0), message, help)
+    return None
+
+
+def _sheet(report: Report, fields: Fields) -> Sheet:
+    named = word(report, fields.get("convention"), [c.value for c in Convention], "convention")
+    convention = Convention(named or "standard")
+    table = read_table(report, fields, convention is Convention.MODIFIED)
+    coordinates = dict(table.coordinates)
+    return Sheet(
+        convention=convention,
+        table=table,
+        gravity=read_gravity(report, fields, table.names),
+        base=read_base(report, fields.get("base"), table.names),
+        bodies=read_bodies(report, fields.get("masses"), len(table.rows), coordinates),
+    )
+
+
+def _problem(report: Report, fields: Fields, robot: Robot, exercise: Exercise, root: Node | None) -> Problem:
+    file = report.source.file
+    return Problem(
+        title=free_text(report, fields.get("title"), "title") or Path(file).stem,
+        source=free_text(report, fields.get("source"), "source"),
+        file=file,
+        robot=robot,
+        convention=robot.convention,
+        find=exercise.find,
+        marks=exercise.marks,
+        values=exercise.values,
+        units=exercise.units,
+        places=dict(_places(report, root)),
+        warnings=tuple(report.warnings),
+    )
+
+
+def _places(report: Report, root: Node | None) -> list[tuple[tuple[str | int, ...], Place]]:
+    """Where every part of the file stands."""
+    found: list[tuple[tuple[str | int, ...], Place]] = []
+    waiting: list[tuple[tuple[str | int, ...], Node]] = [((), root)] if root else []
+    while waiting:
+        path, node = waiting.pop()
+        if path:
+            finding = report.source.finding(*node.span, "")
+            found.append((path, Place(finding.line, finding.column, finding.length, finding.excerpt)))
+        if isinstance(node, Mapping):
+            waiting += [((*path, key.decoded), value) for key, value in node.entries]
+        elif isinstance(node, Sequence):
+            waiting += [((*path, index), item) for index, item in enumerate(node.items)]
+    return found

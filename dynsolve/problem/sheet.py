@@ -1,0 +1,86 @@
+"""A whole problem file as it was read, before anything is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dynsolve.algebra.angles import Angle
+from dynsolve.problem.base import BaseSheet
+from dynsolve.problem.bodies import BodySheet
+from dynsolve.problem.cells import Cell
+from dynsolve.problem.rotations import RotationSheet
+from dynsolve.problem.table import Table
+from dynsolve.robot.model import AxesKind, Convention
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """The parts of a problem file that make a robot."""
+
+    convention: Convention
+    table: Table
+    gravity: tuple[Cell, ...] | None
+    base: BaseSheet
+    bodies: tuple[BodySheet, ...]
+
+    @property
+    def rotations(self) -> Iterator[RotationSheet]:
+        """Every rotation that is given."""
+        if self.base.rotation:
+            yield self.base.rotation
+        for body in self.bodies:
+            if body.axes and body.axes.rotation:
+                yield body.axes.rotation
+
+    @property
+    def moving(self) -> Iterator[Cell]:
+        """The values that may hold coordinates: d, and rotations given from the base."""
+        for row in self.table.rows:
+            if not row.faulty:
+                yield row.cells["d"]
+        for body in self.bodies:
+            if body.axes and body.axes.kind is AxesKind.BASE and body.axes.rotation:
+                yield from body.axes.rotation.entries
+
+    @property
+    def constant(self) -> Iterator[Cell]:
+        """The values that are constant."""
+        for row in self.table.rows:
+            if not row.faulty:
+                yield row.cells["a"]
+        for body in self.bodies:
+            yield from body.values
+        yield from self.gravity or ()
+        yield from self.base.move or ()
+        if self.base.rotation:
+            yield from self.base.rotation.entries
+
+    @property
+    def angle_cells(self) -> Iterator[Cell]:
+        """The cells that are angles."""
+        for row in self.table.rows:
+            yield from (row.cells[column] for column in ("theta", "alpha") if column in row.cells)
+        for rotation in self.rotations:
+            yield from (turn.cell for turn in rotation.turns)
+
+    @property
+    def angles(self) -> Iterator[Angle]:
+        """Every angle that is turned by."""
+        for row in self.table.rows:
+            if not row.faulty:
+                yield from row.angles.values()
+        for rotation in self.rotations:
+            yield from (turn.angle for turn in rotation.turns)
+
+    @property
+    def cells(self) -> Iterator[Cell]:
+        """Every cell that was read."""
+        for row in self.table.rows:
+            yield from row.cells.values()
+        for rotation in self.rotations:
+            yield from rotation.cells
+        for body in self.bodies:
+            yield from body.values
+        yield from self.gravity or ()
+        yield from self.base.move or ()

@@ -1,0 +1,116 @@
+"""The names of a problem file: one name is one thing.
+
+What a symbol is follows from where it stands alone: a mass under `mass`, a length
+under `a`, an angle under `alpha`.  A name that is two of these is an error, and so
+is one that JSON writes for a coordinate's derivative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dynsolve.algebra.survey import rational_value
+from dynsolve.notation.text import Name
+from dynsolve.notation.tree import Negative, Node, Parenthesized, Product, Quotient, Sum, Symbol
+from dynsolve.problem.cells import Cell
+from dynsolve.problem.sheet import Sheet
+from dynsolve.problem.source import Report
+
+_SUFFIXES = (("_dot", "velocity"), ("_ddot", "acceleration"))
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """What a symbol is where it stands alone: a mass, a length, an angle, ..."""
+
+    name: str
+    kind: str
+    cell: Cell
+    place: Name | None
+
+
+def roles(sheet: Sheet) -> Iterator[Role]:
+    """The roles of all symbols that stand alone in a cell, or as a term of a sum there."""
+    for kind, cell in _kinds(sheet):
+        for name in sorted(_terms(cell.tree)):
+            place = next((found for found in cell.names if found.name == name), None)
+            yield Role(name, kind, cell, place)
+
+
+def _kinds(sheet: Sheet) -> Iterator[tuple[str, Cell]]:
+    for row in sheet.table.rows:
+        for column, cell in row.cells.items():
+            yield ("an angle" if column in ("theta", "alpha") else "a length"), cell
+    for rotation in sheet.rotations:
+        for turn in rotation.turns:
+            yield "an angle", turn.cell
+    for body in sheet.bodies:
+        if body.mass:
+            yield "a mass", body.mass
+        if body.center and body.center.kind != "along":
+            yield from (("a length", cell) for cell in body.center.cells)
+        if body.shape:
+            yield from (("a length", cell) for cell in body.shape.dimensions.values())
+        if body.tensor:
+            yield from (("a moment of inertia", cell) for row in body.tensor.rows for cell in row if cell)
+    yield from (("a length", cell) for cell in sheet.base.move or ())
+    yield from (("an acceleration", cell) for cell in sheet.gravity or ())
+
+
+def _terms(node: Node) -> set[str]:
+    """The names that a formula is, or adds: their dimension is that of the whole."""
+    match node:
+        case Symbol("pi"):
+            return set()
+        case Symbol(name):
+            return {name}
+        case Negative(argument) | Parenthesized(argument):
+            return _terms(argument)
+        case Sum(terms):
+            return set().union(*map(_terms, terms))
+        case Quotient(numerator, denominator) if rational_value(denominator) is not None:
+            return _terms(numerator)
+        case Product(factors):
+            rest = [factor for factor in factors if rational_value(factor) is None]
+            return _terms(rest[0]) if len(rest) == 1 else set()
+    return set()
+
+
+def check_symbols(report: Report, sheet: Sheet) -> None:
+    """Report names that are two things."""
+    _check_derivatives(report, sheet)
+    first: dict[str, Role] = {}
+    told: set[str] = set()
+    for role in roles(sheet):
+        before = first.setdefault(role.name, role)
+        if before.kind == role.kind or role.name in told or role.name in sheet.table.names:
+            continue
+        if {before.kind, role.kind} == {"a mass", "a moment of inertia"}:
+            continue  # with unit lengths an exercise may write m/12 for a moment of inertia
+        told.add(role.name)
+        here, there = (before, role) if role.place is None or not role.cell.text else (role, before)
+        where = (
+            f"line {report.source.position(there.cell.start)[0]}"
+            if there.cell.text
+            else "the default gravity"
+        )
+        message = f"{role.name} is {here.kind} here and {there.kind} in {where}"
+        place = here.cell.span_of(here.place) if here.place else here.cell.span
+        help = "give the two things names of their own"
+        if not there.cell.text:
+            help = "give gravity another letter, or write gravity: none"
+        report.error(place, message, help)
+
+
+def _check_derivatives(report: Report, sheet: Sheet) -> None:
+    meanings = {
+        name + suffix: f"the {what} of {name}" for name in sheet.table.names for suffix, what in _SUFFIXES
+    }
+    told: set[str] = set()
+    for cell in sheet.cells:
+        for name in cell.names:
+            if name.name in meanings and name.name not in told:
+                told.add(name.name)
+                message = f"{name.name} is {meanings[name.name]} in every result, and cannot be a parameter"
+                report.error(cell.span_of(name), message, "give the parameter another name")

@@ -1,0 +1,245 @@
+"""The Denavit-Hartenberg table of a problem file: its rows, its stars, its coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from dynsolve.algebra.angles import Angle
+from dynsolve.errors import ReadError
+from dynsolve.notation.names import normalize
+from dynsolve.notation.text import Name
+from dynsolve.problem.cells import Cell, made_cell, read_angle, read_cell
+from dynsolve.problem.fields import Fields, describe, did_you_mean, items
+from dynsolve.problem.linear import NotLinear, linear_rates
+from dynsolve.problem.source import Report
+from dynsolve.problem.yaml_nodes import Faulty, Node, Scalar, Span
+from dynsolve.problem.yaml_nodes import Mapping as MappingNode
+from dynsolve.problem.yaml_nodes import Sequence as ListNode
+
+COLUMNS = ("theta", "d", "a", "alpha")
+MAX_ROWS = 30
+_KINDS = {"theta": "revolute", "d": "prismatic"}
+_EXAMPLE = "a row is written {theta: theta1*, d: 0, a: l1, alpha: 0}"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row as the file gives it; `faulty` where something of it was reported."""
+
+    index: int
+    span: Span
+    cells: Mapping[str, Cell]
+    angles: Mapping[str, Angle]
+    variable: str | None
+    rates: Mapping[str, Fraction]
+    faulty: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """The rows and the coordinates, (name, "revolute" | "prismatic"), in their order."""
+
+    rows: tuple[Row, ...]
+    coordinates: tuple[tuple[str, str], ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the coordinates."""
+        return tuple(name for name, _ in self.coordinates)
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing of the table was reported."""
+        return bool(self.rows) and not any(row.faulty for row in self.rows)
+
+
+@dataclass(frozen=True, slots=True)
+class _Raw:
+    """A row's cells as they were read; those that could not be are left out, and the row is faulty."""
+
+    span: Span
+    cells: Mapping[str, Cell]
+    faulty: bool
+
+    def names(self, column: str) -> tuple[Name, ...]:
+        return self.cells[column].names if column in self.cells else ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Star:
+    """A starred name: its row, its column, its place."""
+
+    row: int
+    column: str
+    name: str
+    span: Span
+
+
+def read_table(report: Report, fields: Fields, modified: bool) -> Table:
+    """The table under `dh:` with the order of `coordinates:`; everything wrong with it is reported."""
+    if "dh" not in fields:
+        report.error((0, 0), "the file has no `dh` table", f"add `dh:` with a row a frame; {_EXAMPLE}")
+    nodes = items(report, fields.get("dh"), "dh", f"a row a frame; {_EXAMPLE}")
+    if len(nodes) > MAX_ROWS:
+        report.error(
+            fields.key_span("dh"), f"{len(nodes)} rows; at most {MAX_ROWS} are read", "leave some out"
+        )
+        nodes = nodes[:MAX_ROWS]
+    elif not nodes and isinstance(fields.get("dh"), ListNode):
+        report.error(fields.key_span("dh"), "the table has no rows", _EXAMPLE)
+    raw = [_read_cells(report, node, i) for i, node in enumerate(nodes, 1)]
+    coordinates = _coordinates(report, fields, raw)
+    rows = tuple(_row(report, i, row, coordinates, modified) for i, row in enumerate(raw, 1))
+    _check_effect(report, rows, coordinates, fields)
+    return Table(rows, tuple(coordinates.items()))
+
+
+def _read_cells(report: Report, node: Node, index: int) -> _Raw:
+    """The four columns of a row; a missing one is 0."""
+    before = len(report.errors)
+    cells: dict[str, Cell] = {}
+    if isinstance(node, MappingNode):
+        fields = Fields(report, node, COLUMNS, f"row {index} of the table")
+        for column in COLUMNS:
+            what = f"{column} of row {index}"
+            if column not in fields:
+                cells[column] = made_cell(what, "0", node.span[0])
+            elif cell := read_cell(report, fields.get(column), what, stars=column in _KINDS):
+                cells[column] = cell
+    elif not isinstance(node, Faulty):
+        report.error(node.span, f"row {index} is not a mapping but {describe(node)}", _EXAMPLE)
+    return _Raw(node.span, cells, len(report.errors) > before or len(cells) < len(COLUMNS))
+
+
+def _stars(raw: list[_Raw]) -> list[_Star]:
+    """Every starred name, in the order of the file."""
+    found = [
+        _Star(i, column, name.name, cell.span_of(name))
+        for i, row in enumerate(raw, 1)
+        for column, cell in row.cells.items()
+        for name in cell.names
+        if name.star
+    ]
+    return sorted(found, key=lambda star: star.span)
+
+
+def _coordinates(report: Report, fields: Fields, raw: list[_Raw]) -> dict[str, str]:
+    """The coordinates with their kinds, in order of first appearance or of the key `coordinates`."""
+    first: dict[str, _Star] = {}
+    for star in _stars(raw):
+        before = first.setdefault(star.name, star)
+        if before.column != star.column:
+            message = (
+                f"{star.name} stands in {star.column} here and in {before.column} of row {before.row}: "
+                "a coordinate is an angle or a length"
+            )
+            report.error(star.span, message, "give the two joints coordinates of their own")
+    kinds = {name: _KINDS[star.column] for name, star in first.items()}
+    whole = not any(row.faulty for row in raw)
+    if not kinds and raw and whole:
+        help = "mark the joint variables with a star: theta1* in theta, d2* in d"
+        report.error(fields.key_span("dh"), "no joint variable is marked in the table", help)
+    return _ordered(report, fields, kinds, whole)
+
+
+def _ordered(report: Report, fields: Fields, kinds: dict[str, str], whole: bool) -> dict[str, str]:
+    if "coordinates" not in fields:
+        return kinds
+    example = f"write coordinates: [{', '.join(kinds)}]"
+    order: dict[str, str] = {}
+    for item in items(report, fields.get("coordinates"), "coordinates", example):
+        name = _coordinate_name(report, item, example)
+        if name is None:
+            continue
+        if name in order:
+            report.error(item.span, f"{name} is listed twice", example)
+        elif name in kinds:
+            order[name] = kinds[name]
+        elif whole:
+            help = did_you_mean(name, kinds) or f"mark it in the table: {name}*"
+            report.error(item.span, f"{name} is not a joint variable of the table", help)
+    missing = [name for name in kinds if name not in order]
+    if missing and order:
+        report.error(fields.key_span("coordinates"), f"coordinates leaves out {', '.join(missing)}", example)
+    return order | {name: kinds[name] for name in missing}
+
+
+def _coordinate_name(report: Report, node: Node, example: str) -> str | None:
+    if isinstance(node, Faulty):
+        return None
+    if not isinstance(node, Scalar):
+        report.error(node.span, f"a coordinate is a name, not {describe(node)}", example)
+        return None
+    try:
+        return normalize(node.text.removesuffix("*"))
+    except ReadError as error:
+        at = node.start + error.offset
+        report.error((at, at + error.length), error.message, error.help)
+        return None
+
+
+def _row(report: Report, index: int, raw: _Raw, coordinates: dict[str, str], modified: bool) -> Row:
+    before, cells = len(report.errors), raw.cells
+    _check_unstarred(report, cells, coordinates)
+    starred = [column for column in _KINDS if any(name.star for name in raw.names(column))]
+    if len(starred) == 2:
+        _cylindrical(report, raw.span, cells, modified)
+    variable = starred[0] if len(starred) == 1 else None
+    rates = _rates(report, cells[variable], coordinates) if variable else {}
+    angles = {column: read_angle(report, cells[column]) for column in ("theta", "alpha") if column in cells}
+    known = {column: angle for column, angle in angles.items() if angle is not None}
+    faulty = raw.faulty or len(report.errors) > before
+    return Row(index, raw.span, cells, known, variable, rates, faulty)
+
+
+def _check_unstarred(report: Report, cells: Mapping[str, Cell], coordinates: dict[str, str]) -> None:
+    for column, cell in cells.items():
+        for name in cell.names:
+            if name.star or name.name not in coordinates:
+                continue
+            message = f"the coordinate {name.name} stands without its star in {cell.what}"
+            help = f"write {name.name}*"
+            if column not in _KINDS:
+                message = f"{cell.what} contains the coordinate {name.name}, but it is constant"
+                help = "joint variables stand in theta (revolute) and d (prismatic); give the length another name"
+            report.error(cell.span_of(name), message, help)
+
+
+def _rates(report: Report, cell: Cell, coordinates: dict[str, str]) -> dict[str, Fraction]:
+    """The joint variable as a linear combination of coordinates."""
+    try:
+        rates = linear_rates(cell.tree, coordinates)
+    except NotLinear as error:
+        report.error(cell.span, f"{cell.what}: {error.message}", error.help)
+        return {}
+    if not rates:
+        report.error(cell.span, f"the joint variable of {cell.what} cancels", "delete it, or mend the signs")
+    return rates
+
+
+def _cylindrical(report: Report, span: Span, cells: Mapping[str, Cell], modified: bool) -> None:
+    """θ and d of one row are both starred: show the two rows that a cylindrical joint needs."""
+    text = {column: " ".join(cell.text.split()) or "0" for column, cell in cells.items()}
+    text = {column: text.get(column, "0") for column in COLUMNS}
+    zero = {column: "0" for column in COLUMNS}
+    turning, sliding = zero | {"theta": text["theta"]}, zero | {"d": text["d"]}
+    (turning if modified else sliding).update(a=text["a"], alpha=text["alpha"])
+    rows = ["- {" + ", ".join(f"{c}: {row[c]}" for c in COLUMNS) + "}" for row in (turning, sliding)]
+    message = "theta and d of one row are both joint variables; a cylindrical joint takes two rows"
+    report.error(span, message, f"write {rows[0]} and {rows[1]}")
+
+
+def _check_effect(report: Report, rows: tuple[Row, ...], coordinates: dict[str, str], fields: Fields) -> None:
+    """A coordinate that no row turns or moves by (its rates were reported as cancelling)."""
+    if any(row.faulty for row in rows):
+        return
+    moved = {name for row in rows for name, rate in row.rates.items() if rate}
+    for name in coordinates:
+        if name not in moved:
+            report.error(
+                fields.key_span("dh"),
+                f"the coordinate {name} moves no joint",
+                "mend the row that it stands in",
+            )

@@ -1,0 +1,121 @@
+"""Absolute angles of parallel joints: θ₁, θ₁ + θ₂, θ₁ + θ₂ + θ₃.
+
+Where consecutive revolute axes are parallel, everything a planar arm does is a
+function of the running sums of its joint angles, and books write it in them:
+s₁, c₁₂, s₁₂₃.  Between two consecutive revolute joints the frames are turned by a
+constant rotation C (prismatic and fixed rows turn nothing with q).  C takes the
+one axis z to ±z exactly where the axes are parallel, as
+
+    Rot_z(ψ) C Rot_z(θ) = C Rot_z(θ ± ψ),    C z = ±z,
+
+so the absolute angle goes on as θ ± ψ, its sign being that of C_33.  Whether
+C_33 = ±1 is decided in floating point, with symbolic angles at fixed irrational
+values: the choice of basic angles may be unlucky, it cannot be wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from math import cos, radians, sin, sqrt
+
+from dynsolve.algebra.angles import Angle, Atom
+
+_TOLERANCE = 1e-9
+
+Rotation = tuple[tuple[float, float, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """What a row of the table turns by: its θ and α; `revolute` where θ holds the joint variable."""
+
+    theta: Angle
+    alpha: Angle
+    revolute: bool
+
+
+def absolute_angles(turns: Sequence[Turn], coordinates: Collection[str], modified: bool) -> list[Angle]:
+    """The angles in which formulas about this robot are short, the first joint's first.
+
+    For a run of parallel revolute axes the running sums; for a lone axis the joint's
+    own linear form.  Constant parts are left out.
+
+    >>> q1, q2 = Angle.of("q1"), Angle.of("q2")
+    >>> planar = [Turn(q1, Angle.zero(), True), Turn(q2, Angle.zero(), True)]
+    >>> absolute_angles(planar, ("q1", "q2"), modified=False) == [q1, q1 + q2]
+    True
+    """
+    found: list[Angle] = []
+    between: Rotation | None = None
+    for turn in turns:
+        before, after = _constant_rotations(turn, coordinates, modified)
+        if between is not None:
+            between = _times(between, before)
+        if turn.revolute:
+            own = moving_part(turn.theta, coordinates)
+            sign = _sign(between) if between is not None else 0
+            found.append(own + found[-1] * sign if sign else own)
+            between = after
+        elif between is not None:
+            between = _times(between, after)
+    return [_leading_positive(angle) for angle in found if angle.terms]
+
+
+def moving_part(angle: Angle, coordinates: Collection[str]) -> Angle:
+    """The part of an angle that turns with coordinates."""
+    return Angle(tuple((atom, rate) for atom, rate in angle.terms if _moves(atom, coordinates)))
+
+
+def _moves(atom: Atom, coordinates: Collection[str]) -> bool:
+    return any(name in coordinates for name, _ in atom)
+
+
+def _leading_positive(angle: Angle) -> Angle:
+    return -angle if angle.terms[0][1] < 0 else angle
+
+
+def _constant_rotations(
+    turn: Turn, coordinates: Collection[str], modified: bool
+) -> tuple[Rotation, Rotation]:
+    """What a row turns by before and after its joint axis; for a row that is not revolute, in all, in two parts.
+
+    The constant part of a revolute θ is a turn about the joint's own axis, and matters to no sign.
+    """
+    alpha = _about_x(_value(turn.alpha))
+    theta = _about_z(0.0 if turn.revolute else _value(turn.theta))
+    return (alpha, theta) if modified else (theta, alpha)
+
+
+def _sign(rotation: Rotation) -> int:
+    """+1 or -1 where the rotation takes z to ±z, else 0."""
+    cosine = rotation[2][2]
+    return round(cosine) if abs(abs(cosine) - 1) < _TOLERANCE else 0
+
+
+def _value(angle: Angle) -> float:
+    """The angle in radians, each name at an irrational value of its own that depends on its spelling alone."""
+    total = radians(float(angle.degrees))
+    for atom, rate in angle.terms:
+        term = float(rate)
+        for name, exponent in atom:
+            code = sum(ord(character) * 31**i for i, character in enumerate(name)) % 9973
+            term *= (0.5 + (sqrt(2) * code) % 1.0) ** exponent
+        total += term
+    return total
+
+
+def _about_x(angle: float) -> Rotation:
+    c, s = cos(angle), sin(angle)
+    return ((1.0, 0.0, 0.0), (0.0, c, -s), (0.0, s, c))
+
+
+def _about_z(angle: float) -> Rotation:
+    c, s = cos(angle), sin(angle)
+    return ((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0))
+
+
+def _times(left: Rotation, right: Rotation) -> Rotation:
+    columns = tuple(zip(*right, strict=True))
+    rows = [tuple(sum(a * b for a, b in zip(row, column, strict=True)) for column in columns) for row in left]
+    return tuple((row[0], row[1], row[2]) for row in rows)
