@@ -11,7 +11,7 @@ import math
 import subprocess
 import sys
 from collections.abc import Mapping
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,7 @@ FUNCTIONS: dict[str, Any] = {
 }
 
 
-@cache
+@lru_cache(maxsize=64)
 def solve_json(problem: Path | str) -> dict[str, Any]:
     """The JSON of a solution; `problem` is a path, or the text of a problem file."""
     path, text = (str(problem), None) if isinstance(problem, Path) else ("-", problem)
