@@ -133,7 +133,7 @@ def _read_body(
         return None
     fields = Fields(report, node, KEYS, f"body {index}")
     for key in ("mass", "link"):
-        if key not in fields:
+        if fields.lacks(key):
             help = "mass: m1" if key == "mass" else "link: 1, the row of the table that the body moves with"
             report.error(node.span, f"body {index} has no `{key}`", f"add {help}")
     shape = _read_shape(report, fields.get("shape"), f"body {index}")
@@ -203,7 +203,8 @@ def _read_center(report: Report, fields: Fields, index: int) -> CenterSheet | No
     node, what = fields.get("center"), f"the centre of body {index}"
     if node is None:
         if "inertia" in fields or isinstance(fields.get("shape"), MappingNode):
-            report.error(fields.span, f"body {index} is no point, and has no `center`", _CENTER_HELP)
+            if fields.lacks("center"):
+                report.error(fields.span, f"body {index} is no point, and has no `center`", _CENTER_HELP)
             return None
         return CenterSheet("tip", fields.span)
     if isinstance(node, Sequence):
@@ -270,7 +271,7 @@ def _read_dimensions(
     record = KINDS[kind]
     known = (*record.keys, "axis") if record.has_axis else record.keys
     fields = Fields(report, node, known, f"the {kind} of {body}")
-    missing = [key for key in record.keys if key not in fields]
+    missing = [key for key in record.keys if fields.lacks(key)]
     if missing:
         help = f"a {kind} has {', '.join(record.keys)}"
         report.error(node.span, f"the {kind} of {body} lacks {' and '.join(missing)}", help)

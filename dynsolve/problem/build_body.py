@@ -13,7 +13,10 @@ from dynsolve.problem.values import Values
 from dynsolve.robot.model import Axes, AxesKind, Body
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
-_TIP_ROW = "add a fixed row for the tip, {theta: 0, d: 0, a: l, alpha: 0} with its length, or give the centre as [x, y, z]"
+_TIP_ROW = (
+    "add a fixed row for the tip, {theta: 0, d: 0, a: l, alpha: 0} with its length, "
+    "or give the centre as [x, y, z]"
+)
 
 
 class BodyBuilder:
@@ -94,14 +97,12 @@ class BodyBuilder:
         assert self.links is not None and sheet.link is not None
         link = sheet.link
         written = "tip" if center.kind == "tip" else self._written(sheet)
+        message = f"`{written}` would not be fixed in link {link}: "
         if self.links.modified:
-            message = f"`{written}` would not be fixed in link {link}: its far end moves with the prismatic joint {link + 1}"
-            help = (
-                "give the centre as coordinates in frame "
-                + f"{link}: center: [x, y, z], or with a fixed row for the tip"
-            )
+            message += f"its far end moves with the prismatic joint {link + 1}"
+            help = f"add a fixed row for the tip before it, or give the centre in frame {link}: [x, y, z]"
         else:
-            message = f"`{written}` would not be fixed in link {link}: its near end slides along it, joint {link} is prismatic"
+            message += f"its near end slides along it, for joint {link} is prismatic"
             help = f"measure from the tip, in frame {link}: center: {self._back(link)}"
         self.report.error(center.span, message, help)
 

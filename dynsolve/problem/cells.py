@@ -75,7 +75,7 @@ def read_cell(report: Report, node: YamlNode | None, what: str, *, stars: bool =
 
 
 def read_text(report: Report, text: str, start: int, what: str, *, stars: bool = False) -> Cell | None:
-    """The expression that stands at character `start` of the file, None (reported) where it cannot be read."""
+    """The expression that stands at character `start` of the file, None (reported) where it is unreadable."""
     try:
         reading = read(text, stars=stars)
     except ReadError as error:
@@ -143,7 +143,7 @@ def read_angle(report: Report, cell: Cell) -> Angle | None:
     try:
         return angle_from_tree(cell.tree)
     except AlgebraError as error:
-        for start, end, text in _bare_numbers(cell):
+        for start, end, text in _bare_numbers(cell) if "bare number" in error.message else ():
             message = f"the bare number {text} stands as an angle"
             report.error((cell.start + start, cell.start + end), message, _in_degrees(text))
             return None

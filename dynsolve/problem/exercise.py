@@ -41,9 +41,9 @@ def read_exercise(report: Report, fields: Fields, sheet: Sheet) -> Exercise:
     forces = [
         f"{'tau' if kind == 'revolute' else 'f'}{i}" for i, (_, kind) in enumerate(sheet.table.coordinates, 1)
     ]
-    names = AnswerNames(len(sheet.table.rows), forces, [body.name for body in sheet.bodies])
-    if not (sheet.table.sound and all(not body.faulty for body in sheet.bodies)):
-        names = None  # which answers there are is not known yet
+    names = None  # as long as the table or a body is faulty, which answers there are is not known
+    if sheet.table.sound and not any(body.faulty for body in sheet.bodies):
+        names = AnswerNames(len(sheet.table.rows), forces, [body.name for body in sheet.bodies])
     return Exercise(
         find=_read_find(report, fields.get("find"), names) or FIND,
         marks=_read_marks(report, fields.get("marks"), names),

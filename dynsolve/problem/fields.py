@@ -25,13 +25,26 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else text[:37] + "..."
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """`did you mean `mass`?`, or nothing where no known word is near."""
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The known word that was probably meant, or nothing where none is near.
+
+    >>> nearest("mas", ("mass", "link")), nearest("zx", ("xx", "xz")), nearest("foo", ("mass",))
+    ('mass', 'xz', '')
+    """
     folded = {name.lower(): name for name in known}
-    if word.lower() in folded:
-        return f"did you mean `{folded[word.lower()]}`?"
-    close = get_close_matches(word.lower()[:60], folded, 1, 0.6)
-    return f"did you mean `{folded[close[0]]}`?" if close else ""
+    word = word.lower()[:60]
+    if word in folded:
+        return folded[word]
+    if word[::-1] in folded:
+        return folded[word[::-1]]
+    close = get_close_matches(word, folded, 1, 0.6)
+    return folded[close[0]] if close else ""
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The question whether the nearest known word was meant, or nothing."""
+    meant = nearest(word, known)
+    return f"did you mean `{meant}`?" if meant else ""
 
 
 def odd_letter(word: str) -> str:
@@ -43,20 +56,23 @@ def odd_letter(word: str) -> str:
     return ""
 
 
-def unknown(report: Report, key: Scalar, value: Node, known: Sequence[str], what: str) -> None:
-    """Note an unknown key with what was probably meant."""
+def unknown(report: Report, key: Scalar, value: Node, known: Sequence[str], what: str) -> str:
+    """Note an unknown key; the known one that was probably meant, or nothing."""
     word = key.decoded
     name, colon, _ = word.partition(":")
     if colon and name.strip() in known and isinstance(value, Scalar) and not value.text:
         message = f"a blank is missing after the colon of `{name}:`"
         help = f"write `{name}: {word.partition(':')[2].strip()}`"
-        return report.error(key.span, message, help)
+        report.error(key.span, message, help)
+        return name.strip()
     odd = odd_letter(word)
     plain = "".join(c if c.isascii() else "?" for c in word)
-    help = did_you_mean(plain, known) or f"known are {', '.join(known)}"
+    meant = nearest(plain, known)
+    help = f"did you mean `{meant}`?" if meant else f"known are {', '.join(known)}"
     if odd:
         help = f"{odd}; {help}"
-    return report.error(key.span, f"unknown key `{_short(word)}` in {what}", help)
+    report.error(key.span, f"unknown key `{_short(word)}` in {what}", help)
+    return meant
 
 
 class Fields:
@@ -66,17 +82,22 @@ class Fields:
         self.report, self.span, self.what = report, node.span, what
         self._values: dict[str, Node] = {}
         self._keys: dict[str, Scalar] = {}
+        self._meant: set[str] = set()
         for key, value in node.entries:
             if key.decoded in known:
                 self._values[key.decoded], self._keys[key.decoded] = value, key
             else:
-                unknown(report, key, value, known, what)
+                self._meant.add(unknown(report, key, value, known, what))
 
     def __contains__(self, key: str) -> bool:
         return key in self._values
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._values)
+
+    def lacks(self, key: str) -> bool:
+        """Whether a key is not given, not even misspelled."""
+        return key not in self._values and key not in self._meant
 
     def get(self, key: str) -> Node | None:
         """The value of a key, None where it is not given."""

@@ -8,7 +8,6 @@ what is sound; the errors are raised together at the end.
 from __future__ import annotations
 
 import os
-from fractions import Fraction
 from pathlib import Path
 
 from dynsolve.errors import Finding, ProblemError
@@ -22,7 +21,7 @@ from dynsolve.problem.sheet import Sheet
 from dynsolve.problem.source import MAX_BYTES, Report, as_source
 from dynsolve.problem.symbols import check_symbols
 from dynsolve.problem.table import read_table
-from dynsolve.problem.yaml_nodes import Mapping, Node, Scalar, Sequence, read_nodes
+from dynsolve.problem.yaml_nodes import Mapping, Node, Sequence, read_nodes
 from dynsolve.robot.model import Convention, Robot
 
 KEYS = (
@@ -49,7 +48,7 @@ def load(path: str | os.PathLike[str]) -> Problem:
     """
     file = os.fspath(path)
     try:
-        with open(file, "rb") as stream:
+        with Path(file).open("rb") as stream:
             content = stream.read(MAX_BYTES + 1)
     except OSError as error:
         message = f"the file cannot be read: {(error.strerror or str(error)).lower()}"
@@ -60,11 +59,11 @@ def load(path: str | os.PathLike[str]) -> Problem:
 
 
 def read_problem(content: str | bytes, file: str = "") -> Problem:
-    """Read the text of a problem file; `file` is the name that errors carry.
+    r"""Read the text of a problem file; `file` is the name that errors carry.
 
     Raises ProblemError with every fault of the text.
 
-    >>> text = "dh: [{theta: q1*, a: l1}]\\ngravity: [0, -g, 0]\\nmasses: [{mass: m1, link: 1}]"
+    >>> text = "dh: [{theta: q1*, a: l1}]\ngravity: [0, -g, 0]\nmasses: [{mass: m1, link: 1}]"
     >>> [c.name for c in read_problem(text).robot.coordinates]
     ['q1']
     """

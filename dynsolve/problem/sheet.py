@@ -57,21 +57,13 @@ class Sheet:
             yield from self.base.rotation.entries
 
     @property
-    def angle_cells(self) -> Iterator[Cell]:
-        """The cells that are angles."""
-        for row in self.table.rows:
-            yield from (row.cells[column] for column in ("theta", "alpha") if column in row.cells)
-        for rotation in self.rotations:
-            yield from (turn.cell for turn in rotation.turns)
-
-    @property
-    def angles(self) -> Iterator[Angle]:
-        """Every angle that is turned by."""
+    def angles(self) -> Iterator[tuple[Cell, Angle]]:
+        """Every angle that is turned by, with the cell it stands in."""
         for row in self.table.rows:
             if not row.faulty:
-                yield from row.angles.values()
+                yield from ((row.cells[column], angle) for column, angle in row.angles.items())
         for rotation in self.rotations:
-            yield from (turn.angle for turn in rotation.turns)
+            yield from ((turn.cell, turn.angle) for turn in rotation.turns)
 
     @property
     def cells(self) -> Iterator[Cell]:

@@ -77,7 +77,10 @@ def as_source(content: str | bytes, file: str = "") -> Source:
         raise ProblemError([Finding(message, "give the problem file itself", file)])
     text = _decoded(content, file) if isinstance(content, bytes) else content
     source = Source(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n"), file)
-    findings = [_unseen(source, match.start()) for match, _ in zip(_UNSEEN.finditer(source.text), range(20))]
+    findings = [
+        _unseen(source, match.start())
+        for match, _ in zip(_UNSEEN.finditer(source.text), range(20), strict=False)
+    ]
     if findings:
         raise ProblemError(findings)
     return source

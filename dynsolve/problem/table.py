@@ -182,19 +182,24 @@ def _coordinate_name(report: Report, node: Node, example: str) -> str | None:
 
 def _row(report: Report, index: int, raw: _Raw, coordinates: dict[str, str], modified: bool) -> Row:
     before, cells = len(report.errors), raw.cells
-    _check_unstarred(report, cells, coordinates)
+    unstarred = _check_unstarred(report, cells, coordinates)
     starred = [column for column in _KINDS if any(name.star for name in raw.names(column))]
     if len(starred) == 2:
         _cylindrical(report, raw.span, cells, modified)
     variable = starred[0] if len(starred) == 1 else None
-    rates = _rates(report, cells[variable], coordinates) if variable else {}
-    angles = {column: read_angle(report, cells[column]) for column in ("theta", "alpha") if column in cells}
+    rates = _rates(report, cells[variable], coordinates) if variable and variable not in unstarred else {}
+    # a theta whose joint variable was reported is not read as an angle too
+    skipped = {"theta"} if variable == "theta" and not rates else set()
+    columns = [column for column in ("theta", "alpha") if column in cells and column not in skipped]
+    angles = {column: read_angle(report, cells[column]) for column in columns}
     known = {column: angle for column, angle in angles.items() if angle is not None}
     faulty = raw.faulty or len(report.errors) > before
     return Row(index, raw.span, cells, known, variable, rates, faulty)
 
 
-def _check_unstarred(report: Report, cells: Mapping[str, Cell], coordinates: dict[str, str]) -> None:
+def _check_unstarred(report: Report, cells: Mapping[str, Cell], coordinates: dict[str, str]) -> set[str]:
+    """The columns in which a coordinate stands without its star (reported)."""
+    found = set()
     for column, cell in cells.items():
         for name in cell.names:
             if name.star or name.name not in coordinates:
@@ -203,8 +208,10 @@ def _check_unstarred(report: Report, cells: Mapping[str, Cell], coordinates: dic
             help = f"write {name.name}*"
             if column not in _KINDS:
                 message = f"{cell.what} contains the coordinate {name.name}, but it is constant"
-                help = "joint variables stand in theta (revolute) and d (prismatic); give the length another name"
+                help = "joint variables stand in theta and d; give this quantity another name"
             report.error(cell.span_of(name), message, help)
+            found.add(column)
+    return found
 
 
 def _rates(report: Report, cell: Cell, coordinates: dict[str, str]) -> dict[str, Fraction]:
@@ -223,7 +230,7 @@ def _cylindrical(report: Report, span: Span, cells: Mapping[str, Cell], modified
     """θ and d of one row are both starred: show the two rows that a cylindrical joint needs."""
     text = {column: " ".join(cell.text.split()) or "0" for column, cell in cells.items()}
     text = {column: text.get(column, "0") for column in COLUMNS}
-    zero = {column: "0" for column in COLUMNS}
+    zero = dict.fromkeys(COLUMNS, "0")
     turning, sliding = zero | {"theta": text["theta"]}, zero | {"d": text["d"]}
     (turning if modified else sliding).update(a=text["a"], alpha=text["alpha"])
     rows = ["- {" + ", ".join(f"{c}: {row[c]}" for c in COLUMNS) + "}" for row in (turning, sliding)]

@@ -68,7 +68,7 @@ def evaluate(report: Report, sheet: Sheet) -> Values | None:
     Cells that no ring can hold are reported one by one and left out.
     """
     coordinates = sheet.table.names
-    constant = [cell for cell in sheet.constant]
+    constant = list(sheet.constant)
     wrong = [cell for cell in constant if any(name.name in coordinates for name in cell.names)]
     left_out = {id(cell) for cell in wrong}
     cells = [cell for cell in (*sheet.moving, *constant) if id(cell) not in left_out]
@@ -83,7 +83,17 @@ def evaluate(report: Report, sheet: Sheet) -> Values | None:
             if not culprits:
                 report.error((0, 0), error.message, error.help)
             return None
+    _check_angles(report, sheet, ring)
     return Values(report, ring, frozenset(left_out))
+
+
+def _check_angles(report: Report, sheet: Sheet, ring: Ring) -> None:
+    """Report angles whose sine the ring has no room for: a thousand times another angle."""
+    for cell, angle in sheet.angles:
+        try:
+            ring.cos(angle)
+        except AlgebraError as error:
+            report.error(cell.span, f"{cell.what}: {error.message}", error.help or "write angles of one size")
 
 
 def _ring(sheet: Sheet, cells: list[Cell]) -> Ring:
@@ -93,7 +103,12 @@ def _ring(sheet: Sheet, cells: list[Cell]) -> Ring:
         if len(row.angles) == 2
     ]
     preferred = absolute_angles(turns, sheet.table.names, sheet.convention is Convention.MODIFIED)
-    return Ring.build(sheet.table.coordinates, [cell.tree for cell in cells], tuple(sheet.angles), preferred)
+    return Ring.build(
+        sheet.table.coordinates,
+        [cell.tree for cell in cells],
+        [angle for _, angle in sheet.angles],
+        preferred,
+    )
 
 
 def _fails(report: Report, sheet: Sheet, cell: Cell) -> bool:

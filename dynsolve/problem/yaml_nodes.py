@@ -69,7 +69,7 @@ def read_nodes(report: Report) -> Node | None:
     text = report.source.text
     tree = _Tree(report)
     try:
-        for event, _ in zip(_events(yaml, text, loader), range(MAX_EVENTS)):
+        for event, _ in zip(_events(yaml, text, loader), range(MAX_EVENTS), strict=False):
             if not tree.take(event):
                 return tree.root
     except yaml.MarkedYAMLError as error:

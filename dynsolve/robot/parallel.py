@@ -19,7 +19,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from math import cos, radians, sin, sqrt
 
-from dynsolve.algebra.angles import Angle, Atom
+from dynsolve.algebra.angles import Angle, Atom, names_of
 
 _TOLERANCE = 1e-9
 
@@ -46,7 +46,23 @@ def absolute_angles(turns: Sequence[Turn], coordinates: Collection[str], modifie
     >>> absolute_angles(planar, ("q1", "q2"), modified=False) == [q1, q1 + q2]
     True
     """
-    found: list[Angle] = []
+    found = [angle for run in _runs(turns, coordinates, modified) for angle in run]
+    return [_leading_positive(angle) for angle in found if angle.terms]
+
+
+def parallel_groups(
+    turns: Sequence[Turn], coordinates: Collection[str], modified: bool
+) -> list[frozenset[str]]:
+    """The coordinates that turn about parallel axes, a set for each run of them."""
+    return [
+        frozenset(name for angle in run for name in names_of(angle) if name in coordinates)
+        for run in _runs(turns, coordinates, modified)
+    ]
+
+
+def _runs(turns: Sequence[Turn], coordinates: Collection[str], modified: bool) -> list[list[Angle]]:
+    """The absolute angles, a list for each run of parallel revolute axes."""
+    runs: list[list[Angle]] = []
     between: Rotation | None = None
     for turn in turns:
         before, after = _constant_rotations(turn, coordinates, modified)
@@ -55,11 +71,14 @@ def absolute_angles(turns: Sequence[Turn], coordinates: Collection[str], modifie
         if turn.revolute:
             own = moving_part(turn.theta, coordinates)
             sign = _sign(between) if between is not None else 0
-            found.append(own + found[-1] * sign if sign else own)
+            if sign:
+                runs[-1].append(own + runs[-1][-1] * sign)
+            else:
+                runs.append([own])
             between = after
         elif between is not None:
             between = _times(between, after)
-    return [_leading_positive(angle) for angle in found if angle.terms]
+    return runs
 
 
 def moving_part(angle: Angle, coordinates: Collection[str]) -> Angle:
@@ -78,7 +97,7 @@ def _leading_positive(angle: Angle) -> Angle:
 def _constant_rotations(
     turn: Turn, coordinates: Collection[str], modified: bool
 ) -> tuple[Rotation, Rotation]:
-    """What a row turns by before and after its joint axis; for a row that is not revolute, in all, in two parts.
+    """What a row turns by before and after its joint axis; without one, its whole turn in two parts.
 
     The constant part of a revolute θ is a turn about the joint's own axis, and matters to no sign.
     """
@@ -94,7 +113,7 @@ def _sign(rotation: Rotation) -> int:
 
 
 def _value(angle: Angle) -> float:
-    """The angle in radians, each name at an irrational value of its own that depends on its spelling alone."""
+    """The angle in radians, each name at an irrational value that depends on its spelling alone."""
     total = radians(float(angle.degrees))
     for atom, rate in angle.terms:
         term = float(rate)
