@@ -10,9 +10,11 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import prod
 
+from dynsolve.algebra.angles import Angle
 from dynsolve.notation.tree import (
     ONE,
     ZERO,
+    Degrees,
     Function,
     Negative,
     Node,
@@ -25,28 +27,39 @@ from dynsolve.notation.tree import (
 )
 
 
-def cost(node: Node) -> int:
+def cost(node: Node, known: dict[int, tuple[Node, int]] | None = None) -> int:
     """The operations of a formula as it is printed.
+
+    `known` keeps the counts of shared parts from call to call, by identity.
 
     >>> cost(Sum((Product((Symbol("m"), Power(Symbol("l"), Number(2)))), Negative(Function("cos", Symbol("q"))))))
     4
     """
+    known = {} if known is None else known
     match node:
         case Symbol() | Number(_, 1):
             return 0
         case Number():
             return 1
+    found = known.get(id(node))
+    if found is None:
+        found = known[id(node)] = (node, _count(node, known))
+    return found[1]
+
+
+def _count(node: Node, known: dict[int, tuple[Node, int]]) -> int:
+    match node:
         case Sum(terms):
-            inner = sum(cost(t.argument) if isinstance(t, Negative) else cost(t) for t in terms)
+            inner = sum(cost(t.argument if isinstance(t, Negative) else t, known) for t in terms)
             return inner + len(terms) - 1 + isinstance(terms[0], Negative)
         case Product(factors):
-            return sum(map(cost, factors)) + len(factors) - 1
-        case Power(base, exponent):
-            return cost(base) + cost(exponent) + 1
-        case Quotient(numerator, denominator):
-            return cost(numerator) + cost(denominator) + 1
+            return sum(cost(f, known) for f in factors) + len(factors) - 1
+        case Power(left, right) | Quotient(left, right):
+            return cost(left, known) + cost(right, known) + 1
         case Negative(argument) | Function(_, argument):
-            return cost(argument) + 1
+            return cost(argument, known) + 1
+        case Degrees():
+            return 0
     raise TypeError(f"no cost for {type(node).__name__}")
 
 
@@ -84,35 +97,24 @@ def negated(node: Node) -> Node:
     return node.argument if isinstance(node, Negative) else node if node == ZERO else Negative(node)
 
 
-def leads_with_minus(node: Node) -> bool:
-    """Whether a sum has more negative terms than positive ones, or starts with one."""
-    return isinstance(node, Sum) and isinstance(node.terms[0], Negative)
-
-
 def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]]) -> Node:
     """coefficient · Π node^exponent; negative exponents go below the fraction line.
 
-    Signs of factors are drawn to the front, products flattened, in the given order.
+    Signs and numbers of the factors are drawn to the front, products flattened, in
+    the given order.
     """
-    coefficient = Fraction(coefficient)
     above: list[Node] = []
     below: list[Node] = []
     for node, exponent in factors:
         sign, inner = split_sign(node)
-        if leads_with_minus(inner) and all(isinstance(t, Negative) for t in inner.terms):  # type: ignore[attr-defined]
-            sign, inner = -sign, total([negated(t) for t in inner.terms])  # type: ignore[attr-defined]
-        coefficient *= sign ** (exponent % 2)
-        if isinstance(inner, Quotient) and exponent == 1 and isinstance(inner.denominator, Number):
-            coefficient /= inner.denominator.p
-            inner = inner.numerator
-        if isinstance(inner, Number):
-            coefficient *= Fraction(inner.p, inner.q) ** exponent
-        elif isinstance(inner, Product) and exponent == 1:
-            for factor in inner.factors:
-                if isinstance(factor, Number):
-                    coefficient *= Fraction(factor.p, factor.q)
-                else:
-                    above.append(factor)
+        if isinstance(inner, Sum) and all(isinstance(t, Negative) for t in inner.terms):
+            sign, inner = -sign, total([negated(t) for t in inner.terms])
+        if sign < 0 and exponent % 2:
+            coefficient = -coefficient
+        if exponent == 1:
+            coefficient = _put_factor(inner, coefficient, above)
+        elif isinstance(inner, Number):
+            coefficient = coefficient * Fraction(inner.p, inner.q) ** exponent
         elif exponent > 0:
             above.append(power(inner, exponent))
         else:
@@ -123,7 +125,25 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]]) -> N
     return Negative(node) if coefficient < 0 else node
 
 
-def _fraction(coefficient: Fraction, above: list[Node], below: list[Node]) -> Node:
+def _put_factor(node: Node, coefficient: Fraction | int, above: list[Node]) -> Fraction | int:
+    """Put one positive factor above the line, its numbers into the coefficient."""
+    match node:
+        case Number(p, q):
+            return coefficient * p if q == 1 else coefficient * Fraction(p, q)
+        case Quotient(numerator, Number(p, 1)):
+            return _put_factor(numerator, coefficient * Fraction(1, p), above)
+        case Product(factors):
+            for factor in factors:
+                if isinstance(factor, Number):
+                    coefficient = coefficient * Fraction(factor.p, factor.q)
+                else:
+                    above.append(factor)
+        case _:
+            above.append(node)
+    return coefficient
+
+
+def _fraction(coefficient: Fraction | int, above: list[Node], below: list[Node]) -> Node:
     if coefficient.numerator != 1:
         above = [Number(coefficient.numerator), *above]
     if coefficient.denominator != 1:
@@ -131,8 +151,6 @@ def _fraction(coefficient: Fraction, above: list[Node], below: list[Node]) -> No
     numerator = _product(above)
     if not below:
         return numerator
-    if numerator == ONE and len(below) == 1 and isinstance(below[0], Number):
-        return Number(1, below[0].p)
     if isinstance(numerator, Number) and len(below) == 1 and isinstance(below[0], Number):
         return Number(numerator.p, below[0].p)
     return Quotient(numerator, _product(below))
@@ -144,3 +162,12 @@ def _product(factors: list[Node]) -> Node:
     if all(isinstance(f, Number) for f in factors):
         return Number(prod(f.p for f in factors if isinstance(f, Number)))
     return factors[0] if len(factors) == 1 else Product(tuple(factors))
+
+
+def angle_node(angle: Angle) -> Node:
+    """An angle as a tree: θ₁ + θ₂, 2θ₂ - β/2, positive terms first."""
+    terms = [times(rate, [(Symbol(name), e) for name, e in atom]) for atom, rate in angle.terms]
+    if angle.degrees:
+        constant = Degrees(abs(angle.degrees.numerator), angle.degrees.denominator)
+        terms.append(negated(constant) if angle.degrees < 0 else constant)
+    return total(terms)

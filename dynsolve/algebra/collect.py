@@ -8,13 +8,13 @@ printed; a sum that recurs as a whole, a₃ + x₃, becomes an atom of its own.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable
 from enum import IntEnum
 from fractions import Fraction
 from math import gcd
-from typing import Any
 
 from dynsolve.algebra.build import cost, negated, split_sign, times, total
+from dynsolve.algebra.terms import Factor, exact
 from dynsolve.notation.tree import (
     ZERO,
     Function,
@@ -29,7 +29,7 @@ from dynsolve.notation.tree import (
 )
 
 Mono = tuple[tuple[int, int], ...]
-Poly = dict[Mono, Fraction]
+Poly = dict[Mono, Factor]
 
 SEARCHED = 14
 """Up to this number of terms every promising split is tried; above it the likeliest alone."""
@@ -63,38 +63,29 @@ class Atoms:
         """The atom of a node, the same for equal nodes; a sum ranks by what it is made of."""
         found = self._numbers.get(node)
         if found is None:
+            rank = self._rank(node) if rank is None else rank
             found = self._numbers[node] = len(self.nodes)
             self.nodes.append(node)
-            self.ranks.append((self._rank(node) if rank is None else rank, found))
+            self.ranks.append((rank, found))
         return found
 
     def _rank(self, node: Node) -> Rank:
-        highest = max(map(self._part_rank, leaves(node)), default=Rank.SUM)
-        return {Rank.WAVE: Rank.WAVE_SUM, Rank.RATE: Rank.RATE_SUM}.get(highest, Rank.SUM)
+        highest = self._highest(node)
+        return {Rank.WAVE: Rank.WAVE_SUM, Rank.RATE: Rank.RATE_SUM}.get(highest, max(highest, Rank.SUM))
 
-    def _part_rank(self, leaf: Node) -> Rank:
-        if leaf in self._numbers:
-            return self.ranks[self._numbers[leaf]][0]
-        return Rank.WAVE if isinstance(leaf, Function) and leaf.name != "sqrt" else Rank.SUM
-
-    def is_leading(self, atom: int) -> bool:
-        """Whether it is a mass or a moment of inertia."""
-        return self.ranks[atom][0] is Rank.LEADING
-
-
-def leaves(node: Node) -> Iterator[Node]:
-    """The symbols and functions of a tree, without what stands inside functions."""
-    match node:
-        case Sum(parts) | Product(parts):
-            for part in parts:
-                yield from leaves(part)
-        case Negative(part) | Power(part):
-            yield from leaves(part)
-        case Quotient(numerator, denominator):
-            yield from leaves(numerator)
-            yield from leaves(denominator)
-        case Symbol() | Function():
-            yield node
+    def _highest(self, node: Node) -> Rank:
+        """The highest rank that occurs in a tree, without what stands inside functions."""
+        found = self._numbers.get(node)
+        if found is not None:
+            return self.ranks[found][0]
+        match node:
+            case Sum(parts) | Product(parts):
+                return max(map(self._highest, parts))
+            case Negative(part) | Power(part):
+                return self._highest(part)
+            case Quotient(numerator, denominator):
+                return max(self._highest(numerator), self._highest(denominator))
+        return Rank.LEADING
 
 
 def multiply(left: Mono, right: Mono) -> Mono:
@@ -110,14 +101,16 @@ def divide(mono: Mono, by: Mono) -> Mono:
     return multiply(mono, tuple((atom, -exponent) for atom, exponent in by))
 
 
-def content(factors: Iterable[Fraction]) -> Fraction:
+def content(factors: Iterable[Factor]) -> Factor:
     """What is worth drawing out of rational factors: their common divisor, and a denominator that most share."""
     factors = list(factors)
     shared = gcd(*(f.numerator for f in factors))
+    if all(type(f) is int for f in factors):
+        return shared
     denominators = Counter(f.denominator for f in factors)
     denominator, count = denominators.most_common(1)[0]
-    if 2 * count < len(factors) or any(denominator % d for d in denominators):
-        denominator = 1
+    if denominator == 1 or 2 * count < len(factors) or any(denominator % d for d in denominators):
+        return shared
     return Fraction(shared, denominator)
 
 
@@ -144,15 +137,12 @@ class Collector:
 
     def __init__(self, atoms: Atoms) -> None:
         self.atoms = atoms
-        self._known: dict[frozenset[tuple[Mono, Fraction]], Node] = {}
+        self._known: dict[frozenset[tuple[Mono, Factor]], Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
 
     def cost(self, node: Node) -> int:
         """The operations of a tree, counted once a tree."""
-        found = self._costs.get(id(node))
-        if found is None:
-            found = self._costs[id(node)] = (node, cost(node))
-        return found[1]
+        return cost(node, self._costs)
 
     def form(self, poly: Poly) -> Node:
         """The collected tree of a polynomial."""
@@ -164,13 +154,19 @@ class Collector:
             return self.product(factor * sign, multiply(mono, left), ())
         return self.product(factor, mono, (self._sum(rest),))
 
-    def primitive(self, poly: Poly) -> tuple[Fraction, Mono, Poly]:
+    def primitive(self, poly: Poly) -> tuple[Factor, Mono, Poly]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest's first factor positive."""
         factor = content(poly.values())
         mono = self._worth_drawing(poly, common(poly))
         if (factor != 1 or mono) and sum(f < 0 for f in poly.values()) * 2 > len(poly):
             factor = -factor
-        return factor, mono, {divide(m, mono): f / factor for m, f in poly.items()}
+        return factor, mono, self._divided(poly, mono, factor)
+
+    @staticmethod
+    def _divided(poly: Poly, mono: Mono, factor: Factor) -> Poly:
+        if not mono:
+            return poly if factor == 1 else {m: exact(f, factor) for m, f in poly.items()}
+        return {divide(m, mono): exact(f, factor) for m, f in poly.items()}
 
     def _worth_drawing(self, poly: Poly, shared: Mono) -> Mono:
         """The common monomial without lengths that stay behind in some terms: l² + l a c, not l (l + a c)."""
@@ -183,33 +179,34 @@ class Collector:
                 kept.append((atom, exponent))
         return tuple(kept)
 
-    def product(self, factor: Fraction | int, mono: Mono, more: Iterable[Node]) -> Node:
+    def product(self, factor: Factor, mono: Mono, more: Iterable[Node]) -> Node:
         """factor · monomial · more as a tree, in printing order."""
         atoms = [*mono, *((self.atoms.number(node), 1) for node in more)]
         atoms.sort(key=lambda item: self.atoms.ranks[item[0]])
         return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms])
 
-    def decompose(self, node: Node) -> tuple[Fraction, Mono]:
+    def decompose(self, node: Node) -> tuple[Factor, Mono]:
         """(factor, monomial) of a tree that is a product; a sum counts as one atom."""
         match node:
             case Negative(argument):
                 factor, mono = self.decompose(argument)
                 return -factor, mono
             case Number(p, q):
-                return Fraction(p, q), ()
+                return (p if q == 1 else Fraction(p, q)), ()
             case Product(factors):
                 return self._decompose_all(factors)
             case Quotient(numerator, denominator):
                 f, above = self.decompose(numerator)
                 g, below = self.decompose(denominator)
-                return f / g, divide(above, below)
+                return exact(f, g), divide(above, below)
             case Power(base, Number(p, 1)):
                 factor, mono = self.decompose(base)
                 return factor**p, tuple((atom, e * p) for atom, e in mono)
-        return Fraction(1), ((self.atoms.number(node), 1),)
+        return 1, ((self.atoms.number(node), 1),)
 
-    def _decompose_all(self, factors: Iterable[Node]) -> tuple[Fraction, Mono]:
-        factor, mono = Fraction(1), ()
+    def _decompose_all(self, factors: Iterable[Node]) -> tuple[Factor, Mono]:
+        factor: Factor = 1
+        mono: Mono = ()
         for part in factors:
             f, m = self.decompose(part)
             factor, mono = factor * f, multiply(mono, m)
@@ -222,7 +219,7 @@ class Collector:
             sign, inner = split_sign(node)
             for term in inner.terms if isinstance(inner, Sum) else (inner,):
                 factor, mono = self.decompose(term)
-                value = poly.get(mono, Fraction(0)) + sign * factor
+                value = poly.get(mono, 0) + sign * factor
                 if value:
                     poly[mono] = value
                 else:
@@ -273,7 +270,7 @@ class Collector:
         waves = [rank for rank in ranks if rank[0][0] is Rank.WAVE]
         return waves, ranks
 
-    def ordered(self, poly: Poly) -> list[tuple[Mono, Fraction]]:
+    def ordered(self, poly: Poly) -> list[tuple[Mono, Factor]]:
         """The terms in printing order."""
         return sorted(poly.items(), key=lambda item: self.order(item[0]))
 
@@ -329,10 +326,4 @@ def join(poly: Poly, x: int, y: int, whole: int) -> Poly:
             exponents[whole] = exponents.pop(x)
         result[tuple(sorted(exponents.items()))] = f
     return result
-
-
-def scaled_key(poly: Mapping[Any, Fraction]) -> tuple[frozenset[tuple[Any, Fraction]], Fraction]:
-    """(key, factor): polynomials that differ by a rational factor share the key."""
-    lead = poly[min(poly)]
-    return frozenset((m, f / lead) for m, f in poly.items()), lead
 

@@ -20,8 +20,10 @@ from fractions import Fraction
 from itertools import combinations, product
 from math import comb
 
+from dynsolve.algebra.terms import Factor, exact
+
 Exponents = tuple[int, ...]
-Poly = dict[Exponents, Fraction]
+Poly = dict[Exponents, Factor]
 
 Turns = tuple[int, ...]
 """An angle as integer multiples of the group's basic angles."""
@@ -32,7 +34,7 @@ Wave = tuple[str, Turns]
 Monomial = tuple[tuple[Wave, int], ...]
 """A product of powers of sines and cosines."""
 
-Dress = dict[Monomial, Fraction]
+Dress = dict[Monomial, Factor]
 
 LARGEST_POWER = 6
 """Above this power of one angle only the Fourier form and the normal form are tried."""
@@ -49,7 +51,7 @@ def dresses(poly: Poly) -> list[Dress]:
     waves = _fourier(poly, count)
     found.append(_fourier_dress(waves))
     if max(max(e) for e in poly) > LARGEST_POWER:
-        return found
+        return _distinct(found)
     for basis in _bases(used, unit):
         over = poly if basis == [unit[j] for j in used] else None
         local = _restrict(poly, used) if over is not None else _from_waves(waves, basis, count)
@@ -96,12 +98,10 @@ def _eliminations(poly: Poly, basis: list[Turns]) -> Iterator[Dress]:
     for ways in product("sch", repeat=len(basis)):
         turned: Poly | None = poly
         for j, way in enumerate(ways):
-            if way == "c":
+            if turned is not None and way == "c":
                 turned = _without_cos_squares(turned, j)
-            elif way == "h":
+            elif turned is not None and way == "h":
                 turned = _homogeneous(turned, j)
-            if turned is None:
-                break
         if turned is not None:
             yield _plain(turned, basis)
 
@@ -136,10 +136,10 @@ def _put(e: Exponents, j: int, s: int, c: int) -> Exponents:
     return (*e[: 2 * j], s, c, *e[2 * j + 2 :])
 
 
-def _add(poly: dict[Exponents, Fraction], key: Exponents, value: Fraction) -> None:
+def _add(poly: Poly, key: Exponents, value: Factor) -> None:
     total = poly.get(key, 0) + value
     if total:
-        poly[key] = Fraction(total)
+        poly[key] = total
     else:
         poly.pop(key, None)
 
@@ -153,7 +153,7 @@ Waves = dict[Turns, tuple[Fraction, Fraction]]
 def _fourier(poly: Poly, count: int) -> Waves:
     total: dict[Turns, list[Fraction]] = {}
     for e, f in poly.items():
-        spectrum: dict[Turns, tuple[Fraction, Fraction]] = {(0,) * count: (f, Fraction(0))}
+        spectrum: dict[Turns, tuple[Fraction, Fraction]] = {(0,) * count: (Fraction(f), Fraction(0))}
         for j in range(count):
             for _ in range(e[2 * j]):
                 spectrum = _times_wave(spectrum, j, sine=True)
@@ -281,7 +281,9 @@ def _normal(poly: Poly, count: int) -> Poly:
 
 
 def _distinct(found: list[Dress]) -> list[Dress]:
-    seen: dict[frozenset[tuple[Monomial, Fraction]], Dress] = {}
+    """Each dress once, whole factors as int."""
+    seen: dict[frozenset[tuple[Monomial, Factor]], Dress] = {}
     for dress in found:
-        seen.setdefault(frozenset(dress.items()), dress)
+        whole = {m: exact(f, 1) for m, f in dress.items()}
+        seen.setdefault(frozenset(whole.items()), whole)
     return list(seen.values())

@@ -518,7 +518,13 @@ class Ring:
 
     def without(self, expr: Expr, dots: int) -> Expr:
         """The expression with all velocities (dots = 1) or accelerations (dots = 2) put to 0."""
-        return self._put(expr, {self._symbols[(name, dots)]: 0 for name in self.names})
+        poly = expr.poly
+        degrees = poly.degrees()
+        for name in self.names:
+            index = self._symbols[(name, dots)]
+            if degrees[index]:
+                poly %= self._gens[index]
+        return Expr(self, poly)
 
     def at_rest(self, expr: Expr) -> Expr:
         """The expression at q = 0."""

@@ -1,0 +1,221 @@
+"""The compact forms of a derivation's values, each made once and shared.
+
+Small values are written from their own normal form.  Where a value is long, and is
+by its formula a combination of values that have forms already, those are put
+together instead: C from the Christoffel symbols, d/dt ∂L/∂q̇ from D and the
+Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from functools import cached_property
+
+from dynsolve.algebra.build import negated, times, total
+from dynsolve.algebra.compact import Compactor
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
+from dynsolve.notation import tree
+from dynsolve.notation.tree import ZERO, Node, Symbol
+from dynsolve.pipeline import Derivation
+from dynsolve.robot.model import Convention, Robot
+from dynsolve.robot.parallel import Turn, parallel_groups
+
+LONG = 300
+"""From this number of terms on a value is put together from parts."""
+
+
+class Forms:
+    """forms(name): the compact tree of the value of that name, a `tree.Matrix` for a matrix.
+
+    Names are those of `dynsolve.pipeline`.
+    """
+
+    def __init__(self, robot: Robot, values: Derivation) -> None:
+        self.robot = robot
+        self.values = values
+        self._made: dict[str, Node] = {}
+        self._symbols: dict[tuple[int, int, int], Node] = {}
+
+    @cached_property
+    def compactor(self) -> Compactor:
+        """The one that writes everything about this robot."""
+        return Compactor(self.robot.ring, leading_names(self.robot), _parallel(self.robot))
+
+    def __call__(self, name: str) -> Node:
+        found = self._made.get(name)
+        if found is None:
+            found = self._made[name] = self._make(name)
+        return found
+
+    def of(self, value: Expr | Matrix) -> Node:
+        """The compact tree of any value of this robot's ring."""
+        return self.compactor.matrix(value) if isinstance(value, Matrix) else self.compactor.form(value)
+
+    def christoffel(self, i: int, j: int, k: int) -> Node:
+        """c_ijk, from 0."""
+        key = min(i, j), max(i, j), k
+        found = self._symbols.get(key)
+        if found is None:
+            found = self._symbols[key] = self.of(self.values["christoffel"][key])
+        return found
+
+    def _make(self, name: str) -> Node:
+        value = self.values[name]
+        entries = value.entries if isinstance(value, Matrix) else (value,)
+        if max(map(len, entries), default=0) > LONG:
+            made = self._from_parts(name)
+            if made is not None:
+                return made
+        if name == "tau":
+            return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
+        return self.of(value)
+
+    # -- long values from their parts --------------------------------------------------------------
+
+    def _from_parts(self, name: str) -> Node | None:
+        for stem, way in (
+            ("dLdqd", self._momentum),
+            ("ddt", self._momentum_rate),
+            ("dLdq", self._slope),
+            ("tau", self._force),
+        ):
+            rest = name.removeprefix(stem)
+            if rest != name and rest.isdigit():
+                return way(int(rest) - 1)
+        whole = {"C": self._coriolis, "K": self._kinetic_energy, "L": self._lagrangian}
+        if name in whole:
+            return whole[name]()
+        for body in self.robot.bodies:
+            if name == f"I{body.name}":
+                return self._base_inertia(body.name)
+            if name == f"K{body.name}":
+                return total([self(f"Kv{body.name}"), self(f"Kw{body.name}")])
+        return None
+
+    def _d(self, i: int, j: int) -> Node:
+        D = self("D")
+        assert isinstance(D, tree.Matrix)
+        return D.rows[i][j]
+
+    def _g(self, k: int) -> Node:
+        g = self("g")
+        assert isinstance(g, tree.Matrix)
+        return g.rows[k][0]
+
+    def _kinetic_energy(self) -> Node:
+        """Σ_i ½ d_ii q̇_i² + Σ_{i<j} d_ij q̇_i q̇_j"""
+        return total(
+            [
+                times(Fraction(1, 2) if i == j else 1, [(self._d(i, j), 1), *self._rates(i, j)])
+                for i, j in _pairs(self.robot.n)
+            ]
+        )
+
+    def _lagrangian(self) -> Node:
+        """K - P"""
+        return total([self("K"), negated(self("P"))])
+
+    def _momentum(self, k: int) -> Node:
+        """Σ_j d_kj q̇_j"""
+        return total([times(1, [(self._d(k, j), 1), self._rate(j)]) for j in range(self.robot.n)])
+
+    def _rate(self, k: int, dots: int = 1) -> tuple[Node, int]:
+        return Symbol(self.robot.ring.names[k], dots), 1
+
+    def _rates(self, i: int, j: int) -> list[tuple[Node, int]]:
+        """q̇_i q̇_j"""
+        return [(self._rate(i)[0], 2)] if i == j else [self._rate(i), self._rate(j)]
+
+    def _accelerated(self, k: int) -> list[Node]:
+        """Σ_j d_kj q̈_j"""
+        return [times(1, [(self._d(k, j), 1), self._rate(j, 2)]) for j in range(self.robot.n)]
+
+    def _momentum_rate(self, k: int) -> Node:
+        """Σ_j d_kj q̈_j + Σ_ij ∂d_kj/∂q_i q̇_i q̇_j, the slopes as c_ijk + c_ikj"""
+        terms = self._accelerated(k)
+        for i, j in _pairs(self.robot.n):
+            own = times(1 if i == j else 2, [(self.christoffel(i, j, k), 1)])
+            others = [self.christoffel(i, k, j)] if i == j else [self.christoffel(i, k, j), self.christoffel(j, k, i)]
+            terms.append(times(1, [(total([own, *others]), 1), *self._rates(i, j)]))
+        return total(terms)
+
+    def _slope(self, k: int) -> Node:
+        """½ Σ_ij ∂d_ij/∂q_k q̇_i q̇_j - g_k, the slopes as c_kij + c_kji"""
+        terms = []
+        for i, j in _pairs(self.robot.n):
+            both = total([self.christoffel(k, i, j), self.christoffel(k, j, i)])
+            if i == j:
+                terms.append(times(1, [(self.christoffel(k, i, i), 1), *self._rates(i, i)]))
+            else:
+                terms.append(times(1, [(both, 1), *self._rates(i, j)]))
+        return total([*terms, negated(self._g(k))])
+
+    def _force(self, k: int) -> Node:
+        """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k"""
+        terms = self._accelerated(k)
+        for i, j in _pairs(self.robot.n):
+            factor = 1 if i == j else 2
+            terms.append(times(factor, [(self.christoffel(i, j, k), 1), *self._rates(i, j)]))
+        return total([*terms, self._g(k)])
+
+    def _coriolis(self) -> Node:
+        """c_kj = Σ_i c_ijk q̇_i, equal symbols drawn together"""
+        n = self.robot.n
+        return tree.Matrix(tuple(tuple(self._coriolis_entry(k, j) for j in range(n)) for k in range(n)))
+
+    def _coriolis_entry(self, k: int, j: int) -> Node:
+        shared: dict[Node, list[Node]] = {}
+        for i in range(self.robot.n):
+            symbol = self.christoffel(i, j, k)
+            if symbol != ZERO:
+                shared.setdefault(symbol, []).append(self._rate(i)[0])
+        return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])
+
+    def _base_inertia(self, body: str) -> Node | None:
+        """Σ_kl R_ik I_kl R_jl with the entries of R as they are printed; None where I is not simpler than that."""
+        R, tensor = self(f"R{body}"), self(f"I_body{body}")
+        assert isinstance(R, tree.Matrix) and isinstance(tensor, tree.Matrix)
+        rows = tuple(tuple(_sandwich(R.rows[i], tensor, R.rows[j]) for j in range(3)) for i in range(3))
+        return tree.Matrix(rows)
+
+
+def _sandwich(left: tuple[Node, ...], tensor: tree.Matrix, right: tuple[Node, ...]) -> Node:
+    """Σ_kl left_k tensor_kl right_l"""
+    terms = []
+    for k, row in enumerate(tensor.rows):
+        inner = total([times(1, [(entry, 1), (right[l], 1)]) for l, entry in enumerate(row) if entry != ZERO])
+        terms.append(times(1, [(left[k], 1), (inner, 1)]))
+    return total(terms)
+
+
+def _pairs(n: int) -> Iterable[tuple[int, int]]:
+    return ((i, j) for i in range(n) for j in range(i, n))
+
+
+def leading_names(robot: Robot) -> list[str]:
+    """The masses and then the moments of inertia, in the order of the bodies."""
+    masses = [name for body in robot.bodies for name in _linear_names(body.mass)]
+    given = [body.inertia for body in robot.bodies if body.inertia is not None and body.shape is None]
+    inertias = [name for tensor in given for entry in tensor.entries for name in _linear_names(entry)]
+    return list(dict.fromkeys([*masses, *inertias]))
+
+
+def _linear_names(expr: Expr) -> list[str]:
+    """The parameters that stand alone as a term of an expression."""
+    generators = expr.ring.generators
+    found = []
+    for exponents in expr.poly.monoms():
+        if sum(map(int, exponents)) == 1:
+            generator = generators[[int(e) for e in exponents].index(1)]
+            if generator.kind == "symbol":
+                found.append(generator.name)
+    return found
+
+
+def _parallel(robot: Robot) -> list[frozenset[str]]:
+    turns = [Turn(joint.theta, joint.alpha, joint.variable == "theta") for joint in robot.joints]
+    return parallel_groups(turns, robot.ring.names, robot.convention is Convention.MODIFIED)
+
+
