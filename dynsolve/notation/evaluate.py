@@ -31,7 +31,7 @@ from dynsolve.notation.tree import (
 
 DOTS = ("", "_dot", "_ddot")
 
-_FUNCTIONS: dict[str, Callable[[float], float]] = {
+FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
     "sin": math.sin,
     "cos": math.cos,
     "tan": math.tan,
@@ -79,8 +79,10 @@ def _gather(place: Any, stack: list[float]) -> Any:
     return [[stack[entry] for entry in row] for row in place]
 
 
-def compile_trees(trees: Iterable[Node]) -> Program:
+def compile_trees(trees: Iterable[Node], functions: Mapping[str, Callable[[Any], Any]] = FUNCTIONS) -> Program:
     """Compile trees for evaluation; a `Matrix` may only stand on top.
+
+    `functions` are the sine and its like; with those of NumPy the values may be arrays.
 
     >>> x = Symbol("x")
     >>> program = compile_trees([Sum((x, Number(1, 2))), Matrix(((x, Power(x, Number(3))),))])
@@ -88,7 +90,7 @@ def compile_trees(trees: Iterable[Node]) -> Program:
     [2.5, [[2.0, 8.0]]]
     """
     trees = tuple(trees)
-    compiler = _Compiler()
+    compiler = _Compiler(functions)
     for tree in trees:
         compiler.survey(tree)
     places = tuple(compiler.place(tree) for tree in trees)
@@ -103,9 +105,10 @@ def evaluate(tree: Node, values: Mapping[str, float]) -> Any:
 class _Compiler:
     """Constants come first in the list of values, then symbols, then results in order."""
 
-    __slots__ = ("constants", "symbols", "operations", "leaves", "seen", "offset")
+    __slots__ = ("functions", "constants", "symbols", "operations", "leaves", "seen", "offset")
 
-    def __init__(self) -> None:
+    def __init__(self, functions: Mapping[str, Callable[[Any], Any]]) -> None:
+        self.functions = functions
         self.constants: dict[float, int] = {}
         self.symbols: dict[str, int] = {}
         self.operations: list[_Operation] = []
@@ -159,9 +162,26 @@ class _Compiler:
         operands = [self.scalar(part) for part in _operands(node)]
         if not operands:
             raise TypeError(f"a tree with {type(node).__name__} has no value")
-        operation = _operation(node) if len(operands) > 1 or not isinstance(node, Sum | Product) else _same
+        operation = self.operation(node) if len(operands) > 1 or not isinstance(node, Sum | Product) else _same
         self.operations.append((operation, operator.itemgetter(*operands)))
         return self.offset + len(self.operations) - 1
+
+    def operation(self, node: Node) -> Callable[[Any], float]:
+        match node:
+            case Sum():
+                return sum
+            case Product():
+                return math.prod
+            case Quotient():
+                return _divide
+            case Negative():
+                return operator.neg
+            case Function(name):
+                return self.functions[name]
+            case Power(_, exponent):
+                whole = _whole(exponent)
+                return _raise if whole is None else _raised_to(whole)
+        raise TypeError(f"a tree with {type(node).__name__} has no value")
 
 
 def _operands(node: Node) -> tuple[Node, ...]:
@@ -175,24 +195,6 @@ def _operands(node: Node) -> tuple[Node, ...]:
         case Negative(argument) | Parenthesized(argument) | Function(_, argument):
             return (argument,)
     return ()
-
-
-def _operation(node: Node) -> Callable[[Any], float]:
-    match node:
-        case Sum():
-            return sum
-        case Product():
-            return math.prod
-        case Quotient():
-            return _divide
-        case Negative():
-            return operator.neg
-        case Function(name):
-            return _FUNCTIONS[name]
-        case Power(_, exponent):
-            whole = _whole(exponent)
-            return _raise if whole is None else _raised_to(whole)
-    raise TypeError(f"a tree with {type(node).__name__} has no value")
 
 
 def _whole(exponent: Node) -> int | None:

@@ -1,0 +1,135 @@
+"""What every stage of an explanation looks at: the robot, its exact values, their compact forms."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Expr
+from dynsolve.document import Prose
+from dynsolve.explain.forms import Forms
+from dynsolve.notation import tree
+from dynsolve.notation.tree import Node, Row, Words
+from dynsolve.pipeline import Derivation
+from dynsolve.robot.model import Convention, Coordinate, Joint, JointType, Robot
+
+SHV = "Spong, Hutchinson, Vidyasagar"
+"""M. W. Spong, S. Hutchinson, M. Vidyasagar, Robot Modeling and Control, Wiley, 2006."""
+
+LARGEST_WORKING = 260
+"""Matrices whose entries have more parts than this are not put into a formula; it stays in letters."""
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """A robot with its derivation, exact and as trees."""
+
+    robot: Robot
+    values: Derivation
+    forms: Forms
+
+    @property
+    def standard(self) -> bool:
+        """Whether the table is in the standard convention."""
+        return self.robot.convention is Convention.STANDARD
+
+    def form(self, name: str) -> Node:
+        """The tree of a quantity."""
+        return self.forms(name)
+
+    def matrix(self, name: str) -> tree.Matrix:
+        """The tree of a quantity that is a matrix."""
+        node = self.forms(name)
+        assert isinstance(node, tree.Matrix)
+        return node
+
+    def show(self, value: Expr | Matrix) -> Node:
+        """The tree of any exact value."""
+        return self.forms.of(value)
+
+
+def shv(section: str) -> str:
+    """A reference to Robot Modeling and Control."""
+    return f"Spong et al. {section}"
+
+
+def craig(section: str) -> str:
+    """A reference to Craig, Introduction to Robotics, 3rd edition, 2005."""
+    return f"Craig {section}"
+
+
+def turns(q: Coordinate) -> bool:
+    """Whether a coordinate is an angle."""
+    return q.type is JointType.REVOLUTE
+
+
+def plain_joint(robot: Robot, k: int) -> Joint | None:
+    """The one joint whose variable is coordinate k alone (from 0), at rate 1; None where they are coupled."""
+    joints = [joint for joint in robot.joints if any(i == k for i, _ in joint.rates)]
+    if len(joints) == 1 and joints[0].rates == ((k, 1),):
+        return joints[0]
+    return None
+
+
+def column_of(matrix: tree.Matrix, j: int) -> tree.Matrix:
+    """A column of a tree."""
+    return tree.Matrix(tuple((row[j],) for row in matrix.rows))
+
+
+def block_of(matrix: tree.Matrix, rows: int, first: int, last: int) -> tree.Matrix:
+    """The first rows of some columns of a tree."""
+    return tree.Matrix(tuple(row[first:last] for row in matrix.rows[:rows]))
+
+
+def side_by_side(parts: Sequence[Node]) -> Row:
+    """Formulas on one line, commas between them."""
+    row: list[Node] = []
+    for part in parts:
+        row += [part] if not row else [Words(", "), part]
+    return Row(tuple(row))
+
+
+def listed(parts: Sequence[Prose | Node | str], conjunction: str = "and") -> Prose:
+    """a, b and c
+
+    >>> listed(["a", "b", "c"])
+    ('a', ', ', 'b', ' and ', 'c')
+    """
+    prose: list[str | Node] = []
+    for i, part in enumerate(parts):
+        if i:
+            prose.append(f" {conjunction} " if i == len(parts) - 1 else ", ")
+        prose += list(part) if isinstance(part, tuple) else [part]
+    return tuple(prose)
+
+
+def is_small(*nodes: Node) -> bool:
+    """Whether trees are small enough to be put into a formula and still be read."""
+    budget = LARGEST_WORKING
+    pending: list[Node] = list(nodes)
+    while pending:
+        budget -= 1
+        if budget < 0:
+            return False
+        pending.extend(children(pending.pop()))
+    return True
+
+
+def children(node: Node) -> tuple[Node, ...]:
+    """The parts of an expression's tree."""
+    match node:
+        case tree.Matrix(rows):
+            return tuple(part for row in rows for part in row)
+        case tree.Sum(parts) | tree.Product(parts) | tree.Relation(parts) | tree.Row(parts):
+            return parts
+        case tree.Quotient(a, b) | tree.Power(a, b) | tree.Cross(a, b):
+            return (a, b)
+        case (
+            tree.Negative(a)
+            | tree.Function(_, a)
+            | tree.Parenthesized(a)
+            | tree.Transpose(a)
+        ):
+            return (a,)
+    return ()

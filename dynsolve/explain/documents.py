@@ -1,0 +1,70 @@
+"""Solutions as documents: what is shown of a derivation, and in which order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from dynsolve.document import Block, Document, Fold, Formula, Heading, Note, Table, Text
+from dynsolve.explain.step import STAGES, Detail, Step
+
+if TYPE_CHECKING:
+    from dynsolve.solution import Solution
+
+CONVENTIONS = {"standard": "standard Denavit-Hartenberg (Spong)", "modified": "modified Denavit-Hartenberg (Craig)"}
+
+
+def solution_document(
+    solution: Solution, detail: Detail = Detail.NORMAL, stages: Iterable[str] | None = None
+) -> Document:
+    """A solution with the steps of some stages, in the depth of `detail`."""
+    return Document((*_opening(solution), *_stages(solution, detail, stages), *_closing(solution)))
+
+
+def _opening(solution: Solution) -> Iterator[Block]:
+    problem = solution.problem
+    yield Heading(problem.title, 1)
+    facts = [problem.source] if problem.source else []
+    facts.append(f"Convention: {CONVENTIONS[problem.convention.value]}.")
+    for fact in facts:
+        yield Text((fact,))
+
+
+def _stages(solution: Solution, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
+    stage = ""
+    for step in solution.explain(stages):
+        if step.detail > detail:
+            continue
+        if step.stage != stage:
+            stage = step.stage
+            yield Heading(STAGES[stage], 2)
+        yield Fold(step.title, tuple(step_blocks(step, detail)))
+
+
+def step_blocks(step: Step, detail: Detail) -> Iterator[Block]:
+    """A step: in brief its result alone, in full with its working and notes."""
+    if detail > Detail.BRIEF and step.why:
+        yield Text(step.why)
+    if step.table:
+        yield Table(step.table.header, step.table.rows)
+    if detail > Detail.BRIEF:
+        if step.formula is not None:
+            yield Formula(step.formula, step.source)
+        for working in step.working:
+            yield Formula(working)
+    for result in step.result:
+        yield Formula(result, entries=step.entries)
+    if detail > Detail.BRIEF:
+        for note in step.notes:
+            yield Note(note)
+
+
+def _closing(solution: Solution) -> Iterator[Block]:
+    verification = solution.verification
+    yield Heading("Verification", 2)
+    if not solution.robot.bodies:
+        yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
+    yield Text((
+        f"Held against {verification.method} at {verification.states} random states: "
+        f"they differ by at most {verification.max_relative_error:.1e} (relative).",
+    ))  # fmt: skip

@@ -1,0 +1,294 @@
+"""Steps of the bodies: mass centre, inertia tensor, its orientation, and the tensor in the base frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dynsolve.algebra import matrix as algebra
+from dynsolve.document import Prose
+from dynsolve.explain import letters
+from dynsolve.explain.course import Course, block_of, is_small, shv, side_by_side
+from dynsolve.explain.step import Step
+from dynsolve.notation.tree import (
+    Letter,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Row,
+    Sum,
+    Symbol,
+    Transpose,
+    Words,
+    equation,
+)
+from dynsolve.robot.model import AxesKind, Body
+from dynsolve.stages import inertia
+
+STAGE = "inertia"
+
+_SHAPES = {
+    "box": "rectangular solid",
+    "cylinder": "solid cylinder",
+    "hollow_cylinder": "hollow cylinder",
+    "rod": "slender rod",
+    "disk": "thin disk",
+    "sphere": "solid sphere",
+    "shell": "thin spherical shell",
+}
+
+
+def steps(course: Course) -> Iterator[Step]:
+    """Of each body: r_c, and unless it is a point, I, R and I in the base frame."""
+    for body in course.robot.bodies:
+        yield _center(course, body)
+        if body.is_point:
+            yield _point(course, body)
+            continue
+        yield _tensor(course, body)
+        if body.about_point is not None:
+            yield _parallel_axis(course, body)
+        yield _rotation(course, body)
+        yield _base_tensor(course, body)
+
+
+def name_of(body: Body) -> str:
+    """How sentences call a body."""
+    return f"body {body.name}"
+
+
+# -- the mass centre -------------------------------------------------------------------------------
+
+
+def _center(course: Course, body: Body) -> Step:
+    link = body.link
+    r, H = letters.rc(body), letters.H(course.robot, link)
+    local = course.show(body.center)
+    frame = Letter("r", letters.rc(body).sub, Number(link), "bold")
+    at_origin = body.center.is_zero
+    why: Prose = (f"The mass centre of {name_of(body)} {_where(course, body)}.",)
+    formula: Node = equation(r, Sum((Product((letters.R(course.robot, link), frame)), letters.o(link))))
+    working: tuple[Node, ...] = ()
+    if at_origin:
+        formula = equation(r, letters.o(link))
+    elif is_small(local, block_of(course.matrix(f"H{link}"), 3, 0, 4)):
+        rotation, origin = _parts(course, link)
+        working = (
+            equation(frame, local),
+            equation(r, Sum((Product((rotation, local)), origin))),
+        )
+    else:
+        working = (equation(frame, local),)
+    return Step(
+        id=f"rc{body.name}",
+        stage=STAGE,
+        title=f"Mass centre of {name_of(body)}",
+        why=why,
+        formula=formula,
+        source=shv("7.2"),
+        working=working,
+        result=(equation(r, course.form(f"rc{body.name}")),),
+        notes=() if at_origin else (_not_the_origin(body, H),),
+    )
+
+
+def _parts(course: Course, link: int) -> tuple[Matrix, Matrix]:
+    H = course.matrix(f"H{link}")
+    return block_of(H, 3, 0, 3), block_of(H, 3, 3, 4)
+
+
+def _where(course: Course, body: Body) -> str:
+    link, written = body.link, body.center_written
+    near = f"o_{link - 1}" if course.standard else f"o_{link}"
+    far = f"o_{link}" if course.standard else f"o_{link + 1}"
+    if written == "tip":
+        return f"is at the far end of link {link}, {far}"
+    if written == "origin":
+        return f"is at the origin of frame {link}"
+    if written == "midpoint":
+        return f"is half-way along link {link}, between {near} and {far}"
+    if body.center.is_zero:
+        return f"falls on the origin of frame {link}"
+    return f"is fixed in frame {link}"
+
+
+def _not_the_origin(body: Body, H: Letter) -> Prose:
+    return (
+        f"The mass centre is not the origin of frame {body.link}: the fourth column of ",
+        H,
+        " is not ",
+        letters.rc(body),
+        ".",
+    )
+
+
+# -- the tensor ------------------------------------------------------------------------------------
+
+
+def _point(course: Course, body: Body) -> Step:
+    tensor = letters.of_body("I", body, "bold")
+    return Step(
+        id=f"I{body.name}",
+        stage=STAGE,
+        title=f"Inertia of {name_of(body)}",
+        why=(
+            "A point mass has no extent, so its tensor about its own mass centre is zero and it has no "
+            "rotational energy. No R and no ",
+            letters.of_body("I", body, "script"),
+            " are needed.",
+        ),
+        source=shv("7.2.1"),
+        result=(equation(tensor, Number(0)),),
+    )
+
+
+def _tensor(course: Course, body: Body) -> Step:
+    tensor = letters.of_body("I", body, "bold")
+    assert body.inertia is not None
+    about = "the mass centre"
+    if body.about_point is not None:
+        tensor = Letter("I", Row((letters.index_of(body.name), Words(","), Words("given"))), None, "bold")
+        about = f"the origin of frame {body.link}" if body.about == "origin" else "the near end of its link"
+    formula, working, why = _shape(course, body)
+    if body.shape is None or not body.shape.formulas:
+        why = (f"The tensor of {name_of(body)} is given, about {about}, along the axes of its own frame.",)
+    return Step(
+        id=f"I_given{body.name}" if body.about_point is not None else f"I_body{body.name}",
+        stage=STAGE,
+        title=f"Inertia tensor of {name_of(body)} in its own frame",
+        why=why,
+        formula=formula,
+        source=shv("7.2.1"),
+        working=working,
+        result=(equation(tensor, course.show(body.inertia)),),
+    )
+
+
+def _shape(course: Course, body: Body) -> tuple[Node | None, tuple[Node, ...], Prose]:
+    """The formula of a uniform shape, with what its letters are here."""
+    shape = body.shape
+    if shape is None or not shape.formulas:
+        return None, (), ()
+    formula = side_by_side([
+        equation(Letter("I", Words(axes)), moment) for axes, moment in shape.formulas
+    ])  # fmt: skip
+    given = [equation(Symbol("m"), course.show(body.mass))]
+    given += [equation(Symbol(letter), course.show(value)) for letter, value in shape.letters]
+    given = [relation for relation in given if relation.parts[0] != relation.parts[1]]
+    why: Prose = (f"{name_of(body).capitalize()} is a uniform {_SHAPES[shape.kind]}",)
+    if shape.axis:
+        why += (f", its own axis along {shape.axis} of the body's frame",)
+    why += (". Its principal moments about the mass centre:",)
+    return formula, (side_by_side(given),) if given else (), why
+
+
+def _parallel_axis(course: Course, body: Body) -> Step:
+    b = body.name
+    tensor = letters.of_body("I", body, "bold")
+    given = Letter("I", Row((letters.index_of(b), Words(","), Words("given"))), None, "bold")
+    r = Letter("r", style="bold")
+    mass = course.show(body.mass)
+    square = Power(Row((Words("|"), r, Words("|"))), Number(2))
+    shift = Product((mass, Parenthesized(Sum((square, Negative(Product((r, Transpose(r)))))))))
+    H = course.values[f"H{body.link}"]
+    relative = inertia.axes_in_link(course.robot, body, H)
+    assert body.about_point is not None
+    offset = relative.T @ (body.center - body.about_point)
+    return Step(
+        id=f"I_body{b}",
+        stage=STAGE,
+        title=f"Parallel axis: the tensor of {name_of(body)} about its mass centre",
+        why=(
+            "The given tensor is about another point, but the kinetic energy asks for the one about the mass "
+            "centre. r goes from the given point to the mass centre, in the body's axes.",
+        ),
+        formula=equation(tensor, Sum((given, Negative(shift)))),
+        source="parallel-axis theorem; Craig 6.3",
+        working=(equation(r, course.show(offset)),),
+        result=(equation(tensor, course.form(f"I_body{b}")),),
+    )
+
+
+# -- its orientation -------------------------------------------------------------------------------
+
+
+def _rotation(course: Course, body: Body) -> Step:
+    robot, link = course.robot, body.link
+    rotation, frame = letters.of_body("R", body, "bold"), letters.R(robot, link)
+    turned = course.show(body.axes.rotation)
+    notes: tuple[Prose, ...] = ()
+    formula: Node | None = None
+    match body.axes.kind:
+        case AxesKind.LINK if body.axes.rotation == _identity(course):
+            why: Prose = (
+                f"The body's axes are those of frame {link}, the frame that comes after the mass",
+                " and is fixed in the same link.",
+            )
+            formula = equation(rotation, frame)
+            if link > 1 or letters.has_base(robot):
+                notes = ((f"Frame {link} is the one to take, not frame {link - 1} before the mass.",),)
+        case AxesKind.LINK:
+            why = (f"The body's axes are turned in frame {link}, as the problem gives them.",)
+            formula = equation(rotation, Product((frame, turned)))
+        case AxesKind.REST:
+            why = ("The body's axes are parallel to frame 0 at q = 0 and turn with the link.",)
+            at_rest = Parenthesized(Row((Words("q = 0"),)))
+            formula = equation(rotation, Product((frame, Transpose(Product((frame, at_rest))))))
+        case AxesKind.BASE:
+            why = (f"The rotation from the base to the frame of {name_of(body)} is given by the problem.",)
+            if not inertia.turns_with_link(robot, body, course.values[f"H{link}"]):
+                notes = (
+                    (
+                        f"This frame does not turn with link {link}. It may be used all the same: the kinetic energy "
+                        "comes out as with the frame that turns (compared exactly).",
+                    ),
+                )
+    return Step(
+        id=f"R{body.name}",
+        stage=STAGE,
+        title=f"Orientation of {name_of(body)}",
+        why=why,
+        formula=formula,
+        source=shv("7.2"),
+        result=(equation(rotation, course.form(f"R{body.name}")),),
+        notes=notes,
+    )
+
+
+def _identity(course: Course) -> algebra.Matrix:
+    return algebra.Matrix.identity(course.robot.ring, 3)
+
+
+def _base_tensor(course: Course, body: Body) -> Step:
+    b = body.name
+    inertia_, R, tensor = (
+        letters.of_body("I", body, "script"),
+        letters.of_body("R", body, "bold"),
+        letters.of_body("I", body, "bold"),
+    )
+    rotation, given = course.form(f"R{b}"), course.form(f"I_body{b}")
+    product = Product((R, tensor, Transpose(R)))
+    members: list[Node] = [inertia_, product]
+    if is_small(rotation, rotation, given):
+        members.append(Product((rotation, given, Transpose(rotation))))
+    base = course.form(f"I{b}")
+    notes: tuple[Prose, ...] = ()
+    if base == given:
+        notes = (("Here the turn changes nothing.",),)
+    return Step(
+        id=f"I{b}",
+        stage=STAGE,
+        title=f"Inertia tensor of {name_of(body)} in base coordinates",
+        why=(
+            "ω is found in base coordinates, so the tensor must be too: R turns the body's axes into the base's.",
+        ),
+        formula=equation(*members[:2]),
+        source=shv("7.2.1"),
+        working=(equation(inertia_, members[2]),) if len(members) > 2 else (),
+        result=(equation(inertia_, base),),
+        notes=notes,
+    )
+

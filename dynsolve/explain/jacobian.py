@@ -1,0 +1,192 @@
+"""Steps of the end-effector Jacobian: axes and origins, column by column, J_v and J_ω."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from dynsolve.algebra import matrix as algebra
+from dynsolve.document import Prose
+from dynsolve.explain import letters
+from dynsolve.explain.course import (
+    Course,
+    block_of,
+    column_of,
+    craig,
+    is_small,
+    listed,
+    plain_joint,
+    shv,
+    side_by_side,
+    turns,
+)
+from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.tree import (
+    Cross,
+    Letter,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Product,
+    Sum,
+    Symbol,
+    column,
+    equation,
+    number,
+)
+from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
+from dynsolve.stages.jacobian import joint_frame
+from dynsolve.stages.kinematics import origin
+
+STAGE = "jacobian"
+
+
+def steps(course: Course) -> Iterator[Step]:
+    """Axes and origins, a column a coordinate, and J."""
+    yield _axes(course)
+    for q in course.robot.coordinates:
+        yield _column(course, q)
+    yield _whole(course)
+
+
+def frame_parts(course: Course, i: int) -> tuple[Matrix, Matrix]:
+    """(z_i, o_i) as trees."""
+    H = course.matrix(f"H{i}")
+    return block_of(H, 3, 2, 3), block_of(H, 3, 3, 4)
+
+
+def _axes(course: Course) -> Step:
+    robot = course.robot
+    moving = sorted({joint_frame(robot, joint) for joint in robot.joints if joint.type})
+    last = len(robot.joints)
+    pairs: list[Node] = []
+    for i in moving:
+        z, o = frame_parts(course, i)
+        pairs.append(side_by_side([equation(letters.z(i), z), equation(letters.o(i), o)]))
+    if last not in moving:
+        pairs.append(equation(letters.o(last), frame_parts(course, last)[1]))
+    which = "i-1" if course.standard else "i"
+    return Step(
+        id="axes",
+        stage=STAGE,
+        title="Axes and origins of the joints",
+        why=(
+            "z is the third column of H (the first three entries), o the fourth. ",
+            f"In the {robot.convention.value} convention joint i moves along or about z_{{{which}}}",
+            ", the axis of the frame before it." if course.standard else ", the axis of its own frame.",
+        ),
+        source=shv("4.6") if course.standard else craig("5.6"),
+        result=tuple(pairs),
+    )
+
+
+def column_letters(course: Course, joint: Joint, point: Node) -> tuple[Node, Node]:
+    """(J_v, J_ω) of one joint in letters: z × (p - o) and z, or z and 0."""
+    i = joint_frame(course.robot, joint)
+    if joint.type is JointType.REVOLUTE:
+        arm = Parenthesized(Sum((point, Negative(letters.o(i)))))
+        return Cross(letters.z(i), arm), letters.z(i)
+    return letters.z(i), Letter("0", style="bold")
+
+
+def coordinate_column(course: Course, k: int, link: int, point: Node) -> tuple[Node, Node] | None:
+    """(J_v, J_ω) of coordinate k (from 0) in letters, None where no joint up to `link` moves with it."""
+    terms = [
+        (rate, column_letters(course, joint, point))
+        for joint in course.robot.joints[:link]
+        for i, rate in joint.rates
+        if i == k
+    ]
+    if not terms:
+        return None
+    if len(terms) == 1 and terms[0][0] == 1:
+        return terms[0][1]
+    return (
+        Sum(tuple(_rated(rate, linear) for rate, (linear, _) in terms)),
+        Sum(tuple(_rated(rate, angular) for rate, (_, angular) in terms)),
+    )
+
+
+def _rated(rate: Fraction, node: Node) -> Node:
+    if rate == 1:
+        return node
+    if rate == -1:
+        return Negative(node)
+    return Product((number(rate), node))
+
+
+def _column(course: Course, q: Coordinate) -> Step:
+    robot, k = course.robot, q.index - 1
+    last = len(robot.joints)
+    in_letters = coordinate_column(course, k, last, letters.o(last))
+    assert in_letters is not None
+    linear, angular = (column_of(course.matrix(name), k) for name in ("Jv", "Jw"))
+    name = Letter("J", Number(q.index), style="bold")
+    joint = plain_joint(robot, k)
+    working: tuple[Node, ...] = ()
+    if joint is not None and joint.type is JointType.REVOLUTE:
+        z, arm = frame_parts(course, joint_frame(robot, joint))[0], course.show(_lever(course, joint))
+        if is_small(z, arm):
+            working = (equation(in_letters[0], Cross(z, arm), linear),)
+    return Step(
+        id=f"J{q.index}",
+        stage=STAGE,
+        title=f"Column {q.index} of the Jacobian",
+        why=(Symbol(q.name), *_column_why(q, robot, joint)),
+        formula=equation(name, column(*in_letters)),
+        source=shv("4.6.3"),
+        working=working,
+        result=(equation(name, Matrix(linear.rows + angular.rows)),),
+    )
+
+
+def _lever(course: Course, joint: Joint) -> algebra.Matrix:
+    """o_n - o, from the joint's axis to the end of the arm."""
+    end: algebra.Matrix = course.values[f"H{len(course.robot.joints)}"]
+    start: algebra.Matrix = course.values[f"H{joint_frame(course.robot, joint)}"]
+    return origin(end) - origin(start)
+
+
+def _column_why(q: Coordinate, robot: Robot, joint: Joint | None) -> Prose:
+    if joint is None:
+        joints = [j for j in robot.joints if any(i == q.index - 1 for i, _ in j.rates)]
+        where = listed([str(j.index) for j in joints])
+        if len(joints) > 1:
+            return (
+                " moves the joints of rows ",
+                *where,
+                "; its column is the sum of theirs, each times the rate at which that joint moves.",
+            )
+        return (" moves the joint of row ", *where, " at a rate of its own, which multiplies the column.")
+    if turns(q):
+        return (
+            " turns everything after it about z: the end moves with z × (its distance from the axis), "
+            "and turns with z itself.",
+        )
+    return (" slides everything after it along z: the end moves with z, and nothing turns.",)
+
+
+def _whole(course: Course) -> Step:
+    Jv, Jw = course.form("Jv"), course.form("Jw")
+    return Step(
+        id="J",
+        stage=STAGE,
+        title="The Jacobian of the end of the arm",
+        why=("Its columns side by side: v = J_v q̇ and ω = J_ω q̇, however the joints move.",),
+        formula=equation(letters.J, column(letters.JV, letters.JW)),
+        source=shv("4.6.3"),
+        result=(equation(letters.JV, Jv), equation(letters.JW, Jw)),
+        notes=tuple(_notes(course)),
+        detail=Detail.BRIEF,
+    )
+
+
+def _notes(course: Course) -> Iterator[Prose]:
+    if course.robot.bodies:
+        yield (
+            "This Jacobian belongs to the end of the arm. Each body gets its own below, taken at its mass "
+            "centre.",
+        )
+

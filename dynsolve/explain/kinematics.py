@@ -1,0 +1,257 @@
+"""Steps of the forward kinematics: the table, A_i row by row, H_i as products."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dynsolve.document import Prose, Table
+from dynsolve.explain import letters
+from dynsolve.explain.course import Course, craig, is_small, listed, shv, side_by_side, turns
+from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.tree import (
+    Degrees,
+    Function,
+    Letter,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Product,
+    Row,
+    Symbol,
+    Words,
+    column,
+    equation,
+)
+from dynsolve.notation.unicode import lowered
+from dynsolve.robot.model import Joint, JointType
+
+STAGE = "kinematics"
+
+_ZERO, _ONE = Number(0), Number(1)
+
+
+def steps(course: Course) -> Iterator[Step]:
+    """The table, the base frame where it is turned, the general matrix, A_i and H_i."""
+    yield _table(course)
+    if letters.has_base(course.robot):
+        yield _base(course)
+    yield _general(course)
+    for joint in course.robot.joints:
+        yield _row(course, joint)
+    for joint in course.robot.joints:
+        yield _frame(course, joint.index)
+
+
+def _table(course: Course) -> Step:
+    robot = course.robot
+    if course.standard:
+        header: Prose = ("i", Symbol("theta"), "d", "a", Symbol("alpha"))
+        why: Prose = (
+            "Each row takes frame i-1 to frame i by four motions: turn by θ about z_{i-1}, slide by d along "
+            "z_{i-1}, slide by a along the new x axis x_i, turn by α about x_i. ",
+        )
+    else:
+        header = (
+            "i",
+            Letter("theta", Symbol("i")),
+            Letter("d", Symbol("i")),
+            Letter("a", Words("i-1")),
+            Letter("alpha", Words("i-1")),
+        )
+        why = (
+            "Each row takes frame i-1 to frame i by four motions: turn by α about x_{i-1}, slide by a along "
+            "x_{i-1}, turn by θ about z_i, slide by d along z_i. ",
+        )
+    if any(joint.type for joint in robot.joints):
+        why += ("The star marks a joint variable.",)
+    rows = tuple((str(joint.index), *joint.written) for joint in robot.joints)
+    return Step(
+        id="dh",
+        stage=STAGE,
+        title="Denavit-Hartenberg table",
+        why=why,
+        source=shv("3.2") if course.standard else craig("3.4"),
+        result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
+        notes=tuple(_table_notes(course)),
+        table=Table(header, rows),
+        detail=Detail.BRIEF,
+    )
+
+
+def _table_notes(course: Course) -> Iterator[Prose]:
+    robot = course.robot
+    turning = [Symbol(q.name) for q in robot.coordinates if turns(q)]
+    sliding = [Symbol(q.name) for q in robot.coordinates if not turns(q)]
+    if turning:
+        yield (
+            *listed(turning),
+            " is an angle (a revolute joint)." if len(turning) == 1 else " are angles (revolute joints).",
+        )
+    if sliding:
+        yield (
+            *listed(sliding),
+            " is a length (a prismatic joint)." if len(sliding) == 1 else " are lengths (prismatic joints).",
+        )
+    fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
+    if fixed:
+        yield (
+            f"Row {fixed[0]} has" if len(fixed) == 1 else f"Rows {' and '.join(fixed)} have",
+            " no star: a fixed frame, which moves with the frame before it.",
+        )
+    coupled = [joint for joint in robot.joints if len(joint.rates) > 1 or any(r != 1 for _, r in joint.rates)]
+    for joint in coupled:
+        yield (
+            f"The joint variable of row {joint.index} is not a coordinate itself but a combination of "
+            "coordinates: its column of the Jacobian is shared out among them.",
+        )
+
+
+def _base(course: Course) -> Step:
+    return Step(
+        id="H0",
+        stage=STAGE,
+        title="The base frame in the world",
+        why=(
+            "Gravity is given in the world w, in which frame 0 is turned or moved. The heights, and every "
+            "vector below, are in world coordinates.",
+        ),
+        source=shv("2.3"),
+        result=(equation(letters.H(course.robot, 0), course.form("H0")),),
+    )
+
+
+def _cos(angle: Node) -> Node:
+    return Function("cos", angle)
+
+
+def _sin(angle: Node) -> Node:
+    return Function("sin", angle)
+
+
+def _times(*factors: Node) -> Node:
+    return Product(factors)
+
+
+def _general(course: Course) -> Step:
+    i, before = Symbol("i"), Words("i-1")
+    theta, d = Letter("theta", i), Letter("d", i)
+    if course.standard:
+        a, alpha = Letter("a", i), Letter("alpha", i)
+        rows = (
+            (_cos(theta), Negative(_times(_sin(theta), _cos(alpha))), _times(_sin(theta), _sin(alpha)),
+             _times(a, _cos(theta))),
+            (_sin(theta), _times(_cos(theta), _cos(alpha)), Negative(_times(_cos(theta), _sin(alpha))),
+             _times(a, _sin(theta))),
+            (_ZERO, _sin(alpha), _cos(alpha), d),
+        )  # fmt: skip
+        motions = (("z", theta), ("z", d), ("x", a), ("x", alpha))
+    else:
+        a, alpha = Letter("a", before), Letter("alpha", before)
+        rows = (
+            (_cos(theta), Negative(_sin(theta)), _ZERO, a),
+            (_times(_sin(theta), _cos(alpha)), _times(_cos(theta), _cos(alpha)), Negative(_sin(alpha)),
+             Negative(_times(d, _sin(alpha)))),
+            (_times(_sin(theta), _sin(alpha)), _times(_cos(theta), _sin(alpha)), _cos(alpha),
+             _times(d, _cos(alpha))),
+        )  # fmt: skip
+        motions = (("x", alpha), ("x", a), ("z", theta), ("z", d))
+    product = Product(tuple(_motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
+    matrix = Matrix((*rows, (_ZERO, _ZERO, _ZERO, _ONE)))
+    return Step(
+        id="A",
+        stage=STAGE,
+        title="The matrix of a row",
+        why=("The product of the four motions, the same for every row; the rows of the table are put into it.",),
+        formula=equation(Letter("A", i, style="bold"), product, matrix),
+        source=shv("3.2") if course.standard else craig("3.4"),
+    )
+
+
+def _motion(axis: str, amount: Node, turns: bool) -> Node:
+    """Rot_{z,θ_i} or Trans_{z,d_i}"""
+    return Letter("Rot" if turns else "Trans", Row((Words(axis), Words(","), amount)), style="upright")
+
+
+def _row(course: Course, joint: Joint) -> Step:
+    i = joint.index
+    theta, d, a, alpha = joint.written
+    before = Number(i if course.standard else i - 1)
+    given = side_by_side([
+        equation(Letter("theta", Number(i)), theta),
+        equation(Letter("d", Number(i)), d),
+        equation(Letter("a", before), a),
+        equation(Letter("alpha", before), alpha),
+    ])  # fmt: skip
+    match joint.type:
+        case JointType.REVOLUTE:
+            why: Prose = ("Only θ varies: a revolute joint.",)
+        case JointType.PRISMATIC:
+            why = ("Only d varies: a prismatic joint.",)
+        case None:
+            why = ("Nothing varies: a fixed frame.",)
+    return Step(
+        id=f"A{i}",
+        stage=STAGE,
+        title=f"Row {i} of the table: A{lowered(str(i))}",
+        why=why,
+        working=(given, *_folded(course, joint)),
+        result=(equation(letters.A(i), course.form(f"A{i}")),),
+    )
+
+
+def _folded(course: Course, joint: Joint) -> Iterator[Node]:
+    """cos(θ₁ + 90°) = -s₁ and the like, where the row holds an angle that is not a bare variable."""
+    ring = course.robot.ring
+    shown: list[Node] = []
+    for node, angle in ((joint.written[0], joint.theta), (joint.written[3], joint.alpha)):
+        if isinstance(node, Symbol) or not angle.degrees and not angle.terms:
+            continue
+        if isinstance(node, Number | Degrees) or angle.degrees:
+            shown.append(equation(_cos(node), course.show(ring.cos(angle))))
+            shown.append(equation(_sin(node), course.show(ring.sin(angle))))
+    if shown:
+        yield side_by_side(shown)
+
+
+def _frame(course: Course, i: int) -> Step:
+    robot = course.robot
+    last = i == len(robot.joints)
+    A, before, H = course.form(f"A{i}"), course.form(f"H{i - 1}"), course.form(f"H{i}")
+    name = letters.H(robot, i)
+    detail = Detail.BRIEF if last else Detail.NORMAL
+    if i == 1 and not letters.has_base(robot):
+        return Step(
+            id="H1",
+            stage=STAGE,
+            title="Frame 1 seen from the base",
+            why=("The first frame is seen from frame 0 itself, so no product is needed.",),
+            result=(equation(name, letters.A(1), H),),
+            detail=detail,
+        )
+    chain = [letters.A(j) for j in range(1, i + 1)]
+    if letters.has_base(robot):
+        chain = [letters.H(robot, 0), *chain]
+    working = Product((letters.H(robot, i - 1), letters.A(i)))
+    members: list[Node] = [name, working]
+    if is_small(A, before):
+        members.append(Product((before, A)))
+    return Step(
+        id=f"H{i}",
+        stage=STAGE,
+        title=f"Frame {i} seen from the {'world' if letters.has_base(robot) else 'base'}",
+        why=_frame_why(i, last),
+        formula=equation(name, Product(tuple(chain))) if len(chain) > 2 else None,
+        source=shv("3.1"),
+        working=(equation(*members),),
+        result=(equation(name, H),),
+        detail=detail,
+    )
+
+
+def _frame_why(i: int, last: bool) -> Prose:
+    why: Prose = ("Multiply from the left to the right: each A takes one frame further out.",)
+    if last:
+        why += (" The fourth column is where the end of the arm is, the first three how it is turned.",)
+    return why if i > 1 else why[1:]
+

@@ -1,0 +1,26 @@
+"""The step to the Lagrangian."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dynsolve.explain import letters
+from dynsolve.explain.course import Course, shv
+from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.tree import Negative, Sum, equation
+
+STAGE = "lagrangian"
+
+
+def steps(course: Course) -> Iterator[Step]:
+    """L = K - P"""
+    yield Step(
+        id="L",
+        stage=STAGE,
+        title="The Lagrangian",
+        why=("Kinetic minus potential energy: the one function from which every equation of motion follows.",),
+        formula=equation(letters.L, Sum((letters.K, Negative(letters.P)))),
+        source=shv("7.1"),
+        result=(equation(letters.L, course.form("L")),),
+        detail=Detail.BRIEF,
+    )

@@ -1,0 +1,143 @@
+"""The textbook's letters: H_2^0, J_{v_1}, 𝓘_1, τ_1."""
+
+from __future__ import annotations
+
+from dynsolve.notation.tree import Derivative, Letter, Node, Number, Product, Row, Symbol, Transpose, Words
+from dynsolve.robot.model import Body, Coordinate, JointType, Robot
+
+HALF = Number(1, 2)
+
+
+def bold(base: str, sub: Node | None = None, sup: Node | None = None, dots: int = 0) -> Letter:
+    """A vector or a matrix."""
+    return Letter(base, sub, sup, "bold", dots)
+
+
+def index_of(name: str) -> Node:
+    """A body's name as an index."""
+    return Number(int(name)) if name.isdecimal() else Symbol(name)
+
+
+def A(i: int) -> Letter:
+    """A_i"""
+    return bold("A", Number(i))
+
+
+def H(robot: Robot, i: int) -> Letter:
+    """H_i^0, or H_i^w where the base is turned or moved in the world w."""
+    return bold("H", Number(i), Words("w") if has_base(robot) else Number(0))
+
+
+def R(robot: Robot, i: int) -> Letter:
+    """R_i^0, the rotation in H_i^0."""
+    return bold("R", Number(i), Words("w") if has_base(robot) else Number(0))
+
+
+def has_base(robot: Robot) -> bool:
+    """Whether the problem turns or moves frame 0 in the world."""
+    ring = robot.ring
+    diagonal = all(
+        robot.base_rotation[i, j] == (ring.one if i == j else ring.zero) for i in range(3) for j in range(3)
+    )
+    return not (diagonal and robot.base_position.is_zero)
+
+
+def z(i: int) -> Letter:
+    """z_i"""
+    return bold("z", Number(i))
+
+
+def o(i: int) -> Letter:
+    """o_i"""
+    return bold("o", Number(i))
+
+
+J = bold("J")
+JV = bold("J", Words("v"))
+JW = bold("J", Symbol("omega"))
+Q = bold("q")
+QD = bold("q", dots=1)
+QDD = bold("q", dots=2)
+D = bold("D")
+C = bold("C")
+G = bold("g")
+TAU = bold("tau")
+K = Letter("K", style="script")
+P = Letter("P", style="script")
+L = Letter("L", style="script")
+GRAVITY = Letter("g")
+
+
+def jv(body: Body) -> Letter:
+    """J_{v_i}"""
+    return bold("J", Letter("v", index_of(body.name)))
+
+
+def jw(body: Body) -> Letter:
+    """J_{ω_i}"""
+    return bold("J", Letter("omega", index_of(body.name)))
+
+
+def rc(body: Body) -> Letter:
+    """r_{ci}"""
+    return bold("r", Row((Words("c"), index_of(body.name))))
+
+
+def of_body(base: str, body: Body, style: str = "italic") -> Letter:
+    """A letter with the body's index: P_1, v_1, 𝓘_1."""
+    return Letter(base, index_of(body.name), None, style)
+
+
+def energy_part(part: str, body: Body) -> Letter:
+    """K_{v_i} or K_{ω_i}"""
+    return Letter("K", Letter(part, index_of(body.name)))
+
+
+def force(q: Coordinate) -> Letter:
+    """τ_k of an angle, f_k of a length."""
+    return Letter("tau" if q.type is JointType.REVOLUTE else "f", Number(q.index))
+
+
+def rate(q: Coordinate) -> Symbol:
+    """q̇_k"""
+    return Symbol(q.name, 1)
+
+
+def slope(of: Node, by: Node) -> Derivative:
+    """∂of/∂by"""
+    return Derivative(of, by)
+
+
+def time_rate(of: Node) -> Derivative:
+    """d of/dt"""
+    return Derivative(of, Symbol("t"), total=True)
+
+
+def transposed_product(left: Node, middle: Node | None = None) -> Product:
+    """xᵀ x, or xᵀ M x"""
+    return Product(tuple(part for part in (Transpose(left), middle, left) if part is not None))
+
+
+def entry(letter: str, *indices: int) -> Letter:
+    """d_12, c_121, g_1: the entry of a matrix by the small letter of its name."""
+    if all(i < 10 for i in indices):
+        return Letter(letter, Row(tuple(Number(i) for i in indices)))
+    parts: list[Node] = [Number(indices[0])]
+    for i in indices[1:]:
+        parts += [Words(","), Number(i)]
+    return Letter(letter, Row(tuple(parts)))
+
+
+def entries(letter: str, n: int, columns: int) -> tuple[tuple[Node, ...], ...]:
+    """The names of the entries of a matrix; of a column vector, one index each."""
+    if columns == 1:
+        return tuple((entry(letter, i + 1),) for i in range(n))
+    return tuple(tuple(entry(letter, i + 1, j + 1) for j in range(columns)) for i in range(n))
+
+
+def ordinal(i: int) -> str:
+    """1st, 2nd, 3rd, 4th."""
+    ending = "th" if 10 <= i % 100 <= 20 else {1: "st", 2: "nd", 3: "rd"}.get(i % 10, "th")
+    return f"{i}{ending}"
+
+

@@ -1,0 +1,58 @@
+"""Steps: the derivation as data, for whoever prints it.
+
+A step says why it is taken, gives the textbook's formula and where it stands, the
+formula with this robot's matrices put in, and the result.  Every detail level
+shows the same values; a level only chooses which steps are shown.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from dynsolve.document import Prose, Table
+from dynsolve.notation.tree import Node
+
+
+class Detail(IntEnum):
+    """From which level of detail on a step is shown."""
+
+    BRIEF = 1
+    NORMAL = 2
+    FULL = 3
+
+
+STAGES = {
+    "kinematics": "Forward kinematics",
+    "jacobian": "The Jacobian",
+    "inertia": "The bodies: mass centres and inertia",
+    "energy": "Potential and kinetic energy",
+    "lagrangian": "The Lagrangian",
+    "torque": "The Euler-Lagrange equations",
+    "vectorized": "The vectorized form",
+}
+"""The stages in the order of the course, with their headings."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step of a derivation.
+
+    `id` is the name of what it gives (`A1`, `Jv2`, `tau1`).  `formula` is general
+    and stands in the textbook at `source`; `working` is the same with this robot's
+    quantities; `result` what comes out.  `entries` names the entries of a result
+    that is a matrix too wide for the page.
+    """
+
+    id: str
+    stage: str
+    title: str
+    why: Prose = ()
+    formula: Node | None = None
+    source: str = ""
+    working: tuple[Node, ...] = ()
+    result: tuple[Node, ...] = ()
+    notes: tuple[Prose, ...] = ()
+    table: Table | None = None
+    entries: tuple[tuple[Node, ...], ...] = ()
+    detail: Detail = Detail.NORMAL

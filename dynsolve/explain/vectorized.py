@@ -1,0 +1,316 @@
+"""Steps of the vectorized form: D, C and g read off from τ, assembled directly, and compared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from dynsolve.algebra import matrix as algebra
+from dynsolve.document import Prose
+from dynsolve.explain import letters
+from dynsolve.explain.course import Course, is_small, shv
+from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.tree import (
+    BigSum,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Product,
+    Row,
+    Sum,
+    Symbol,
+    Transpose,
+    column,
+    equation,
+)
+from dynsolve.pipeline import agreement
+
+STAGE = "vectorized"
+
+_I, _J, _K, _N = (Symbol(name) for name in "ijkn")
+
+
+def steps(course: Course) -> Iterator[Step]:
+    """D, c_ijk, C and g; then the comparisons, and the whole model."""
+    yield _inertia(course)
+    yield _inertia_direct(course)
+    yield _christoffel(course)
+    yield _coriolis(course)
+    yield _gravity(course)
+    yield _agreement(course)
+    yield _skew(course)
+    yield _model(course)
+
+
+def _names(course: Course, letter: str) -> tuple[tuple[Node, ...], ...]:
+    return letters.entries(letter, course.robot.n, course.robot.n)
+
+
+def _inertia(course: Course) -> Step:
+    return Step(
+        id="D",
+        stage=STAGE,
+        title="D, read off from the forces",
+        why=(
+            "Entry (i, j) is the factor of the j-th acceleration in the i-th force. D is symmetric, "
+            "and depends on the coordinates and on no rate.",
+        ),
+        formula=equation(_d(_I, _J), letters.slope(Letter("tau", _I), Letter("q", _J, dots=2))),
+        source=shv("7.3"),
+        result=(equation(letters.D, course.form("D")),),
+        entries=_names(course, "d"),
+        detail=Detail.BRIEF,
+    )
+
+
+def _d(*indices: Node) -> Letter:
+    return Letter("d", Row(indices))
+
+
+def _inertia_direct(course: Course) -> Step:
+    robot = course.robot
+    i = Symbol("i")
+    jv, jw = (letters.bold("J", Letter(part, i)) for part in ("v", "omega"))
+    linear = Product((Letter("m", i), Transpose(jv), jv))
+    angular = Product((Transpose(jw), Letter("I", i, style="script"), jw))
+    total = Parenthesized(Sum((linear, angular)))
+    same = course.values["D"] == course.values["D_direct"]
+    terms: list[Node] = []
+    for body in robot.bodies:
+        Jv, Jw = letters.jv(body), letters.jw(body)
+        terms.append(Product((letters.of_body("m", body), Transpose(Jv), Jv)))
+        if not body.is_point:
+            terms.append(Product((Transpose(Jw), letters.of_body("I", body, "script"), Jw)))
+    working = equation(letters.D, terms[0] if len(terms) == 1 else Sum(tuple(terms)))
+    name = Number(len(robot.bodies))
+    return Step(
+        id="D_direct",
+        stage=STAGE,
+        title="D, assembled from the Jacobians",
+        why=(
+            "Without the Lagrangian: K = ½ q̇ᵀ D q̇, so D is a sum over the bodies.",
+            " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
+            " It gives the same D, entry by entry." if same else " It does not give the same D.",
+        ),
+        formula=equation(letters.D, BigSum(total, i, Number(1), name)),
+        source=shv("7.3"),
+        working=(working,),
+    )
+
+
+# -- Christoffel symbols ---------------------------------------------------------------------------
+
+
+def _christoffel(course: Course) -> Step:
+    n = course.robot.n
+    nonzero, zero = _sorted_symbols(course)
+    general = equation(
+        Letter("c", Row((_I, _J, _K))),
+        Product((
+            letters.HALF,
+            Parenthesized(Sum((
+                letters.slope(_d(_K, _J), Letter("q", _I)),
+                letters.slope(_d(_K, _I), Letter("q", _J)),
+                Negative(letters.slope(_d(_I, _J), Letter("q", _K))),
+            ))),
+        )),
+    )  # fmt: skip
+    results = tuple(_symbol(course, *indices) for indices in nonzero)
+    return Step(
+        id="christoffel",
+        stage=STAGE,
+        title="Christoffel symbols",
+        why=_christoffel_why(n, len(nonzero)),
+        formula=general,
+        source=shv("7.3"),
+        result=results or (),
+        notes=tuple(_zero_note(zero)),
+    )
+
+
+def _christoffel_why(n: int, count: int) -> Prose:
+    if not count:
+        return ("D is constant, so every Christoffel symbol is zero.",)
+    return ("How D changes as the arm moves. The first two indices may be swapped: c_ijk = c_jik.",)
+
+
+def _sorted_symbols(course: Course) -> tuple[list[tuple[int, int, int]], list[tuple[int, int, int]]]:
+    """The indices (from 0) of the distinct symbols, i ≤ j: those that are not zero, and those that are."""
+    symbols = course.values["christoffel"]
+    order = sorted(symbols, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
+    nonzero = [ijk for ijk in order if not symbols[ijk].is_zero]
+    return nonzero, [ijk for ijk in order if symbols[ijk].is_zero]
+
+
+def _symbol(course: Course, i: int, j: int, k: int) -> Node:
+    """c_ijk = c_jik = ½ (...) = its value; partial derivatives that are zero are left out."""
+    ring, D = course.robot.ring, course.values["D"]
+    value = course.forms.christoffel(i, j, k)
+    names: list[Node] = [letters.entry("c", i + 1, j + 1, k + 1)]
+    if i != j:
+        names.append(letters.entry("c", j + 1, i + 1, k + 1))
+    slopes = [(D[k, j], (k, j), i, 1), (D[k, i], (k, i), j, 1), (D[i, j], (i, j), k, -1)]
+    weights: dict[tuple[tuple[int, int], int], int] = {}
+    for entry, (row, col), by, sign in slopes:
+        if not ring.diff(entry, by).is_zero:
+            key = ((min(row, col), max(row, col)), by)
+            weights[key] = weights.get(key, 0) + sign
+    parts = [_weighted(course, key, weight) for key, weight in weights.items() if weight]
+    return equation(*names, _halved(parts), value)
+
+
+def _weighted(course: Course, key: tuple[tuple[int, int], int], weight: int) -> tuple[int, Node]:
+    (row, col), by = key
+    name = letters.entry("d", row + 1, col + 1)
+    return weight, letters.slope(name, Symbol(course.robot.coordinates[by].name))
+
+
+def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
+    """½ (Σ weight·slope), with weights 1, 2 and -1; a factor 2 that stands alone cancels."""
+    if len(parts) == 1:
+        weight, slope = parts[0]
+        node = slope if abs(weight) == 2 else Product((letters.HALF, slope))
+        return Negative(node) if weight < 0 else node
+    terms = []
+    for weight, slope in parts:
+        term = Product((Number(2), slope)) if abs(weight) == 2 else slope
+        terms.append(Negative(term) if weight < 0 else term)
+    return Product((letters.HALF, Parenthesized(Sum(tuple(terms)))))
+
+
+def _zero_note(zero: Sequence[tuple[int, int, int]]) -> Iterator[Prose]:
+    if not zero:
+        return
+    names: list[str | Node] = []
+    for i, j, k in zero:
+        names += [", " if names else "", letters.entry("c", i + 1, j + 1, k + 1)]
+    yield ("Zero: " if len(zero) > 1 else "Zero is ", *names, ".")
+
+
+# -- C and g ---------------------------------------------------------------------------------------
+
+
+def _coriolis(course: Course) -> Step:
+    entry = Letter("c", Row((_K, _J)))
+    body = Product((Letter("c", Row((_I, _J, _K))), Letter("q", _I, dots=1)))
+    Cqd = course.form("Cqd")
+    return Step(
+        id="C",
+        stage=STAGE,
+        title="C, from the Christoffel symbols",
+        why=(
+            "Row k, column j. C q̇ holds the centrifugal terms (a rate squared) and the Coriolis terms (a "
+            "product of two rates).",
+        ),
+        formula=equation(entry, BigSum(body, _I, Number(1), _N)),
+        source=shv("7.3"),
+        result=(
+            equation(letters.C, course.form("C")),
+            equation(Product((letters.C, letters.QD)), Cqd),
+        ),
+        entries=_names(course, "c"),
+        notes=(
+            (
+                "Other matrices C give the same C q̇; what the equations of motion fix is C q̇ alone. This "
+                "choice makes Ḋ - 2C skew-symmetric.",
+            ),
+        ),
+        detail=Detail.BRIEF,
+    )
+
+
+def _gravity(course: Course) -> Step:
+    still = course.values["g"].is_zero
+    why: Prose = ("What is left of the forces at rest; and, directly, the slope of the potential energy.",)
+    if still:
+        why += (" The potential energy does not depend on any coordinate, so g is zero.",)
+    return Step(
+        id="g",
+        stage=STAGE,
+        title="g, from the potential energy",
+        why=why,
+        formula=equation(Letter("g", _K), letters.slope(letters.P, Letter("q", _K))),
+        source=shv("7.3"),
+        result=(equation(letters.G, course.form("g")),),
+        entries=letters.entries("g", course.robot.n, 1),
+        detail=Detail.BRIEF,
+    )
+
+
+# -- the checks ------------------------------------------------------------------------------------
+
+
+def _agreement(course: Course) -> Step:
+    held = agreement(course.robot, course.values)
+    verdicts = {"D": held.inertia, "C q̇": held.coriolis, "g": held.gravity}
+    same = [name for name, holds in verdicts.items() if holds]
+    wrong = [name for name, holds in verdicts.items() if not holds]
+    why = ""
+    if same:
+        why = f"{', '.join(same)}: read off from the forces and assembled directly, they are equal, exactly."
+    if wrong:
+        why += f" {', '.join(wrong)}: the two ways differ."
+    return Step(
+        id="agreement",
+        stage=STAGE,
+        title="Both ways agree" if not wrong else "The two ways differ",
+        why=(why.strip(),),
+        source=shv("7.3"),
+    )
+
+
+def _skew(course: Course) -> Step:
+    robot = course.robot
+    ring = robot.ring
+    D, C = course.values["D"], course.values["C"]
+    result: tuple[Node, ...] = ()
+    if is_small(course.form("D"), course.form("C")):
+        N: algebra.Matrix = D.map(ring.time_derivative) - C.scale(ring.constant(2))
+        result = (equation(letters.bold("N"), course.show(N)),)
+    name = letters.bold("N")
+    return Step(
+        id="skew",
+        stage=STAGE,
+        title="Check: Ḋ - 2C is skew-symmetric",
+        why=(
+            "N = Ḋ - 2C with C from the Christoffel symbols: N + Nᵀ = 0, compared exactly. This is how passivity "
+            "is shown: the rates do no work through N.",
+        ),
+        formula=equation(name, Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C))))),),
+        source=shv("7.5.1"),
+        result=(*result, equation(Sum((name, Transpose(name))), Number(0))),
+    )
+
+
+def _model(course: Course) -> Step:
+    robot = course.robot
+    model = equation(
+        Sum((
+            Product((letters.D, letters.QDD)),
+            Product((letters.C, letters.QD)),
+            letters.G,
+        )),
+        letters.TAU,
+    )  # fmt: skip
+    parts = [course.form(name) for name in ("D", "C", "g")]
+    qd = column(*(Symbol(q.name, 1) for q in robot.coordinates))
+    qdd = column(*(Symbol(q.name, 2) for q in robot.coordinates))
+    forces = column(*(letters.force(q) for q in robot.coordinates))
+    result: tuple[Node, ...] = ()
+    if is_small(*parts):
+        result = (equation(Sum((Product((parts[0], qdd)), Product((parts[1], qd)), parts[2])), forces),)
+    return Step(
+        id="model",
+        stage=STAGE,
+        title="The dynamical model",
+        why=(
+            "D q̈ are the inertial forces, C q̇ the Coriolis and centrifugal ones, g those of gravity.",
+        ),
+        formula=model,
+        source=shv("7.3"),
+        result=result,
+        detail=Detail.BRIEF,
+    )
+
+
