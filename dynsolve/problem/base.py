@@ -45,7 +45,7 @@ def read_gravity(report: Report, fields: Fields, coordinates: tuple[str, ...]) -
         message = "gravity points upwards here"
         help = (
             "the acceleration of gravity points downwards: [0, 0, -g]; "
-            "books that write P = m gᵀ r (Spong's [0, 0, g] in an exercise) mean the opposite vector"
+            "texts that write P = m gᵀ r mean the opposite vector"
         )
         report.warn(node.span, message, help, "gravity-upward")
     return cells

@@ -8,13 +8,14 @@ what is sound; the errors are raised together at the end.
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from pathlib import Path
 
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.base import read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
-from dynsolve.problem.exercise import Exercise, read_exercise
+from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.fields import Fields, describe, free_text, word
 from dynsolve.problem.model import Place, Problem
 from dynsolve.problem.sheet import Sheet
@@ -22,7 +23,7 @@ from dynsolve.problem.source import MAX_BYTES, Report, as_source
 from dynsolve.problem.symbols import check_symbols
 from dynsolve.problem.table import read_table
 from dynsolve.problem.yaml_nodes import Mapping, Node, Sequence, read_nodes
-from dynsolve.robot.model import Convention, Robot
+from dynsolve.robot.model import Convention
 
 KEYS = (
     "title",
@@ -41,21 +42,38 @@ KEYS = (
 """The keys of a problem file, in the order of the documentation."""
 
 
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A problem with the sheet it was made from, and the report that knows its text."""
+
+    problem: Problem
+    sheet: Sheet
+    fields: Fields
+    report: Report
+
+
 def load(path: str | os.PathLike[str]) -> Problem:
     """Read a problem file.
 
     Raises ProblemError with every fault of the file, or for a file that cannot be read.
     """
+    return read_problem(read_file(path), os.fspath(path))
+
+
+def read_file(path: str | os.PathLike[str]) -> bytes:
+    """The bytes of a file, of a large one no more than shows that it is too large.
+
+    Raises ProblemError for a file that cannot be read.
+    """
     file = os.fspath(path)
     try:
         with Path(file).open("rb") as stream:
-            content = stream.read(MAX_BYTES + 1)
+            return stream.read(MAX_BYTES + 1)
     except OSError as error:
         message = f"the file cannot be read: {(error.strerror or str(error)).lower()}"
-        raise ProblemError([Finding(message, "check the path", file)]) from None
     except ValueError:
-        raise ProblemError([Finding("this is no path", "check the path", file.replace("\0", "?"))]) from None
-    return read_problem(content, file)
+        file, message = file.replace("\0", "?"), "this is no path"
+    raise ProblemError([Finding(message, "check the path", file)])
 
 
 def read_problem(content: str | bytes, file: str = "") -> Problem:
@@ -67,6 +85,11 @@ def read_problem(content: str | bytes, file: str = "") -> Problem:
     >>> [c.name for c in read_problem(text).robot.coordinates]
     ['q1']
     """
+    return read_whole(content, file).problem
+
+
+def read_whole(content: str | bytes, file: str = "") -> Reading:
+    """Read a problem and keep what it was made from; see `read_problem`."""
     report = Report(as_source(content, file))
     root = read_nodes(report)
     fields = _root_fields(report, root)
@@ -76,10 +99,25 @@ def read_problem(content: str | bytes, file: str = "") -> Problem:
     sheet = _sheet(report, fields)
     check_symbols(report, sheet)
     exercise = read_exercise(report, fields, sheet)
+    title = free_text(report, fields.get("title"), "title") or Path(file).stem
+    source = free_text(report, fields.get("source"), "source")
     robot = build_robot(report, sheet)
     report.raise_errors()
     assert robot is not None
-    return _problem(report, fields, robot, exercise, root)
+    problem = Problem(
+        title=title,
+        source=source,
+        file=file,
+        robot=robot,
+        convention=robot.convention,
+        find=exercise.find,
+        marks=exercise.marks,
+        values=exercise.values,
+        units=exercise.units,
+        places=dict(_places(report, root)),
+        warnings=tuple(report.warnings),
+    )
+    return Reading(problem, sheet, fields, report)
 
 
 def _root_fields(report: Report, root: Node | None) -> Fields | None:
@@ -105,23 +143,6 @@ def _sheet(report: Report, fields: Fields) -> Sheet:
         gravity=read_gravity(report, fields, table.names),
         base=read_base(report, fields.get("base"), table.names),
         bodies=read_bodies(report, fields.get("masses"), len(table.rows), coordinates),
-    )
-
-
-def _problem(report: Report, fields: Fields, robot: Robot, exercise: Exercise, root: Node | None) -> Problem:
-    file = report.source.file
-    return Problem(
-        title=free_text(report, fields.get("title"), "title") or Path(file).stem,
-        source=free_text(report, fields.get("source"), "source"),
-        file=file,
-        robot=robot,
-        convention=robot.convention,
-        find=exercise.find,
-        marks=exercise.marks,
-        values=exercise.values,
-        units=exercise.units,
-        places=dict(_places(report, root)),
-        warnings=tuple(report.warnings),
     )
 
 

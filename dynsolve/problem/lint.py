@@ -1,0 +1,243 @@
+"""What deserves a second look in a problem file that is no error.
+
+A check is a function from a `Reading` to findings; adding one is adding it to
+`CHECKS`.  Each finding carries a code.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator
+
+from dynsolve.errors import Finding
+from dynsolve.notation.names import split
+from dynsolve.problem.cells import Cell
+from dynsolve.problem.reader import Reading, read_file, read_whole
+from dynsolve.problem.yaml_nodes import Mapping, Span
+from dynsolve.robot.model import Body
+
+_YAML_WORDS = ("null", "true", "false", "yes", "no", "on", "off")
+_SHORTHAND = re.compile(r"[sc]_?([0-9_]+)")
+
+
+def lint(path: str | os.PathLike[str]) -> tuple[Finding, ...]:
+    """The findings about a file, in its order.
+
+    Raises ProblemError where the file is faulty.
+    """
+    return lint_text(read_file(path), os.fspath(path))
+
+
+def lint_text(content: str | bytes, file: str = "") -> tuple[Finding, ...]:
+    r"""The findings about the text of a problem file; see `lint`.
+
+    >>> [finding.code for finding in lint_text("dh: [{theta: q1*, a: l1}]\nvalues: {l2: 1}")]
+    ['unused-value']
+    """
+    reading = read_whole(content, file)
+    found = [*reading.problem.warnings, *(finding for check in CHECKS for finding in check(reading))]
+    return tuple(sorted(found, key=lambda finding: (finding.line, finding.column)))
+
+
+def _finding(reading: Reading, span: Span, message: str, help: str, code: str) -> Finding:
+    return reading.report.source.finding(*span, message, help, code)
+
+
+def _symbols(reading: Reading) -> dict[str, Span]:
+    """Every parameter with the place where it stands first."""
+    coordinates = reading.sheet.table.names
+    found: dict[str, Span] = {}
+    for cell in sorted(reading.sheet.cells, key=lambda cell: cell.start):
+        for name in cell.names:
+            if name.name not in coordinates and cell.text:
+                found.setdefault(name.name, cell.span_of(name))
+    return found
+
+
+def unused_value(reading: Reading) -> Iterator[Finding]:
+    """A value or a unit for a symbol that does not occur."""
+    robot = reading.problem.robot
+    known = set(robot.parameters)
+    for coordinate in robot.coordinates:
+        known |= {coordinate.name, coordinate.velocity, coordinate.acceleration}
+    for what in ("values", "units"):
+        node = reading.fields.get(what)
+        for key, _ in node.entries if isinstance(node, Mapping) else ():
+            if key.decoded not in known and _normal(key.decoded) not in known:
+                message = (
+                    f"{key.decoded} has {'a value' if what == 'values' else 'a unit'} but occurs nowhere"
+                )
+                yield _finding(reading, key.span, message, "delete it, or mend its spelling", "unused-value")
+
+
+def _normal(name: str) -> str:
+    from dynsolve.errors import ReadError
+    from dynsolve.notation.names import normalize
+
+    try:
+        return normalize(name)
+    except ReadError:
+        return name
+
+
+def ambiguous_name(reading: Reading) -> Iterator[Finding]:
+    """A parameter that reads as another thing in an answer: c1, s12, dq1, thetadot1."""
+    meanings = _meanings(reading)
+    subscripts = [split(name)[1] for name in reading.sheet.table.names]
+    digits = {"".join(groups) for groups in subscripts if groups and "".join(groups).isdigit()}
+    for name, span in _symbols(reading).items():
+        meaning = meanings.get(name, "")
+        shorthand = _SHORTHAND.fullmatch(name)
+        if shorthand and _is_made_of(shorthand[1].replace("_", ""), digits):
+            meaning = f"the {'sine' if name[0] == 's' else 'cosine'} of a joint angle"
+        if meaning:
+            message = f"an answer could not tell {name} from {meaning}"
+            yield _finding(reading, span, message, "give the parameter another name", "ambiguous-name")
+
+
+def _meanings(reading: Reading) -> dict[str, str]:
+    """How students write the coordinates and their derivatives."""
+    meanings: dict[str, str] = {}
+    for index, coordinate in enumerate(reading.sheet.table.names, 1):
+        base = split(coordinate)[0]
+        rest = coordinate[len(base) :]
+        for name in {coordinate, f"q{index}"}:
+            for velocity in (f"d{name}", f"{name}dot", f"{name}_dot", f"{name}_d"):
+                meanings[velocity] = f"the velocity of {coordinate}"
+            for acceleration in (f"dd{name}", f"{name}ddot", f"{name}_ddot", f"{name}_dd"):
+                meanings[acceleration] = f"the acceleration of {coordinate}"
+        meanings[f"q{index}"] = f"the coordinate {coordinate}"
+        for letter in {base, "q"}:
+            tail = rest if letter == base else str(index)
+            meanings[f"{letter}dot{tail}"] = meanings[f"{letter}d{tail}"] = f"the velocity of {coordinate}"
+            meanings[f"{letter}ddot{tail}"] = meanings[f"{letter}dd{tail}"] = (
+                f"the acceleration of {coordinate}"
+            )
+    return {name: meaning for name, meaning in meanings.items() if name not in reading.sheet.table.names}
+
+
+def _is_made_of(digits: str, pieces: set[str]) -> bool:
+    """Whether a string is a sequence of the pieces: 12 of 1 and 2."""
+    return bool(digits) and any(
+        digits == piece or (digits.startswith(piece) and _is_made_of(digits[len(piece) :], pieces))
+        for piece in pieces
+    )
+
+
+def similar_names(reading: Reading) -> Iterator[Finding]:
+    """Names that differ by an underscore, or of several letters by case alone."""
+    first: dict[str, str] = {}
+    for name in reading.sheet.table.names:
+        first.setdefault(_folded(name), name)
+    for name, span in _symbols(reading).items():
+        other = first.setdefault(_folded(name), name)
+        if other != name:
+            message = f"{name} and {other} are hard to tell apart"
+            help = "if they are one thing, spell it in one way; if not, give one another name"
+            yield _finding(reading, span, message, help, "similar-names")
+
+
+def _folded(name: str) -> str:
+    """Books have m and M, l1 and L1 side by side, but not lc1 and Lc1."""
+    folded = name.replace("_", "")
+    return folded.lower() if sum(map(str.isalpha, folded)) > 1 else folded
+
+
+def yaml_word(reading: Reading) -> Iterator[Finding]:
+    """A word that YAML knows as a value, which here is a symbol."""
+    for name, span in _symbols(reading).items():
+        if name.lower() in _YAML_WORDS:
+            message = f"{name} is read as a symbol of that name"
+            yield _finding(reading, span, message, "leave the key out for its default", "yaml-word")
+
+
+def unstarred(reading: Reading) -> Iterator[Finding]:
+    """A name in theta that looks like a joint variable, without its star."""
+    for row in reading.sheet.table.rows:
+        cell = row.cells["theta"]
+        for name in cell.names:
+            if not name.star and split(name.name)[0] in ("theta", "q") and split(name.name)[1]:
+                message = f"{name.name} is a constant here: it has no star"
+                help = f"a joint variable is written {name.name}*"
+                yield _finding(reading, cell.span_of(name), message, help, "unstarred")
+
+
+def moves_no_mass(reading: Reading) -> Iterator[Finding]:
+    """A coordinate that moves no body: a massless last link."""
+    robot = reading.problem.robot
+    if not robot.bodies:
+        return
+    last = max((body.link for body in robot.bodies if body.inertia or not body.mass.is_zero), default=0)
+    for coordinate in robot.coordinates:
+        rows = [
+            joint.index for joint in robot.joints if any(k == coordinate.index - 1 for k, _ in joint.rates)
+        ]
+        if rows and min(rows) > last:
+            message = f"nothing that has mass moves with {coordinate.name}: D is singular"
+            help = "give a link after this joint a body, or leave the joint out"
+            cell = reading.sheet.table.rows[min(rows) - 1].cells[robot.joints[min(rows) - 1].variable or "d"]
+            yield _finding(reading, _span(reading, cell), message, help, "moves-no-mass")
+
+
+def _span(reading: Reading, cell: Cell) -> Span:
+    return cell.span if cell.text else reading.fields.key_span("dh")
+
+
+def ground_body(reading: Reading) -> Iterator[Finding]:
+    """A body on a leading fixed row, which no joint moves."""
+    robot = reading.problem.robot
+    moving = [joint.index for joint in robot.joints if joint.variable]
+    for body, sheet in _bodies(reading):
+        if moving and body.link < moving[0]:
+            message = f"link {body.link} belongs to the ground: no joint moves body {body.name}"
+            yield _finding(reading, sheet, message, f"links after joint row {moving[0]} move", "ground-body")
+
+
+def no_effect(reading: Reading) -> Iterator[Finding]:
+    """A body with mass 0 and no inertia; a shape beside an inertia that wins over it."""
+    for body, span in _bodies(reading):
+        if body.mass.is_zero and body.inertia is None:
+            message = f"body {body.name} has neither mass nor inertia"
+            yield _finding(
+                reading, span, message, "delete it: links without a body are massless", "no-effect"
+            )
+    for sheet in reading.sheet.bodies:
+        if sheet.shape and sheet.tensor:
+            message = f"the shape of body {sheet.name} has no effect: its inertia is given"
+            yield _finding(
+                reading, sheet.fields.key_span("shape"), message, "delete one of them", "no-effect"
+            )
+
+
+def unphysical(reading: Reading) -> Iterator[Finding]:
+    """Principal moments in numbers of which one is more than the sum of the others."""
+    for body, span in _bodies(reading):
+        if body.inertia is None:
+            continue
+        moments = [body.inertia[i, i] for i in range(3)]
+        if not all(moment.is_number and moment.number > 0 for moment in moments):
+            continue
+        largest = max(moment.number for moment in moments)
+        if 2 * largest > sum(moment.number for moment in moments):
+            message = f"no body has the moments of body {body.name}: one is larger than the sum of the others"
+            yield _finding(reading, span, message, "I_xx + I_yy ≥ I_zz, and so in every order", "unphysical")
+
+
+def _bodies(reading: Reading) -> Iterator[tuple[Body, Span]]:
+    for body, sheet in zip(reading.problem.robot.bodies, reading.sheet.bodies, strict=True):
+        yield body, sheet.span
+
+
+CHECKS: tuple[Callable[[Reading], Iterator[Finding]], ...] = (
+    unused_value,
+    ambiguous_name,
+    similar_names,
+    yaml_word,
+    unstarred,
+    moves_no_mass,
+    ground_body,
+    no_effect,
+    unphysical,
+)
+"""Every check, in no particular order."""
