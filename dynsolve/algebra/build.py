@@ -121,6 +121,8 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]]) -> N
             below.append(power(inner, -exponent))
     if not coefficient:
         return ZERO
+    if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
+        return total([negated(term) for term in above[0].terms])
     node = _fraction(abs(coefficient), above, below)
     return Negative(node) if coefficient < 0 else node
 

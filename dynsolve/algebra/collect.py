@@ -11,9 +11,9 @@ from collections import Counter
 from collections.abc import Iterable
 from enum import IntEnum
 from fractions import Fraction
-from math import gcd
+from math import gcd, lcm
 
-from dynsolve.algebra.build import cost, negated, split_sign, times, total
+from dynsolve.algebra.build import cost, split_sign, times, total
 from dynsolve.algebra.terms import Factor, exact
 from dynsolve.notation.tree import (
     ZERO,
@@ -51,22 +51,29 @@ class Rank(IntEnum):
     RATE_SUM = 7
 
 
+Place = tuple[Rank, tuple[int, ...]]
+"""Where an atom stands in a product: by its rank, then among those of that rank."""
+
+
 class Atoms:
     """What the numbers in a monomial stand for, and in which order they are printed."""
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []
-        self.ranks: list[tuple[Rank, int]] = []
+        self.ranks: list[Place] = []
         self._numbers: dict[Node, int] = {}
 
-    def number(self, node: Node, rank: Rank | None = None) -> int:
-        """The atom of a node, the same for equal nodes; a sum ranks by what it is made of."""
+    def number(self, node: Node, rank: Rank | None = None, order: tuple[int, ...] = ()) -> int:
+        """The atom of a node, the same for equal nodes; a sum ranks by what it is made of.
+
+        `order` is its place among atoms of one rank, where that is not the order of their numbers.
+        """
         found = self._numbers.get(node)
         if found is None:
             rank = self._rank(node) if rank is None else rank
             found = self._numbers[node] = len(self.nodes)
             self.nodes.append(node)
-            self.ranks.append((rank, found))
+            self.ranks.append((rank, (*order, found)))
         return found
 
     def _rank(self, node: Node) -> Rank:
@@ -109,9 +116,15 @@ def content(factors: Iterable[Factor]) -> Factor:
         return shared
     denominators = Counter(f.denominator for f in factors)
     denominator, count = denominators.most_common(1)[0]
-    if denominator == 1 or 2 * count < len(factors) or any(denominator % d for d in denominators):
+    if denominator == 1 or 2 * count <= len(factors) or any(denominator % d for d in denominators):
         return shared
     return Fraction(shared, denominator)
+
+
+def whole_content(factors: Iterable[Factor]) -> Factor:
+    """The content that leaves coprime whole numbers: of 1 and 1/2 it is 1/2."""
+    factors = list(factors)
+    return exact(gcd(*(f.numerator for f in factors)), lcm(*(f.denominator for f in factors)))
 
 
 def common(monos: Iterable[Mono]) -> Mono:
@@ -154,13 +167,25 @@ class Collector:
             return self.product(factor * sign, multiply(mono, left), ())
         return self.product(factor, mono, (self._sum(rest),))
 
+    def whole(self, poly: Poly) -> tuple[Factor, Node]:
+        """(factor, tree) with whole numbers in the tree: ½ and 2 q̇₁ + q̇₂ for q̇₁ + q̇₂/2."""
+        factor = whole_content(poly.values())
+        return factor, self.form({mono: exact(f, factor) for mono, f in poly.items()})
+
     def primitive(self, poly: Poly) -> tuple[Factor, Mono, Poly]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest's first factor positive."""
         factor = content(poly.values())
         mono = self._worth_drawing(poly, common(poly))
-        if (factor != 1 or mono) and sum(f < 0 for f in poly.values()) * 2 > len(poly):
+        if (factor != 1 or mono) and self._mostly_negative(poly):
             factor = -factor
         return factor, mono, self._divided(poly, mono, factor)
+
+    def _mostly_negative(self, poly: Poly) -> bool:
+        """Whether a sum reads better with its sign turned: more minus than plus, or a minus in front of as many."""
+        negative = sum(f < 0 for f in poly.values())
+        if 2 * negative != len(poly):
+            return 2 * negative > len(poly)
+        return poly[min(poly, key=self.order)] < 0
 
     @staticmethod
     def _divided(poly: Poly, mono: Mono, factor: Factor) -> Poly:
@@ -169,13 +194,16 @@ class Collector:
         return {divide(m, mono): exact(f, factor) for m, f in poly.items()}
 
     def _worth_drawing(self, poly: Poly, shared: Mono) -> Mono:
-        """The common monomial without lengths that stay behind in some terms: l² + l a c, not l (l + a c)."""
+        """The common monomial without lengths and velocities that stay behind in some terms.
+
+        A book writes l² + l a c, and not l (l + a c).
+        """
         if len(poly) > SEARCHED or len(poly) == 1:
             return shared
         kept = []
         for atom, exponent in shared:
             left = {dict(mono)[atom] - exponent for mono in poly}
-            if self.atoms.ranks[atom][0] is not Rank.PARAMETER or len(left) == 1:
+            if self.atoms.ranks[atom][0] not in (Rank.PARAMETER, Rank.RATE) or len(left) == 1:
                 kept.append((atom, exponent))
         return tuple(kept)
 
@@ -248,15 +276,16 @@ class Collector:
         """The atoms that most terms share, leading ones first."""
         counts = Counter(atom for mono in poly for atom, e in mono if e > 0)
         shared = [a for a, n in counts.items() if n > 1]
-        if len(poly) <= SEARCHED:
-            shared = [a for a in shared if not self._is_own_square(poly, a)]
+        shared = [a for a in shared if not self._is_own_square(poly, a)]
         shared.sort(key=lambda a: (-counts[a], self.atoms.ranks[a]))
         return shared if len(poly) <= SEARCHED else shared[:1]
 
     def _is_own_square(self, poly: Poly, atom: int) -> bool:
-        """Whether a length stands squared in one term and once in another, which no book draws out."""
-        powers = {e for mono in poly for a, e in mono if a == atom and e > 0}
-        return len(powers) > 1 and self.atoms.ranks[atom][0] in (Rank.PARAMETER, Rank.SUM)
+        """Whether a length or velocity is squared in one term and not in another: no book draws that out."""
+        rank = self.atoms.ranks[atom][0]
+        if rank not in (Rank.PARAMETER, Rank.SUM, Rank.RATE) or (rank is not Rank.RATE and len(poly) > SEARCHED):
+            return False
+        return len({e for mono in poly for a, e in mono if a == atom and e > 0}) > 1
 
     def _split_by(self, poly: Poly, atom: int) -> Node:
         having = {m: f for m, f in poly.items() if any(a == atom and e > 0 for a, e in m)}
@@ -265,10 +294,11 @@ class Collector:
         return total([self.form(part) for part in parts if part])
 
     def order(self, mono: Mono) -> tuple[object, ...]:
-        """The place of a term in a sum: what has angles comes last, then by its symbols, squares before products."""
+        """The place of a term in a sum: by its velocities, its angles (none first), its symbols; squares first."""
         ranks = sorted((self.atoms.ranks[atom], -exponent) for atom, exponent in mono)
+        rates = [rank for rank in ranks if rank[0][0] >= Rank.RATE]
         waves = [rank for rank in ranks if rank[0][0] is Rank.WAVE]
-        return waves, ranks
+        return not rates, rates, waves, ranks
 
     def ordered(self, poly: Poly) -> list[tuple[Mono, Factor]]:
         """The terms in printing order."""
@@ -284,12 +314,22 @@ class Collector:
         if found is None:
             return None
         x, y, sign = found
-        return join(poly, x, y, self.atoms.number(self.sum_node(x, y, sign)))
+        if self.atoms.ranks[y][0] is Rank.COORDINATE and sign < 0:
+            x, y = y, x
+        return join(poly, x, y, self.atoms.number(self._sum_node(x, y, sign)))
 
-    def sum_node(self, x: int, y: int, sign: int) -> Node:
-        """x ± y as a tree."""
-        left, right = self.atoms.nodes[x], self.atoms.nodes[y]
-        return total([left, right if sign > 0 else negated(right)])
+    def _sum_node(self, x: int, y: int, sign: int) -> Node:
+        """x ± y as a tree, flat and in order; a difference starts with x."""
+        poly: Poly = {}
+        for atom, factor in ((x, 1), (y, sign)):
+            node = self.atoms.nodes[atom]
+            for term in node.terms if isinstance(node, Sum) else (node,):
+                own, mono = self.decompose(term)
+                poly[mono] = own * factor
+        terms = [self.product(f, m, ()) for m, f in self.ordered(poly)]
+        if sign < 0 and not isinstance(self.atoms.nodes[x], Sum):
+            terms.sort(key=lambda term: isinstance(term, Negative))
+        return total(terms)
 
 
 def joined_pair(poly: Poly) -> tuple[int, int, int] | None:

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.build import angle_node, times
+from dynsolve.algebra.build import angle_node, times, total
 from dynsolve.algebra.collect import Atoms, Collector, Mono, Poly, Rank, content
 from dynsolve.algebra.dress import Monomial
 from dynsolve.algebra.groups import angle_groups
@@ -40,6 +40,9 @@ from dynsolve.algebra.terms import (
 from dynsolve.algebra.wardrobe import Face, Wardrobe
 from dynsolve.notation import tree
 from dynsolve.notation.tree import ZERO, Function, Node, Symbol
+
+MUCH_CHEAPER = 0.75
+"""Energies and torques stay collected by velocities unless another order costs less than this part."""
 
 LARGE = 60
 """From this number of terms on one way of collecting is tried and not two."""
@@ -136,7 +139,9 @@ class Compactor:
             angle = Angle()
             for pair, t in zip(self._groups[g], turns, strict=True):
                 angle = angle + pair.angle * t
-            found = self.atoms.number(Function(name, angle_node(angle)), Rank.WAVE)
+            last = max(k for k, t in enumerate(turns) if t)
+            order = (g, last, sum(map(abs, turns)), name != "sin")
+            found = self.atoms.number(Function(name, angle_node(angle)), Rank.WAVE, order)
             self._waves[g, name, turns] = found
         return found
 
@@ -160,15 +165,28 @@ class Compactor:
     # -- velocities and accelerations --------------------------------------------------------------
 
     def _by_rates(self, frame: Frame, terms: Terms) -> Node:
-        """The cheaper of two: velocities outside, or angles outside and velocities inside."""
+        """What has accelerations, what has velocities and what has neither, each by itself."""
         if not frame.rates:
             return self._scalar(frame, terms)
+        accelerations = sum(self.ring.generators[i].dots == 2 for i in frame.rates)
+        start = len(frame.symbols) + sum(width for _, width in frame.groups) - len(frame.rates)
+        kinds: dict[tuple[int, int], Terms] = {}
+        for e, f in terms.items():
+            rates = e[start:]
+            kind = sum(rates[:accelerations]), sum(rates[accelerations:])
+            kinds.setdefault(kind, {})[e] = f
+        return total([self._one_kind(frame, part, kind) for kind, part in sorted(kinds.items(), reverse=True)])
+
+    def _one_kind(self, frame: Frame, terms: Terms, kind: tuple[int, int]) -> Node:
+        """Velocities outside; or angles outside and velocities inside, where that is much cheaper."""
         split = split_tail(terms, len(frame.rates))
         inner = frame.without_rates()
         outside = self._merged(split, frame.rates, lambda part: self._scalar(inner, part))
         if len(split) == 1 or len(terms) > LARGE:
             return outside
-        return min(outside, self._by_angles(frame, terms), key=self.collector.cost)
+        inside = self._by_angles(frame, terms)
+        cost = self.collector.cost
+        return inside if cost(inside) < cost(outside) * (1 if kind == (0, 1) else MUCH_CHEAPER) else outside
 
     def _merged(
         self, split: Mapping[Exponents, Terms], places: Sequence[int], form: Callable[[Terms], Node]
@@ -182,9 +200,11 @@ class Compactor:
             key, scale = primitive(part)
             first, own, factors = shared.setdefault(key, (part, scale, {}))
             factors[mono] = exact(scale, own)
-        return self.collector.sum_of(
-            times(1, [(form(part), 1), (self.collector.form(factors), 1)]) for part, _, factors in shared.values()
-        )
+        products = []
+        for part, _, factors in shared.values():
+            factor, monomials = self.collector.whole(factors)
+            products.append(times(factor, [(form(part), 1), (monomials, 1)]))
+        return self.collector.sum_of(products)
 
     # -- coefficients: no velocities ---------------------------------------------------------------
 

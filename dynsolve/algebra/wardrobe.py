@@ -63,7 +63,7 @@ class Wardrobe:
 
 def _option(dress: Mapping[Monomial, Factor]) -> _Option:
     waves = tuple(float(sum(2 + _angle_cost(turns) + (e > 1) for (_, turns), e in mono)) for mono in dress)
-    odd = sum(abs(f) != 1 for f in dress.values()) / 2
+    odd = sum(0.5 * (abs(f) != 1) + (f.denominator != 1) for f in dress.values())
     return _Option(tuple(dress.items()), TERM * len(dress) + sum(waves) + odd, waves)
 
 

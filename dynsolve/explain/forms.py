@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 from functools import cached_property
 
-from dynsolve.algebra.build import negated, times, total
+from dynsolve.algebra.build import cost, negated, times, total
 from dynsolve.algebra.compact import Compactor
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Expr
@@ -70,7 +70,16 @@ class Forms:
                 return made
         if name == "tau":
             return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
+        if name == "L":
+            return self._lagrangian()
+        if name == "P":
+            return self._potential_energy(self.of(value))
         return self.of(value)
+
+    def _potential_energy(self, compact: Node) -> Node:
+        """Σ P_i as it is added up, unless collecting makes it much shorter."""
+        added = total([self(f"P{body.name}") for body in self.robot.bodies])
+        return added if cost(added) <= 1.5 * cost(compact) + 2 else compact
 
     # -- long values from their parts --------------------------------------------------------------
 
@@ -84,7 +93,7 @@ class Forms:
             rest = name.removeprefix(stem)
             if rest != name and rest.isdigit():
                 return way(int(rest) - 1)
-        whole = {"C": self._coriolis, "K": self._kinetic_energy, "L": self._lagrangian}
+        whole = {"C": self._coriolis, "K": self._kinetic_energy}
         if name in whole:
             return whole[name]()
         for body in self.robot.bodies:
