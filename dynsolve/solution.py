@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,7 @@ from dynsolve.explain.step import Step
 from dynsolve.explain.style import style_of
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node
-from dynsolve.pipeline import Agreement, Derivation, agreement, derive, given_axes_agree
+from dynsolve.pipeline import Agreement, Derivation, agreement, course_rules, derive, given_axes_agree
 from dynsolve.problem import Problem, read_problem
 from dynsolve.problem import load as load_file
 from dynsolve.robot.model import Robot
@@ -43,12 +43,18 @@ def load(problem: str | os.PathLike[str]) -> Problem:
     return load_file(find(os.fspath(problem)))
 
 
-def solve(problem: Problem | str | os.PathLike[str], *, states: int = 5) -> Solution:
+def solve(
+    problem: Problem | str | os.PathLike[str],
+    *,
+    states: int = 5,
+    progress: Callable[[int, int], None] | None = None,
+) -> Solution:
     """Derive the dynamics of a robot, and verify the result.
 
     `problem` is a `Problem`, a path, the stem of a bundled problem, or the text of
     a problem file (with line breaks).  `states` is the number of random states at
-    which the result is held against recursive Newton-Euler.
+    which the result is held against recursive Newton-Euler; `progress(done, of)` is
+    told how far the work is.
 
     Raises ProblemError for a faulty problem, VerificationError where the result
     disagrees with the independent computation.
@@ -65,14 +71,33 @@ def solve(problem: Problem | str | os.PathLike[str], *, states: int = 5) -> Solu
         problem = load(problem)
     values = derive(problem.robot)
     warnings = (*problem.warnings, *_given_axes(problem, values))
+    forms = _forms(problem.robot, values, progress)
     held = None
     if problem.robot.bodies:
         held = agreement(problem.robot, values)
         if not held.holds:
             raise VerificationError("what is read off from the forces differs from what is assembled directly")
-    forms = Forms(problem.robot, values)
     verification = verify(problem.robot, _checked(problem.robot, forms), states)
     return Solution(problem, values, forms, verification, held, warnings)
+
+
+def _forms(robot: Robot, values: Derivation, progress: Callable[[int, int], None] | None) -> Forms:
+    """The compact forms; where somebody watches, all of them are made now."""
+    forms = Forms(robot, values)
+    if progress is not None:
+        shown = [rule.name for rule in course_rules(robot) if rule.name != "christoffel"]
+        for done, name in enumerate(shown):
+            progress(done, len(shown))
+            forms(name)
+    return forms
+
+
+def check_axes(problem: Problem) -> tuple[Finding, ...]:
+    """What there is to say about given R_b that do not turn with their links.
+
+    Raises ProblemError where the kinetic energy would come out wrong.
+    """
+    return tuple(_given_axes(problem, derive(problem.robot)))
 
 
 def _checked(robot: Robot, forms: Forms) -> dict[str, Node]:

@@ -1,0 +1,51 @@
+"""What the commands share: reading a problem from wherever it is, and showing findings."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from dynsolve.errors import Finding
+    from dynsolve.problem import Problem
+
+STDIN = "-"
+
+Problems = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="PROBLEM...",
+        help="Problem files, stems of bundled problems, or - for standard input.",
+        show_default=False,
+    ),
+]
+
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No warnings and no progress on standard error.")]
+
+
+def read(name: str) -> Problem:
+    """The problem of a path, of the stem of a bundled problem, or of standard input (`-`)."""
+    if name == STDIN:
+        from dynsolve.problem import read_problem
+
+        return read_problem(sys.stdin.buffer.read(), "<stdin>")
+    from dynsolve.library import find
+    from dynsolve.problem import load
+
+    return load(find(name))
+
+
+def say(findings: Iterable[Finding], word: str = "") -> None:
+    """Print findings on standard error."""
+    for finding in findings:
+        typer.echo(described(finding, word), err=True)
+
+
+def described(finding: Finding, word: str = "") -> str:
+    """`file:line:column: word: message`, the source line with a caret, and the remedy."""
+    from dataclasses import replace
+
+    return str(replace(finding, message=f"{word}: {finding.message}") if word else finding)

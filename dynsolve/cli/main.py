@@ -1,0 +1,112 @@
+"""The program: its commands, and how every error becomes a message and an exit code.
+
+To add a command, write its file with one function and register it in `_app`.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from typing import Annotated, Any, NoReturn
+
+import typer
+
+from dynsolve.cli import lint, new, problems, schema, solve
+from dynsolve.errors import DynsolveError, ExitCode, InputError
+
+TRACEBACK = "--traceback"
+
+# Typer brings Click inside since 0.16; whichever it is, its base error is this one's.
+_ClickError: Any = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Run a command line and end the process with its exit code."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    options = words[: words.index("--")] if "--" in words else words
+    traceback = TRACEBACK in options
+    if traceback:
+        words.remove(TRACEBACK)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+    sys.exit(int(_run(words, traceback)))
+
+
+def _run(words: Sequence[str], traceback: bool) -> int:
+    try:
+        code = app()(list(words), prog_name="dynsolve", standalone_mode=False)
+        sys.stdout.flush()
+        return int(code or ExitCode.DONE)
+    except (KeyboardInterrupt, typer.Abort):
+        _say("interrupted")
+        return ExitCode.INTERRUPTED
+    except BrokenPipeError:
+        return _reader_left()
+    except typer.Exit as end:
+        return int(end.exit_code)
+    except _ClickError as error:
+        error.show()
+        return ExitCode.USAGE
+    except DynsolveError as error:
+        if traceback:
+            raise
+        _say(str(error) if isinstance(error, InputError) else f"error: {error}")
+        return error.exit_code
+    except Exception as error:  # noqa: BLE001 - the last net: a person gets a line, not a stack
+        if traceback:
+            raise
+        what = " ".join(f"{type(error).__name__}: {error}".split())
+        _say(f"internal error: {what} (run again with {TRACEBACK} to see where)")
+        return ExitCode.FAILED
+
+
+def app() -> typer.Typer:
+    """The commands with their help."""
+    program = typer.Typer(
+        name="dynsolve",
+        help="The equations of motion of a robot manipulator, derived exactly, step by step, and verified.",
+        epilog="PROBLEM is a path, the stem of a bundled problem (see `dynsolve problems`), or - for standard input.",
+        no_args_is_help=True,
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    program.callback()(_globals)
+    for command in (solve.solve, lint.lint, new.new, schema.schema, problems.problems):
+        program.command()(command)
+    return program
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from dynsolve import __version__
+
+        typer.echo(f"dynsolve {__version__}")
+        raise typer.Exit
+
+
+def _globals(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and stop.", callback=_version, is_eager=True)
+    ] = False,
+    traceback: Annotated[
+        bool, typer.Option(TRACEBACK, help="Show where an error arose; may stand anywhere.")
+    ] = False,
+) -> None:
+    pass
+
+
+def _say(text: str) -> None:
+    """A message on standard error, if anyone still reads it."""
+    try:
+        print(text, file=sys.stderr, flush=True)  # noqa: T201
+    except OSError:
+        return
+
+
+def _reader_left() -> int:
+    """Whoever read the output has stopped, as `head` does: end without a word."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return ExitCode.DONE

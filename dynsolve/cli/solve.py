@@ -1,0 +1,112 @@
+"""`dynsolve solve`: the whole derivation, in a terminal, in a pipe, or as JSON."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from dynsolve.cli.common import Problems, Quiet, read, say
+from dynsolve.errors import ExitCode, ProblemError
+
+if TYPE_CHECKING:
+    from dynsolve.solution import Solution
+
+
+class DetailName(str, Enum):
+    """How much is shown."""
+
+    BRIEF = "brief"
+    NORMAL = "normal"
+    FULL = "full"
+
+
+class StageName(str, Enum):
+    """A part of the derivation."""
+
+    KINEMATICS = "kinematics"
+    JACOBIAN = "jacobian"
+    INERTIA = "inertia"
+    ENERGY = "energy"
+    LAGRANGIAN = "lagrangian"
+    TORQUE = "torque"
+    VECTORIZED = "vectorized"
+
+
+def solve(
+    problem: Problems,
+    json: Annotated[bool, typer.Option("--json", help="JSON with everything, one object a line.")] = False,
+    stage: Annotated[
+        list[StageName] | None, typer.Option(help="Show this stage alone; may be given more than once.")
+    ] = None,
+    first: Annotated[StageName | None, typer.Option("--from", help="Show from this stage on.")] = None,
+    last: Annotated[StageName | None, typer.Option("--to", help="Show up to this stage.")] = None,
+    detail: Annotated[DetailName, typer.Option(help="How much is shown.")] = DetailName.NORMAL,
+    quiet: Quiet = False,
+) -> int:
+    """Derive the dynamics of a manipulator, step by step, and verify the result."""
+    stages = _chosen(stage, first, last)
+    code = ExitCode.DONE
+    for place, name in enumerate(problem):
+        try:
+            solution = _solved(name, quiet)
+        except ProblemError as error:
+            if len(problem) == 1:
+                raise
+            say(error.findings)
+            code = ExitCode.USAGE
+            continue
+        if not quiet:
+            say(solution.warnings, "warning")
+        if json:
+            _print_json(solution)
+        else:
+            _print_document(solution, detail, stages, place > 0)
+    return code
+
+
+def _chosen(
+    stage: list[StageName] | None, first: StageName | None, last: StageName | None
+) -> list[str] | None:
+    """The stages that are shown, None for all."""
+    order = list(StageName)
+    if stage and (first or last):
+        raise typer.BadParameter("--stage names stages one by one; it does not go with --from or --to")
+    if stage:
+        return [name.value for name in stage]
+    if not first and not last:
+        return None
+    start, end = order.index(first or order[0]), order.index(last or order[-1])
+    if start > end:
+        raise typer.BadParameter(f"--from {order[start].value} comes after --to {order[end].value}")
+    return [name.value for name in order[start : end + 1]]
+
+
+def _solved(name: str, quiet: bool) -> Solution:
+    from dynsolve.cli.progress import progress
+    from dynsolve.solution import solve as solve_problem
+
+    problem = read(name)
+    with progress(problem.title, quiet) as advance:
+        return solve_problem(problem, progress=advance)
+
+
+def _print_json(solution: Solution) -> None:
+    import sys
+    from json import dump
+
+    dump(solution.to_json(), sys.stdout, ensure_ascii=False)
+    sys.stdout.write("\n")
+
+
+def _print_document(
+    solution: Solution, detail: DetailName, stages: list[str] | None, follows_another: bool
+) -> None:
+    from dynsolve.cli.page import print_document
+    from dynsolve.explain.documents import solution_document
+    from dynsolve.explain.step import Detail
+
+    if follows_another:
+        typer.echo()
+    print_document(solution_document(solution, Detail[detail.name], stages), solution.style)
