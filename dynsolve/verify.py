@@ -17,8 +17,8 @@ from dataclasses import dataclass
 from random import Random
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr
 from dynsolve.errors import VerificationError
 from dynsolve.notation.evaluate import compile_trees
 from dynsolve.notation.tree import Node
@@ -28,6 +28,9 @@ TOLERANCE = 1e-9
 """The largest relative error of a result that counts as rounding."""
 
 METHOD = "recursive Newton-Euler"
+
+_NEGLIGIBLE = 1e-4
+"""The part of what moves freely below which a result is rounding."""
 
 _SEED = 20_200_312
 _DRAWS = 200
@@ -360,7 +363,7 @@ def _errors(arm: Arm, ours: Mapping[str, list[list[float]]]) -> Iterator[tuple[s
         "g": [[x] for x in inverse_dynamics(arm, still, still, arm.gravity)],
         "tau": [[x] for x in inverse_dynamics(arm, arm.qd, arm.qdd, arm.gravity)],
     }
-    size = max(_size(matrix) for matrix in theirs.values()) or 1.0
+    size = max(_floor(arm), *(_size(matrix) for matrix in theirs.values())) or 1.0
     mine = {**ours, "Cqd": [[sum(c * x for c, x in zip(row, arm.qd, strict=True))] for row in ours["C"]]}
     for name, matrix in theirs.items():
         if name in mine:
@@ -368,6 +371,21 @@ def _errors(arm: Arm, ours: Mapping[str, list[list[float]]]) -> Iterator[tuple[s
     for name, value in zip(("K", "P"), energies(arm), strict=True):
         if name in ours:
             yield name, _distance([[ours[name]]], [[value]]) / max(size, abs(value))  # type: ignore[list-item]
+
+
+def _floor(arm: Arm) -> float:
+    """The size below which results count as 0: a body that no joint can move leaves only rounding."""
+    frames, axes = _outwards(arm, arm.qd, arm.qdd, _ZERO)
+    slides = any(not axis.motion.turns for row in axes for axis in row)
+    weight = math.sqrt(_dot(arm.gravity, arm.gravity))
+
+    def largest(mass: Mass) -> float:
+        frame = frames[mass.link]
+        center = _plus(frame.o, _applied(frame.R, mass.center))
+        reach = math.sqrt(max(_dot(center, center), *(_dot(frame.o, frame.o) for frame in frames)))
+        return max(_size(mass.inertia), mass.mass * max(reach * reach, reach * weight, float(slides)))
+
+    return _NEGLIGIBLE * max(map(largest, arm.masses), default=0.0)
 
 
 def _kinematic_errors(arm: Arm, ours: Mapping[str, list[list[float]]]) -> Iterator[tuple[str, float]]:
