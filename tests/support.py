@@ -1,21 +1,21 @@
 """What several tests need: solving a problem, and putting numbers into what comes out.
 
-Results are taken from the JSON of `dynsolve solve --json`, the contract with
-other programs, so that what is tested is what a user gets.
+Results are taken from the JSON that `dynsolve solve --json` prints, the contract
+with other programs, so that what is tested is what a user gets.
 """
 
 from __future__ import annotations
 
 import json
 import math
-import subprocess
-import sys
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+import dynsolve
 
 ROOT = Path(__file__).parent.parent
 LIBRARY = sorted((ROOT / "problems").glob("*.yaml"))
@@ -33,11 +33,7 @@ FUNCTIONS: dict[str, Any] = {
 @lru_cache(maxsize=64)
 def solve_json(problem: Path | str) -> dict[str, Any]:
     """The JSON of a solution; `problem` is a path, or the text of a problem file."""
-    path, text = (str(problem), None) if isinstance(problem, Path) else ("-", problem)
-    command = [sys.executable, "-m", "dynsolve", "solve", path, "--json"]
-    done = subprocess.run(command, input=text, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, f"{done.stderr}\n{text or path}"
-    return json.loads(done.stdout)
+    return json.loads(json.dumps(dynsolve.solve(problem).to_json()))
 
 
 def numbers(entries: Any, values: Mapping[str, float]) -> Any:

@@ -88,3 +88,8 @@ def random_state(names: Iterable[str], angles: Iterable[str], seed: int) -> dict
 def times(matrix: list[list[Fraction]], vector: list[Fraction]) -> list[list[Fraction]]:
     """Matrix times column."""
     return [[sum((a * b for a, b in zip(row, vector, strict=True)), Fraction(0))] for row in matrix]
+
+
+def flat(entries: Any) -> list[Any]:
+    """All entries, row by row: a column may be written as a list of rows or of entries."""
+    return [entry for part in entries for entry in flat(part)] if isinstance(entries, list) else [entries]

@@ -55,7 +55,7 @@ dh:
   - {theta: q1* + 18deg, d: 0, a: l1, alpha: 36deg}
   - {theta: q2* + 22.5deg, d: 0, a: l2, alpha: -90°}
 masses:
-  - {mass: m2, link: 2, inertia: {xx: I2, yy: I3, zz: I4}}
+  - {mass: m2, link: 2, center: tip, inertia: {xx: I2, yy: I3, zz: I4}}
 """,
     "symbolic angles with offsets and multiples": """
 dh:
@@ -82,11 +82,11 @@ dh:
   - {theta: q2*, d: K, a: E, alpha: S}
 masses:
   - {mass: C, link: 1}
-  - {mass: D, link: 2, inertia: {zz: N, yy: Q}}
+  - {mass: D, link: 2, center: tip, inertia: {zz: N, yy: Q}}
 """,
     "Greek letters and degree signs": """
 dh:
-  - {θ: θ1* + 45°, d: 0, a: l1, α: 30°}
+  - {theta: θ1* + 45°, d: 0, a: l1, alpha: 30°}
   - {theta: θ2*, d: 0, a: l2, alpha: β}
 masses:
   - {mass: m1, link: 1}
@@ -99,7 +99,7 @@ dh:
   - {theta: 0, d: d3*/2 + h, a: 0, alpha: 0}
 masses:
   - {mass: m1, link: 1}
-  - {mass: m2, link: 2, inertia: {yy: I2, zz: I3}}
+  - {mass: m2, link: 2, center: tip, inertia: {yy: I2, zz: I3}}
   - {mass: m3, link: 3}
 """,
     "an inertia without a mass": """
