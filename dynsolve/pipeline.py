@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, vstack
-from dynsolve.algebra.ring import Expr
 from dynsolve.robot.model import AxesKind, Body, Robot
 from dynsolve.stages import energy, inertia, jacobian, kinematics, lagrangian, link_frame, torque, vectorized
 
@@ -160,7 +160,9 @@ def link_frame_rules(robot: Robot) -> Iterator[Rule]:
     for body in robot.bodies:
         b = body.name
         yield Rule(f"Dv{b}", ("link_jacobians",), partial(_linear_part, body))
-        yield Rule(f"Dw{b}", ("link_jacobians", f"I_body{b}", f"H{body.link}"), partial(_angular_part, robot, body))
+        yield Rule(
+            f"Dw{b}", ("link_jacobians", f"I_body{b}", f"H{body.link}"), partial(_angular_part, robot, body)
+        )
         yield Rule(f"Kv{b}", (f"Dv{b}",), partial(_quadratic, robot))
         if body.is_point:
             yield Rule(f"Kw{b}", (), lambda: ring.zero)

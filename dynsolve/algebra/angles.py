@@ -133,7 +133,9 @@ def _laurent(node: Node) -> _Laurent:
             return _power(_laurent(base), p)
         case Power(base, Negative(Number(p, 1))):
             return _power(_inverse(_laurent(base)), p)
-    raise AlgebraError("an angle must be a sum of names and degrees", "name the angle with a symbol of its own")
+    raise AlgebraError(
+        "an angle must be a sum of names and degrees", "name the angle with a symbol of its own"
+    )
 
 
 def _times(left: _Laurent, right: _Laurent) -> _Laurent:
@@ -150,7 +152,9 @@ def _times(left: _Laurent, right: _Laurent) -> _Laurent:
 
 def _inverse(terms: _Laurent) -> _Laurent:
     if len(terms) != 1:
-        raise AlgebraError("an angle is divided by a sum, or by zero", "name the angle with a symbol of its own")
+        raise AlgebraError(
+            "an angle is divided by a sum, or by zero", "name the angle with a symbol of its own"
+        )
     ((atom, rate),) = terms.items()
     return {tuple((name, -exponent) for name, exponent in atom): 1 / rate}
 

@@ -32,7 +32,8 @@ def cost(node: Node, known: dict[int, tuple[Node, int]] | None = None) -> int:
 
     `known` keeps the counts of shared parts from call to call, by identity.
 
-    >>> cost(Sum((Product((Symbol("m"), Power(Symbol("l"), Number(2)))), Negative(Function("cos", Symbol("q"))))))
+    >>> square = Power(Symbol("l"), Number(2))
+    >>> cost(Sum((Product((Symbol("m"), square)), Negative(Function("cos", Symbol("q"))))))
     4
     """
     known = {} if known is None else known
@@ -123,7 +124,7 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]]) -> N
         return ZERO
     if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
         return total([negated(term) for term in above[0].terms])
-    node = _fraction(abs(coefficient), above, below)
+    node = _fraction(coefficient if coefficient > 0 else -coefficient, above, below)
     return Negative(node) if coefficient < 0 else node
 
 

@@ -17,7 +17,6 @@ from dynsolve.algebra.build import cost, split_sign, times, total
 from dynsolve.algebra.terms import Factor, exact
 from dynsolve.notation.tree import (
     ZERO,
-    Function,
     Negative,
     Node,
     Number,
@@ -25,7 +24,6 @@ from dynsolve.notation.tree import (
     Product,
     Quotient,
     Sum,
-    Symbol,
 )
 
 Mono = tuple[tuple[int, int], ...]
@@ -109,7 +107,7 @@ def divide(mono: Mono, by: Mono) -> Mono:
 
 
 def content(factors: Iterable[Factor]) -> Factor:
-    """What is worth drawing out of rational factors: their common divisor, and a denominator that most share."""
+    """What is worth drawing out of factors: their common divisor, and a denominator that most share."""
     factors = list(factors)
     shared = gcd(*(f.numerator for f in factors))
     if all(type(f) is int for f in factors):
@@ -173,7 +171,7 @@ class Collector:
         return factor, self.form({mono: exact(f, factor) for mono, f in poly.items()})
 
     def primitive(self, poly: Poly) -> tuple[Factor, Mono, Poly]:
-        """(factor, monomial, rest) with poly = factor · monomial · rest, the rest's first factor positive."""
+        """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
         factor = content(poly.values())
         mono = self._worth_drawing(poly, common(poly))
         if (factor != 1 or mono) and self._mostly_negative(poly):
@@ -181,7 +179,7 @@ class Collector:
         return factor, mono, self._divided(poly, mono, factor)
 
     def _mostly_negative(self, poly: Poly) -> bool:
-        """Whether a sum reads better with its sign turned: more minus than plus, or a minus in front of as many."""
+        """Whether a sum reads better with its sign turned: more minus than plus, or as many and one first."""
         negative = sum(f < 0 for f in poly.values())
         if 2 * negative != len(poly):
             return 2 * negative > len(poly)
@@ -283,7 +281,9 @@ class Collector:
     def _is_own_square(self, poly: Poly, atom: int) -> bool:
         """Whether a length or velocity is squared in one term and not in another: no book draws that out."""
         rank = self.atoms.ranks[atom][0]
-        if rank not in (Rank.PARAMETER, Rank.SUM, Rank.RATE) or (rank is not Rank.RATE and len(poly) > SEARCHED):
+        if rank not in (Rank.PARAMETER, Rank.SUM, Rank.RATE) or (
+            rank is not Rank.RATE and len(poly) > SEARCHED
+        ):
             return False
         return len({e for mono in poly for a, e in mono if a == atom and e > 0}) > 1
 
@@ -294,7 +294,7 @@ class Collector:
         return total([self.form(part) for part in parts if part])
 
     def order(self, mono: Mono) -> tuple[object, ...]:
-        """The place of a term in a sum: by its velocities, its angles (none first), its symbols; squares first."""
+        """The place of a term in a sum: by its velocities, its angles, its symbols; squares first."""
         ranks = sorted((self.atoms.ranks[atom], -exponent) for atom, exponent in mono)
         rates = [rank for rank in ranks if rank[0][0] >= Rank.RATE]
         waves = [rank for rank in ranks if rank[0][0] is Rank.WAVE]
@@ -334,7 +334,9 @@ class Collector:
 
 def joined_pair(poly: Poly) -> tuple[int, int, int] | None:
     """(x, y, ±1) where the polynomial is one in x ± y: ∂/∂x = ±∂/∂y, and not merely linear in them."""
-    slopes = {atom: slope(poly, atom) for atom in sorted({atom for mono in poly for atom, e in mono if e > 0})}
+    slopes = {
+        atom: slope(poly, atom) for atom in sorted({atom for mono in poly for atom, e in mono if e > 0})
+    }
     squares = [atom for atom, part in slopes.items() if len(part) > 1]
     for i, x in enumerate(squares):
         for y in squares[i + 1 :]:
@@ -366,4 +368,3 @@ def join(poly: Poly, x: int, y: int, whole: int) -> Poly:
             exponents[whole] = exponents.pop(x)
         result[tuple(sorted(exponents.items()))] = f
     return result
-

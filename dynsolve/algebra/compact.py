@@ -21,11 +21,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import angle_node, times, total
-from dynsolve.algebra.collect import Atoms, Collector, Mono, Poly, Rank, content
+from dynsolve.algebra.collect import Atoms, Collector, Mono, Poly, Rank, content, whole_content
 from dynsolve.algebra.dress import Monomial
+from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.groups import angle_groups
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr, Generator, Ring
+from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.terms import (
     Exponents,
     Factor,
@@ -89,7 +90,7 @@ class Compactor:
         return "leading" if g.name in self._order else "parameter"
 
     def _number_symbols(self) -> None:
-        """Number the symbols in printing order: masses and inertias, g, other parameters, coordinates, rates."""
+        """Number the symbols in printing order: masses, g, other parameters, coordinates, velocities."""
 
         def rank(g: Generator) -> Rank:
             kind = self._kinds[g.index]
@@ -175,10 +176,19 @@ class Compactor:
             rates = e[start:]
             kind = sum(rates[:accelerations]), sum(rates[accelerations:])
             kinds.setdefault(kind, {})[e] = f
-        return total([self._one_kind(frame, part, kind) for kind, part in sorted(kinds.items(), reverse=True)])
+        return total(
+            [self._one_kind(frame, part, kind) for kind, part in sorted(kinds.items(), reverse=True)]
+        )
 
     def _one_kind(self, frame: Frame, terms: Terms, kind: tuple[int, int]) -> Node:
         """Velocities outside; or angles outside and velocities inside, where that is much cheaper."""
+        if kind == (0, 2):  # an energy: its ½ in front
+            factor = whole_content(terms.values())
+            terms = {e: exact(f, factor) for e, f in terms.items()}
+            return times(factor, [(self._outside_or_inside(frame, terms, kind), 1)])
+        return self._outside_or_inside(frame, terms, kind)
+
+    def _outside_or_inside(self, frame: Frame, terms: Terms, kind: tuple[int, int]) -> Node:
         split = split_tail(terms, len(frame.rates))
         inner = frame.without_rates()
         outside = self._merged(split, frame.rates, lambda part: self._scalar(inner, part))
@@ -198,7 +208,7 @@ class Compactor:
         shared: dict[object, tuple[Terms, Factor, Poly]] = {}
         for mono, part in parts:
             key, scale = primitive(part)
-            first, own, factors = shared.setdefault(key, (part, scale, {}))
+            _, own, factors = shared.setdefault(key, (part, scale, {}))
             factors[mono] = exact(scale, own)
         products = []
         for part, _, factors in shared.values():

@@ -150,7 +150,8 @@ class ConstantAngles:
         count = int(angle / self.plan.generator_degrees)
         for _ in range(count - 1):
             before, now = now, (2 * self.generator * now - before) % relation
-        return now if count else ctx.constant(1)
+        result: fmpq_mpoly = now if count else ctx.constant(1)
+        return result
 
     def _simple_cos(self, angle: Fraction, ctx: Any) -> fmpq_mpoly:
         match int(angle):
@@ -180,7 +181,7 @@ class ConstantAngles:
     def sqrt(self, value: Fraction, ctx: Any) -> fmpq_mpoly:
         """√value of a positive rational."""
         outside, primes = square_free_primes(value.numerator * value.denominator)
-        result = ctx.constant(fmpq(outside, value.denominator))
+        result: fmpq_mpoly = ctx.constant(fmpq(outside, value.denominator))
         for p in primes:
             result = result * self._prime(p)
         return result

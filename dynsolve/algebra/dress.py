@@ -118,7 +118,7 @@ def _without_cos_squares(poly: Poly, j: int) -> Poly:
 
 
 def _homogeneous(poly: Poly, j: int) -> Poly | None:
-    """Every term of one degree in angle j, by factors s² + c²; None where parities differ or nothing changes."""
+    """Every term of one degree in angle j, by factors s² + c²; None where that fails or changes nothing."""
     degrees = {e[2 * j] + e[2 * j + 1] for e in poly}
     top = max(degrees)
     if len(degrees) == 1 or any((top - d) % 2 for d in degrees):

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from dynsolve.algebra.ring import Pair, Ring
+from dynsolve.algebra.expr import Pair
+from dynsolve.algebra.ring import Ring
 
 
 def angle_groups(ring: Ring, parallel: Iterable[Iterable[str]] = ()) -> list[tuple[Pair, ...]]:
@@ -26,5 +27,7 @@ def angle_groups(ring: Ring, parallel: Iterable[Iterable[str]] = ()) -> list[tup
             names |= group[0]
         groups.append((names, [member for group in touching for member in group[1]] + [pair]))
     last = len(ring.names)
-    groups.sort(key=lambda group: min((ring.names.index(n) for n in group[0] if n in ring.names), default=last))
+    groups.sort(
+        key=lambda group: min((ring.names.index(n) for n in group[0] if n in ring.names), default=last)
+    )
     return [tuple(members) for _, members in groups]

@@ -10,9 +10,10 @@ Vector = tuple[Fraction, ...]
 
 
 def integer_coordinates(basis: Sequence[Vector], vector: Vector) -> tuple[Fraction, ...] | None:
-    """The coefficients of `vector` in an independent `basis`, or None where it lies outside their span.
+    """The coefficients of `vector` in an independent `basis`, or None outside its span.
 
-    >>> integer_coordinates([(Fraction(1), Fraction(0)), (Fraction(1), Fraction(1))], (Fraction(0), Fraction(2)))
+    >>> basis = [(Fraction(1), Fraction(0)), (Fraction(1), Fraction(1))]
+    >>> integer_coordinates(basis, (Fraction(0), Fraction(2)))
     (Fraction(-2, 1), Fraction(2, 1))
     """
     width = len(basis)
@@ -66,7 +67,9 @@ def _refined(vectors: Sequence[Vector]) -> list[Vector]:
         while sum(1 for row in rows if row[j]) > 1:
             rows.sort(key=lambda row: (not row[j], abs(row[j])))
             lead = rows[0]
-            rows = [lead] + [[x - (row[j] // lead[j]) * y for x, y in zip(row, lead, strict=True)] for row in rows[1:]]
+            rows = [lead] + [
+                [x - (row[j] // lead[j]) * y for x, y in zip(row, lead, strict=True)] for row in rows[1:]
+            ]
         lead_row = next((row for row in rows if row[j]), None)
         if lead_row is not None:
             rows.remove(lead_row)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from dynsolve.algebra.ring import Expr, Ring
+    from dynsolve.algebra.expr import Expr
+    from dynsolve.algebra.ring import Ring
 
 
 @dataclass(frozen=True, slots=True)

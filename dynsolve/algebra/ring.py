@@ -18,135 +18,32 @@ and halves where half an angle occurs.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import comb, cos, pi, radians, sin, sqrt
 from typing import Any
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 
-from dynsolve.algebra.angles import Angle, Atom, angle_from_tree
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.constants import ConstantAngles
+from dynsolve.algebra.expr import Expr, Generator, Pair, rational
+from dynsolve.algebra.from_tree import value_of
 from dynsolve.algebra.survey import Survey, survey
+from dynsolve.algebra.values import evaluate
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.tree import (
-    Degrees,
-    Function,
-    Negative,
-    Node,
-    Number,
-    Parenthesized,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    Symbol,
-)
-
-MOST_TERMS = 200_000
-"""A product that may have more terms than this is refused before it is formed."""
+from dynsolve.notation.tree import Node, Number, Quotient
 
 MOST_TURNS = 64
 """The largest multiple of a basic angle that is expanded."""
-
-
-@dataclass(frozen=True, slots=True)
-class Generator:
-    """What a variable of the polynomial ring stands for.
-
-    kind is one of `sin`, `cos` (with `angle`), `symbol` (with `name`, `dots`),
-    `root` (√ of `node`), `inverse` (1 / `node`'s value, set when first met) or
-    `constant` (cos of a constant `angle` of some degrees).
-    """
-
-    kind: str
-    index: int
-    name: str = ""
-    dots: int = 0
-    angle: Angle = Angle()
-    node: Node | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Pair:
-    """The sine and cosine of a basic angle, by the indices of their generators."""
-
-    angle: Angle
-    sine: int
-    cosine: int
-
-
-class Expr:
-    """An element of a ring, in normal form.  Immutable; `==` decides equality exactly."""
-
-    __slots__ = ("poly", "ring")
-
-    def __init__(self, ring: Ring, poly: fmpq_mpoly) -> None:
-        self.ring = ring
-        self.poly = poly
-
-    def __add__(self, other: Expr) -> Expr:
-        return Expr(self.ring, self.poly + other.poly)
-
-    def __sub__(self, other: Expr) -> Expr:
-        return Expr(self.ring, self.poly - other.poly)
-
-    def __neg__(self) -> Expr:
-        return Expr(self.ring, -self.poly)
-
-    def __mul__(self, other: Expr | int | Fraction) -> Expr:
-        if isinstance(other, Expr):
-            return Expr(self.ring, self.ring.reduce(self.poly * other.poly))
-        return Expr(self.ring, self.poly * _rational(other))
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: int | Fraction) -> Expr:
-        return Expr(self.ring, self.poly / _rational(other))
-
-    def __pow__(self, exponent: int) -> Expr:
-        power = self.ring.one
-        for _ in range(exponent):
-            power = power * self
-        return power
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Expr) and bool(self.poly == other.poly)
-
-    def __hash__(self) -> int:
-        return hash(str(self.poly))
-
-    def __repr__(self) -> str:
-        return f"Expr({self.ring.describe(self)})"
-
-    @property
-    def is_zero(self) -> bool:
-        """Whether it is 0."""
-        return not self.poly
-
-    @property
-    def is_number(self) -> bool:
-        """Whether it is a rational number."""
-        return bool(self.poly.is_constant())
-
-    def __len__(self) -> int:
-        """The number of terms of the normal form."""
-        return len(self.poly)
-
-    @property
-    def number(self) -> Fraction:
-        """Its value where `is_number`."""
-        value = self.poly.leading_coefficient() if self.poly else fmpq(0)
-        return Fraction(int(value.p), int(value.q))
 
 
 class Ring:
     """The ring of one robot; see the module's text.
 
     >>> from dynsolve.notation.tree import Symbol
-    >>> ring = Ring.build([("q1", "revolute"), ("q2", "revolute")], [Symbol("l1")], [Angle.of("q1"), Angle.of("q2")])
+    >>> coordinates = [("q1", "revolute"), ("q2", "revolute")]
     >>> both = Angle.of("q1") + Angle.of("q2")
+    >>> ring = Ring.build(coordinates, [Symbol("l1")], [Angle.of("q1"), both])
     >>> s, c = ring.sin(both), ring.cos(both)
     >>> s * s + c * c == ring.one
     True
@@ -298,7 +195,9 @@ class Ring:
         """A coordinate, its velocity (dots = 1) or acceleration (2), or a parameter."""
         index = self._symbols.get((name, dots))
         if index is None:
-            raise AlgebraError(f"{name}{'_' + 'd' * dots + 'ot' if dots else ''} is not a symbol of this problem")
+            raise AlgebraError(
+                f"{name}{'_' + 'd' * dots + 'ot' if dots else ''} is not a symbol of this problem"
+            )
         return Expr(self, self._gens[index])
 
     def has_symbol(self, name: str, dots: int = 0) -> bool:
@@ -326,7 +225,9 @@ class Ring:
     def _times(self, pair: Pair, times: int) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         """cos and sin of a multiple of a basic angle."""
         if abs(times) > MOST_TURNS:
-            raise AlgebraError(f"an angle of {abs(times)} times a basic angle is more than {MOST_TURNS} times")
+            raise AlgebraError(
+                f"an angle of {abs(times)} times a basic angle is more than {MOST_TURNS} times"
+            )
         c1, s1 = self._gens[pair.cosine], self._gens[pair.sine]
         c, s = self.ctx.constant(1), self.ctx.constant(0)
         for _ in range(abs(times)):
@@ -340,84 +241,17 @@ class Ring:
     def _multiples(self, angle: Angle) -> list[tuple[Pair, int]]:
         return [(p, m) for p, m in zip(self.pairs, self._plan.multiples(angle), strict=True) if m]
 
-    # -- from trees --------------------------------------------------------------------------------
-
     def expr(self, node: Node) -> Expr:
-        """The exact value of a tree.
+        """The exact value of a tree; see `algebra.from_tree`."""
+        return value_of(self, node)
 
-        Raises AlgebraError for an unknown symbol, a zero denominator, an angle that
-        is a bare number, or a product over the bound.
-        """
-        match node:
-            case Number(p, q):
-                return self.constant(Fraction(p, q))
-            case Symbol(name, dots):
-                return self.symbol(name, dots)
-            case Negative(argument):
-                return -self.expr(argument)
-            case Parenthesized(argument):
-                return self.expr(argument)
-            case Sum(terms):
-                return self._sum(map(self.expr, terms))
-            case Product(factors):
-                product = self.one
-                for factor in factors:
-                    product = self._product(product, self.expr(factor))
-                return product
-            case Quotient(numerator, denominator):
-                return self._product(self.expr(numerator), self.inverse(self.expr(denominator)))
-            case Power(base, exponent):
-                return self._power(self.expr(base), exponent)
-            case Function(name, argument):
-                return self._function(name, argument)
-            case Degrees(p, q):
-                return self.symbol("pi") * Fraction(p, 180 * q)
-        raise AlgebraError("this is not an expression")
-
-    def _sum(self, terms: Iterable[Expr]) -> Expr:
-        total = self.zero
-        for term in terms:
-            total = total + term
-        return total
-
-    def _product(self, left: Expr, right: Expr) -> Expr:
-        if len(left.poly) * len(right.poly) > MOST_TERMS:
-            raise AlgebraError("the product has too many terms", "write it with an abbreviation")
-        return left * right
-
-    def _power(self, base: Expr, exponent: Node) -> Expr:
-        match exponent:
-            case Number(p, 1):
-                count = p
-            case Negative(Number(p, 1)):
-                base, count = self.inverse(base), p
-            case _:
-                raise AlgebraError("an exponent must be a whole number", "write sqrt(...) for a root")
-        terms = max(len(base.poly), 1)
-        if count > MOST_TURNS or comb(terms + count - 1, count) > MOST_TERMS:
-            raise AlgebraError(f"the power {count} is too large")
-        return base**count
-
-    def _function(self, name: str, argument: Node) -> Expr:
-        if name == "sqrt":
-            return self._sqrt(argument)
-        angle = angle_from_tree(argument)
-        match name:
-            case "sin":
-                return self.sin(angle)
-            case "cos":
-                return self.cos(angle)
-            case "tan":
-                return self.sin(angle) * self.inverse(self.cos(angle))
-        raise AlgebraError(f"{name} is not a function that occurs here", "known are sin, cos, tan and sqrt")
-
-    def _sqrt(self, argument: Node) -> Expr:
-        value = self.expr(argument)
+    def root(self, argument: Node, value: Expr) -> Expr:
+        """The square root of a tree with this value: of a number exactly, of anything else as a generator."""
         if value.is_number:
             return Expr(self, self._constants.sqrt(value.number, self.ctx))
         for g in self.generators:
             if g.kind == "root" and g.node == argument:
-                return Expr(self, self._gens[g.index])
+                return self.generator(g.index)
         raise AlgebraError("this root does not occur in the problem")
 
     def _constant_sqrt(self, prime: int) -> fmpq_mpoly | None:
@@ -440,7 +274,9 @@ class Ring:
         if expr.is_zero:
             raise AlgebraError("the denominator is zero")
         if self.depends_on_coordinates(expr):
-            raise AlgebraError("a denominator contains a joint variable", "denominators are free of coordinates")
+            raise AlgebraError(
+                "a denominator contains a joint variable", "denominators are free of coordinates"
+            )
         root = self._root_part(expr.poly)
         if root is not None:
             conjugate, norm = root
@@ -452,7 +288,7 @@ class Ring:
         return result
 
     def _root_part(self, poly: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly] | None:
-        """(conjugate, norm) of a polynomial in which a root of a number occurs: 1/(a+b√2) = (a-b√2)/(a²-2b²)."""
+        """(conjugate, norm) where the root of a number occurs: 1/(a + b√2) = (a - b√2)/(a² - 2b²)."""
         degrees = poly.degrees()
         for index, degree, _ in self._root_relations:
             if degree == 2 and degrees[index]:
@@ -482,10 +318,7 @@ class Ring:
         """For each coordinate the pairs whose angle it turns, with the rate."""
         return tuple(
             tuple(
-                (pair, rate)
-                for pair in self.pairs
-                for atom, rate in pair.angle.terms
-                if atom == ((name, 1),)
+                (pair, rate) for pair in self.pairs for atom, rate in pair.angle.terms if atom == ((name, 1),)
             )
             for name in self.names
         )
@@ -497,7 +330,7 @@ class Ring:
         for pair, rate in self._rates[k]:
             turned = poly.derivative(pair.sine) * self._gens[pair.cosine]
             turned -= poly.derivative(pair.cosine) * self._gens[pair.sine]
-            total += turned * _rational(rate)
+            total += turned * rational(rate)
         return Expr(self, self.reduce(total))
 
     def diff_velocity(self, expr: Expr, k: int) -> Expr:
@@ -545,87 +378,19 @@ class Ring:
     @cached_property
     def _moving(self) -> frozenset[int]:
         turning = {i for pairs in self._rates for pair, _ in pairs for i in (pair.sine, pair.cosine)}
-        return frozenset(turning | {index for (name, _), index in self._symbols.items() if name in self.names})
+        return frozenset(
+            turning | {index for (name, _), index in self._symbols.items() if name in self.names}
+        )
 
     def depends_on_coordinates(self, expr: Expr) -> bool:
         """Whether a coordinate, its velocity or acceleration occurs."""
         degrees = expr.poly.degrees()
         return any(degrees[i] > 0 for i in self._moving)  # of 0 they are -1
 
-    # -- numbers -----------------------------------------------------------------------------------
-
     def evaluate(self, expr: Expr, values: Mapping[str, float]) -> float:
         """The value at plain names: `theta1`, `theta1_dot`, `theta1_ddot` and the parameters."""
-        point = self.point(values)
-        total = 0.0
-        for exponents, coefficient in zip(expr.poly.monoms(), expr.poly.coeffs(), strict=True):
-            term = int(coefficient.p) / int(coefficient.q)
-            for value, exponent in zip(point, exponents, strict=True):
-                if exponent:
-                    term *= value ** int(exponent)
-            total += term
-        return total
-
-    def point(self, values: Mapping[str, float]) -> list[float]:
-        """The value of every generator."""
-        point = [0.0] * len(self.generators)
-        later: list[Generator] = []
-        for g in reversed(self.generators):
-            if g.kind == "symbol":
-                name = g.name + ("", "_dot", "_ddot")[g.dots]
-                point[g.index] = pi if g.name == "pi" else values.get(name, 0.0)
-            elif g.kind in ("sin", "cos", "constant"):
-                angle = radians(float(g.angle.degrees)) + sum(
-                    float(rate) * _atom_value(atom, values) for atom, rate in g.angle.terms
-                )
-                point[g.index] = sin(angle) if g.kind == "sin" else cos(angle)
-            else:
-                later.append(g)
-        for g in sorted(later, key=lambda g: (g.kind == "inverse", -g.index)):
-            if g.kind == "root":
-                assert g.node is not None
-                point[g.index] = sqrt(self._value(self.expr(g.node).poly, point))
-            elif g.index in self.inverses:
-                point[g.index] = 1 / self._value(self.inverses[g.index], point)
-        return point
-
-    @staticmethod
-    def _value(poly: fmpq_mpoly, point: Sequence[float]) -> float:
-        total = 0.0
-        for exponents, coefficient in zip(poly.monoms(), poly.coeffs(), strict=True):
-            term = int(coefficient.p) / int(coefficient.q)
-            for value, exponent in zip(point, exponents, strict=True):
-                term *= value ** int(exponent) if exponent else 1.0
-            total += term
-        return total
-
-    def describe(self, expr: Expr) -> str:
-        """The normal form as text, for people who debug."""
-        names = [
-            f"{g.kind}({' + '.join(f'{r}*{a}' for a, r in g.angle.terms)})"
-            if g.kind in ("sin", "cos")
-            else g.name + ("", "_dot", "_ddot")[g.dots] or f"{g.kind}{g.index}"
-            for g in self.generators
-        ]
-        terms = []
-        for exponents, coefficient in expr.poly.to_dict().items():
-            powers = [f"{names[i]}^{e}" if e > 1 else names[i] for i, e in enumerate(exponents) if e]
-            terms.append("*".join([str(coefficient), *powers]))
-        return " + ".join(terms) or "0"
+        return evaluate(expr, values)
 
 
 class _NoRoom(Exception):
     """The ring needs more generators for inverses than were set aside."""
-
-
-def _rational(value: int | Fraction) -> fmpq:
-    return fmpq(value) if isinstance(value, int) else fmpq(value.numerator, value.denominator)
-
-
-def _atom_value(atom: Atom, values: Mapping[str, float]) -> float:
-    product = 1.0
-    for name, exponent in atom:
-        product *= values.get(name, 0.0) ** exponent
-    return product
-
-

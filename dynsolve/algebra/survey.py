@@ -55,7 +55,9 @@ class Survey:
         Raises AlgebraError where it is none: the ring was not built for that angle.
         """
         vector, others = _split(angle, self.coordinates)
-        turning = integer_coordinates(self.turning, vector) if any(vector) else (Fraction(0),) * len(self.turning)
+        turning = (
+            integer_coordinates(self.turning, vector) if any(vector) else (Fraction(0),) * len(self.turning)
+        )
         known = dict(self.fixed)
         if turning is None or any(m.denominator != 1 for m in turning) or not others.keys() <= known.keys():
             raise AlgebraError("this angle does not occur in the problem")

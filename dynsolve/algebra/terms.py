@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 from flint import Ordering, fmpq_mpoly_ctx
 
-from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.expr import Expr
 
 Factor = int | Fraction
 """A rational factor: an int wherever it is whole, since those are fast."""
@@ -104,9 +104,7 @@ def split_middle(terms: Terms, start: int, stop: int) -> dict[Exponents, Terms]:
     return result
 
 
-def read_terms(
-    expr: Expr, groups: Sequence[Sequence[int]], kinds: Mapping[int, str]
-) -> tuple[Frame, Terms]:
+def read_terms(expr: Expr, groups: Sequence[Sequence[int]], kinds: Mapping[int, str]) -> tuple[Frame, Terms]:
     """The terms of an expression in the frame of the generators it uses.
 
     `groups` are the angle groups' generators, sines and cosines in turn; `kinds`
@@ -114,7 +112,10 @@ def read_terms(
     """
     used = {i for i, degree in enumerate(expr.poly.degrees()) if degree}
     present = [(g, places) for g, places in enumerate(groups) if not used.isdisjoint(places)]
-    rest = {kind: tuple(i for i in sorted(used) if kinds.get(i) == kind) for kind in ("leading", "parameter", "rate")}
+    rest = {
+        kind: tuple(i for i in sorted(used) if kinds.get(i) == kind)
+        for kind in ("leading", "parameter", "rate")
+    }
     frame = Frame(
         tuple((g, len(places)) for g, places in present), rest["leading"], rest["parameter"], rest["rate"]
     )
@@ -125,9 +126,7 @@ def read_terms(
     small = fmpq_mpoly_ctx.get(("x", len(order)), Ordering.lex)
     place = {i: k for k, i in enumerate(order)}
     projected = expr.poly.project_to_context(small, {i: place[i] for i in used})
-    return frame, {
-        tuple(map(int, e)): _factor(f) for e, f in projected.to_dict().items()
-    }
+    return frame, {tuple(map(int, e)): _factor(f) for e, f in projected.to_dict().items()}
 
 
 def _factor(value: Any) -> Factor:

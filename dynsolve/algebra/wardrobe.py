@@ -35,7 +35,7 @@ class Wardrobe:
     """The dresses of every face met so far, each made once."""
 
     def __init__(self) -> None:
-        self._made: dict[frozenset[tuple[Exponents, int]], list[_Option]] = {}
+        self._made: dict[frozenset[tuple[Exponents, Factor]], list[_Option]] = {}
 
     def choose(self, faces: Mapping[Exponents, Face]) -> dict[Exponents, list[tuple[Monomial, Factor]]]:
         """For each face its dress as (monomial, factor)."""
@@ -52,7 +52,7 @@ class Wardrobe:
         """(dresses, the cheapest first; the factor they are to be multiplied with)"""
         if len(face) == 1:
             ((exponents, scale),) = face.items()
-            key = frozenset(((exponents, 1),))
+            key: frozenset[tuple[Exponents, Factor]] = frozenset(((exponents, 1),))
         else:
             key, scale = primitive(face)
         made = self._made.get(key)

@@ -14,8 +14,8 @@ from functools import cached_property
 
 from dynsolve.algebra.build import cost, negated, times, total
 from dynsolve.algebra.compact import Compactor
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr
 from dynsolve.notation import tree
 from dynsolve.notation.tree import ZERO, Node, Symbol
 from dynsolve.pipeline import Derivation
@@ -44,6 +44,7 @@ class Forms:
         return Compactor(self.robot.ring, leading_names(self.robot), _parallel(self.robot))
 
     def __call__(self, name: str) -> Node:
+        """The compact tree of a value, a `tree.Matrix` for a matrix."""
         found = self._made.get(name)
         if found is None:
             found = self._made[name] = self._make(name)
@@ -146,7 +147,11 @@ class Forms:
         terms = self._accelerated(k)
         for i, j in _pairs(self.robot.n):
             own = times(1 if i == j else 2, [(self.christoffel(i, j, k), 1)])
-            others = [self.christoffel(i, k, j)] if i == j else [self.christoffel(i, k, j), self.christoffel(j, k, i)]
+            others = (
+                [self.christoffel(i, k, j)]
+                if i == j
+                else [self.christoffel(i, k, j), self.christoffel(j, k, i)]
+            )
             terms.append(times(1, [(total([own, *others]), 1), *self._rates(i, j)]))
         return total(terms)
 
@@ -182,8 +187,8 @@ class Forms:
                 shared.setdefault(symbol, []).append(self._rate(i)[0])
         return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])
 
-    def _base_inertia(self, body: str) -> Node | None:
-        """Σ_kl R_ik I_kl R_jl with the entries of R as they are printed; None where I is not simpler than that."""
+    def _base_inertia(self, body: str) -> Node:
+        """Σ_kl R_ik I_kl R_jl with the entries of R as they are printed."""
         R, tensor = self(f"R{body}"), self(f"I_body{body}")
         assert isinstance(R, tree.Matrix) and isinstance(tensor, tree.Matrix)
         rows = tuple(tuple(_sandwich(R.rows[i], tensor, R.rows[j]) for j in range(3)) for i in range(3))
@@ -194,7 +199,7 @@ def _sandwich(left: tuple[Node, ...], tensor: tree.Matrix, right: tuple[Node, ..
     """Σ_kl left_k tensor_kl right_l"""
     terms = []
     for k, row in enumerate(tensor.rows):
-        inner = total([times(1, [(entry, 1), (right[l], 1)]) for l, entry in enumerate(row) if entry != ZERO])
+        inner = total([times(1, [(entry, 1), (right[m], 1)]) for m, entry in enumerate(row) if entry != ZERO])
         terms.append(times(1, [(left[k], 1), (inner, 1)]))
     return total(terms)
 
@@ -226,5 +231,3 @@ def _linear_names(expr: Expr) -> list[str]:
 def _parallel(robot: Robot) -> list[frozenset[str]]:
     turns = [Turn(joint.theta, joint.alpha, joint.variable == "theta") for joint in robot.joints]
     return parallel_groups(turns, robot.ring.names, robot.convention is Convention.MODIFIED)
-
-

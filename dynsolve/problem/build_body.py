@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr
 from dynsolve.problem.bodies import AxesSheet, BodySheet, CenterSheet, ShapeSheet, TensorSheet
 from dynsolve.problem.geometry import Links
 from dynsolve.problem.source import Report

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.algebra.ring import Ring
 from dynsolve.errors import AlgebraError
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.rotations import RotationSheet, elementary, is_rotation

@@ -12,8 +12,9 @@ from enum import Enum
 from fractions import Fraction
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import Node
 from dynsolve.robot.shapes import Shape
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr, Ring
+from dynsolve.algebra.ring import Ring
 from dynsolve.robot.model import Robot
 
 HALF = Fraction(1, 2)

@@ -6,8 +6,8 @@ mass centre with axes fixed to the body and R turns the body's axes into the bas
 
 from __future__ import annotations
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr
 from dynsolve.robot.model import AxesKind, Body, Robot
 from dynsolve.stages.kinematics import rotation
 

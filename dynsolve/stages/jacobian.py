@@ -19,7 +19,9 @@ def joint_frame(robot: Robot, joint: Joint) -> int:
     return joint.index - 1 if robot.convention is Convention.STANDARD else joint.index
 
 
-def joint_columns(robot: Robot, joint: Joint, frames: Sequence[Matrix], point: Matrix) -> tuple[Matrix, Matrix]:
+def joint_columns(
+    robot: Robot, joint: Joint, frames: Sequence[Matrix], point: Matrix
+) -> tuple[Matrix, Matrix]:
     """(J_v, J_w) of one joint alone, 3×1 each, for a point that it carries."""
     H = frames[joint_frame(robot, joint)]
     z, o = axis(H), origin(H)

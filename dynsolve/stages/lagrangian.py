@@ -6,7 +6,7 @@ d/dt ∂L/∂q̇_k - ∂L/∂q_k = τ_k.
 
 from __future__ import annotations
 
-from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.expr import Expr
 
 
 def lagrangian(K: Expr, P: Expr) -> Expr:

@@ -27,9 +27,7 @@ class LinkJacobian:
         """J_v, 3×n, of a point fixed in the frame: J_v + J_ω × r."""
         ring = local.ring
         n = self.linear.shape[1]
-        columns = [
-            self.linear.column_at(k) + cross(self.angular.column_at(k), local) for k in range(n)
-        ]
+        columns = [self.linear.column_at(k) + cross(self.angular.column_at(k), local) for k in range(n)]
         return hstack(ring, columns, 3)
 
 

@@ -5,8 +5,8 @@ Spong, Hutchinson, Vidyasagar, section 7.1, the Euler-Lagrange equations.
 
 from __future__ import annotations
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr
 from dynsolve.robot.model import Robot
 
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr
 from dynsolve.robot.model import Robot
 
 HALF = Fraction(1, 2)
@@ -47,9 +47,7 @@ def inertia_from_energy(robot: Robot, K: Expr) -> Matrix:
 def christoffel_symbols(robot: Robot, D: Matrix) -> dict[tuple[int, int, int], Expr]:
     """c_ijk = ½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k), at (i, j, k) with i ≤ j and from 0."""
     ring, n = robot.ring, robot.n
-    slopes = {
-        (i, j, k): ring.diff(D[i, j], k) for i in range(n) for j in range(i, n) for k in range(n)
-    }
+    slopes = {(i, j, k): ring.diff(D[i, j], k) for i in range(n) for j in range(i, n) for k in range(n)}
 
     def slope(i: int, j: int, k: int) -> Expr:
         return slopes[min(i, j), max(i, j), k]

@@ -1,0 +1,75 @@
+"""The values of exact expressions in floating point, and their normal forms as text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import cos, pi, radians, sin, sqrt
+
+from flint import fmpq_mpoly
+
+from dynsolve.algebra.angles import Atom
+from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.from_tree import value_of
+
+
+def evaluate(expr: Expr, values: Mapping[str, float]) -> float:
+    """The value at plain names: `theta1`, `theta1_dot`, `theta1_ddot` and the parameters."""
+    return _value(expr.poly, _point(expr, values))
+
+
+def _point(expr: Expr, values: Mapping[str, float]) -> list[float]:
+    """The value of every generator of the expression's ring."""
+    ring = expr.ring
+    point = [0.0] * len(ring.generators)
+    later: list[Generator] = []
+    for g in ring.generators:
+        if g.kind == "symbol":
+            name = g.name + ("", "_dot", "_ddot")[g.dots]
+            point[g.index] = pi if g.name == "pi" else values.get(name, 0.0)
+        elif g.kind in ("sin", "cos", "constant"):
+            turn = sum(float(rate) * _atom_value(atom, values) for atom, rate in g.angle.terms)
+            angle = radians(float(g.angle.degrees)) + turn
+            point[g.index] = sin(angle) if g.kind == "sin" else cos(angle)
+        else:
+            later.append(g)
+    # Roots are of symbols and of roots laid out after them; denominators may hold both.
+    for g in sorted(later, key=lambda g: (g.kind == "inverse", -g.index)):
+        if g.node is not None:
+            point[g.index] = sqrt(_value(value_of(ring, g.node).poly, point))
+        elif g.index in ring.inverses:
+            point[g.index] = 1 / _value(ring.inverses[g.index], point)
+    return point
+
+
+def _atom_value(atom: Atom, values: Mapping[str, float]) -> float:
+    product = 1.0
+    for name, exponent in atom:
+        product *= values.get(name, 0.0) ** exponent
+    return product
+
+
+def _value(poly: fmpq_mpoly, point: Sequence[float]) -> float:
+    total = 0.0
+    for exponents, coefficient in zip(poly.monoms(), poly.coeffs(), strict=True):
+        term = int(coefficient.p) / int(coefficient.q)
+        for value, exponent in zip(point, exponents, strict=True):
+            if exponent:
+                term *= value ** int(exponent)
+        total += term
+    return total
+
+
+def describe(expr: Expr) -> str:
+    """The normal form as text, for people who debug."""
+    names = [_describe(g) for g in expr.ring.generators]
+    terms = []
+    for exponents, coefficient in expr.poly.to_dict().items():
+        powers = [f"{names[i]}^{e}" if e > 1 else names[i] for i, e in enumerate(exponents) if e]
+        terms.append("*".join([str(coefficient), *powers]))
+    return " + ".join(terms) or "0"
+
+
+def _describe(g: Generator) -> str:
+    if g.kind in ("sin", "cos"):
+        return f"{g.kind}({' + '.join(f'{rate}*{atom}' for atom, rate in g.angle.terms)})"
+    return g.name + ("", "_dot", "_ddot")[g.dots] or f"{g.kind}{g.index}"
