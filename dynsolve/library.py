@@ -37,5 +37,7 @@ def find(name: str) -> Path:
     if name in known:
         return known[name]
     close = get_close_matches(name, known, n=1)
-    help = f"did you mean `{close[0]}`?" if close else "`dynsolve problems` lists those that come with dynsolve"
+    help = (
+        f"did you mean `{close[0]}`?" if close else "`dynsolve problems` lists those that come with dynsolve"
+    )
     raise ProblemError([Finding("no such file, and no bundled problem of that name", help, name)])

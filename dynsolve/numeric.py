@@ -59,13 +59,13 @@ class NumericFunction:
         /,
         **parameters: ArrayLike,
     ) -> NDArray[np.float64]:
-        """The value at a state; raises UsageError for a missing parameter or a wrong number of coordinates."""
+        """The value at a state; UsageError for a missing parameter or a wrong number of coordinates."""
         values: dict[str, Any] = {"pi": math.pi}
         for dots, vector in zip(DOTS, (q, qd, qdd), strict=True):
             values |= self._vector(dots, vector)
         spelled = {python_name(name): name for name in self.parameters}
         given = {spelled.get(name, name): np.asarray(value, float) for name, value in parameters.items()}
-        values |= self.defaults | given
+        values = {**values, **self.defaults, **given}
         missing = [python_name(name) for name in self.parameters if name not in values]
         if missing:
             raise UsageError(f"{self.name} needs values for {', '.join(missing)}")
@@ -81,7 +81,9 @@ class NumericFunction:
         entries = [np.asarray(entry, float) for entry in np.atleast_1d(np.asarray(vector, float))]
         if len(entries) != len(self.coordinates):
             what = "q" + ("", "d", "dd")[DOTS.index(dots)]
-            raise UsageError(f"{what} has {len(entries)} entries, the robot {len(self.coordinates)} coordinates")
+            raise UsageError(
+                f"{what} has {len(entries)} entries, the robot {len(self.coordinates)} coordinates"
+            )
         return {name + dots: entry for name, entry in zip(self.coordinates, entries, strict=True)}
 
 

@@ -76,7 +76,9 @@ def solve(
     if problem.robot.bodies:
         held = agreement(problem.robot, values)
         if not held.holds:
-            raise VerificationError("what is read off from the forces differs from what is assembled directly")
+            raise VerificationError(
+                "what is read off from the forces differs from what is assembled directly"
+            )
     verification = verify(problem.robot, _checked(problem.robot, forms), states)
     return Solution(problem, values, forms, verification, held, warnings)
 
@@ -119,7 +121,9 @@ def _given_axes(problem: Problem, values: Derivation) -> Iterator[Finding]:
             yield problem.finding(path, message, "write `axes: base` for a frame that turns", "axes-fixed")
         else:
             message = f"{what}, and the kinetic energy would come out wrong"
-            help = "a body's frame turns with its link: `axes: base` is parallel to frame 0 at q = 0 and turns"
+            help = (
+                "a body's frame turns with its link: `axes: base` is parallel to frame 0 at q = 0 and turns"
+            )
             faults.append(problem.finding(path, message, help, "axes-fixed"))
     if faults:
         raise ProblemError(faults)

@@ -13,11 +13,12 @@ if TYPE_CHECKING:
     from dynsolve.problem import Problem
 
 STDIN = "-"
+STDIN_NAME = "<stdin>"
 
 Problems = Annotated[
     list[str],
     typer.Argument(
-        metavar="PROBLEM...",
+        metavar="PROBLEM",
         help="Problem files, stems of bundled problems, or - for standard input.",
         show_default=False,
     ),
@@ -31,11 +32,16 @@ def read(name: str) -> Problem:
     if name == STDIN:
         from dynsolve.problem import read_problem
 
-        return read_problem(sys.stdin.buffer.read(), "<stdin>")
+        return read_problem(standard_input(), STDIN_NAME)
     from dynsolve.library import find
     from dynsolve.problem import load
 
     return load(find(name))
+
+
+def standard_input() -> bytes:
+    """All of standard input."""
+    return sys.stdin.buffer.read()
 
 
 def say(findings: Iterable[Finding], word: str = "") -> None:

@@ -4,27 +4,40 @@ from __future__ import annotations
 
 import typer
 
-from dynsolve.cli.common import Problems, Quiet, described, read, say
-from dynsolve.errors import ExitCode, ProblemError
+from dynsolve.cli.common import STDIN, STDIN_NAME, Problems, Quiet, described, say, standard_input
+from dynsolve.errors import ExitCode, Finding, ProblemError
 
 
 def lint(problem: Problems, quiet: Quiet = False) -> int:
-    """Check problem files; ends with 1 where there is a finding, with 2 for a faulty file."""
-    from dynsolve.solution import check_axes
+    """Check problem files: faults and what deserves a look.
 
+    Ends with 1 where something deserves a look, with 2 where a file is faulty.
+    """
     code = ExitCode.DONE
     for name in problem:
         try:
-            found = read(name)
-            warnings = [*found.warnings, *check_axes(found)]
+            findings = _findings(name)
         except ProblemError as error:
             say(error.findings)
             code = ExitCode.USAGE
             continue
-        for warning in warnings:
-            typer.echo(described(warning, "warning"))
-        if warnings:
+        for finding in findings:
+            typer.echo(described(finding, "warning"))
+        if findings:
             code = max(code, ExitCode.FALLS_SHORT)
         elif not quiet:
-            typer.echo(f"{found.file}: no findings", err=True)
+            typer.echo(f"{name}: nothing to remark", err=True)
     return code
+
+
+def _findings(name: str) -> list[Finding]:
+    from dynsolve.library import find
+    from dynsolve.problem import read_problem
+    from dynsolve.problem.lint import lint_text
+    from dynsolve.problem.reader import read_file
+    from dynsolve.solution import check_axes
+
+    content, file = (
+        (standard_input(), STDIN_NAME) if name == STDIN else (read_file(find(name)), str(find(name)))
+    )
+    return [*lint_text(content, file), *check_axes(read_problem(content, file))]

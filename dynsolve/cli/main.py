@@ -44,6 +44,10 @@ def _run(words: Sequence[str], traceback: bool) -> int:
         return ExitCode.INTERRUPTED
     except BrokenPipeError:
         return _reader_left()
+    except SystemExit as end:  # Click's own way to end when the reader of the output has left
+        if not isinstance(end.__context__, BrokenPipeError):
+            raise
+        return _reader_left()
     except typer.Exit as end:
         return int(end.exit_code)
     except _ClickError as error:
@@ -54,7 +58,7 @@ def _run(words: Sequence[str], traceback: bool) -> int:
             raise
         _say(str(error) if isinstance(error, InputError) else f"error: {error}")
         return error.exit_code
-    except Exception as error:  # noqa: BLE001 - the last net: a person gets a line, not a stack
+    except Exception as error:
         if traceback:
             raise
         what = " ".join(f"{type(error).__name__}: {error}".split())
@@ -67,7 +71,7 @@ def app() -> typer.Typer:
     program = typer.Typer(
         name="dynsolve",
         help="The equations of motion of a robot manipulator, derived exactly, step by step, and verified.",
-        epilog="PROBLEM is a path, the stem of a bundled problem (see `dynsolve problems`), or - for standard input.",
+        epilog="PROBLEM is a path, the stem of a bundled problem (`dynsolve problems`), or - for standard input.",
         no_args_is_help=True,
         rich_markup_mode=None,
         pretty_exceptions_enable=False,

@@ -11,19 +11,21 @@ from dynsolve.errors import UsageError
 
 
 def new(
-    file: Annotated[str, typer.Argument(help="Where to write it; - for standard output.", show_default=False)],
+    file: Annotated[
+        str, typer.Argument(help="Where to write it; - for standard output.", show_default=False)
+    ],
     force: Annotated[bool, typer.Option("--force", help="Overwrite a file that is there.")] = False,
 ) -> None:
-    """Write a problem file with comments, to be changed into yours."""
-    from dynsolve.problem.template import template
+    """Write a commented problem file to start from."""
+    from dynsolve.problem.template import TEMPLATE
 
     if file == "-":
-        typer.echo(template(), nl=False)
+        typer.echo(TEMPLATE, nl=False)
         return
     path = Path(file)
     try:
         with path.open("w" if force else "x", encoding="utf-8") as stream:
-            stream.write(template(path.stem))
+            stream.write(TEMPLATE)
     except FileExistsError:
         raise UsageError(f"{file} exists; --force overwrites it") from None
     except OSError as error:

@@ -6,7 +6,7 @@ import typer
 
 
 def schema() -> None:
-    """Print the JSON Schema of problem files, for editors that complete and check."""
+    """Print the JSON Schema of problem files, for editors."""
     from json import dumps
 
     from dynsolve.problem.schema import schema as problem_schema

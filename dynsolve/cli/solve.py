@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from enum import Enum
+from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from dynsolve.solution import Solution
 
 
-class DetailName(str, Enum):
+class DetailName(StrEnum):
     """How much is shown."""
 
     BRIEF = "brief"
@@ -22,7 +22,7 @@ class DetailName(str, Enum):
     FULL = "full"
 
 
-class StageName(str, Enum):
+class StageName(StrEnum):
     """A part of the derivation."""
 
     KINEMATICS = "kinematics"
@@ -38,14 +38,23 @@ def solve(
     problem: Problems,
     json: Annotated[bool, typer.Option("--json", help="JSON with everything, one object a line.")] = False,
     stage: Annotated[
-        list[StageName] | None, typer.Option(help="Show this stage alone; may be given more than once.")
+        list[StageName] | None,
+        typer.Option(metavar="STAGE", help="Show this stage alone; may be given more than once."),
     ] = None,
-    first: Annotated[StageName | None, typer.Option("--from", help="Show from this stage on.")] = None,
-    last: Annotated[StageName | None, typer.Option("--to", help="Show up to this stage.")] = None,
+    first: Annotated[
+        StageName | None, typer.Option("--from", metavar="STAGE", help="Show from this stage on.")
+    ] = None,
+    last: Annotated[
+        StageName | None, typer.Option("--to", metavar="STAGE", help="Show up to this stage.")
+    ] = None,
     detail: Annotated[DetailName, typer.Option(help="How much is shown.")] = DetailName.NORMAL,
     quiet: Quiet = False,
 ) -> int:
-    """Derive the dynamics of a manipulator, step by step, and verify the result."""
+    """Derive a robot's dynamics step by step, verified.
+
+    The stages, in order: kinematics, jacobian, inertia, energy, lagrangian, torque,
+    vectorized. A robot without masses ends with the Jacobian.
+    """
     stages = _chosen(stage, first, last)
     code = ExitCode.DONE
     for place, name in enumerate(problem):

@@ -40,12 +40,14 @@ class Formula:
     """A displayed formula.
 
     `source` is where the textbook has it.  `entries` names the entries of a matrix
-    that is too wide to be laid out: a matrix of names, of its shape.
+    that is too wide to be laid out: a matrix of names, of its shape.  An `optional`
+    formula is left out where its matrices do not fit the page side by side.
     """
 
     node: Node
     source: str = ""
     entries: tuple[tuple[Node, ...], ...] = ()
+    optional: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,10 +66,10 @@ class Note:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Rows of cells under a header."""
+    """Rows of cells under a header, each cell words or a formula."""
 
-    header: Prose
-    rows: tuple[Prose, ...]
+    header: tuple[Inline, ...]
+    rows: tuple[tuple[Inline, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)

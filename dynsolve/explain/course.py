@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
@@ -67,7 +67,7 @@ def turns(q: Coordinate) -> bool:
 def plain_joint(robot: Robot, k: int) -> Joint | None:
     """The one joint whose variable is coordinate k alone (from 0), at rate 1; None where they are coupled."""
     joints = [joint for joint in robot.joints if any(i == k for i, _ in joint.rates)]
-    if len(joints) == 1 and joints[0].rates == ((k, 1),):
+    if len(joints) == 1 and joints[0].rates[0][1] == 1 and len(joints[0].rates) == 1:
         return joints[0]
     return None
 
@@ -125,11 +125,6 @@ def children(node: Node) -> tuple[Node, ...]:
             return parts
         case tree.Quotient(a, b) | tree.Power(a, b) | tree.Cross(a, b):
             return (a, b)
-        case (
-            tree.Negative(a)
-            | tree.Function(_, a)
-            | tree.Parenthesized(a)
-            | tree.Transpose(a)
-        ):
+        case tree.Negative(a) | tree.Function(_, a) | tree.Parenthesized(a) | tree.Transpose(a):
             return (a,)
     return ()

@@ -11,7 +11,10 @@ from dynsolve.explain.step import STAGES, Detail, Step
 if TYPE_CHECKING:
     from dynsolve.solution import Solution
 
-CONVENTIONS = {"standard": "standard Denavit-Hartenberg (Spong)", "modified": "modified Denavit-Hartenberg (Craig)"}
+CONVENTIONS = {
+    "standard": "standard Denavit-Hartenberg (Spong)",
+    "modified": "modified Denavit-Hartenberg (Craig)",
+}
 
 
 def solution_document(
@@ -31,14 +34,16 @@ def _opening(solution: Solution) -> Iterator[Block]:
 
 
 def _stages(solution: Solution, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
-    stage = ""
+    """Stages and their steps, numbered as in the whole derivation."""
+    numbers = {stage: number for number, stage in enumerate(STAGES, start=1)}
+    stage, place = "", 0
     for step in solution.explain(stages):
-        if step.detail > detail:
-            continue
         if step.stage != stage:
-            stage = step.stage
-            yield Heading(STAGES[stage], 2)
-        yield Fold(step.title, tuple(step_blocks(step, detail)))
+            stage, place = step.stage, 0
+            yield Heading(f"{numbers[stage]}. {STAGES[stage]}", 2)
+        place += 1
+        if step.detail <= detail:
+            yield Fold(f"{numbers[stage]}.{place} {step.title}", tuple(step_blocks(step, detail)))
 
 
 def step_blocks(step: Step, detail: Detail) -> Iterator[Block]:
@@ -51,9 +56,9 @@ def step_blocks(step: Step, detail: Detail) -> Iterator[Block]:
         if step.formula is not None:
             yield Formula(step.formula, step.source)
         for working in step.working:
-            yield Formula(working)
+            yield Formula(working, optional=True)
     for result in step.result:
-        yield Formula(result, entries=step.entries)
+        yield Formula(result, entries=step.entries, optional=step.optional)
     if detail > Detail.BRIEF:
         for note in step.notes:
             yield Note(note)
@@ -65,6 +70,6 @@ def _closing(solution: Solution) -> Iterator[Block]:
     if not solution.robot.bodies:
         yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
     yield Text((
-        f"Held against {verification.method} at {verification.states} random states: "
-        f"they differ by at most {verification.max_relative_error:.1e} (relative).",
+        f"Verified: {verification.method} at {verification.states} random states, "
+        f"relative error {verification.max_relative_error:.1e}.",
     ))  # fmt: skip

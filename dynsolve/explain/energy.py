@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.algebra.ring import Expr
+from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain import letters
 from dynsolve.explain.course import Course, is_small, shv, side_by_side
@@ -22,6 +22,7 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
     Transpose,
+    Words,
     column,
     equation,
 )
@@ -36,10 +37,13 @@ def steps(course: Course) -> Iterator[Step]:
     for body in bodies:
         yield _potential(course, body)
     yield _total(course, "P", "potential", letters.P, [letters.of_body("P", b) for b in bodies])
+    told = False
     for body in bodies:
         yield _jacobians(course, body)
         yield _velocities(course, body)
-        yield _linear(course, body)
+        linear = _linear(course, body, tells=not told)
+        told = told or bool(linear.notes)
+        yield linear
         yield _rotational(course, body)
         yield _kinetic(course, body)
     yield _total(course, "K", "kinetic", letters.K, [letters.of_body("K", b) for b in bodies])
@@ -56,20 +60,29 @@ def _potential(course: Course, body: Body) -> Step:
     general = equation(P, Negative(Product((_mass(body), Transpose(vector), r))))
     result = (equation(P, course.form(f"P{b}")),)
     if robot.gravity.is_zero:
-        return Step(f"P{b}", STAGE, f"Potential energy of {name_of(body)}", ("There is no gravity.",), general,
-                    shv("7.2.3"), result=result)  # fmt: skip
-    working: list[Node] = [side_by_side([equation(vector, gravity), equation(r, center)])]
-    why: Prose = ("Minus the mass times the product of the acceleration of gravity, which points down, with r_c.",)
+        title = f"Potential energy of {name_of(body)}"
+        return Step(f"P{b}", STAGE, title, ("There is no gravity.",), general, shv("7.2.3"), result=result)
+    row = Matrix((tuple(entry for (entry,) in _rows(gravity)),))
+    working: list[Node] = []
+    if is_small(center):
+        working.append(equation(P, Negative(Product((mass, row, center)))))
+    product = Product((Transpose(vector), letters.bold("r", Words("c"))))
+    why: Prose = (
+        "Minus the mass times ",
+        product,
+        ", g being the acceleration of gravity, which points down.",
+    )
     formula: Node = general
     height = _height(course, body)
     if height is not None:
-        magnitude, up = height
         h = letters.of_body("h", body)
         formula = side_by_side([equation(P, Product((_mass(body), Symbol("g"), h))), general])
-        working.insert(0, side_by_side([equation(h, up), equation(P, Product((mass, magnitude, up)))]))
+        working.insert(0, equation(h, height))
         why = (
-            "The mass times g times its height above the base origin; or, the same, minus the mass times the "
-            "product of the acceleration of gravity (which points down) with r_c.",
+            "The mass times g times the height h above the base origin. The same with vectors: minus the "
+            "mass times ",
+            product,
+            ", g being the acceleration of gravity, which points down.",
         )
     return Step(
         id=f"P{b}",
@@ -87,16 +100,19 @@ def _mass(body: Body) -> Letter:
     return letters.of_body("m", body)
 
 
-def _height(course: Course, body: Body) -> tuple[Node, Node] | None:
-    """(magnitude of gravity, height of the mass centre) where gravity lies along an axis of the base."""
+def _rows(node: Node) -> tuple[tuple[Node, ...], ...]:
+    assert isinstance(node, Matrix)
+    return node.rows
+
+
+def _height(course: Course, body: Body) -> Node | None:
+    """The height of the mass centre, where gravity lies along an axis of the base."""
     along = [(i, entry) for i, entry in enumerate(course.robot.gravity.entries) if not entry.is_zero]
     if len(along) != 1:
         return None
     i, entry = along[0]
     center: Expr = course.values[f"rc{body.name}"][i, 0]
-    down = _leads_with_minus(entry)
-    magnitude = course.show(-entry if down else entry)
-    return magnitude, course.show(center if down else -center)
+    return course.show(center if _leads_with_minus(entry) else -center)
 
 
 def _leads_with_minus(expr: Expr) -> bool:
@@ -131,7 +147,9 @@ def _total(course: Course, name: str, kind: str, letter: Letter, parts: list[Let
 def _jacobians(course: Course, body: Body) -> Step:
     b, robot = body.name, course.robot
     zero = Letter("0", style="bold")
-    columns = [coordinate_column(course, k, body.link, letters.rc(body)) or (zero, zero) for k in range(robot.n)]
+    columns = [
+        coordinate_column(course, k, body.link, letters.rc(body)) or (zero, zero) for k in range(robot.n)
+    ]
     late = [q for q, both in zip(robot.coordinates, columns, strict=True) if both[0] == zero]
     why: Prose = (
         "Like the Jacobian of the arm, but of the mass centre: only the joints up to the body's link move it",
@@ -184,7 +202,7 @@ def _velocities(course: Course, body: Body) -> Step:
     )
 
 
-def _linear(course: Course, body: Body) -> Step:
+def _linear(course: Course, body: Body, tells: bool) -> Step:
     b = body.name
     Kv, v = letters.energy_part("v", body), letters.of_body("v", body, "bold")
     velocity = course.matrix(f"v{b}")
@@ -208,7 +226,7 @@ def _linear(course: Course, body: Body) -> Step:
         source=shv("7.2"),
         working=working,
         result=(equation(Kv, form),),
-        notes=() if velocity_is_zero else tuple(_cancelling(course, body)),
+        notes=() if velocity_is_zero or not tells else tuple(_cancelling(course, body)),
     )
 
 
@@ -230,11 +248,9 @@ def _cancelling(course: Course, body: Body) -> Iterator[Prose]:
             yield (
                 "The squares add up by ",
                 _pythagoras(angle),
-                "; c² - s², which is cos 2",
+                ", so that the speed does not depend on ",
                 angle,
-                ", does not occur: the speed does not depend on ",
-                angle,
-                ".",
+                ". (The difference of the squares, which is the cosine of twice the angle, does not occur.)",
             )
             return
 
@@ -290,5 +306,3 @@ def _kinetic(course: Course, body: Body) -> Step:
         source=shv("7.2"),
         result=(equation(K, course.form(f"K{body.name}")),),
     )
-
-

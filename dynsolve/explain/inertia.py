@@ -43,15 +43,18 @@ _SHAPES = {
 
 def steps(course: Course) -> Iterator[Step]:
     """Of each body: r_c, and unless it is a point, I, R and I in the base frame."""
-    for body in course.robot.bodies:
-        yield _center(course, body)
+    bodies = course.robot.bodies
+    off_origin = next((body for body in bodies if not body.center.is_zero), None)
+    framed = next((body for body in bodies if body.link > 1 and _has_link_axes(body)), None)
+    for body in bodies:
+        yield _center(course, body, tells=body is off_origin)
         if body.is_point:
             yield _point(course, body)
             continue
         yield _tensor(course, body)
         if body.about_point is not None:
             yield _parallel_axis(course, body)
-        yield _rotation(course, body)
+        yield _rotation(course, body, tells=body is framed)
         yield _base_tensor(course, body)
 
 
@@ -63,13 +66,13 @@ def name_of(body: Body) -> str:
 # -- the mass centre -------------------------------------------------------------------------------
 
 
-def _center(course: Course, body: Body) -> Step:
+def _center(course: Course, body: Body, tells: bool) -> Step:
     link = body.link
     r, H = letters.rc(body), letters.H(course.robot, link)
     local = course.show(body.center)
     frame = Letter("r", letters.rc(body).sub, Number(link), "bold")
     at_origin = body.center.is_zero
-    why: Prose = (f"The mass centre of {name_of(body)} {_where(course, body)}.",)
+    why: Prose = (f"The mass centre of {name_of(body)} ", *_where(course, body), ".")
     formula: Node = equation(r, Sum((Product((letters.R(course.robot, link), frame)), letters.o(link))))
     working: tuple[Node, ...] = ()
     if at_origin:
@@ -91,7 +94,7 @@ def _center(course: Course, body: Body) -> Step:
         source=shv("7.2"),
         working=working,
         result=(equation(r, course.form(f"rc{body.name}")),),
-        notes=() if at_origin else (_not_the_origin(body, H),),
+        notes=(_not_the_origin(body, H),) if tells else (),
     )
 
 
@@ -100,19 +103,18 @@ def _parts(course: Course, link: int) -> tuple[Matrix, Matrix]:
     return block_of(H, 3, 0, 3), block_of(H, 3, 3, 4)
 
 
-def _where(course: Course, body: Body) -> str:
+def _where(course: Course, body: Body) -> Prose:
     link, written = body.link, body.center_written
-    near = f"o_{link - 1}" if course.standard else f"o_{link}"
-    far = f"o_{link}" if course.standard else f"o_{link + 1}"
+    near, far = (link - 1, link) if course.standard else (link, link + 1)
     if written == "tip":
-        return f"is at the far end of link {link}, {far}"
+        return (f"is at the far end of link {link}, ", letters.o(far))
     if written == "origin":
-        return f"is at the origin of frame {link}"
+        return ("is at the origin ", letters.o(link), f" of frame {link}")
     if written == "midpoint":
-        return f"is half-way along link {link}, between {near} and {far}"
+        return (f"is half-way along link {link}, between ", letters.o(near), " and ", letters.o(far))
     if body.center.is_zero:
-        return f"falls on the origin of frame {link}"
-    return f"is fixed in frame {link}"
+        return ("falls on the origin ", letters.o(link), f" of frame {link}")
+    return (f"has fixed coordinates in frame {link}",)
 
 
 def _not_the_origin(body: Body, H: Letter) -> Prose:
@@ -129,7 +131,7 @@ def _not_the_origin(body: Body, H: Letter) -> Prose:
 
 
 def _point(course: Course, body: Body) -> Step:
-    tensor = letters.of_body("I", body, "bold")
+    tensor = letters.tensor(course.robot, body)
     return Step(
         id=f"I{body.name}",
         stage=STAGE,
@@ -146,7 +148,7 @@ def _point(course: Course, body: Body) -> Step:
 
 
 def _tensor(course: Course, body: Body) -> Step:
-    tensor = letters.of_body("I", body, "bold")
+    tensor = letters.tensor(course.robot, body)
     assert body.inertia is not None
     about = "the mass centre"
     if body.about_point is not None:
@@ -187,7 +189,7 @@ def _shape(course: Course, body: Body) -> tuple[Node | None, tuple[Node, ...], P
 
 def _parallel_axis(course: Course, body: Body) -> Step:
     b = body.name
-    tensor = letters.of_body("I", body, "bold")
+    tensor = letters.tensor(course.robot, body)
     given = Letter("I", Row((letters.index_of(b), Words(","), Words("given"))), None, "bold")
     r = Letter("r", style="bold")
     mass = course.show(body.mass)
@@ -215,20 +217,27 @@ def _parallel_axis(course: Course, body: Body) -> Step:
 # -- its orientation -------------------------------------------------------------------------------
 
 
-def _rotation(course: Course, body: Body) -> Step:
+def _has_link_axes(body: Body) -> bool:
+    """Whether the body-attached axes are those of its link's frame, the default."""
+    axes = body.axes
+    one = algebra.Matrix.identity(axes.rotation.ring, 3)
+    return not body.is_point and axes.kind is AxesKind.LINK and axes.rotation == one
+
+
+def _rotation(course: Course, body: Body, tells: bool) -> Step:
     robot, link = course.robot, body.link
     rotation, frame = letters.of_body("R", body, "bold"), letters.R(robot, link)
     turned = course.show(body.axes.rotation)
     notes: tuple[Prose, ...] = ()
     formula: Node | None = None
     match body.axes.kind:
-        case AxesKind.LINK if body.axes.rotation == _identity(course):
+        case AxesKind.LINK if _has_link_axes(body):
             why: Prose = (
                 f"The body's axes are those of frame {link}, the frame that comes after the mass",
                 " and is fixed in the same link.",
             )
             formula = equation(rotation, frame)
-            if link > 1 or letters.has_base(robot):
+            if tells:
                 notes = ((f"Frame {link} is the one to take, not frame {link - 1} before the mass.",),)
         case AxesKind.LINK:
             why = (f"The body's axes are turned in frame {link}, as the problem gives them.",)
@@ -242,8 +251,8 @@ def _rotation(course: Course, body: Body) -> Step:
             if not inertia.turns_with_link(robot, body, course.values[f"H{link}"]):
                 notes = (
                     (
-                        f"This frame does not turn with link {link}. It may be used all the same: the kinetic energy "
-                        "comes out as with the frame that turns (compared exactly).",
+                        f"This frame does not turn with link {link}. It may be used all the same: the kinetic "
+                        "energy comes out as with the frame that turns (compared exactly).",
                     ),
                 )
     return Step(
@@ -258,16 +267,12 @@ def _rotation(course: Course, body: Body) -> Step:
     )
 
 
-def _identity(course: Course) -> algebra.Matrix:
-    return algebra.Matrix.identity(course.robot.ring, 3)
-
-
 def _base_tensor(course: Course, body: Body) -> Step:
     b = body.name
     inertia_, R, tensor = (
         letters.of_body("I", body, "script"),
         letters.of_body("R", body, "bold"),
-        letters.of_body("I", body, "bold"),
+        letters.tensor(course.robot, body),
     )
     rotation, given = course.form(f"R{b}"), course.form(f"I_body{b}")
     product = Product((R, tensor, Transpose(R)))
@@ -283,7 +288,8 @@ def _base_tensor(course: Course, body: Body) -> Step:
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in base coordinates",
         why=(
-            "ω is found in base coordinates, so the tensor must be too: R turns the body's axes into the base's.",
+            "ω is found in base coordinates, so the tensor must be too: R turns the body's axes into the "
+            "base's.",
         ),
         formula=equation(*members[:2]),
         source=shv("7.2.1"),
@@ -291,4 +297,3 @@ def _base_tensor(course: Course, body: Body) -> Step:
         result=(equation(inertia_, base),),
         notes=notes,
     )
-

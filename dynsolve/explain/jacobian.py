@@ -32,6 +32,7 @@ from dynsolve.notation.tree import (
     Product,
     Sum,
     Symbol,
+    Words,
     column,
     equation,
     number,
@@ -73,8 +74,11 @@ def _axes(course: Course) -> Step:
         stage=STAGE,
         title="Axes and origins of the joints",
         why=(
-            "z is the third column of H (the first three entries), o the fourth. ",
-            f"In the {robot.convention.value} convention joint i moves along or about z_{{{which}}}",
+            Letter("z", style="bold"),
+            " is the third column of H (its first three entries), ",
+            Letter("o", style="bold"),
+            f" the fourth. In the {robot.convention.value} convention joint i turns about or slides along ",
+            Letter("z", Words(which), style="bold"),
             ", the axis of the frame before it." if course.standard else ", the axis of its own frame.",
         ),
         source=shv("4.6") if course.standard else craig("5.6"),
@@ -162,10 +166,10 @@ def _column_why(q: Coordinate, robot: Robot, joint: Joint | None) -> Prose:
         return (" moves the joint of row ", *where, " at a rate of its own, which multiplies the column.")
     if turns(q):
         return (
-            " turns everything after it about z: the end moves with z × (its distance from the axis), "
-            "and turns with z itself.",
+            " turns everything after it about its axis z: the end moves with z × (the vector to it from the "
+            "axis), and turns with z.",
         )
-    return (" slides everything after it along z: the end moves with z, and nothing turns.",)
+    return (" slides everything after it along its axis z: the end moves with z, and does not turn.",)
 
 
 def _whole(course: Course) -> Step:
@@ -174,7 +178,13 @@ def _whole(course: Course) -> Step:
         id="J",
         stage=STAGE,
         title="The Jacobian of the end of the arm",
-        why=("Its columns side by side: v = J_v q̇ and ω = J_ω q̇, however the joints move.",),
+        why=(
+            "Its columns side by side: ",
+            equation(letters.bold("v"), Product((letters.JV, letters.QD))),
+            " and ",
+            equation(letters.bold("omega"), Product((letters.JW, letters.QD))),
+            ", however the joints move.",
+        ),
         formula=equation(letters.J, column(letters.JV, letters.JW)),
         source=shv("4.6.3"),
         result=(equation(letters.JV, Jv), equation(letters.JW, Jw)),
@@ -189,4 +199,3 @@ def _notes(course: Course) -> Iterator[Prose]:
             "This Jacobian belongs to the end of the arm. Each body gets its own below, taken at its mass "
             "centre.",
         )
-

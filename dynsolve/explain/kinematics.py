@@ -48,8 +48,11 @@ def _table(course: Course) -> Step:
     if course.standard:
         header: Prose = ("i", Symbol("theta"), "d", "a", Symbol("alpha"))
         why: Prose = (
-            "Each row takes frame i-1 to frame i by four motions: turn by θ about z_{i-1}, slide by d along "
-            "z_{i-1}, slide by a along the new x axis x_i, turn by α about x_i. ",
+            "Each row takes frame i-1 to frame i by four motions: turn by θ about ",
+            _axis("z", "i-1"),
+            ", slide by d along it, slide by a along ",
+            _axis("x", "i"),
+            ", turn by α about that. ",
         )
     else:
         header = (
@@ -60,11 +63,14 @@ def _table(course: Course) -> Step:
             Letter("alpha", Words("i-1")),
         )
         why = (
-            "Each row takes frame i-1 to frame i by four motions: turn by α about x_{i-1}, slide by a along "
-            "x_{i-1}, turn by θ about z_i, slide by d along z_i. ",
+            "Each row takes frame i-1 to frame i by four motions: turn by α about ",
+            _axis("x", "i-1"),
+            ", slide by a along it, turn by θ about ",
+            _axis("z", "i"),
+            ", slide by d along that. ",
         )
     if any(joint.type for joint in robot.joints):
-        why += ("The star marks a joint variable.",)
+        why += ("The star marks a joint variable: ", *_kinds(course))
     rows = tuple((str(joint.index), *joint.written) for joint in robot.joints)
     return Step(
         id="dh",
@@ -79,20 +85,27 @@ def _table(course: Course) -> Step:
     )
 
 
-def _table_notes(course: Course) -> Iterator[Prose]:
+def _axis(letter: str, index: str) -> Letter:
+    return Letter(letter, Words(index), style="bold")
+
+
+def _kinds(course: Course) -> Prose:
+    """Which coordinates are angles, which lengths."""
     robot = course.robot
     turning = [Symbol(q.name) for q in robot.coordinates if turns(q)]
     sliding = [Symbol(q.name) for q in robot.coordinates if not turns(q)]
+    prose: Prose = ()
     if turning:
-        yield (
-            *listed(turning),
-            " is an angle (a revolute joint)." if len(turning) == 1 else " are angles (revolute joints).",
-        )
+        what = "is an angle (revolute joint)" if len(turning) == 1 else "are angles (revolute joints)"
+        prose += (*listed(turning), f" {what}")
     if sliding:
-        yield (
-            *listed(sliding),
-            " is a length (a prismatic joint)." if len(sliding) == 1 else " are lengths (prismatic joints).",
-        )
+        what = "is a length (prismatic joint)" if len(sliding) == 1 else "are lengths (prismatic joints)"
+        prose += (*(("; ",) if turning else ()), *listed(sliding), f" {what}")
+    return (*prose, ".")
+
+
+def _table_notes(course: Course) -> Iterator[Prose]:
+    robot = course.robot
     fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
     if fixed:
         yield (
@@ -138,7 +151,7 @@ def _general(course: Course) -> Step:
     theta, d = Letter("theta", i), Letter("d", i)
     if course.standard:
         a, alpha = Letter("a", i), Letter("alpha", i)
-        rows = (
+        rows: tuple[tuple[Node, ...], ...] = (
             (_cos(theta), Negative(_times(_sin(theta), _cos(alpha))), _times(_sin(theta), _sin(alpha)),
              _times(a, _cos(theta))),
             (_sin(theta), _times(_cos(theta), _cos(alpha)), Negative(_times(_cos(theta), _sin(alpha))),
@@ -162,7 +175,9 @@ def _general(course: Course) -> Step:
         id="A",
         stage=STAGE,
         title="The matrix of a row",
-        why=("The product of the four motions, the same for every row; the rows of the table are put into it.",),
+        why=(
+            "The product of the four motions, the same for every row; the rows of the table are put into it.",
+        ),
         formula=equation(Letter("A", i, style="bold"), product, matrix),
         source=shv("3.2") if course.standard else craig("3.4"),
     )
@@ -176,12 +191,11 @@ def _motion(axis: str, amount: Node, turns: bool) -> Node:
 def _row(course: Course, joint: Joint) -> Step:
     i = joint.index
     theta, d, a, alpha = joint.written
-    before = Number(i if course.standard else i - 1)
     given = side_by_side([
-        equation(Letter("theta", Number(i)), theta),
-        equation(Letter("d", Number(i)), d),
-        equation(Letter("a", before), a),
-        equation(Letter("alpha", before), alpha),
+        equation(Symbol("theta"), theta),
+        equation(Symbol("d"), d),
+        equation(Symbol("a"), a),
+        equation(Symbol("alpha"), alpha),
     ])  # fmt: skip
     match joint.type:
         case JointType.REVOLUTE:
@@ -205,7 +219,7 @@ def _folded(course: Course, joint: Joint) -> Iterator[Node]:
     ring = course.robot.ring
     shown: list[Node] = []
     for node, angle in ((joint.written[0], joint.theta), (joint.written[3], joint.alpha)):
-        if isinstance(node, Symbol) or not angle.degrees and not angle.terms:
+        if isinstance(node, Symbol) or not (angle.degrees or angle.terms):
             continue
         if isinstance(node, Number | Degrees) or angle.degrees:
             shown.append(equation(_cos(node), course.show(ring.cos(angle))))
@@ -240,7 +254,7 @@ def _frame(course: Course, i: int) -> Step:
         id=f"H{i}",
         stage=STAGE,
         title=f"Frame {i} seen from the {'world' if letters.has_base(robot) else 'base'}",
-        why=_frame_why(i, last),
+        why=_frame_why(last),
         formula=equation(name, Product(tuple(chain))) if len(chain) > 2 else None,
         source=shv("3.1"),
         working=(equation(*members),),
@@ -249,9 +263,8 @@ def _frame(course: Course, i: int) -> Step:
     )
 
 
-def _frame_why(i: int, last: bool) -> Prose:
-    why: Prose = ("Multiply from the left to the right: each A takes one frame further out.",)
+def _frame_why(last: bool) -> Prose:
+    why: Prose = ("Each A takes one frame further out, so it is multiplied from the right.",)
     if last:
         why += (" The fourth column is where the end of the arm is, the first three how it is turned.",)
-    return why if i > 1 else why[1:]
-
+    return why

@@ -17,8 +17,8 @@ def steps(course: Course) -> Iterator[Step]:
     yield Step(
         id="L",
         stage=STAGE,
-        title="The Lagrangian",
-        why=("Kinetic minus potential energy: the one function from which every equation of motion follows.",),
+        title="Kinetic minus potential energy",
+        why=("The one function from which every equation of motion follows.",),
         formula=equation(letters.L, Sum((letters.K, Negative(letters.P)))),
         source=shv("7.1"),
         result=(equation(letters.L, course.form("L")),),

@@ -88,6 +88,12 @@ def of_body(base: str, body: Body, style: str = "italic") -> Letter:
     return Letter(base, index_of(body.name), None, style)
 
 
+def tensor(robot: Robot, body: Body) -> Letter:
+    """I_1, the tensor in the body's own frame; I_1^b where a parameter has that name."""
+    taken = f"I{body.name}" in robot.parameters
+    return bold("I", index_of(body.name), Words("b") if taken else None)
+
+
 def energy_part(part: str, body: Body) -> Letter:
     """K_{v_i} or K_{ω_i}"""
     return Letter("K", Letter(part, index_of(body.name)))
@@ -139,5 +145,3 @@ def ordinal(i: int) -> str:
     """1st, 2nd, 3rd, 4th."""
     ending = "th" if 10 <= i % 100 <= 20 else {1: "st", 2: "nd", 3: "rd"}.get(i % 10, "th")
     return f"{i}{ending}"
-
-

@@ -41,7 +41,8 @@ class Step:
     `id` is the name of what it gives (`A1`, `Jv2`, `tau1`).  `formula` is general
     and stands in the textbook at `source`; `working` is the same with this robot's
     quantities; `result` what comes out.  `entries` names the entries of a result
-    that is a matrix too wide for the page.
+    that is a matrix too wide for the page; an `optional` result says nothing new, and
+    is left out where it does not fit.
     """
 
     id: str
@@ -55,4 +56,5 @@ class Step:
     notes: tuple[Prose, ...] = ()
     table: Table | None = None
     entries: tuple[tuple[Node, ...], ...] = ()
+    optional: bool = False
     detail: Detail = Detail.NORMAL

@@ -1,4 +1,4 @@
-"""How a robot's formulas look: which coordinates have the shorthands s_1 and c_12, whether numbers are decimal."""
+"""How a robot's formulas look: the shorthands s_1 and c_12, decimal numbers."""
 
 from __future__ import annotations
 

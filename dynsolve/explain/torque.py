@@ -54,7 +54,9 @@ def _rate_why(course: Course, q: Coordinate) -> Prose:
     moving = [c for k, c in enumerate(course.robot.coordinates) if not ring.diff(momentum, k).is_zero]
     if not moving:
         return ("No coordinate stands in it: each rate becomes an acceleration, and nothing else changes.",)
-    why: list[str | Node] = ["Everything that moves with time is differentiated (product and chain rule): the rates, and "]
+    why: list[str | Node] = [
+        "Everything that moves with time is differentiated (product and chain rule): the rates, and "
+    ]
     for i, c in enumerate(moving):
         why += [" and " if i and i == len(moving) - 1 else ", " if i else "", Symbol(c.name)]
     return (*why, " too.")
@@ -85,7 +87,9 @@ def _force(course: Course, q: Coordinate) -> Step:
         title=f"Coordinate {q.index}: the {'torque' if turns(q) else 'force'}",
         why=(
             Symbol(q.name),
-            " is an angle, so what drives it is a torque." if turns(q) else " is a length, so what drives it is a force.",
+            " is an angle, so what drives it is a torque."
+            if turns(q)
+            else " is a length, so what drives it is a force.",
         ),
         formula=equation(force, Sum((momentum, Negative(slope)))),
         source=shv("7.1"),

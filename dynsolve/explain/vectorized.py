@@ -29,6 +29,7 @@ from dynsolve.pipeline import agreement
 STAGE = "vectorized"
 
 _I, _J, _K, _N = (Symbol(name) for name in "ijkn")
+_SKEW = Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C)))))
 
 
 def steps(course: Course) -> Iterator[Step]:
@@ -89,7 +90,9 @@ def _inertia_direct(course: Course) -> Step:
         stage=STAGE,
         title="D, assembled from the Jacobians",
         why=(
-            "Without the Lagrangian: K = ½ q̇ᵀ D q̇, so D is a sum over the bodies.",
+            "Without the Lagrangian: ",
+            equation(letters.K, Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))),
+            ", so D is a sum over the bodies.",
             " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
             " It gives the same D, entry by entry." if same else " It does not give the same D.",
         ),
@@ -132,7 +135,8 @@ def _christoffel(course: Course) -> Step:
 def _christoffel_why(n: int, count: int) -> Prose:
     if not count:
         return ("D is constant, so every Christoffel symbol is zero.",)
-    return ("How D changes as the arm moves. The first two indices may be swapped: c_ijk = c_jik.",)
+    swapped = equation(Letter("c", Row((_I, _J, _K))), Letter("c", Row((_J, _I, _K))))
+    return ("They say how D changes as the arm moves. The first two indices may be swapped: ", swapped, ".")
 
 
 def _sorted_symbols(course: Course) -> tuple[list[tuple[int, int, int]], list[tuple[int, int, int]]]:
@@ -200,8 +204,9 @@ def _coriolis(course: Course) -> Step:
         stage=STAGE,
         title="C, from the Christoffel symbols",
         why=(
-            "Row k, column j. C q̇ holds the centrifugal terms (a rate squared) and the Coriolis terms (a "
-            "product of two rates).",
+            "Row k, column j. ",
+            Product((letters.C, letters.QD)),
+            " holds the centrifugal terms (a rate squared) and the Coriolis terms (a product of two rates).",
         ),
         formula=equation(entry, BigSum(body, _I, Number(1), _N)),
         source=shv("7.3"),
@@ -212,8 +217,11 @@ def _coriolis(course: Course) -> Step:
         entries=_names(course, "c"),
         notes=(
             (
-                "Other matrices C give the same C q̇; what the equations of motion fix is C q̇ alone. This "
-                "choice makes Ḋ - 2C skew-symmetric.",
+                "Other matrices C give the same ",
+                Product((letters.C, letters.QD)),
+                ", which is all that the equations of motion fix. This choice makes ",
+                _SKEW,
+                " skew-symmetric.",
             ),
         ),
         detail=Detail.BRIEF,
@@ -274,10 +282,10 @@ def _skew(course: Course) -> Step:
         stage=STAGE,
         title="Check: Ḋ - 2C is skew-symmetric",
         why=(
-            "N = Ḋ - 2C with C from the Christoffel symbols: N + Nᵀ = 0, compared exactly. This is how passivity "
-            "is shown: the rates do no work through N.",
+            "With C from the Christoffel symbols, N plus its transpose is zero, compared exactly: N does "
+            "no work, whatever the rates. Passivity rests on that.",
         ),
-        formula=equation(name, Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C))))),),
+        formula=equation(name, _SKEW),
         source=shv("7.5.1"),
         result=(*result, equation(Sum((name, Transpose(name))), Number(0))),
     )
@@ -305,12 +313,16 @@ def _model(course: Course) -> Step:
         stage=STAGE,
         title="The dynamical model",
         why=(
-            "D q̈ are the inertial forces, C q̇ the Coriolis and centrifugal ones, g those of gravity.",
+            Product((letters.D, letters.QDD)),
+            " are the inertial forces, ",
+            Product((letters.C, letters.QD)),
+            " the Coriolis and centrifugal ones, ",
+            letters.G,
+            " those of gravity.",
         ),
         formula=model,
         source=shv("7.3"),
         result=result,
+        optional=True,
         detail=Detail.BRIEF,
     )
-
-

@@ -79,7 +79,9 @@ def _gather(place: Any, stack: list[float]) -> Any:
     return [[stack[entry] for entry in row] for row in place]
 
 
-def compile_trees(trees: Iterable[Node], functions: Mapping[str, Callable[[Any], Any]] = FUNCTIONS) -> Program:
+def compile_trees(
+    trees: Iterable[Node], functions: Mapping[str, Callable[[Any], Any]] = FUNCTIONS
+) -> Program:
     """Compile trees for evaluation; a `Matrix` may only stand on top.
 
     `functions` are the sine and its like; with those of NumPy the values may be arrays.
@@ -162,7 +164,9 @@ class _Compiler:
         operands = [self.scalar(part) for part in _operands(node)]
         if not operands:
             raise TypeError(f"a tree with {type(node).__name__} has no value")
-        operation = self.operation(node) if len(operands) > 1 or not isinstance(node, Sum | Product) else _same
+        operation = (
+            self.operation(node) if len(operands) > 1 or not isinstance(node, Sum | Product) else _same
+        )
         self.operations.append((operation, operator.itemgetter(*operands)))
         return self.offset + len(self.operations) - 1
 

@@ -13,6 +13,7 @@ from dynsolve.notation.tree import (
     Parenthesized,
     Product,
     Relation,
+    Row,
     Sum,
     Transpose,
 )
@@ -55,12 +56,12 @@ def centered(text: str, cells: int) -> str:
     return " " * (space // 2) + text + " " * (space - space // 2)
 
 
-_BRACKETS = {"[": ("[", "⎡⎢⎣"), "]": ("]", "⎤⎥⎦"), "(": ("(", "⎛⎜⎝"), ")": (")", "⎞⎟⎠")}
+_BRACKETS = {"[": "[⎡⎢⎣", "]": "]⎤⎥⎦", "(": "(⎛⎜⎝", ")": ")⎞⎟⎠"}
 
 
 def bracket(sign: str, height: int) -> list[str]:
     """A bracket of a height."""
-    single, (top, middle, bottom) = _BRACKETS[sign]
+    single, top, middle, bottom = tuple(_BRACKETS[sign])
     return [single] if height == 1 else [top, *[middle] * (height - 2), bottom]
 
 
@@ -92,7 +93,7 @@ def holds_matrix(node: Node, depth: int = _SHALLOW) -> bool:
 
 def _parts(node: Node) -> tuple[Node, ...]:
     match node:
-        case Relation(parts) | Sum(parts) | Product(parts):
+        case Relation(parts) | Sum(parts) | Product(parts) | Row(parts):
             return parts
         case Transpose(argument) | Negative(argument) | Parenthesized(argument):
             return (argument,)
@@ -113,6 +114,9 @@ def pieces(node: Node, printer: UnicodePrinter) -> Iterator[Box | Matrix]:
             yield from pieces(parts[0], printer)
             for sign, part in zip(signs, parts[1:], strict=True):
                 yield Box.of(f" {sign} ")
+                yield from pieces(part, printer)
+        case Row(parts) if holds_matrix(node):
+            for part in parts:
                 yield from pieces(part, printer)
         case Sum(terms) if holds_matrix(node):
             yield from _sum(terms, printer)

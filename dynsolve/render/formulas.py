@@ -25,6 +25,8 @@ def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[st
     if whole.width <= room:
         return list(whole.lines)
     members = list(_members(groups))
+    if formula.optional and any(_must_be_taken_apart(member, printer, room) for member in members):
+        return []
     left = width(_text(members[0], printer))
     hang = left + 1 if left + 1 <= _LONGEST_HANG else _HANG
     lines: list[str] = []
@@ -36,6 +38,14 @@ def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[st
     for member in members[1:]:
         lines += _set_member(member, formula, printer, room, hang, hang + 2)
     return lines
+
+
+def _must_be_taken_apart(member: Sequence[Group], printer: UnicodePrinter, room: int) -> bool:
+    """Whether a matrix among the factors or terms of a member is too wide for the page."""
+    return any(
+        isinstance(piece, Matrix) and boxed(piece, printer).width + _LONGEST_HANG > room
+        for _, piece in member
+    )
 
 
 def _grouped(parts: Iterator[Box | Matrix]) -> Iterator[Group]:

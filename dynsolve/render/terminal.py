@@ -74,9 +74,10 @@ class _Page:
 
     def heading(self, text: str, level: int) -> Iterator[Line]:
         kind = "title" if level == 1 else "heading"
-        for line in wrap(text, self.columns, self.columns):
+        lines = wrap(text, self.columns, self.columns)
+        for line in lines:
             yield Line(line, kind)
-        yield Line(("═" if level == 1 else "─") * min(width(text), self.columns), kind)
+        yield Line(("═" if level == 1 else "─") * max(map(width, lines)), kind)
         yield Line("")
 
     def words(self, parts: Prose) -> str:
@@ -99,6 +100,8 @@ class _Page:
 
     def formula(self, formula: Formula) -> Iterator[Line]:
         lines = set_formula(formula, self.printer, self.columns - _INDENT)
+        if not lines:
+            return
         source = f"({formula.source})" if formula.source else ""
         middle = (len(lines) - 1) // 2
         beside = source and width(lines[middle]) + len(source) + _INDENT + 3 <= self.columns
@@ -114,9 +117,8 @@ class _Page:
         yield Line("")
 
     def table(self, table: Table) -> Iterator[Line]:
-        cells = [[self.words(cell if isinstance(cell, tuple) else (cell,)) for cell in row]
-                 for row in (table.header, *table.rows)]  # fmt: skip
-        cells = [[cell.replace(HARD_SPACE, " ") for cell in row] for row in cells]
+        rows = (table.header, *table.rows)
+        cells = [[self.words((cell,)).replace(HARD_SPACE, " ") for cell in row] for row in rows]
         widths = [max(map(width, column)) for column in zip(*cells, strict=True)]
         for i, row in enumerate(cells):
             yield Line(" " * _INDENT + _padded(row, widths))
