@@ -322,7 +322,7 @@ def _read_axes(
         return AxesSheet(AxesKind.REST, node.span, None, "base")
     if isinstance(node, MappingNode):
         fields = Fields(report, node, ("base",), what)
-        if "base" not in fields:
+        if fields.lacks("base"):
             report.error(node.span, f"{what}: the key `base` is expected", "write axes: {base: Rz(theta1)}")
             return None
         rotation = read_rotation(report, fields.get("base"), what)

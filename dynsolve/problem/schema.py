@@ -128,7 +128,7 @@ def _body() -> Schema:
             "mass": _described(reference, "A symbol, a number or an expression."),
             "name": {
                 "type": ["string", "integer"],
-                "description": "Its index in symbols (K_1, r_c1): one letter at most, not v or w, then digits.",
+                "description": "Its index in symbols (K_1): one letter at most, not v or w, then digits.",
             },
             "link": {
                 "type": "integer",
