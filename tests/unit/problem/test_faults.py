@@ -24,7 +24,7 @@ TABLE = {
     "a list": ("«- a»", "is a list", "dynsolve new"),
     "no table": ("title: x", "no `dh` table", "{theta: theta1*"),
     "an empty table": ("«dh»: []", "no rows", "{theta: theta1*"),
-    "no star": (f"«dh»:\n  - {{theta: theta1, d: L1}}", "no joint variable", "theta1*"),
+    "no star": ("«dh»:\n  - {theta: theta1, d: L1}", "no joint variable", "theta1*"),
     "unknown key": ("«mass»: []\n" + PLANAR, "unknown key `mass`", "did you mean `masses`?"),
     "unknown column": (row("{theta: q1*, «alfa»: 90deg}"), "unknown key `alfa`", "did you mean `alpha`?"),
     "no blank after the colon": (row("{theta: q1*, «d:L1»}"), "a blank is missing", "`d: L1`"),

@@ -1,0 +1,75 @@
+"""What lint finds, and what it leaves alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from dynsolve.problem.lint import lint, lint_text
+from dynsolve.problem.template import TEMPLATE
+from tests.support import LIBRARY, TEXTBOOKS
+from tests.unit.problem.marked import PLANAR, places, unmarked
+
+MASS = PLANAR + "masses:\n  - {mass: m2, link: 2}\n"
+
+
+def body(fields: str) -> str:
+    return MASS + f"  - {{{fields}}}\n"
+
+
+FINDINGS = {
+    "unused-value": "values: {l1: 1, «L2»: 3}\n" + MASS,
+    "unused-value of a unit": "units: {«q»: m}\n" + MASS,
+    "gravity-upward": "gravity: «[0, 0, g]»\n" + MASS,
+    "gravity-upward in numbers": "gravity: «[0, 0, 9.81]»\n" + MASS,
+    "ambiguous-name c1": body("mass: «c1», link: 1"),
+    "ambiguous-name s12": body("mass: «s12», link: 1"),
+    "ambiguous-name c_2": body("mass: «c_2», link: 1"),
+    "ambiguous-name dq1": body("mass: «dq1», link: 1"),
+    "ambiguous-name dtheta2": body("mass: «dtheta2», link: 1"),
+    "ambiguous-name thetadot1": body("mass: «thetadot1», link: 1"),
+    "ambiguous-name q2": body("mass: «q2», link: 1"),
+    "similar-names": body("mass: m_2, link: 1").replace("m_2", "«m_2»"),
+    "similar-names by case": body("mass: lc1, link: 1, center: tip, inertia: {zz: «Lc1»}"),
+    "yaml-word": body("mass: «null», link: 1"),
+    "unstarred": "dh:\n  - {theta: q1*}\n  - {theta: «q2»}\n",
+    "moves-no-mass": PLANAR.replace("theta2*", "«theta2*»") + "masses: [{mass: m1, link: 1}]",
+    "ground-body": "dh:\n  - {d: h}\n  - {theta: q1*}\nmasses: [«{mass: m1, link: 1}», {mass: m2, link: 2}]",
+    "no-effect": MASS + "  - «{mass: 0, link: 1, center: tip}»\n",
+    "no-effect of a shape": body(
+        "mass: M, link: 1, center: tip, «shape»: {sphere: {radius: r}}, inertia: {zz: I1}"
+    ),
+    "unphysical": MASS + "  - «{mass: M, link: 1, center: tip, inertia: {xx: 1, yy: 1, zz: 3}}»\n",
+}
+
+
+@pytest.mark.parametrize("name", FINDINGS)
+def test_a_finding_has_its_code_and_its_place(name: str) -> None:
+    text, expected = unmarked(FINDINGS[name])
+    found = lint_text(text, "robot.yaml")
+    assert [finding.code for finding in found] == [name.split()[0]]
+    assert places(found) == expected
+    assert found[0].message
+    assert found[0].help
+
+
+@pytest.mark.parametrize("path", LIBRARY + TEXTBOOKS, ids=lambda path: path.stem)
+def test_the_library_and_the_textbooks_are_clean(path: Path) -> None:
+    assert lint(path) == ()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        TEMPLATE,
+        PLANAR,
+        body("mass: M2, link: 1"),
+        body("mass: C, link: 1"),
+        body("mass: s, link: 1, center: [lc1, 0, 0]"),
+        body("mass: 0.1, link: 1, center: tip, inertia: {zz: 5}"),
+        "values: {theta1: 30deg, theta1_dot: 1, m2: 3}\n" + MASS,
+    ],
+)
+def test_what_is_usual_is_left_alone(text: str) -> None:
+    assert lint_text(text) == ()
