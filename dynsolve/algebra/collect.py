@@ -159,16 +159,20 @@ class Collector:
         """The collected tree of a polynomial."""
         if not poly:
             return ZERO
+        if len(poly) == 1:
+            ((mono, factor),) = poly.items()
+            return self.product(factor, mono, ())
         factor, mono, rest = self.primitive(poly)
-        if len(rest) == 1:
-            ((left, sign),) = rest.items()
-            return self.product(factor * sign, multiply(mono, left), ())
         return self.product(factor, mono, (self._sum(rest),))
 
-    def whole(self, poly: Poly) -> tuple[Factor, Node]:
-        """(factor, tree) with whole numbers in the tree: ½ and 2 q̇₁ + q̇₂ for q̇₁ + q̇₂/2."""
-        factor = whole_content(poly.values())
-        return factor, self.form({mono: exact(f, factor) for mono, f in poly.items()})
+    def whole(self, poly: Poly) -> tuple[Factor, Mono]:
+        """A polynomial as (factor, monomial), a sum with whole numbers as one atom: ½ and (2 q̇₁ + q̇₂)."""
+        if len(poly) == 1:
+            ((mono, factor),) = poly.items()
+            return factor, mono
+        shared = whole_content(poly.values())
+        factor, mono = self.decompose(self.form({mono: exact(f, shared) for mono, f in poly.items()}))
+        return factor * shared, mono
 
     def primitive(self, poly: Poly) -> tuple[Factor, Mono, Poly]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
@@ -238,19 +242,24 @@ class Collector:
             factor, mono = factor * f, multiply(mono, m)
         return factor, mono
 
-    def sum_of(self, nodes: Iterable[Node]) -> Node:
-        """The sum of trees, with what they share drawn out."""
+    def sum_of(self, products: Iterable[tuple[Factor, Mono, Node]]) -> Node:
+        """Σ factor · monomial · tree, with what the products share drawn out."""
         poly: Poly = {}
-        for node in nodes:
+        for factor, mono, node in products:
             sign, inner = split_sign(node)
-            for term in inner.terms if isinstance(inner, Sum) else (inner,):
-                factor, mono = self.decompose(term)
-                value = poly.get(mono, 0) + sign * factor
-                if value:
-                    poly[mono] = value
-                else:
-                    poly.pop(mono, None)
+            spread = isinstance(inner, Sum) and not mono
+            for term in inner.terms if isinstance(inner, Sum) and spread else (inner,):
+                own, rest = self.decompose(term)
+                self._add(poly, multiply(mono, rest) if mono else rest, factor * own * sign)
         return self.form(poly)
+
+    @staticmethod
+    def _add(poly: Poly, mono: Mono, factor: Factor) -> None:
+        value = poly.get(mono, 0) + factor
+        if value:
+            poly[mono] = value
+        else:
+            poly.pop(mono, None)
 
     def _sum(self, poly: Poly) -> Node:
         key = frozenset(poly.items())

@@ -210,11 +210,9 @@ class Compactor:
             key, scale = primitive(part)
             _, own, factors = shared.setdefault(key, (part, scale, {}))
             factors[mono] = exact(scale, own)
-        products = []
-        for part, _, factors in shared.values():
-            factor, monomials = self.collector.whole(factors)
-            products.append(times(factor, [(form(part), 1), (monomials, 1)]))
-        return self.collector.sum_of(products)
+        return self.collector.sum_of(
+            (*self.collector.whole(factors), form(part)) for part, _, factors in shared.values()
+        )
 
     # -- coefficients: no velocities ---------------------------------------------------------------
 
@@ -232,22 +230,22 @@ class Compactor:
             found = self._by_angles(frame, rest)
             if frame.leading and len(terms) <= LARGE:
                 found = min(self._by_masses(frame, rest), found, key=self.collector.cost)
-            found = self._scalars[key] = self.collector.sum_of([times(1, [(shared, 1), (found, 1)])])
+            found = self._scalars[key] = self.collector.sum_of([(*shared, found)])
         return found if scale == 1 else times(scale, [(found, 1)])
 
-    def _without_common(self, frame: Frame, terms: Terms) -> tuple[Node, Terms]:
+    def _without_common(self, frame: Frame, terms: Terms) -> tuple[tuple[Factor, Mono], Terms]:
         """(what all terms share of parameters and numbers, the rest)"""
         start = sum(width for _, width in frame.groups)
         symbols = zip(*(e[start:] for e in terms), strict=True)
         least = tuple(min(powers) for powers in symbols)
         factor = content(terms.values())
         if factor == 1 and not any(least):
-            return tree.ONE, terms
+            return (1, ()), terms
         rest = {
             (*e[:start], *(x - y for x, y in zip(e[start:], least, strict=True))): exact(f, factor)
             for e, f in terms.items()
         }
-        return self.collector.product(factor, self._mono(frame.symbols, least), ()), rest
+        return (factor, self._mono(frame.symbols, least)), rest
 
     def _by_masses(self, frame: Frame, terms: Terms) -> Node:
         """Σ mass · (what it multiplies); masses that multiply the same are summed first."""

@@ -146,12 +146,12 @@ class ConstantAngles:
         """cos of a multiple of δ, by Chebyshev's recursion T_{k+1} = 2x T_k - T_{k-1}."""
         assert self.generator is not None and self.plan.generator_degrees is not None
         relation, _ = self.relation(self.generator)
-        before, now = ctx.constant(1), self.generator
+        before: fmpq_mpoly = ctx.constant(1)
+        now = self.generator
         count = int(angle / self.plan.generator_degrees)
         for _ in range(count - 1):
             before, now = now, (2 * self.generator * now - before) % relation
-        result: fmpq_mpoly = now if count else ctx.constant(1)
-        return result
+        return now if count else before
 
     def _simple_cos(self, angle: Fraction, ctx: Any) -> fmpq_mpoly:
         match int(angle):

@@ -94,7 +94,7 @@ class Forms:
             rest = name.removeprefix(stem)
             if rest != name and rest.isdigit():
                 return way(int(rest) - 1)
-        whole = {"C": self._coriolis, "K": self._kinetic_energy}
+        whole = {"C": self._coriolis, "Cqd": self._coriolis_forces, "K": self._kinetic_energy}
         if name in whole:
             return whole[name]()
         for body in self.robot.bodies:
@@ -168,11 +168,18 @@ class Forms:
 
     def _force(self, k: int) -> Node:
         """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k"""
-        terms = self._accelerated(k)
-        for i, j in _pairs(self.robot.n):
-            factor = 1 if i == j else 2
-            terms.append(times(factor, [(self.christoffel(i, j, k), 1), *self._rates(i, j)]))
-        return total([*terms, self._g(k)])
+        return total([*self._accelerated(k), *self._coriolis_terms(k), self._g(k)])
+
+    def _coriolis_terms(self, k: int) -> list[Node]:
+        """Σ_ij c_ijk q̇_i q̇_j"""
+        return [
+            times(1 if i == j else 2, [(self.christoffel(i, j, k), 1), *self._rates(i, j)])
+            for i, j in _pairs(self.robot.n)
+        ]
+
+    def _coriolis_forces(self) -> Node:
+        """C q̇"""
+        return tree.column(*(total(self._coriolis_terms(k)) for k in range(self.robot.n)))
 
     def _coriolis(self) -> Node:
         """c_kj = Σ_i c_ijk q̇_i, equal symbols drawn together"""
