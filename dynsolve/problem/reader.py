@@ -20,7 +20,7 @@ from dynsolve.problem.fields import Fields, describe, free_text, word
 from dynsolve.problem.model import Place, Problem
 from dynsolve.problem.sheet import Sheet
 from dynsolve.problem.source import MAX_BYTES, Report, as_source
-from dynsolve.problem.symbols import check_symbols
+from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import read_table
 from dynsolve.problem.yaml_nodes import Mapping, Node, Sequence, read_nodes
 from dynsolve.robot.model import Convention
@@ -97,6 +97,8 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         report.raise_errors()
         raise AssertionError("a file without a root has an error")
     sheet = _sheet(report, fields)
+    if not check_size(report, sheet):
+        report.raise_errors()
     check_symbols(report, sheet)
     exercise = read_exercise(report, fields, sheet)
     title = free_text(report, fields.get("title"), "title") or Path(file).stem

@@ -15,7 +15,7 @@ from functools import cached_property
 
 from dynsolve.errors import Finding, ProblemError
 
-MAX_BYTES = 1_000_000
+MAX_BYTES = 200_000
 """A larger file is refused unread."""
 
 MAX_FINDINGS = 100

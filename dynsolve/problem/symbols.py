@@ -12,10 +12,16 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.survey import rational_value
 from dynsolve.notation.text import Name
-from dynsolve.notation.tree import Negative, Node, Parenthesized, Product, Quotient, Sum, Symbol
-from dynsolve.problem.cells import Cell
+from dynsolve.notation.tree import Function, Negative, Node, Parenthesized, Product, Quotient, Sum, Symbol
+from dynsolve.problem.cells import Cell, denominators, walk
 from dynsolve.problem.sheet import Sheet
 from dynsolve.problem.source import Report
+
+MAX_SYMBOLS = 500
+"""A six-axis arm with ten inertial parameters a link has about 70."""
+
+MAX_PARTS = {"denominators": 60, "roots": 60, "sines and cosines": 300}
+"""How many different ones of each a file may have."""
 
 _SUFFIXES = (("_dot", "velocity"), ("_ddot", "acceleration"))
 
@@ -75,6 +81,34 @@ def _terms(node: Node) -> set[str]:
             rest = [factor for factor in factors if rational_value(factor) is None]
             return _terms(rest[0]) if len(rest) == 1 else set()
     return set()
+
+
+def check_size(report: Report, sheet: Sheet) -> bool:
+    """Whether the file is small enough for exact algebra; what goes over a bound is reported."""
+    symbols: set[str] = set()
+    parts: dict[str, set[Node]] = {what: set() for what in MAX_PARTS}
+    for cell in sheet.cells:
+        for name in cell.names:
+            symbols.add(name.name)
+            if len(symbols) > MAX_SYMBOLS:
+                message = f"{name.name} is one symbol too many: at most {MAX_SYMBOLS} are read"
+                report.error(cell.span_of(name), message, "put numbers for some")
+                return False
+        for what, node in _parts(cell.tree):
+            parts[what].add(node)
+            if len(parts[what]) > MAX_PARTS[what]:
+                message = f"more than {MAX_PARTS[what]} different {what}, the last of them here"
+                report.error(cell.span, message, "name some of them with symbols of their own")
+                return False
+    return True
+
+
+def _parts(tree: Node) -> Iterator[tuple[str, Node]]:
+    """What makes exact algebra long: each denominator, root, sine and cosine."""
+    yield from (("denominators", node) for node in denominators(tree) if rational_value(node) is None)
+    for node in walk(tree):
+        if isinstance(node, Function):
+            yield ("roots" if node.name == "sqrt" else "sines and cosines"), node
 
 
 def check_symbols(report: Report, sheet: Sheet) -> None:
