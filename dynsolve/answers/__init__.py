@@ -1,0 +1,1 @@
+"""What a student wrote: reading it, comparing it, following it, diagnosing it."""

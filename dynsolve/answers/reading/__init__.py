@@ -1,0 +1,1 @@
+"""Reading answers: text and LaTeX as people write them -> trees in the symbols of the problem."""

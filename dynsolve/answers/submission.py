@@ -1,0 +1,117 @@
+"""What a student handed in, read: the answers with their places, before anything is judged.
+
+`read_submission` is the way from a file to them.  The trees are made of the
+problem's own symbols: coordinates (`Symbol(name, dots)`), parameters, sines and
+cosines.  An argument of a sine may be anything a student writes; nothing is
+evaluated here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from dynsolve.errors import Finding
+from dynsolve.notation.tree import Node
+
+if TYPE_CHECKING:
+    from dynsolve.problem.model import Problem
+
+REFERENCE_MARK = "@"
+"""What the name of a placeholder symbol begins with: `@K1`, `@I1[1,3]`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where something stands in its file: line and column from 1; `excerpt` is that line."""
+
+    line: int
+    column: int
+    length: int = 1
+    excerpt: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """One value given for one quantity.
+
+    `name` is the canonical name of the quantity (K, tau1, d12, Cqd, I_body1);
+    `alternatives` are further canonical names that the notation allows (a bare I_1 is
+    I_body1 or I1).  `node` is a scalar tree or a `Matrix` of scalar trees, None where the
+    text could not be read: `fault` then says why, `expected` what to write, `place` where.
+
+    `references` are the answers that occur inside the value: a scalar one as the symbol
+    `@K1`, a matrix one entry by entry as `@I1[1,3]` (row and column from 1).  `free` are
+    the names of symbols that are no symbol of the problem (h0, a zero level of height).
+    `occurrence` is (chain, member): which equation of the file, and which member of
+    `a = b = c` from 0; answers stand in the order of the file.
+    """
+
+    name: str
+    label: str
+    node: Node | None
+    place: Place
+    text: str
+    read_as: str = ""
+    notes: tuple[str, ...] = ()
+    fault: str = ""
+    expected: str = ""
+    alternatives: tuple[str, ...] = ()
+    references: tuple[str, ...] = ()
+    free: tuple[str, ...] = ()
+    occurrence: tuple[int, int] = (0, 0)
+
+
+@dataclass(frozen=True, slots=True)
+class NotRecognized:
+    """An equation whose left-hand side names nothing known."""
+
+    text: str
+    label: str
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Submission:
+    """One file that was handed in, for one problem; `student` and `problem` as the file says, or empty."""
+
+    problem: str
+    student: str
+    file: str
+    answers: tuple[Answer, ...]
+    not_recognized: tuple[NotRecognized, ...] = ()
+    faults: tuple[Finding, ...] = ()
+
+
+def reference(name: str, row: int | None = None, column: int | None = None) -> str:
+    """The placeholder's name for an answer, or for an entry of one (from 1).
+
+    >>> reference("K1"), reference("I1", 1, 3)
+    ('@K1', '@I1[1,3]')
+    """
+    return f"{REFERENCE_MARK}{name}" if row is None else f"{REFERENCE_MARK}{name}[{row},{column}]"
+
+
+def referred(symbol: str) -> tuple[str, int | None, int | None] | None:
+    """The answer that a placeholder's name stands for, with row and column; None for other symbols.
+
+    >>> referred("@I1[1,3]"), referred("@K1"), referred("m1")
+    (('I1', 1, 3), ('K1', None, None), None)
+    """
+    if not symbol.startswith(REFERENCE_MARK):
+        return None
+    name, bracket, index = symbol[1:].partition("[")
+    if not bracket:
+        return name, None, None
+    row, _, column = index[:-1].partition(",")
+    return name, int(row), int(column)
+
+
+def read_submission(problem: Problem, source: bytes | str, file: str) -> Submission:
+    """Read what a student handed in: an answer file (.yaml) or a report (.md, .tex, .txt, .ipynb, .html).
+
+    The ending of `file` says which; nothing that stands in `source` raises.
+    """
+    from dynsolve.answers.reading.files import read_file
+
+    return read_file(problem, source, file)
