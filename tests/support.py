@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -30,9 +30,13 @@ FUNCTIONS: dict[str, Any] = {
 }
 
 
-@lru_cache(maxsize=64)
 def solve_json(problem: Path | str) -> dict[str, Any]:
     """The JSON of a solution; `problem` is a path, or the text of a problem file."""
+    return _solved(problem) if isinstance(problem, Path) else _solved.__wrapped__(problem)
+
+
+@cache
+def _solved(problem: Path | str) -> dict[str, Any]:
     return json.loads(json.dumps(dynsolve.solve(problem).to_json()))
 
 
