@@ -71,7 +71,7 @@ def app() -> typer.Typer:
     program = typer.Typer(
         name="dynsolve",
         help="The equations of motion of a robot manipulator, derived exactly, step by step, and verified.",
-        epilog="PROBLEM is a path, the stem of a bundled problem (`dynsolve problems`), or - for standard input.",
+        epilog="PROBLEM is a path, the stem of a bundled problem, or - for standard input.",
         no_args_is_help=True,
         rich_markup_mode=None,
         pretty_exceptions_enable=False,

@@ -41,7 +41,8 @@ class Forms:
     @cached_property
     def compactor(self) -> Compactor:
         """The one that writes everything about this robot."""
-        return Compactor(self.robot.ring, leading_names(self.robot), _parallel(self.robot))
+        robot = self.robot
+        return Compactor(robot.ring, leading_names(robot), _parallel(robot), decimal=is_numeric(robot))
 
     def __call__(self, name: str) -> Node:
         """The compact tree of a value, a `tree.Matrix` for a matrix."""
@@ -224,15 +225,22 @@ def leading_names(robot: Robot) -> list[str]:
 
 
 def _linear_names(expr: Expr) -> list[str]:
-    """The parameters that stand alone as a term of an expression."""
-    generators = expr.ring.generators
+    """The parameters that are a term of an expression by themselves, perhaps over a denominator."""
     found = []
     for exponents in expr.poly.monoms():
-        if sum(map(int, exponents)) == 1:
-            generator = generators[[int(e) for e in exponents].index(1)]
-            if generator.kind == "symbol":
-                found.append(generator.name)
+        above = [
+            (g, int(e))
+            for g, e in zip(expr.ring.generators, exponents, strict=True)
+            if e and g.kind != "inverse"
+        ]
+        if len(above) == 1 and above[0][1] == 1 and above[0][0].kind == "symbol":
+            found.append(above[0][0].name)
     return found
+
+
+def is_numeric(robot: Robot) -> bool:
+    """Whether the masses are numbers, so that results read best in decimals."""
+    return any(body.mass.is_number and not body.mass.is_zero for body in robot.bodies)
 
 
 def _parallel(robot: Robot) -> list[frozenset[str]]:

@@ -251,8 +251,8 @@ def _rotation(course: Course, body: Body, tells: bool) -> Step:
             if not inertia.turns_with_link(robot, body, course.values[f"H{link}"]):
                 notes = (
                     (
-                        f"This frame does not turn with link {link}. It may be used all the same: the kinetic "
-                        "energy comes out as with the frame that turns (compared exactly).",
+                        f"This frame does not turn with link {link}. It may be used all the same: the "
+                        "kinetic energy comes out as with the frame that turns (compared exactly).",
                     ),
                 )
     return Step(

@@ -73,6 +73,13 @@ def matrix_box(matrix: Matrix, printer: UnicodePrinter) -> Box:
     return _enclosed(Box(tuple(rows), width(rows[0]), (len(rows) - 1) // 2), "[", "]")
 
 
+def matrix_width(matrix: Matrix, printer: UnicodePrinter) -> int:
+    """The width of `matrix_box`, which is not made where it does not fit."""
+    columns = zip(*matrix.rows, strict=True)
+    widths = [max(width(printer.text(entry)) for entry in column) for column in columns]
+    return sum(widths) + 2 * len(widths)
+
+
 def _enclosed(box: Box, left: str, right: str) -> Box:
     height = len(box.lines)
     sides = zip(bracket(left, height), box.lines, bracket(right, height), strict=True)

@@ -23,36 +23,44 @@ def break_sum(text: str, first: int, rest: int) -> list[str]:
     ['a b + c (d - e)', '+ f']
     """
     lines: list[str] = []
-    room = first
-    while width(text) > room:
-        place = _best_break(text, room)
-        if place is None:
-            break
-        lines.append(text[:place].rstrip())
-        text = text[place:].lstrip()
-        room = rest
-    return [*lines, text]
+    start, room = 0, first
+    while (place := _end_of_line(text, start, room)) is not None:
+        lines.append(text[start:place].rstrip())
+        start, room = place + 1, rest
+    return [*lines, text[start:]]
 
 
-def _best_break(text: str, room: int) -> int | None:
-    """Where the line ends: the last of the shallowest places that leave it full enough."""
-    places = list(_breaks(text, room))
-    full = [p for p in places if p[2] >= room * _FULL_ENOUGH] or places
-    if not full:
-        return None
-    shallowest = min(depth for depth, _, _ in full)
-    return max(place for depth, place, _ in full if depth == shallowest)
+def _end_of_line(text: str, start: int, room: int) -> int | None:
+    """Where a line ends that begins at `start`; None where all that is left fits, or cannot be broken.
+
+    It is the last of the shallowest places that leave the line full enough.
+    """
+    best: tuple[int, int] | None = None
+    spare: tuple[int, int] | None = None
+    for depth, place, cells in _breaks(text, start, room):
+        if place < 0:
+            return None
+        if cells >= room * _FULL_ENOUGH:
+            best = (depth, place) if best is None or depth <= best[0] else best
+        else:
+            spare = (depth, place) if spare is None or depth <= spare[0] else spare
+    found = best or spare
+    return found[1] if found else None
 
 
-def _breaks(text: str, room: int) -> Iterator[tuple[int, int, int]]:
-    """(depth, offset, cells before it) of every place within reach; a space of a product is the deepest."""
+def _breaks(text: str, start: int, room: int) -> Iterator[tuple[int, int, int]]:
+    """(depth, offset, cells before it) of every place within reach; offset -1 where the end is reached.
+
+    A space between the factors of a product is the deepest place.
+    """
     depth, cells, met_one = 0, 0, False
-    for i, character in enumerate(text):
+    for i in range(start, len(text)):
+        character = text[i]
         if character == "(":
             depth += 1
         elif character == ")":
             depth -= 1
-        elif character == " " and i:
+        elif character == " " and i > start:
             sign = text[i + 1 : i + 3] in ("+ ", "- ", "= ")
             if sign or text[i - 1] not in "+-=":
                 yield (depth if sign else depth + _NEVER), i, cells
@@ -60,6 +68,8 @@ def _breaks(text: str, room: int) -> Iterator[tuple[int, int, int]]:
         cells += width(character)
         if cells > room and met_one:
             return
+    if cells <= room:
+        yield 0, -1, cells
 
 
 def wrap(text: str, first: int, rest: int) -> list[str]:

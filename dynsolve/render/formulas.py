@@ -5,29 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from dynsolve.document import Formula
-from dynsolve.notation.tree import Letter, Matrix, Number, Relation
+from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation
 from dynsolve.notation.unicode import UnicodePrinter, lowered, width
-from dynsolve.render.boxes import Box, beside, boxed, pieces
+from dynsolve.render.boxes import Box, beside, matrix_box, matrix_width, pieces
 from dynsolve.render.breaking import break_sum
 
 _HANG = 4
 _LONGEST_HANG = 12
 
 Group = tuple[str, Box | Matrix]
-"""What stands before a piece (` = `, ` + `, a space) and the piece itself."""
+"""What stands before a piece (` = `, a space) and the piece; a `Matrix` is one too wide for a box."""
 
 
 def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
-    """The lines of a displayed formula in `room` cells."""
-    groups = list(_grouped(pieces(formula.node, printer)))
-    boxes = [beside([Box.of(lead), boxed(piece, printer)]) for lead, piece in groups]
-    whole = beside(boxes)
-    if whole.width <= room:
-        return list(whole.lines)
-    members = list(_members(groups))
-    if formula.optional and any(_must_be_taken_apart(member, printer, room) for member in members):
+    """The lines of a displayed formula in `room` cells; none for an optional one that does not fit."""
+    groups = list(_grouped(formula.node, printer, room))
+    boxes = [beside([Box.of(lead), piece]) for lead, piece in groups if isinstance(piece, Box)]
+    if len(boxes) == len(groups) and sum(box.width for box in boxes) <= room:
+        return list(beside(boxes).lines)
+    if formula.optional and len(boxes) < len(groups):
         return []
-    left = width(_text(members[0], printer))
+    members = list(_members(groups))
+    left = _width(members[0], room)
     hang = left + 1 if left + 1 <= _LONGEST_HANG else _HANG
     lines: list[str] = []
     start = members[0]
@@ -40,19 +39,12 @@ def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[st
     return lines
 
 
-def _must_be_taken_apart(member: Sequence[Group], printer: UnicodePrinter, room: int) -> bool:
-    """Whether a matrix among the factors or terms of a member is too wide for the page."""
-    return any(
-        isinstance(piece, Matrix) and boxed(piece, printer).width + _LONGEST_HANG > room
-        for _, piece in member
-    )
-
-
-def _grouped(parts: Iterator[Box | Matrix]) -> Iterator[Group]:
+def _grouped(node: Node, printer: UnicodePrinter, room: int) -> Iterator[Group]:
     lead = ""
-    for part in parts:
+    for part in pieces(node, printer):
         if isinstance(part, Matrix):
-            yield lead, part
+            fits = matrix_width(part, printer) + _LONGEST_HANG <= room
+            yield lead, matrix_box(part, printer) if fits else part
             lead = ""
         else:
             text = part.lines[0]
@@ -61,6 +53,11 @@ def _grouped(parts: Iterator[Box | Matrix]) -> Iterator[Group]:
             else:
                 yield lead, part
                 lead = ""
+
+
+def _width(member: Sequence[Group], room: int) -> int:
+    """How wide a member of a chain is; more than the room where it is not all boxes."""
+    return sum(len(lead) + (piece.width if isinstance(piece, Box) else room) for lead, piece in member)
 
 
 def _members(groups: Sequence[Group]) -> Iterator[list[Group]]:
@@ -74,10 +71,6 @@ def _members(groups: Sequence[Group]) -> Iterator[list[Group]]:
     yield member
 
 
-def _text(member: Sequence[Group], printer: UnicodePrinter) -> str:
-    return beside([beside([Box.of(lead), boxed(piece, printer)]) for lead, piece in member]).lines[0]
-
-
 def _set_member(
     member: Sequence[Group], formula: Formula, printer: UnicodePrinter, room: int, indent: int, hang: int
 ) -> list[str]:
@@ -87,32 +80,26 @@ def _set_member(
     for lead, piece in member:
         if not row.lines[0].strip() and len(row.lines) == 1:
             lead = lead.lstrip()
-        before = Box.of(lead)
-        box = boxed(piece, printer)
-        if row.width + before.width + box.width <= room:
-            row = beside([row, before, box])
-        elif hang + before.width + box.width <= room and len(box.lines) > 1:
-            lines += _flushed(row)
-            row = beside([Box.of(" " * hang), Box.of(lead.lstrip()), box])
-        elif isinstance(piece, Matrix):
+        if isinstance(piece, Matrix):
             if row.lines[0].strip() != _left_side(formula, printer):
                 lines += _flushed(row)
             lines += _entry_by_entry(piece, formula, printer, room)
             row = Box.of(" " * hang)
-        elif len(box.lines) > 1:
-            lines += [*_flushed(row), *_flushed(beside([Box.of(" " * hang), before, box]))]
-            row = Box.of(" " * hang)
+        elif row.width + width(lead) + piece.width <= room:
+            row = beside([row, Box.of(lead), piece])
+        elif len(piece.lines) > 1:
+            lines += _flushed(row)
+            row = beside([Box.of(" " * hang), Box.of(lead.lstrip()), piece])
         else:
             if len(row.lines) > 1:
                 lines += _flushed(row)
                 row = Box.of(" " * hang)
-            text = row.lines[0] + lead + box.lines[0]
-            first, *others = break_sum(text.lstrip(), room - _margin(text), room - hang)
-            lines.append(" " * _margin(text) + first)
-            lines += [" " * hang + other for other in others[:-1]]
-            row = Box.of(" " * hang + others[-1]) if others else Box.of(" " * hang)
-            if not others:
-                continue
+            text = row.lines[0] + lead + piece.lines[0]
+            margin = len(text) - len(text.lstrip())
+            first, *others = break_sum(text.lstrip(), room - margin, room - hang)
+            broken = [" " * margin + first, *(" " * hang + other for other in others)]
+            lines += broken[:-1]
+            row = Box.of(broken[-1])
     return lines + _flushed(row)
 
 
@@ -120,10 +107,6 @@ def _left_side(formula: Formula, printer: UnicodePrinter) -> str:
     """The letter that the entries of a matrix are named after, so that it need not stand alone."""
     left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
     return printer.text(left) if isinstance(left, Letter) else ""
-
-
-def _margin(text: str) -> int:
-    return len(text) - len(text.lstrip())
 
 
 def _flushed(row: Box) -> list[str]:
