@@ -39,7 +39,8 @@ class Text:
 class Formula:
     """A displayed formula.
 
-    `source` is where the textbook has it.  `entries` names the entries of a matrix
+    `source` is where the textbook has it.  `label` names a result, so that it may be
+    referred to.  `entries` names the entries of a matrix
     that is too wide to be laid out: a matrix of names, of its shape.  An `optional`
     formula is left out where its matrices do not fit the page side by side.
     """
@@ -48,6 +49,23 @@ class Formula:
     source: str = ""
     entries: tuple[tuple[Node, ...], ...] = ()
     optional: bool = False
+    label: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Uses:
+    """What goes into the next formula: labels of formulas that stand before it."""
+
+    labels: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A drawing: SVG for what can show it, LaTeX's own `picture` for what sets type with LaTeX."""
+
+    svg: str
+    caption: str = ""
+    latex: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,13 +92,17 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Fold:
-    """Blocks that belong together under a title and may be folded away."""
+    """Blocks that belong together under a title and may be folded away.
+
+    `level` is the level of detail it belongs to: 1 is shown in the briefest account.
+    """
 
     title: str
     blocks: tuple[Block, ...]
+    level: int = 2
 
 
-Block = Heading | Text | Formula | List | Note | Table | Fold
+Block = Heading | Text | Formula | Uses | List | Note | Table | Picture | Fold
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import count
 from typing import TYPE_CHECKING
 
-from dynsolve.document import Block, Document, Fold, Formula, Heading, Note, Table, Text
+from dynsolve.document import Block, Document, Fold, Formula, Heading, Note, Table, Text, Uses
 from dynsolve.explain.step import STAGES, Detail, Step
+from dynsolve.pipeline import course_rules
 
 if TYPE_CHECKING:
     from dynsolve.solution import Solution
@@ -36,6 +38,7 @@ def _opening(solution: Solution) -> Iterator[Block]:
 def _stages(solution: Solution, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
     """Stages and their steps, numbered as in the whole derivation."""
     numbers = {stage: number for number, stage in enumerate(STAGES, start=1)}
+    inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     stage, place = "", 0
     for step in solution.explain(stages):
         if step.stage != stage:
@@ -43,11 +46,15 @@ def _stages(solution: Solution, detail: Detail, stages: Iterable[str] | None) ->
             yield Heading(f"{numbers[stage]}. {STAGES[stage]}", 2)
         place += 1
         if step.detail <= detail:
-            yield Fold(f"{numbers[stage]}.{place} {step.title}", tuple(step_blocks(step, detail)))
+            blocks = tuple(step_blocks(step, detail, inputs.get(step.id, ())))
+            yield Fold(f"{numbers[stage]}.{place} {step.title}", blocks, step.detail)
 
 
-def step_blocks(step: Step, detail: Detail) -> Iterator[Block]:
-    """A step: in brief its result alone, in full with its working and notes."""
+def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Iterator[Block]:
+    """A step: in brief its result alone, in full with its working and notes.
+
+    `inputs` names what its result is computed from.
+    """
     if detail > Detail.BRIEF and step.why:
         yield Text(step.why)
     if step.table:
@@ -57,11 +64,25 @@ def step_blocks(step: Step, detail: Detail) -> Iterator[Block]:
             yield Formula(step.formula, step.source)
         for working in step.working:
             yield Formula(working, optional=True)
-    for result in step.result:
-        yield Formula(result, entries=step.entries, optional=step.optional)
+        if inputs:
+            yield Uses(inputs)
+    for result, label in zip(step.result, _labels(step), strict=False):
+        yield Formula(result, entries=step.entries, optional=step.optional, label=label)
     if detail > Detail.BRIEF:
         for note in step.notes:
             yield Note(note)
+
+
+def _labels(step: Step) -> Iterator[str]:
+    """The names of a step's results: its id, and for the angular part the name of that."""
+    angular = {"J": "Jw", "v": "w"}
+    yield step.id
+    for stem in ("Jv", "J", "v"):
+        if step.id.startswith(stem):
+            yield angular.get(stem, "Jw") + step.id.removeprefix(stem)
+            break
+    for place in count(2):
+        yield f"{step.id}-{place}"
 
 
 def _closing(solution: Solution) -> Iterator[Block]:

@@ -125,7 +125,7 @@ class LatexPrinter(Printer):
 
     def _symbol(self, node: Symbol) -> str:
         text = self._unmarked(node)
-        return rf"{text}^{{{_STAR}}}" if node.star and self.style.star else text
+        return rf"{text}^{{{_STAR}}}" if self.style.starred(node) else text
 
     def _unmarked(self, node: Symbol) -> str:
         """A symbol without its star."""
@@ -179,7 +179,7 @@ class LatexPrinter(Printer):
 
     def _power(self, node: Power) -> str:
         base, exponent = node.base, self.text(node.exponent)
-        if type(base) is Symbol and base.star and self.style.star:
+        if type(base) is Symbol and self.style.starred(base):
             return rf"{self._unmarked(base)}^{{{_STAR} {exponent}}}"
         if type(base) is Function and base.name != "sqrt":
             if shorthand(base, self.style) is None and is_whole(node.exponent):

@@ -29,13 +29,18 @@ class Style:
     """How a formula is to look.
 
     `shorthand` maps the name of a coordinate to its subscript in s_1 and c_12,
-    `star` shows the mark of joint variables, `decimal` writes 981/100 as 9.81
-    where that is exact.
+    `star` shows the mark of joint variables, and `stars` puts it on every symbol of
+    these names; `decimal` writes 981/100 as 9.81 where that is exact.
     """
 
     shorthand: Mapping[str, str] = field(default_factory=dict)
     star: bool = False
     decimal: bool = False
+    stars: frozenset[str] = frozenset()
+
+    def starred(self, node: Symbol) -> bool:
+        """Whether a symbol is printed with the mark of a joint variable."""
+        return (node.star and self.star) or node.name in self.stars
 
 
 PLAIN = Style()

@@ -170,7 +170,7 @@ class UnicodePrinter(Printer):
             text = self._symbols[key] = _accented(base, node.dots) + (
                 lowered(_joined(groups)) if groups else ""
             )
-        return text + _STAR if node.star and self.style.star else text
+        return text + _STAR if self.style.starred(node) else text
 
     def _letter(self, node: Letter) -> str:
         base = printable(node.base)
