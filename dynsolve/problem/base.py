@@ -32,6 +32,11 @@ def read_gravity(report: Report, fields: Fields, coordinates: tuple[str, ...]) -
     """The three components of gravity; None where they were reported."""
     node = fields.get("gravity")
     if "gravity" not in fields or isinstance(node, Faulty):
+        if "g" in coordinates:
+            message = "g is a coordinate here, but gravity is [0, 0, -g] by default"
+            report.error(
+                fields.key_span("dh"), message, "give one of them another letter, or write gravity: none"
+            )
         return _components("0", "0", "-g")
     if isinstance(node, Scalar) and node.text == "none":
         return _components("0", "0", "0")

@@ -12,7 +12,6 @@ Schema = dict[str, Any]
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 _NUMBER = {"type": ["string", "number"]}
-TENSOR = ("xx", "yy", "zz", "xy", "xz", "yz")
 
 
 def schema() -> Schema:
@@ -120,6 +119,8 @@ def _base() -> Schema:
 
 
 def _body() -> Schema:
+    from dynsolve.problem.bodies import ABOUT, CENTERS, TENSOR
+
     reference, rotation = {"$ref": "#/$defs/expression"}, {"$ref": "#/$defs/rotation"}
     vector = {"$ref": "#/$defs/vector"}
     tensor = _object(dict.fromkeys(TENSOR, reference)) | {"minProperties": 1}
@@ -138,7 +139,7 @@ def _body() -> Schema:
             "center": {
                 "description": "The mass centre. Default tip, for a point.",
                 "anyOf": [
-                    {"enum": ["tip", "origin", "midpoint"]},
+                    {"enum": list(CENTERS)},
                     _object({"along": reference}) | {"required": ["along"]},
                     _object({"near": vector}) | {"required": ["near"]},
                     vector,
@@ -150,7 +151,7 @@ def _body() -> Schema:
                 "anyOf": [tensor, {"$ref": "#/$defs/matrix"}],
             },
             "about": {
-                "enum": ["center", "origin", "joint"],
+                "enum": list(ABOUT),
                 "default": "center",
                 "description": "The point that the inertia is about.",
             },

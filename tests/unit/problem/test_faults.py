@@ -233,6 +233,7 @@ REST = {
     "a mass that is a length": (body("{mass: «l1», link: 1}"), "a mass here and a length in line 3", "own"),
     "an angle that is a length": (row("{theta: q1* + beta, a: «beta»}"), "a length here and an angle", "own"),
     "the letter of gravity": (row("{theta: q1*, a: «g»}"), "the default gravity", "another letter"),
+    "gravity's letter for a joint": ("«dh»:\n  - {theta: g*}\n", "g is a coordinate", "gravity: none"),
     "a velocity's name": (body("{mass: «theta1_dot», link: 1}"), "the velocity of theta1", "another name"),
     "an acceleration's name": (body("{mass: «theta2_ddot», link: 1}"), "the acceleration of theta2", ""),
 }
