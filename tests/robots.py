@@ -52,11 +52,9 @@ def _settings(draw: st.DrawFn, odd: list[str]) -> list[str]:
 
 @st.composite
 def _tables(draw: st.DrawFn, odd: list[str], max_joints: int) -> list[DrawnRow]:
-    kinds = draw(
-        st.lists(
-            st.sampled_from(["revolute", "revolute", "prismatic", "fixed"]), min_size=1, max_size=max_joints
-        ).filter(lambda kinds: set(kinds) != {"fixed"})
-    )
+    kind = st.sampled_from(["revolute", "revolute", "prismatic", "fixed"])
+    count = draw(st.integers(1, max_joints))
+    kinds = draw(st.lists(kind, min_size=count, max_size=count).filter(lambda kinds: set(kinds) != {"fixed"}))
     letters = draw(st.sampled_from([("q", "q"), ("theta", "d"), ("θ", "L")]))
     angles = st.sampled_from(["0", "0", "90deg", "-90deg", "180deg", *odd])
     coordinates: dict[str, list[str]] = {"revolute": [], "prismatic": []}

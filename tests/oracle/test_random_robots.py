@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import given, note
+from hypothesis import given, note, settings
 
 from tests.oracle.comparison import assert_agrees
 from tests.oracle.reading import load
@@ -10,6 +10,7 @@ from tests.robots import robots
 from tests.support import solve_json
 
 
+@settings(max_examples=150)
 @given(text=robots())
 def test_agrees_with_pinocchio(text: str) -> None:
     note(text)
