@@ -65,10 +65,10 @@ def turns(q: Coordinate) -> bool:
 
 
 def plain_joint(robot: Robot, k: int) -> Joint | None:
-    """The one joint whose variable is coordinate k alone (from 0), at rate 1; None where they are coupled."""
-    joints = [joint for joint in robot.joints if any(i == k for i, _ in joint.rates)]
-    if len(joints) == 1 and joints[0].rates[0][1] == 1 and len(joints[0].rates) == 1:
-        return joints[0]
+    """The one joint that coordinate k (from 0) moves, at its own rate; None for several, or scaled."""
+    moved = [(joint, rate) for joint in robot.joints for i, rate in joint.rates if i == k]
+    if len(moved) == 1 and moved[0][1] == 1:
+        return moved[0][0]
     return None
 
 

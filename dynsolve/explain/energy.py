@@ -76,11 +76,12 @@ def _potential(course: Course, body: Body) -> Step:
     height = _height(course, body)
     if height is not None:
         h = letters.of_body("h", body)
+        ground = "the world" if letters.has_base(robot) else "the base"
         formula = side_by_side([equation(P, Product((_mass(body), Symbol("g"), h))), general])
         working.insert(0, equation(h, height))
         why = (
-            "The mass times g times the height h above the base origin. The same with vectors: minus the "
-            "mass times ",
+            f"The mass times g times the height h above the origin of {ground}. The same with vectors: minus "
+            "the mass times ",
             product,
             ", g being the acceleration of gravity, which points down.",
         )

@@ -16,7 +16,6 @@ from dynsolve.notation.tree import (
     Node,
     Number,
     Parenthesized,
-    Power,
     Product,
     Row,
     Sum,
@@ -52,7 +51,7 @@ def steps(course: Course) -> Iterator[Step]:
             yield _point(course, body)
             continue
         yield _tensor(course, body)
-        if body.about_point is not None:
+        if _is_moved(body):
             yield _parallel_axis(course, body)
         yield _rotation(course, body, tells=body is framed)
         yield _base_tensor(course, body)
@@ -130,6 +129,11 @@ def _not_the_origin(body: Body, H: Letter) -> Prose:
 # -- the tensor ------------------------------------------------------------------------------------
 
 
+def _is_moved(body: Body) -> bool:
+    """Whether the tensor is given about a point that is not the mass centre."""
+    return body.about_point is not None and body.about_point != body.center
+
+
 def _point(course: Course, body: Body) -> Step:
     tensor = letters.tensor(course.robot, body)
     return Step(
@@ -151,14 +155,14 @@ def _tensor(course: Course, body: Body) -> Step:
     tensor = letters.tensor(course.robot, body)
     assert body.inertia is not None
     about = "the mass centre"
-    if body.about_point is not None:
+    if _is_moved(body):
         tensor = Letter("I", Row((letters.index_of(body.name), Words(","), Words("given"))), None, "bold")
         about = f"the origin of frame {body.link}" if body.about == "origin" else "the near end of its link"
     formula, working, why = _shape(course, body)
     if body.shape is None or not body.shape.formulas:
         why = (f"The tensor of {name_of(body)} is given, about {about}, along the axes of its own frame.",)
     return Step(
-        id=f"I_given{body.name}" if body.about_point is not None else f"I_body{body.name}",
+        id=f"I_given{body.name}" if _is_moved(body) else f"I_body{body.name}",
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in its own frame",
         why=why,
@@ -193,8 +197,8 @@ def _parallel_axis(course: Course, body: Body) -> Step:
     given = Letter("I", Row((letters.index_of(b), Words(","), Words("given"))), None, "bold")
     r = Letter("r", style="bold")
     mass = course.show(body.mass)
-    square = Power(Row((Words("|"), r, Words("|"))), Number(2))
-    shift = Product((mass, Parenthesized(Sum((square, Negative(Product((r, Transpose(r)))))))))
+    square = Product((Transpose(r), r, letters.bold("E")))
+    shift = Product((mass, Sum((square, Negative(Product((r, Transpose(r))))))))
     H = course.values[f"H{body.link}"]
     relative = inertia.axes_in_link(course.robot, body, H)
     assert body.about_point is not None
@@ -205,7 +209,7 @@ def _parallel_axis(course: Course, body: Body) -> Step:
         title=f"Parallel axis: the tensor of {name_of(body)} about its mass centre",
         why=(
             "The given tensor is about another point, but the kinetic energy asks for the one about the mass "
-            "centre. r goes from the given point to the mass centre, in the body's axes.",
+            "centre. r goes from the given point to the mass centre, in the body's axes; E is the identity.",
         ),
         formula=equation(tensor, Sum((given, Negative(shift)))),
         source="parallel-axis theorem; Craig 6.3",
@@ -244,8 +248,11 @@ def _rotation(course: Course, body: Body, tells: bool) -> Step:
             formula = equation(rotation, Product((frame, turned)))
         case AxesKind.REST:
             why = ("The body's axes are parallel to frame 0 at q = 0 and turn with the link.",)
-            at_rest = Parenthesized(Row((Words("q = 0"),)))
-            formula = equation(rotation, Product((frame, Transpose(Product((frame, at_rest))))))
+            at_rest = Row((frame, Words("(0)")))
+            factors: list[Node] = [frame, Transpose(Parenthesized(at_rest))]
+            if letters.has_base(robot):
+                factors.append(letters.R(robot, 0))
+            formula = equation(rotation, Product(tuple(factors)))
         case AxesKind.BASE:
             why = (f"The rotation from the base to the frame of {name_of(body)} is given by the problem.",)
             if not inertia.turns_with_link(robot, body, course.values[f"H{link}"]):

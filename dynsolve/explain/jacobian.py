@@ -163,7 +163,14 @@ def _column_why(q: Coordinate, robot: Robot, joint: Joint | None) -> Prose:
                 *where,
                 "; its column is the sum of theirs, each times the rate at which that joint moves.",
             )
-        return (" moves the joint of row ", *where, " at a rate of its own, which multiplies the column.")
+        (rate,) = (rate for joint in joints for i, rate in joint.rates if i == q.index - 1)
+        return (
+            " moves the joint of row ",
+            *where,
+            " at ",
+            number(rate),
+            " times its own rate, and so its column.",
+        )
     if turns(q):
         return (
             " turns everything after it about its axis z: the end moves with z × (the vector to it from the "

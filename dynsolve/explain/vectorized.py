@@ -25,8 +25,12 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.pipeline import agreement
+from dynsolve.robot.model import Body
 
 STAGE = "vectorized"
+
+LONGEST_IN_PARTS = 150
+"""Up to this number of terms in D its parts are shown too."""
 
 _I, _J, _K, _N = (Symbol(name) for name in "ijkn")
 _SKEW = Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C)))))
@@ -36,6 +40,9 @@ def steps(course: Course) -> Iterator[Step]:
     """D, c_ijk, C and g; then the comparisons, and the whole model."""
     yield _inertia(course)
     yield _inertia_direct(course)
+    if _is_short(course):
+        for body in course.robot.bodies:
+            yield _part(course, body)
     yield _christoffel(course)
     yield _coriolis(course)
     yield _gravity(course)
@@ -80,9 +87,9 @@ def _inertia_direct(course: Course) -> Step:
     terms: list[Node] = []
     for body in robot.bodies:
         Jv, Jw = letters.jv(body), letters.jw(body)
-        terms.append(Product((letters.of_body("m", body), Transpose(Jv), Jv)))
+        terms.append(Product((letters.of_body("m", body), letters.transposed_product(Jv))))
         if not body.is_point:
-            terms.append(Product((Transpose(Jw), letters.of_body("I", body, "script"), Jw)))
+            terms.append(letters.transposed_product(Jw, letters.of_body("I", body, "script")))
     working = equation(letters.D, terms[0] if len(terms) == 1 else Sum(tuple(terms)))
     name = Number(len(robot.bodies))
     return Step(
@@ -99,6 +106,33 @@ def _inertia_direct(course: Course) -> Step:
         formula=equation(letters.D, BigSum(total, i, Number(1), name)),
         source=shv("7.3"),
         working=(working,),
+    )
+
+
+def _is_short(course: Course) -> bool:
+    """Whether D is short enough for its parts to be of use to a reader."""
+    return sum(len(entry) for entry in course.values["D"].entries) <= LONGEST_IN_PARTS
+
+
+def _part(course: Course, body: Body) -> Step:
+    """What one body adds to D."""
+    b = body.name
+    Jv, Jw = letters.jv(body), letters.jw(body)
+    linear = Product((letters.of_body("m", body), letters.transposed_product(Jv)))
+    angular = letters.transposed_product(Jw, letters.of_body("I", body, "script"))
+    results = [equation(linear, course.form(f"Dv{b}"))]
+    if not body.is_point:
+        results.append(equation(angular, course.form(f"Dw{b}")))
+    return Step(
+        id=f"D_direct{b}",
+        stage=STAGE,
+        title=f"What body {b} adds to D",
+        why=("Its linear part, and none of rotation: it is a point.",)
+        if body.is_point
+        else ("Its linear part and its rotational part.",),
+        source=shv("7.3"),
+        result=tuple(results),
+        detail=Detail.FULL,
     )
 
 

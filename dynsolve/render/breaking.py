@@ -9,7 +9,7 @@ from dynsolve.notation.unicode import width
 HARD_SPACE = "\u00a0"
 """Stands for a space inside a formula of a sentence, where no line may end."""
 
-_FULL_ENOUGH = 0.45
+_FULL_ENOUGH = 0.33
 _NEVER = 99
 
 
