@@ -98,11 +98,12 @@ def negated(node: Node) -> Node:
     return node.argument if isinstance(node, Negative) else node if node == ZERO else Negative(node)
 
 
-def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]]) -> Node:
+def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, decimal: bool = False) -> Node:
     """coefficient · Π node^exponent; negative exponents go below the fraction line.
 
     Signs and numbers of the factors are drawn to the front, products flattened, in
-    the given order.
+    the given order.  With `decimal` a fraction that ends is one number in front, 0.12 c₂
+    and not 3 c₂/25.
     """
     above: list[Node] = []
     below: list[Node] = []
@@ -124,7 +125,8 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]]) -> N
         return ZERO
     if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
         return total([negated(term) for term in above[0].terms])
-    node = _fraction(coefficient if coefficient > 0 else -coefficient, above, below)
+    size = coefficient if coefficient > 0 else -coefficient
+    node = _decimal(size, above) if decimal and not below else _fraction(size, above, below)
     return Negative(node) if coefficient < 0 else node
 
 
@@ -144,6 +146,18 @@ def _put_factor(node: Node, coefficient: Fraction | int, above: list[Node]) -> F
         case _:
             above.append(node)
     return coefficient
+
+
+def _decimal(coefficient: Fraction | int, above: list[Node]) -> Node:
+    """A number in front, as one decimal where that ends."""
+    denominator = coefficient.denominator
+    for prime in (2, 5):
+        while denominator % prime == 0:
+            denominator //= prime
+    if denominator != 1 or coefficient.denominator == 1:
+        return _fraction(coefficient, above, [])
+    front = Number(coefficient.numerator, coefficient.denominator)
+    return Product((front, *above)) if above else front
 
 
 def _fraction(coefficient: Fraction | int, above: list[Node], below: list[Node]) -> Node:

@@ -39,14 +39,15 @@ JOINED = 60
 class Rank(IntEnum):
     """The place of a factor in a product, and of a term in a sum."""
 
-    LEADING = 0
-    PARAMETER = 1
-    COORDINATE = 2
-    SUM = 3
-    WAVE = 4
-    WAVE_SUM = 5
-    RATE = 6
-    RATE_SUM = 7
+    ROOT = 0
+    LEADING = 1
+    PARAMETER = 2
+    COORDINATE = 3
+    SUM = 4
+    WAVE = 5
+    WAVE_SUM = 6
+    RATE = 7
+    RATE_SUM = 8
 
 
 Place = tuple[Rank, tuple[int, ...]]
@@ -90,7 +91,7 @@ class Atoms:
                 return self._highest(part)
             case Quotient(numerator, denominator):
                 return max(self._highest(numerator), self._highest(denominator))
-        return Rank.LEADING
+        return Rank.ROOT
 
 
 def multiply(left: Mono, right: Mono) -> Mono:
@@ -107,14 +108,16 @@ def divide(mono: Mono, by: Mono) -> Mono:
 
 
 def content(factors: Iterable[Factor]) -> Factor:
-    """What is worth drawing out of factors: their common divisor, and a denominator that most share."""
+    """What is worth drawing out: the common divisor, and a denominator if none is whole or most share it."""
     factors = list(factors)
     shared = gcd(*(f.numerator for f in factors))
     if all(type(f) is int for f in factors):
         return shared
     denominators = Counter(f.denominator for f in factors)
+    if 1 not in denominators:
+        return Fraction(shared, lcm(*denominators))
     denominator, count = denominators.most_common(1)[0]
-    if denominator == 1 or 2 * count <= len(factors) or any(denominator % d for d in denominators):
+    if 2 * count <= len(factors) or any(denominator % d for d in denominators):
         return shared
     return Fraction(shared, denominator)
 
@@ -146,8 +149,9 @@ def common(monos: Iterable[Mono]) -> Mono:
 class Collector:
     """Writes polynomials in plain symbols as trees, each once."""
 
-    def __init__(self, atoms: Atoms) -> None:
+    def __init__(self, atoms: Atoms, *, decimal: bool = False) -> None:
         self.atoms = atoms
+        self.decimal = decimal
         self._known: dict[frozenset[tuple[Mono, Factor]], Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
 
@@ -176,11 +180,18 @@ class Collector:
 
     def primitive(self, poly: Poly) -> tuple[Factor, Mono, Poly]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
-        factor = content(poly.values())
+        factor = self.content(poly.values())
         mono = self._worth_drawing(poly, common(poly))
         if (factor != 1 or mono) and self._mostly_negative(poly):
             factor = -factor
         return factor, mono, self._divided(poly, mono, factor)
+
+    def content(self, factors: Iterable[Factor]) -> Factor:
+        """What is worth drawing out; of decimals only what all are equal to."""
+        if not self.decimal:
+            return content(factors)
+        sizes: set[Factor] = {abs(f) for f in factors}
+        return sizes.pop() if len(sizes) == 1 else 1
 
     def _mostly_negative(self, poly: Poly) -> bool:
         """Whether a sum reads better with its sign turned: more minus than plus, or as many and one first."""
@@ -213,7 +224,7 @@ class Collector:
         """factor · monomial · more as a tree, in printing order."""
         atoms = [*mono, *((self.atoms.number(node), 1) for node in more)]
         atoms.sort(key=lambda item: self.atoms.ranks[item[0]])
-        return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms])
+        return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms], decimal=self.decimal)
 
     def decompose(self, node: Node) -> tuple[Factor, Mono]:
         """(factor, monomial) of a tree that is a product; a sum counts as one atom."""

@@ -18,10 +18,11 @@ outside or inside), the cheaper result is taken.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from fractions import Fraction
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import angle_node, times, total
-from dynsolve.algebra.collect import Atoms, Collector, Mono, Poly, Rank, content, whole_content
+from dynsolve.algebra.collect import Atoms, Collector, Mono, Poly, Rank
 from dynsolve.algebra.dress import Monomial
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.groups import angle_groups
@@ -38,9 +39,9 @@ from dynsolve.algebra.terms import (
     split_middle,
     split_tail,
 )
-from dynsolve.algebra.wardrobe import Face, Wardrobe
+from dynsolve.algebra.wardrobe import Face
 from dynsolve.notation import tree
-from dynsolve.notation.tree import ZERO, Function, Node, Symbol
+from dynsolve.notation.tree import ZERO, Function, Node, Number, Symbol
 
 MUCH_CHEAPER = 0.75
 """Energies and torques stay collected by velocities unless another order costs less than this part."""
@@ -53,7 +54,8 @@ class Compactor:
     """Writes exact expressions of one ring as a person would.
 
     `leading` names the masses and moments of inertia in the order in which a sum
-    mentions them; `parallel` are groups of coordinates that turn about parallel axes.
+    mentions them; `parallel` are groups of coordinates that turn about parallel axes;
+    `decimal` says that numbers are decimals, which are not drawn out of sums.
 
     >>> from dynsolve.notation.printing import Style
     >>> from dynsolve.notation.python import to_python
@@ -64,26 +66,30 @@ class Compactor:
     """
 
     def __init__(
-        self, ring: Ring, leading: Iterable[str] = (), parallel: Iterable[Iterable[str]] = ()
+        self,
+        ring: Ring,
+        leading: Iterable[str] = (),
+        parallel: Iterable[Iterable[str]] = (),
+        *,
+        decimal: bool = False,
     ) -> None:
         self.ring = ring
         self.atoms = Atoms()
-        self.collector = Collector(self.atoms)
+        self.collector = Collector(self.atoms, decimal=decimal)
         self._order = {name: i for i, name in enumerate(leading)}
         self._kinds = {g.index: self._kind(g) for g in ring.generators}
         self._symbol_atoms: dict[int, tuple[int, int]] = {}
         self._number_symbols()
         self._groups = angle_groups(ring, parallel)
-        self._places = [[i for p in group for i in (p.sine, p.cosine)] for group in self._groups]
-        self._wardrobe = Wardrobe()
+        self._places = [group.places for group in self._groups]
         self._forms: dict[str, Node] = {}
         self._scalars: dict[tuple[Frame, frozenset[tuple[Exponents, Factor]]], Node] = {}
-        self._waves: dict[tuple[int, str, Exponents], int] = {}
+        self._waves: dict[tuple[int, str, Exponents], tuple[int, int]] = {}
 
     # -- atoms -------------------------------------------------------------------------------------
 
     def _kind(self, g: Generator) -> str:
-        if g.kind in ("sin", "cos"):
+        if g.kind in ("sin", "cos", "constant"):
             return "angle"
         if g.kind == "symbol" and g.dots:
             return "rate"
@@ -94,22 +100,29 @@ class Compactor:
 
         def rank(g: Generator) -> Rank:
             kind = self._kinds[g.index]
+            if isinstance(g.node, Number):
+                return Rank.ROOT
             if kind == "parameter":
                 return Rank.COORDINATE if g.name in self.ring.names else Rank.PARAMETER
             return Rank.LEADING if kind == "leading" else Rank.RATE
 
         def place(g: Generator) -> tuple[object, ...]:
-            return rank(g), self._order.get(g.name, 0), g.dots != 2, g.name != "g", g.index
+            return (
+                rank(g),
+                self._order.get(g.name, 0),
+                g.dots != 2,
+                g.name != "g",
+                g.kind != "symbol",
+                g.index,
+            )
 
         for g in sorted(self.ring.generators, key=place):
-            if g.kind in ("symbol", "root", "constant"):
+            if g.kind in ("symbol", "root"):
                 self._symbol_atoms[g.index] = self.atoms.number(self._node(g), rank(g)), 1
 
     def _node(self, g: Generator) -> Node:
         if g.kind == "symbol":
             return Symbol(g.name, g.dots)
-        if g.kind == "constant":
-            return Function("cos", angle_node(g.angle))
         assert g.node is not None
         return Function("sqrt", g.node)
 
@@ -131,20 +144,35 @@ class Compactor:
         parts.sort()
         return tuple(parts)
 
-    def _wave_mono(self, mono: Monomial, g: int) -> Mono:
-        return tuple(sorted((self._wave_atom(g, name, turns), e) for (name, turns), e in mono))
+    def _wave_mono(self, mono: Monomial, g: int) -> tuple[int, Mono]:
+        """(±1, the monomial in atoms) of sines and cosines in the angles of a group."""
+        sign, parts = 1, []
+        for (name, turns), e in mono:
+            turned, atom = self._wave_atom(g, name, turns)
+            sign *= turned**e
+            parts.append((atom, e))
+        return sign, tuple(sorted(parts))
 
-    def _wave_atom(self, g: int, name: str, turns: Exponents) -> int:
+    def _wave_atom(self, g: int, name: str, turns: Exponents) -> tuple[int, int]:
+        """(±1, atom); an angle is written with its last coordinate positive, q₂ - q₁ and not q₁ - q₂."""
         found = self._waves.get((g, name, turns))
-        if found is None:
-            angle = Angle()
-            for pair, t in zip(self._groups[g], turns, strict=True):
-                angle = angle + pair.angle * t
+        if found is None and name == "sqrt":
+            found = 1, self.atoms.number(Function(name, Number(*turns)), Rank.ROOT)
+        elif found is None:
+            angle = self._groups[g].angle(turns)
+            sign = 1
+            if self._points_back(angle):
+                angle, sign = -angle, (-1 if name == "sin" else 1)
             last = max(k for k, t in enumerate(turns) if t)
             order = (g, last, sum(map(abs, turns)), name != "sin")
-            found = self.atoms.number(Function(name, angle_node(angle)), Rank.WAVE, order)
-            self._waves[g, name, turns] = found
+            found = sign, self.atoms.number(Function(name, angle_node(angle)), Rank.WAVE, order)
+        self._waves[g, name, turns] = found
         return found
+
+    def _points_back(self, angle: Angle) -> bool:
+        rates = dict(angle.terms)
+        moving = [rates[((name, 1),)] for name in self.ring.names if ((name, 1),) in rates]
+        return moving[-1] < 0 if moving else bool(angle.terms) and angle.terms[0][1] < 0
 
     # -- the entrance ------------------------------------------------------------------------------
 
@@ -182,10 +210,14 @@ class Compactor:
 
     def _one_kind(self, frame: Frame, terms: Terms, kind: tuple[int, int]) -> Node:
         """Velocities outside; or angles outside and velocities inside, where that is much cheaper."""
-        if kind == (0, 2):  # an energy: its ½ in front
-            factor = whole_content(terms.values())
-            terms = {e: exact(f, factor) for e, f in terms.items()}
-            return times(factor, [(self._outside_or_inside(frame, terms, kind), 1)])
+        if (
+            kind == (0, 2)
+            and any(f.denominator % 2 == 0 for f in terms.values())
+            and not self.collector.decimal
+        ):
+            half = Fraction(1, 2)  # an energy: its ½ in front
+            terms = {e: exact(f, half) for e, f in terms.items()}
+            return times(half, [(self._outside_or_inside(frame, terms, kind), 1)])
         return self._outside_or_inside(frame, terms, kind)
 
     def _outside_or_inside(self, frame: Frame, terms: Terms, kind: tuple[int, int]) -> Node:
@@ -205,14 +237,19 @@ class Compactor:
         return self._paired(((self._mono(places, key), part) for key, part in split.items()), form)
 
     def _paired(self, parts: Iterable[tuple[Mono, Terms]], form: Callable[[Terms], Node]) -> Node:
+        numbers: list[tuple[Factor, Mono, Node]] = []
         shared: dict[object, tuple[Terms, Factor, Poly]] = {}
         for mono, part in parts:
+            if len(part) == 1:
+                ((exponents, number),) = part.items()
+                if not any(exponents):
+                    numbers.append((number, mono, tree.ONE))
+                    continue
             key, scale = primitive(part)
             _, own, factors = shared.setdefault(key, (part, scale, {}))
             factors[mono] = exact(scale, own)
-        return self.collector.sum_of(
-            (*self.collector.whole(factors), form(part)) for part, _, factors in shared.values()
-        )
+        sums = ((*self.collector.whole(factors), form(part)) for part, _, factors in shared.values())
+        return self.collector.sum_of((*numbers, *sums))
 
     # -- coefficients: no velocities ---------------------------------------------------------------
 
@@ -238,7 +275,7 @@ class Compactor:
         start = sum(width for _, width in frame.groups)
         symbols = zip(*(e[start:] for e in terms), strict=True)
         least = tuple(min(powers) for powers in symbols)
-        factor = content(terms.values())
+        factor = self.collector.content(terms.values())
         if factor == 1 and not any(least):
             return (1, ()), terms
         rest = {
@@ -272,10 +309,13 @@ class Compactor:
         for e, f in terms.items():
             faces.setdefault(e[width:], {})[e[:width]] = f
         collected: dict[Monomial, Terms] = {}
-        for rest, dress in self._wardrobe.choose(faces).items():
+        for rest, dress in self._groups[g].wardrobe.choose(faces).items():
             for mono, f in dress:
                 collected.setdefault(mono, {})[rest] = f
-        parts = ((self._wave_mono(mono, g), part) for mono, part in collected.items())
+        parts = []
+        for mono, part in collected.items():
+            sign, wave = self._wave_mono(mono, g)
+            parts.append((wave, part if sign > 0 else {e: -f for e, f in part.items()}))
         return self._paired(parts, lambda part: self._by_angles(inner, part))
 
     def _without_angles(self, frame: Frame, terms: Terms) -> Node:

@@ -147,7 +147,7 @@ class ConstantAngles:
         assert self.generator is not None and self.plan.generator_degrees is not None
         relation, _ = self.relation(self.generator)
         before: fmpq_mpoly = ctx.constant(1)
-        now = self.generator
+        now: fmpq_mpoly = self.generator
         count = int(angle / self.plan.generator_degrees)
         for _ in range(count - 1):
             before, now = now, (2 * self.generator * now - before) % relation

@@ -2,14 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.constant_dress import ConstantDresses
 from dynsolve.algebra.expr import Pair
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.wardrobe import Wardrobe
 
 
-def angle_groups(ring: Ring, parallel: Iterable[Iterable[str]] = ()) -> list[tuple[Pair, ...]]:
-    """The ring's basic angles by parallel group, from the base outwards; constant angles last.
+@dataclass(frozen=True, slots=True)
+class AngleGroup:
+    """Basic angles that combine, the places of their generators, and how polynomials in them are dressed."""
+
+    angles: tuple[Angle, ...]
+    places: tuple[int, ...]
+    wardrobe: Wardrobe
+
+    def angle(self, turns: Sequence[int]) -> Angle:
+        """The angle of these multiples of the basic ones."""
+        total = Angle()
+        for basic, multiple in zip(self.angles, turns, strict=True):
+            total = total + basic * multiple
+        return total
+
+
+def angle_groups(ring: Ring, parallel: Iterable[Iterable[str]] = ()) -> list[AngleGroup]:
+    """The ring's angles in groups, from the base outwards; constant ones last."""
+    groups = [
+        AngleGroup(
+            tuple(pair.angle for pair in pairs),
+            tuple(i for pair in pairs for i in (pair.sine, pair.cosine)),
+            Wardrobe(),
+        )
+        for pairs in _parallel_pairs(ring, parallel)
+    ]
+    constant = [g for g in ring.generators if g.kind == "constant"]
+    wardrobes = [Wardrobe(ConstantDresses(g.angle.degrees)) for g in constant]
+    groups += [AngleGroup((g.angle,), (g.index,), w) for g, w in zip(constant, wardrobes, strict=True)]
+    return groups
+
+
+def _parallel_pairs(ring: Ring, parallel: Iterable[Iterable[str]]) -> list[tuple[Pair, ...]]:
+    """The ring's basic angles by parallel group, from the base outwards.
 
     Two angles belong together where they share a coordinate, or where their
     coordinates stand in one group of `parallel`.
@@ -18,6 +54,7 @@ def angle_groups(ring: Ring, parallel: Iterable[Iterable[str]] = ()) -> list[tup
     groups: list[tuple[set[str], list[Pair]]] = []
     for pair in ring.pairs:
         names = {name for atom, _ in pair.angle.terms for name, _ in atom}
+        names = names & set(ring.names) or names
         for together in given:
             if names & together:
                 names |= together

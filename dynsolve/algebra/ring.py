@@ -215,8 +215,9 @@ class Ring:
     def _turn(self, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         found = self._turned.get(angle)
         if found is None:
-            c, s = self._constants.cos_sin(angle.degrees, self.ctx)
-            for pair, times in self._multiples(angle):
+            multiples, degrees = self._plan.multiples(angle)
+            c, s = self._constants.cos_sin(degrees, self.ctx)
+            for pair, times in zip(self.pairs, multiples, strict=True):
                 c2, s2 = self._times(pair, times)
                 c, s = self.reduce(c * c2 - s * s2), self.reduce(s * c2 + c * s2)
             found = self._turned[angle] = (c, s)
@@ -233,13 +234,6 @@ class Ring:
         for _ in range(abs(times)):
             c, s = self.reduce(c * c1 - s * s1), self.reduce(s * c1 + c * s1)
         return c, (s if times > 0 else -s)
-
-    def multiples(self, angle: Angle) -> tuple[int, ...]:
-        """The integer coefficients of an angle's linear part in the basic angles, one a pair."""
-        return self._plan.multiples(angle)
-
-    def _multiples(self, angle: Angle) -> list[tuple[Pair, int]]:
-        return [(p, m) for p, m in zip(self.pairs, self._plan.multiples(angle), strict=True) if m]
 
     def expr(self, node: Node) -> Expr:
         """The exact value of a tree; see `algebra.from_tree`."""
@@ -361,18 +355,13 @@ class Ring:
 
     def at_rest(self, expr: Expr) -> Expr:
         """The expression at q = 0."""
-        values = {self._symbols[(name, 0)]: 0 for name in self.names}
-        for pairs in self._rates:
-            for pair, _ in pairs:
-                values |= {pair.sine: 0, pair.cosine: 1}
-        return self._put(expr, values)
-
-    def _put(self, expr: Expr, values: Mapping[int, int]) -> Expr:
         used = expr.poly.degrees()
-        wanted = {i: v for i, v in values.items() if used[i]}
-        if not wanted:
-            return expr
-        point = [self.ctx.constant(wanted[i]) if i in wanted else g for i, g in enumerate(self._gens)]
+        point = list(self._gens)
+        for name in self.names:
+            point[self._symbols[(name, 0)]] = self.ctx.constant(0)
+        for pair in {pair for pairs in self._rates for pair, _ in pairs}:
+            if used[pair.sine] or used[pair.cosine]:
+                point[pair.cosine], point[pair.sine] = self._turn(self._plan.at_rest(pair.angle))
         return Expr(self, self.reduce(expr.poly.compose(*point, ctx=self.ctx)))
 
     @cached_property

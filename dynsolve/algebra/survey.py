@@ -27,13 +27,17 @@ from dynsolve.notation.tree import (
 
 @dataclass(frozen=True, slots=True)
 class Survey:
-    """The plan of a ring: what becomes a generator, and how angles are made of the basic ones."""
+    """The plan of a ring: what becomes a generator, and how angles are made of the basic ones.
+
+    `turning` are the basic angles that turn with coordinates, each as its vector of
+    rates and its offset: θ₁ + 30° is one angle, and cos(θ₁ + 30°) one generator.
+    """
 
     coordinates: tuple[str, ...]
     symbols: tuple[str, ...]
     roots: tuple[Node, ...]
     denominators: tuple[Node, ...]
-    turning: tuple[Vector, ...]
+    turning: tuple[tuple[Vector, Angle], ...]
     fixed: tuple[tuple[Atom, Fraction], ...]
     constants: ConstantPlan
     inverses: int
@@ -43,28 +47,37 @@ class Survey:
         """The basic angles: those that turn with coordinates, symbolic ones, constant ones."""
         turning = (
             Angle(tuple(sorted((((n, 1),), r) for n, r in zip(self.coordinates, v, strict=True) if r)))
-            for v in self.turning
+            + offset
+            for v, offset in self.turning
         )
         fixed = (Angle(((atom, rate),)) for atom, rate in self.fixed)
         constant = (Angle((), degrees) for degrees in self.constants.pairs)
         return (*turning, *fixed, *constant)
 
-    def multiples(self, angle: Angle) -> tuple[int, ...]:
-        """The linear part of an angle as integer multiples of the basic angles.
+    def multiples(self, angle: Angle) -> tuple[tuple[int, ...], Fraction]:
+        """(integer multiples of the basic angles, degrees left over) that make up an angle.
 
-        Raises AlgebraError where it is none: the ring was not built for that angle.
+        Raises AlgebraError where there are none: the ring was not built for that angle.
         """
-        vector, others = _split(angle, self.coordinates)
-        turning = (
-            integer_coordinates(self.turning, vector) if any(vector) else (Fraction(0),) * len(self.turning)
-        )
+        vector, _ = _split(angle, self.coordinates)
+        basis = [v for v, _ in self.turning]
+        turning = integer_coordinates(basis, vector) if any(vector) else (Fraction(0),) * len(basis)
+        if turning is not None:
+            for times, (_, offset) in zip(turning, self.turning, strict=True):
+                angle = angle - offset * times
+        _, others = _split(angle, self.coordinates)
         known = dict(self.fixed)
         if turning is None or any(m.denominator != 1 for m in turning) or not others.keys() <= known.keys():
             raise AlgebraError("this angle does not occur in the problem")
         fixed = [others.get(atom, Fraction(0)) / rate for atom, rate in self.fixed]
         if any(m.denominator != 1 for m in fixed):
             raise AlgebraError("this part of an angle does not occur in the problem")
-        return (*map(int, turning), *map(int, fixed), *(0 for _ in self.constants.pairs))
+        multiples = (*map(int, turning), *map(int, fixed), *(0 for _ in self.constants.pairs))
+        return multiples, angle.degrees
+
+    def at_rest(self, angle: Angle) -> Angle:
+        """What is left of an angle at q = 0."""
+        return Angle(tuple(sorted(_split(angle, self.coordinates)[1].items())), angle.degrees)
 
     def with_more_inverses(self) -> Survey:
         """The same plan with room for more denominators."""
@@ -146,6 +159,7 @@ def survey(
         collector.angle(angle)
     every = [*preferred, *collector.angles]
     turning = lattice_basis([_split(angle, coordinates)[0] for angle in every])
+    offsets = _offsets(every, coordinates)
     rates: dict[Atom, list[Fraction]] = {}
     for angle in every:
         for atom, rate in _split(angle, coordinates)[1].items():
@@ -156,11 +170,21 @@ def survey(
         symbols=tuple(collector.symbols),
         roots=(*(Number(p) for p in constants.primes), *collector.roots),
         denominators=tuple(collector.denominators),
-        turning=tuple(turning),
+        turning=tuple((vector, offsets.get(vector, Angle())) for vector in turning),
         fixed=tuple((atom, rational_gcd(found)) for atom, found in rates.items()),
         constants=constants,
         inverses=2 * len(collector.denominators),
     )
+
+
+def _offsets(angles: Sequence[Angle], coordinates: Sequence[str]) -> dict[Vector, Angle]:
+    """The constant part with which each combination of coordinates occurs first; quarter turns are signs."""
+    offsets: dict[Vector, Angle] = {}
+    for angle in angles:
+        vector, others = _split(angle, coordinates)
+        degrees = angle.degrees if angle.degrees % 90 else Fraction(0)
+        offsets.setdefault(vector, Angle(tuple(sorted(others.items())), degrees))
+    return offsets
 
 
 def rational_value(node: Node) -> Fraction | None:

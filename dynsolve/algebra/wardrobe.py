@@ -8,10 +8,10 @@ again at the prices that the first choice has made.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
-from dynsolve.algebra.dress import Monomial, dresses
+from dynsolve.algebra.dress import Dress, Monomial, Poly, dresses
 from dynsolve.algebra.terms import Exponents, Factor, primitive
 
 TERM = 3.0
@@ -34,7 +34,8 @@ Face = dict[Exponents, Factor]
 class Wardrobe:
     """The dresses of every face met so far, each made once."""
 
-    def __init__(self) -> None:
+    def __init__(self, dresses: Callable[[Poly], list[Dress]] = dresses) -> None:
+        self._dresses = dresses
         self._made: dict[frozenset[tuple[Exponents, Factor]], list[_Option]] = {}
 
     def choose(self, faces: Mapping[Exponents, Face]) -> dict[Exponents, list[tuple[Monomial, Factor]]]:
@@ -57,7 +58,7 @@ class Wardrobe:
             key, scale = primitive(face)
         made = self._made.get(key)
         if made is None:
-            made = self._made[key] = sorted(map(_option, dresses(dict(key))), key=lambda o: o.price)
+            made = self._made[key] = sorted(map(_option, self._dresses(dict(key))), key=lambda o: o.price)
         return made, scale
 
 

@@ -80,6 +80,8 @@ class Forms:
 
     def _potential_energy(self, compact: Node) -> Node:
         """Σ P_i as it is added up, unless collecting makes it much shorter."""
+        if is_numeric(self.robot):
+            return compact
         added = total([self(f"P{body.name}") for body in self.robot.bodies])
         return added if cost(added) <= 1.5 * cost(compact) + 2 else compact
 

@@ -39,7 +39,8 @@ def absolute_angles(turns: Sequence[Turn], coordinates: Collection[str], modifie
     """The angles in which formulas about this robot are short, the first joint's first.
 
     For a run of parallel revolute axes the running sums; for a lone axis the joint's
-    own linear form.  Constant parts are left out.
+    own linear form, each with its constant part: cos(θ₁ + 30°) is shorter than what it
+    expands to.
 
     >>> q1, q2 = Angle.of("q1"), Angle.of("q2")
     >>> planar = [Turn(q1, Angle.zero(), True), Turn(q2, Angle.zero(), True)]
@@ -47,7 +48,7 @@ def absolute_angles(turns: Sequence[Turn], coordinates: Collection[str], modifie
     True
     """
     found = [angle for run in _runs(turns, coordinates, modified) for angle in run]
-    return [_leading_positive(angle) for angle in found if angle.terms]
+    return [_leading_positive(angle, coordinates) for angle in found if angle.terms]
 
 
 def parallel_groups(
@@ -69,7 +70,7 @@ def _runs(turns: Sequence[Turn], coordinates: Collection[str], modified: bool) -
         if between is not None:
             between = _times(between, before)
         if turn.revolute:
-            own = moving_part(turn.theta, coordinates)
+            own = turn.theta
             sign = _sign(between) if between is not None else 0
             if sign:
                 runs[-1].append(own + runs[-1][-1] * sign)
@@ -90,8 +91,9 @@ def _moves(atom: Atom, coordinates: Collection[str]) -> bool:
     return any(name in coordinates for name, _ in atom)
 
 
-def _leading_positive(angle: Angle) -> Angle:
-    return -angle if angle.terms[0][1] < 0 else angle
+def _leading_positive(angle: Angle, coordinates: Collection[str]) -> Angle:
+    rates = moving_part(angle, coordinates).terms
+    return -angle if rates and rates[0][1] < 0 else angle
 
 
 def _constant_rotations(
