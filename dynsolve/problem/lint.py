@@ -211,16 +211,19 @@ def no_effect(reading: Reading) -> Iterator[Finding]:
 
 
 def unphysical(reading: Reading) -> Iterator[Finding]:
-    """Principal moments in numbers of which one is more than the sum of the others."""
+    """Moments in numbers that no body has: a negative one, or one larger than the sum of the others."""
     for body, span in _bodies(reading):
         if body.inertia is None:
             continue
         moments = [body.inertia[i, i] for i in range(3)]
-        if not all(moment.is_number and moment.number > 0 for moment in moments):
-            continue
-        largest = max(moment.number for moment in moments)
-        if 2 * largest > sum(moment.number for moment in moments):
-            message = f"no body has the moments of body {body.name}: one is larger than the sum of the others"
+        numbers = [moment.number for moment in moments if moment.is_number]
+        what = ""
+        if any(number < 0 for number in numbers):
+            what = "one is negative"
+        elif len(numbers) == 3 and all(numbers) and 2 * max(numbers) > sum(numbers):
+            what = "one is larger than the sum of the others"
+        if what:
+            message = f"no body has the moments of body {body.name}: {what}"
             yield _finding(reading, span, message, "I_xx + I_yy ≥ I_zz, and so in every order", "unphysical")
 
 

@@ -31,7 +31,7 @@ def _explained(text: str, problem: str, context: str, at: int, opened: int) -> t
     if (tab := _indenting_tab(text, at)) is not None:
         return tab, "a tab cannot indent in YAML", "indent with blanks"
     if "quoted scalar" in context:
-        return _quoted(problem, at, opened)
+        return _quoted(text, problem, at, opened)
     if "flow" in context and character != "-" and "node" not in context:
         return _bracket(text, at, opened)
     if "mapping values are not allowed" in problem:
@@ -71,10 +71,10 @@ def _indenting_tab(text: str, at: int) -> int | None:
     return start + tab if tab >= 0 else None
 
 
-def _quoted(problem: str, at: int, opened: int) -> tuple[int, str, str]:
+def _quoted(text: str, problem: str, at: int, opened: int) -> tuple[int, str, str]:
     if "escape" in problem:
         return (
-            at,
+            max(text.rfind("\\", opened, at + 1), opened),
             "an escape that YAML does not know",
             "in double quotes `\\` begins an escape: use single quotes",
         )

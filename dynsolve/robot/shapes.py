@@ -5,8 +5,8 @@ textbook: the same text is evaluated for a robot and printed in the explanation.
 Adding a shape is adding one record to `KINDS`.
 
 Source: Spong, Hutchinson, Vidyasagar, Robot Modeling and Control (2006), section
-7.2.1, for the box; Craig, Introduction to Robotics, 3rd ed., section 6.3, for the
-method; Goldstein, Poole, Safko, Classical Mechanics, 3rd ed., chapter 5, for the rest.
+7.2.1, for the box and the method: I_xx = ∫ (y² + z²) dm and so on.  The tests hold
+every formula against these integrals.
 """
 
 from __future__ import annotations

@@ -40,6 +40,7 @@ FINDINGS = {
     "no-effect of a shape": body(
         "mass: M, link: 1, center: tip, «shape»: {sphere: {radius: r}}, inertia: {zz: I1}"
     ),
+    "unphysical and negative": MASS + "  - «{mass: M, link: 1, center: tip, inertia: {zz: -1}}»\n",
     "unphysical": MASS + "  - «{mass: M, link: 1, center: tip, inertia: {xx: 1, yy: 1, zz: 3}}»\n",
 }
 

@@ -231,6 +231,13 @@ def test_a_table_alone_is_a_problem() -> None:
     assert problem.robot.bodies == ()
 
 
+def test_a_rotor_without_mass() -> None:
+    text = PLANAR + "masses: [{mass: 0, link: 1, center: origin, inertia: {zz: Im}}]"
+    body = read_problem(text).robot.bodies[0]
+    assert body.mass.is_zero
+    assert not body.is_point
+
+
 def test_names_of_bodies() -> None:
     robot = read_problem(PLANAR + "masses: [{mass: m1, link: 1}, {name: p, mass: mp, link: 2}]").robot
     assert [body.name for body in robot.bodies] == ["1", "p"]
