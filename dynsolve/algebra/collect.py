@@ -190,7 +190,7 @@ class Collector:
         """What is worth drawing out; of decimals only what all are equal to."""
         if not self.decimal:
             return content(factors)
-        sizes: set[Factor] = {abs(f) for f in factors}
+        sizes: set[Factor] = {f if f > 0 else -f for f in factors}
         return sizes.pop() if len(sizes) == 1 else 1
 
     def _mostly_negative(self, poly: Poly) -> bool:

@@ -150,7 +150,8 @@ class ConstantAngles:
         now: fmpq_mpoly = self.generator
         count = int(angle / self.plan.generator_degrees)
         for _ in range(count - 1):
-            before, now = now, (2 * self.generator * now - before) % relation
+            following: fmpq_mpoly = (2 * self.generator * now - before) % relation
+            before, now = now, following
         return now if count else before
 
     def _simple_cos(self, angle: Fraction, ctx: Any) -> fmpq_mpoly:

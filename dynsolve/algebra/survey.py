@@ -45,14 +45,14 @@ class Survey:
     @property
     def basic_angles(self) -> tuple[Angle, ...]:
         """The basic angles: those that turn with coordinates, symbolic ones, constant ones."""
-        turning = (
-            Angle(tuple(sorted((((n, 1),), r) for n, r in zip(self.coordinates, v, strict=True) if r)))
-            + offset
-            for v, offset in self.turning
-        )
+        turning = (self._linear(vector) + offset for vector, offset in self.turning)
         fixed = (Angle(((atom, rate),)) for atom, rate in self.fixed)
         constant = (Angle((), degrees) for degrees in self.constants.pairs)
         return (*turning, *fixed, *constant)
+
+    def _linear(self, vector: Vector) -> Angle:
+        rates = zip(self.coordinates, vector, strict=True)
+        return Angle(tuple(sorted((((name, 1),), rate) for name, rate in rates if rate)))
 
     def multiples(self, angle: Angle) -> tuple[tuple[int, ...], Fraction]:
         """(integer multiples of the basic angles, degrees left over) that make up an angle.
