@@ -40,7 +40,12 @@ CASES = [
         [q1, q1 + q2],
     ),
     ("absolute coordinates", [turn(q1), turn(q2 - q1), turn(q3 - q2)], False, [q1, q2, q3]),
-    ("an offset", [turn(q1 + degrees(90)), turn(q2 - degrees(90))], False, [q1, q1 + q2]),
+    (
+        "an offset",
+        [turn(q1 + degrees(90)), turn(q2 - degrees(60))],
+        False,
+        [q1 + degrees(90), q1 + q2 + degrees(30)],
+    ),
     ("turned over twice", [turn(q1, 180), turn(q2, 180), turn(q3)], False, [q1, q1 - q2, q1 - q2 + q3]),
 ]
 
