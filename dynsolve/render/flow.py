@@ -1,0 +1,248 @@
+"""Formulas as pieces between which a line may end, and the best lines for a width.
+
+What is a piece, and how wide it is, does not depend on the notation: a `Notation`
+gives the text of a tree and a few signs, this module says where they may be parted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from dynsolve.notation.extent import BINARY, PARENTHESIS, RELATION, Ruler
+from dynsolve.notation.tree import (
+    Cross,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Relation,
+    Row,
+    Sum,
+)
+from dynsolve.render.boxes import holds_matrix
+
+RELATION_BREAK, SUM_BREAK, FACTOR_BREAK = 0, 1, 3
+"""How deep a place to break lies, within one level of parentheses."""
+
+_DEEPER = 2
+_FINE = 11.0
+"""Terms and factors that are narrower than this, in em, stay whole."""
+
+
+@dataclass(frozen=True, slots=True)
+class Notation:
+    """How a notation writes what a formula is made of.
+
+    `plus`, `minus` and `relation` are signs between two parts, `lead` a minus before
+    the first term; `opened` and `closed` are parentheses of a fixed size that may
+    stand on different lines (`closed` takes an exponent), around a text they fit;
+    `joined` puts texts side by side.
+    """
+
+    text: Callable[[Node], str]
+    plus: str
+    minus: str
+    lead: str
+    relation: Callable[[str], str]
+    opened: Callable[[str], str]
+    closed: Callable[[str, Node | None], str]
+    joined: Callable[[Sequence[str]], str]
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A part of a formula that is not broken; `depth` says how deep the place before it lies."""
+
+    text: str
+    width: float
+    depth: int = 0
+
+
+@dataclass(slots=True)
+class _Builder:
+    joined: Callable[[Sequence[str]], str]
+    texts: list[list[str]] = field(default_factory=lambda: [[]])
+    widths: list[float] = field(default_factory=lambda: [0.0])
+    depths: list[int] = field(default_factory=lambda: [0])
+
+    def add(self, text: str, width: float) -> None:
+        self.texts[-1].append(text)
+        self.widths[-1] += width
+
+    def gap(self, depth: int) -> None:
+        """Here a line may end."""
+        if self.texts[-1]:
+            self.texts.append([])
+            self.widths.append(0.0)
+            self.depths.append(depth)
+
+    def pieces(self) -> Iterator[Piece]:
+        for texts, width, depth in zip(self.texts, self.widths, self.depths, strict=True):
+            if texts:
+                yield Piece(self.joined(texts), width, depth)
+
+
+class Flow:
+    """Takes formulas apart into pieces."""
+
+    def __init__(self, notation: Notation, ruler: Ruler) -> None:
+        self.notation = notation
+        self.ruler = ruler
+
+    def pieces(self, node: Node, sign: str = "") -> list[Piece]:
+        """The pieces of a formula, with a sign of a relation before it."""
+        builder = _Builder(self.notation.joined)
+        if sign:
+            builder.add(self.notation.relation(sign), RELATION)
+        self._put(builder, node, 0)
+        return list(builder.pieces())
+
+    def chain(self, parts: Sequence[Node]) -> list[Piece]:
+        """`= part = part`, which may be broken at each sign."""
+        builder = _Builder(self.notation.joined)
+        for part in parts:
+            builder.gap(RELATION_BREAK)
+            builder.add(self.notation.relation("="), RELATION)
+            self._put(builder, part, 0)
+        return list(builder.pieces())
+
+    def _put(self, builder: _Builder, node: Node, level: int) -> None:
+        match node:
+            case Relation(parts, signs) if holds_matrix(node) or self._is_wide(node):
+                self._put(builder, parts[0], level)
+                for sign, part in zip(signs, parts[1:], strict=True):
+                    builder.gap(level + RELATION_BREAK)
+                    builder.add(self.notation.relation(sign), RELATION)
+                    self._put(builder, part, level)
+            case Sum(terms) if terms:
+                self._sum(builder, terms, level)
+            case Negative(argument):
+                builder.add(self.notation.lead, 0.78)
+                self._factor(builder, argument, level)
+            case Row(parts):
+                for part in parts:
+                    self._put(builder, part, level)
+            case _ if not (self._is_wide(node) or holds_matrix(node)):
+                builder.add(self.notation.text(node), self.ruler.width(node))
+            case Product(factors) if factors:
+                self._product(builder, factors, level)
+            case Quotient(numerator, denominator) if not isinstance(numerator, Number):
+                builder.add(
+                    self.notation.text(Quotient(Number(1), denominator)), self.ruler.width(denominator) + 0.4
+                )
+                if isinstance(numerator, Product):
+                    self._product(builder, numerator.factors, level)
+                else:
+                    self._factor(builder, numerator, level)
+            case Power(base, exponent) if isinstance(base, Sum | Parenthesized):
+                inner = base.argument if isinstance(base, Parenthesized) else base
+                self._enclosed(builder, inner, level, exponent)
+            case Parenthesized(argument):
+                self._enclosed(builder, argument, level)
+            case Cross(left, right):
+                self._factor(builder, left, level)
+                builder.gap(level + FACTOR_BREAK)
+                builder.add(self.notation.relation("×"), BINARY)
+                self._factor(builder, right, level)
+            case _:
+                builder.add(self.notation.text(node), self.ruler.width(node))
+
+    def _sum(self, builder: _Builder, terms: Sequence[Node], level: int) -> None:
+        whole = level > 0 and not self._is_wide(Sum(tuple(terms)))
+        for i, term in enumerate(terms):
+            negative = isinstance(term, Negative)
+            if i:
+                if not whole:
+                    builder.gap(level + SUM_BREAK)
+                builder.add(self.notation.minus if negative else self.notation.plus, BINARY)
+            elif negative:
+                builder.add(self.notation.lead, 0.78)
+            inner = term.argument if isinstance(term, Negative) else term
+            if isinstance(inner, Sum):
+                self._enclosed(builder, inner, level)
+            else:
+                self._put(builder, inner, level)
+
+    def _product(self, builder: _Builder, factors: Sequence[Node], level: int) -> None:
+        """Narrow factors together, wide ones taken apart."""
+        narrow: list[Node] = []
+        for i, factor in enumerate(factors):
+            if holds_matrix(factor) or self._is_wide(factor):
+                self._together(builder, narrow)
+                narrow = []
+                if i:
+                    builder.gap(level + FACTOR_BREAK)
+                self._factor(builder, factor, level)
+            else:
+                narrow.append(factor)
+        self._together(builder, narrow)
+
+    def _together(self, builder: _Builder, factors: Sequence[Node]) -> None:
+        if factors:
+            node = factors[0] if len(factors) == 1 else Product(tuple(factors))
+            if len(factors) == 1 and isinstance(node, Sum):
+                node = Parenthesized(node)
+            builder.add(self.notation.text(node), self.ruler.width(node))
+
+    def _factor(self, builder: _Builder, node: Node, level: int) -> None:
+        if isinstance(node, Sum | Negative | Relation):
+            self._enclosed(builder, node, level)
+        else:
+            self._put(builder, node, level)
+
+    def _enclosed(self, builder: _Builder, node: Node, level: int, exponent: Node | None = None) -> None:
+        size = self.notation.text(node) if not self._is_huge(node) else ""
+        builder.add(self.notation.opened(size), PARENTHESIS)
+        self._put(builder, node, level + _DEEPER)
+        builder.add(
+            self.notation.closed(size, exponent),
+            PARENTHESIS + (0.0 if exponent is None else self.ruler.index(exponent)),
+        )
+
+    def _is_wide(self, node: Node) -> bool:
+        return self.ruler.width(node) > _FINE
+
+    def _is_huge(self, node: Node) -> bool:
+        return self.ruler.width(node) > 100 * _FINE
+
+
+_DEPTH_COST = 0.35
+_OVERFULL = 1e4
+
+
+def lines(pieces: Sequence[Piece], first: float, rest: float) -> list[list[Piece]]:
+    """The pieces in lines, the first `first` em wide, the others `rest`: as even and as shallow as can be.
+
+    >>> parts = [Piece("a", 4), Piece("+b", 4, 1), Piece("(+c", 4, 3), Piece("+d", 4, 1)]
+    >>> [[piece.text for piece in line] for line in lines(parts, 12, 12)]
+    [['a', '+b'], ['(+c', '+d']]
+    """
+    n = len(pieces)
+    best = [0.0] * (n + 1)
+    following = [n] * (n + 1)
+    for i in range(n - 1, -1, -1):
+        room = first if i == 0 else rest
+        width, found = 0.0, float("inf")
+        for j in range(i + 1, n + 1):
+            width += pieces[j - 1].width
+            cost = best[j] + 1.0
+            if width > room:
+                cost += _OVERFULL * (width - room)
+            elif j < n:
+                cost += ((room - width) / room) ** 2
+            if j < n:
+                cost += _DEPTH_COST * pieces[j].depth
+            if cost < found:
+                found, following[i] = cost, j
+            if width > room:
+                break
+        best[i] = found
+    broken, i = [], 0
+    while i < n:
+        broken.append(list(pieces[i : following[i]]))
+        i = following[i]
+    return broken

@@ -1,0 +1,34 @@
+"""Numbers of equations: every named result of a document, in order."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from dynsolve.document import Block, Document, Fold, Formula, Heading
+
+
+def numbered(document: Document) -> dict[str, int]:
+    """The number of each labelled formula, from 1."""
+    labels = dict.fromkeys(f.label for f in formulas(document.blocks) if f.label)
+    return {label: number for number, label in enumerate(labels, start=1)}
+
+
+def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:
+    """The displayed formulas, those in folds too."""
+    for block in blocks:
+        if isinstance(block, Formula):
+            yield block
+        elif isinstance(block, Fold):
+            yield from formulas(block.blocks)
+
+
+def slug(document: Document) -> str:
+    """A short name of a document, of letters, digits and `-`, for labels and anchors.
+
+    >>> slug(Document((Heading("RP manipulator, 2nd", 1),)))
+    'rp-manipulator-2nd'
+    """
+    titles = (block.text for block in document.blocks if isinstance(block, Heading))
+    words = re.findall(r"[a-z0-9]+", next(titles, "").lower())
+    return "-".join(words)[:40].strip("-") or "robot"

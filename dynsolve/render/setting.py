@@ -1,0 +1,132 @@
+"""Displayed formulas set to a width in em, in any notation: lines that are level at one place.
+
+A formula that fits stands on one line.  Otherwise each member of a chain of equations
+has its own lines, and a matrix that is too wide is given entry by entry.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from dynsolve.document import Formula
+from dynsolve.notation.extent import RELATION, Ruler
+from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation, Row, Symbol, Words
+from dynsolve.render.boxes import holds_matrix
+from dynsolve.render.flow import Flow, Notation, Piece, lines
+
+INDENT = 2.0
+"""How far a line is moved in that goes on with a member, in em."""
+
+_LONGEST_LEFT = 0.3
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """`left` stands right-aligned before the place where lines are level, `right` after it."""
+
+    left: str
+    right: str
+    indented: bool = False
+
+
+class Setter:
+    """Sets formulas in `room` em."""
+
+    def __init__(self, notation: Notation, ruler: Ruler, room: float) -> None:
+        self.notation = notation
+        self.ruler = ruler
+        self.room = room
+        self.flow = Flow(notation, ruler)
+
+    def set(self, formula: Formula) -> list[Line]:
+        """The lines of a formula; none where it is optional and its matrices do not fit."""
+        if self.ruler.width(formula.node) <= self.room:
+            return [Line("", self.notation.text(formula.node))]
+        if formula.optional and self._is_too_wide(formula.node):
+            return []
+        return list(self._parts(formula.node, formula))
+
+    def _is_too_wide(self, node: Node) -> bool:
+        """Whether a part that cannot be broken is wider than the page."""
+        return holds_matrix(node) and any(
+            piece.width > self.room - INDENT for piece in self.flow.pieces(node)
+        )
+
+    def _parts(self, node: Node, formula: Formula) -> Iterator[Line]:
+        """Formulas that stand side by side with commas get their own lines."""
+        if isinstance(node, Row):
+            for part in _listed(node):
+                yield from self._parts(part, formula)
+        elif isinstance(node, Relation) and self.ruler.width(node) > self.room:
+            yield from self._chain(node, formula)
+        elif isinstance(node, Matrix) and self.ruler.width(node) > self.room:
+            yield from self._entries(node, None, formula)
+        else:
+            yield from self._broken(self.flow.pieces(node), self.room, self.room - INDENT)
+
+    def _chain(self, node: Relation, formula: Formula) -> Iterator[Line]:
+        left, *members = node.parts
+        width = self.ruler.width(left)
+        beside = width <= _LONGEST_LEFT * self.room
+        if not beside:
+            yield from self._broken(self.flow.pieces(left), self.room, self.room - INDENT)
+        room = self.room - (width if beside else INDENT)
+        name = self.notation.text(left) if beside else ""
+        for sign, member in zip(node.signs, members, strict=True):
+            if isinstance(member, Matrix) and self.ruler.width(member) + RELATION > room:
+                yield from self._entries(member, left, formula)
+                name = ""
+                continue
+            pieces = self.flow.pieces(member, sign)
+            for i, line in enumerate(lines(pieces, room, room - INDENT)):
+                yield Line(name, self._text(line), i > 0 or not beside)
+                name = ""
+
+    def _broken(self, pieces: Sequence[Piece], first: float, rest: float) -> Iterator[Line]:
+        for i, line in enumerate(lines(pieces, first, rest)):
+            yield Line("", self._text(line), i > 0)
+
+    def _text(self, line: Sequence[Piece]) -> str:
+        return self.notation.joined([piece.text for piece in line])
+
+    # -- matrices that are given entry by entry ----------------------------------------------------
+
+    def _entries(self, matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[Line]:
+        """`d_12 = ...` for each entry; equal ones in one chain, those that are 0 last."""
+        chains: dict[Node, list[Node]] = {}
+        for i, row in enumerate(matrix.rows):
+            for j, entry in enumerate(row):
+                chains.setdefault(entry, []).append(entry_name(i, j, matrix, left, formula))
+        zeros = chains.pop(Number(0), [])
+        for value, names in [*chains.items(), *([(Number(0), zeros)] if zeros else [])]:
+            room = self.room - self.ruler.width(names[0])
+            pieces = self.flow.chain([*names[1:], value])
+            for i, line in enumerate(lines(pieces, room, room - INDENT)):
+                yield Line("" if i else self.notation.text(names[0]), self._text(line), i > 0)
+
+
+def _listed(row: Row) -> Iterator[Node]:
+    """The parts of a row between its commas."""
+    part: list[Node] = []
+    for node in row.parts:
+        if isinstance(node, Words) and node.text.strip() == ",":
+            yield part[0] if len(part) == 1 else Row(tuple(part))
+            part = []
+        else:
+            part.append(node)
+    if part:
+        yield part[0] if len(part) == 1 else Row(tuple(part))
+
+
+def entry_name(i: int, j: int, matrix: Matrix, left: Node | None, formula: Formula) -> Node:
+    """The name of an entry: given, or the letter on the left with the entry's place."""
+    if len(formula.entries) == len(matrix.rows) and len(formula.entries[i]) == len(matrix.rows[i]):
+        return formula.entries[i][j]
+    place: list[Node] = [Number(i + 1)] if len(matrix.rows[0]) == 1 else [Number(i + 1), Number(j + 1)]
+    if isinstance(left, Letter):
+        index = [left.sub, Words(","), *place] if left.sub else place
+        return Letter(left.base, Row(tuple(index)), left.sup, dots=left.dots)
+    if isinstance(left, Symbol):
+        return Row((left, Words(", "), *place))
+    return Row((Words("["), *place, Words("]")))

@@ -1,0 +1,87 @@
+"""Text as it may stand in any document: what is seen, and the mathematics among it as formulas.
+
+Words come from two sides: from the explanations, which write A₁, θ and q̇ in Unicode,
+and from problem files, where a title may hold anything.  Control characters and
+marks of direction are left out, for no notation may be steered by a title.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterator
+
+from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS
+from dynsolve.notation.tree import Letter, Node, Number, Row, Symbol, Words
+
+_SPELLED = {letter: name for name, letter in GREEK.items()}
+_SUBSCRIPTS = dict(zip(SUBSCRIPT_DIGITS + "ᵢⱼₖₙ₋", "0123456789ijkn-", strict=True))
+_SUPERSCRIPTS = dict(zip(SUPERSCRIPT_DIGITS + "ⁱⁿᵀ", "0123456789inT", strict=True))
+_DOTS = {"\u0307": 1, "\u0308": 2}
+_SCRIPTS = {"𝓘": "I", "𝓛": "L", "𝒦": "K", "𝒫": "P"}
+_DOTTED = {"Ḋ": "D", "ẋ": "x", "ẏ": "y", "ż": "z"}
+_GREEK_LETTERS = "".join(_SPELLED)
+
+_FORMULA = re.compile(
+    rf"(?P<base>[A-Za-z{_GREEK_LETTERS}{''.join(_SCRIPTS)}{''.join(_DOTTED)}])"
+    rf"(?P<dots>[{''.join(_DOTS)}]?)"
+    rf"(?P<sub>[{''.join(_SUBSCRIPTS)}]*)"
+    rf"(?P<sup>[{''.join(_SUPERSCRIPTS)}]*)"
+)
+_SPOKEN = re.compile(r"(?<![^\W_])" + _FORMULA.pattern + r"(?![^\W_])")
+
+
+def visible(text: str) -> str:
+    """The text without characters that are not seen: controls, marks of direction, strays.
+
+    >>> visible("RP\\u202e\\tarm")
+    'RP arm'
+    """
+    text = unicodedata.normalize("NFC", text)
+    if text.isprintable():
+        return text
+    return "".join(filter(None, map(_seen, text)))
+
+
+def _seen(character: str) -> str:
+    if character.isprintable():
+        return character
+    kind = unicodedata.category(character)
+    if kind == "Cf":
+        return ""
+    return " " if kind[0] in "ZC" and kind not in ("Cs", "Cn", "Co") else "\ufffd"
+
+
+def spoken(text: str) -> Iterator[str | Node]:
+    """Words of an explanation, the mathematics in them as formulas: A₁, θ, q̇.
+
+    >>> list(spoken("Row 1: A₁"))
+    ['Row 1: ', Letter(base='A', sub=Number(p=1, q=1), sup=None, style='italic', dots=0)]
+    """
+    place = 0
+    for found in _SPOKEN.finditer(text):
+        if found["base"].isascii() and not (found["dots"] or found["sub"] or found["sup"]):
+            continue
+        if place < found.start():
+            yield text[place : found.start()]
+        yield _formula(found)
+        place = found.end()
+    if place < len(text):
+        yield text[place:]
+
+
+def _formula(found: re.Match[str]) -> Node:
+    base = found["base"]
+    style = "script" if base in _SCRIPTS else "italic"
+    dots = _DOTS.get(found["dots"], 1 if base in _DOTTED else 0)
+    letter = _DOTTED.get(base) or _SCRIPTS.get(base) or _SPELLED.get(base) or base
+    return Letter(letter, _index(found["sub"], _SUBSCRIPTS), _index(found["sup"], _SUPERSCRIPTS), style, dots)
+
+
+def _index(text: str, table: dict[str, str]) -> Node | None:
+    if not text:
+        return None
+    parts: list[Node] = []
+    for run in re.findall(r"\d+|\D", "".join(table[character] for character in text)):
+        parts.append(Number(int(run)) if run.isdecimal() else Words(run) if run == "-" else Symbol(run))
+    return parts[0] if len(parts) == 1 else Row(tuple(parts))
