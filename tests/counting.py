@@ -11,6 +11,9 @@ def operations(entries: Any, inside_functions: bool = True) -> int:
 
     Without `inside_functions`, as one counts the terms of a book: `+ - * /` and
     powers, and neither functions nor what stands in them.
+
+    >>> operations("-m1*l1**2*cos(q1 + q2)/2"), operations("-m1*l1**2*cos(q1 + q2)/2", inside_functions=False)
+    (7, 5)
     """
     if not isinstance(entries, str):
         return sum(operations(entry, inside_functions) for entry in entries)

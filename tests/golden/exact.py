@@ -51,7 +51,11 @@ class _Exact(ast.NodeTransformer):
 
 
 def exact(entries: Any, values: Mapping[str, Any]) -> Any:
-    """A string, or nested lists of strings, at an exact state."""
+    """A string, or nested lists of strings, at an exact state.
+
+    >>> exact("2*sin(q1 + q2)*cos(q1)/3", {"q1": Turn.of(Fraction(1, 2)), "q2": Turn.of(Fraction(1))})
+    Fraction(6, 25)
+    """
     if not isinstance(entries, str):
         return [exact(entry, values) for entry in entries]
     tree = ast.fix_missing_locations(_Exact().visit(ast.parse(entries, mode="eval")))
