@@ -136,7 +136,7 @@ class ConstantAngles:
         if rest % _FIFTEEN == 0:
             return self._simple_cos(rest, ctx), self._simple_cos(_QUARTER - rest, ctx)
         small = min(rest, _QUARTER - rest)
-        for i, shared in enumerate(self.plan.pairs):
+        for i, shared in reversed(list(enumerate(self.plan.pairs))):  # the fewest turns
             if (small / shared).denominator == 1:
                 c, s = self.pair(i, int(small / shared))
                 return (c, s) if small == rest else (s, c)
@@ -146,13 +146,11 @@ class ConstantAngles:
         """cos of a multiple of δ, by Chebyshev's recursion T_{k+1} = 2x T_k - T_{k-1}."""
         assert self.generator is not None and self.plan.generator_degrees is not None
         relation, _ = self.relation(self.generator)
-        before: fmpq_mpoly = ctx.constant(1)
-        now: fmpq_mpoly = self.generator
+        values: list[fmpq_mpoly] = [ctx.constant(1), self.generator]
         count = int(angle / self.plan.generator_degrees)
         for _ in range(count - 1):
-            following: fmpq_mpoly = (2 * self.generator * now - before) % relation
-            before, now = now, following
-        return now if count else before
+            values.append((2 * self.generator * values[-1] - values[-2]) % relation)
+        return values[count]
 
     def _simple_cos(self, angle: Fraction, ctx: Any) -> fmpq_mpoly:
         match int(angle):

@@ -235,6 +235,10 @@ class Ring:
             c, s = self.reduce(c * c1 - s * s1), self.reduce(s * c1 + c * s1)
         return c, (s if times > 0 else -s)
 
+    def multiples(self, angle: Angle) -> tuple[int, ...]:
+        """The integer multiples of the basic angles, one a pair, that make up an angle but for a constant."""
+        return self._plan.multiples(angle)[0]
+
     def expr(self, node: Node) -> Expr:
         """The exact value of a tree; see `algebra.from_tree`."""
         return value_of(self, node)
