@@ -38,10 +38,9 @@ def _run(words: Sequence[str], traceback: bool) -> int:
     try:
         code = app()(list(words), prog_name="dynsolve", standalone_mode=False)
         sys.stdout.flush()
-        return int(code or ExitCode.DONE)
+        return _ended(int(code or ExitCode.DONE))
     except (KeyboardInterrupt, typer.Abort):
-        _say("interrupted")
-        return ExitCode.INTERRUPTED
+        return _ended(ExitCode.INTERRUPTED)
     except BrokenPipeError:
         return _reader_left()
     except SystemExit as end:  # Click's own way to end when the reader of the output has left
@@ -49,7 +48,7 @@ def _run(words: Sequence[str], traceback: bool) -> int:
             raise
         return _reader_left()
     except typer.Exit as end:
-        return int(end.exit_code)
+        return _ended(int(end.exit_code))
     except _ClickError as error:
         error.show()
         return ExitCode.USAGE
@@ -64,6 +63,12 @@ def _run(words: Sequence[str], traceback: bool) -> int:
         what = " ".join(f"{type(error).__name__}: {error}".split())
         _say(f"internal error: {what} (run again with {TRACEBACK} to see where)")
         return ExitCode.FAILED
+
+
+def _ended(code: int) -> int:
+    if code == ExitCode.INTERRUPTED:
+        _say("interrupted")
+    return code
 
 
 def app() -> typer.Typer:

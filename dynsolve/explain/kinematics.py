@@ -209,6 +209,7 @@ def _row(course: Course, joint: Joint) -> Step:
         stage=STAGE,
         title=f"Row {i} of the table: A{lowered(str(i))}",
         why=why,
+        source=shv("3.2") if course.standard else craig("3.4"),
         working=(given, *_folded(course, joint)),
         result=(equation(letters.A(i), course.form(f"A{i}")),),
     )
@@ -240,6 +241,7 @@ def _frame(course: Course, i: int) -> Step:
             stage=STAGE,
             title="Frame 1 seen from the base",
             why=("The first frame is seen from frame 0 itself, so no product is needed.",),
+            source=shv("3.1"),
             result=(equation(name, letters.A(1), H),),
             detail=detail,
         )

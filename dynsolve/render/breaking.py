@@ -76,7 +76,7 @@ def wrap(text: str, first: int, rest: int) -> list[str]:
     """Wrap prose; hard spaces are no places to break, unless the formula alone is too wide."""
     lines: list[str] = []
     line, room = "", first
-    for word in text.split():
+    for word in filter(None, text.replace("\n", " ").split(" ")):
         for piece in _fitting(word, rest):
             joined = f"{line} {piece}" if line else piece
             if line and width(joined) > room:

@@ -1,0 +1,188 @@
+"""The commands as a user runs them: output, pipes, colour, help."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from dynsolve.notation.unicode import width
+from tests.cli.running import ROOT, dynsolve, environment, in_terminal
+
+COMMANDS = ["solve", "lint", "new", "schema", "problems"]
+
+
+def test_help_lists_every_command_with_its_help() -> None:
+    ran = dynsolve("--help")
+    assert ran.code == 0 and not ran.err
+    for command in COMMANDS:
+        (line,) = (line for line in ran.out.splitlines() if line.startswith(f"  {command} "))
+        assert line.rstrip().endswith(".") and "..." not in line
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help(command: str) -> None:
+    ran = dynsolve(command, "--help")
+    assert ran.code == 0
+    assert f"Usage: dynsolve {command}" in ran.out
+    assert dynsolve(command, "-h").out == ran.out
+
+
+def test_version() -> None:
+    import dynsolve as package
+
+    assert dynsolve("--version").out == f"dynsolve {package.__version__}\n"
+
+
+def loaded_by(*words: str) -> set[str]:
+    code = (
+        "import sys; from dynsolve.cli.main import _run; "
+        f"_run({list(words)!r}, True); print(*sys.modules, file=sys.stderr)"
+    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, cwd=ROOT, text=True, check=True, env=environment())
+    return set(done.stderr.split())
+
+
+def test_help_loads_nothing_heavy() -> None:
+    assert not loaded_by("--help") & {"sympy", "numpy", "rich", "flint", "yaml"}
+
+
+@pytest.mark.parametrize(
+    "words", [["schema"], ["new", "-"], ["lint", "planar-2r"], ["solve", "planar-2r"]], ids=" ".join
+)
+def test_a_command_in_a_pipe_needs_neither_sympy_nor_numpy_nor_rich(words: list[str]) -> None:
+    assert not loaded_by(*words) & {"sympy", "numpy", "rich"}
+
+
+def test_solve_prints_the_whole_derivation_in_plain_text() -> None:
+    ran = dynsolve("solve", "problems/in3140-rp.yaml")
+    assert ran.code == 0 and not ran.err
+    assert "\x1b" not in ran.out
+    assert ran.out.startswith("RP manipulator\n")
+    assert "    τ₁ = (m₂ L₂² + I_1zz) θ̈₁ + 2m₂ L₂ θ̇₁ L̇₂\n" in ran.out
+    (verified,) = (line for line in ran.out.splitlines() if line.startswith("Verified:"))
+    assert "recursive Newton-Euler at 5 random states" in verified
+
+
+def test_a_stem_names_a_bundled_problem_from_anywhere(tmp_path: Path) -> None:
+    ran = dynsolve("solve", "in3140-rp", "--detail", "brief", cwd=tmp_path, PYTHONPATH=str(ROOT))
+    assert ran.code == 0 and ran.out.startswith("RP manipulator\n")
+
+
+def test_standard_input() -> None:
+    text = (ROOT / "problems" / "planar-2r.yaml").read_text()
+    assert dynsolve("solve", "-", stdin=text).out == dynsolve("solve", "planar-2r").out
+
+
+def test_json_is_one_object_a_line_in_the_format_of_the_contract() -> None:
+    ran = dynsolve("solve", "planar-2r", "in3140-rp", "--json")
+    first, second = (json.loads(line) for line in ran.out.splitlines())
+    assert first["format"] == second["format"] == "dynsolve-solution/1"
+    assert first["results"]["D"][1] == ["m2*(lc2**2 + l1*lc2*cos(q2)) + I2", "m2*lc2**2 + I2"]
+    assert second["coordinates"][1] == {
+        "name": "L2",
+        "type": "prismatic",
+        "velocity": "L2_dot",
+        "acceleration": "L2_ddot",
+        "force": "f2",
+    }
+    assert second["results"]["tau"][1] == "m2*L2_ddot - m2*L2*theta1_dot**2"
+    assert second["verified"]["states"] == 5 and second["verified"]["max_relative_error"] < 1e-12
+
+
+def test_json_has_every_key_of_the_contract() -> None:
+    solution = json.loads(dynsolve("solve", "in3140-rp", "--json").out)
+    assert list(solution) == ["format", "problem", "coordinates", "results", "steps", "verified"]
+    assert {"A", "H", "Jv", "Jw", "bodies", "P", "K", "L", "euler_lagrange", "tau", "D", "C", "g"} == set(
+        solution["results"]
+    )
+    body = {"name", "r_c", "R", "Jv", "Jw", "v", "w", "I_body", "I_base", "P", "Kv", "Kw", "K"}
+    assert all(set(entry) == body for entry in solution["results"]["bodies"])
+    assert set(solution["results"]["euler_lagrange"][0]) == {"dL_dqdot", "ddt", "dL_dq", "force"}
+    assert all({"id", "stage", "title", "why", "latex", "text"} <= set(step) for step in solution["steps"])
+
+
+def test_one_stage() -> None:
+    out = dynsolve("solve", "planar-2r", "--stage", "torque").out
+    assert "6. The Euler-Lagrange equations" in out and "1. Forward kinematics" not in out
+
+
+def test_from_and_to() -> None:
+    out = dynsolve("solve", "planar-2r", "--from", "energy", "--to", "lagrangian").out
+    headings = [
+        line for line in out.splitlines() if line[:2] in {f"{i}." for i in range(1, 8)} and line[2] == " "
+    ]
+    assert headings == ["4. Potential and kinetic energy", "5. The Lagrangian"]
+
+
+def test_levels_of_detail_differ_in_length() -> None:
+    brief, normal, full = (
+        len(dynsolve("solve", "planar-2r", "--detail", level).out) for level in ("brief", "normal", "full")
+    )
+    assert brief < normal / 2 < normal < full
+
+
+def test_a_terminal_has_colour_and_its_own_width() -> None:
+    ran = in_terminal("solve", "in3140-rp", columns=72)
+    assert ran.code == 0 and "\x1b[1m" in ran.out
+    plain = in_terminal("solve", "in3140-rp", columns=72, NO_COLOR="1")
+    assert "\x1b" not in plain.out
+    assert max(map(width, plain.out.splitlines())) <= 72
+
+
+def test_colour_changes_no_text() -> None:
+    import re
+
+    coloured = in_terminal("solve", "planar-2r")
+    plain = in_terminal("solve", "planar-2r", NO_COLOR="1")
+    assert re.sub(r"\x1b\[[0-9;]*m", "", coloured.out) == plain.out
+
+
+def test_whoever_stops_reading_gets_no_complaint() -> None:
+    with subprocess.Popen(
+        [sys.executable, "-m", "dynsolve", "solve", "puma560-first3"],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, env=environment(),
+    ) as process:  # fmt: skip
+        assert process.stdout is not None and process.stderr is not None
+        process.stdout.readline()
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 0
+
+
+def test_new_writes_a_problem_that_solves(tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    assert dynsolve("new", str(file)).code == 0
+    assert dynsolve("solve", str(file), "--detail", "brief").code == 0
+    again = dynsolve("new", str(file))
+    assert again.code == 2 and "--force overwrites it" in again.err
+    assert dynsolve("new", str(file), "--force").code == 0
+
+
+def test_new_says_why_it_cannot_write(tmp_path: Path) -> None:
+    ran = dynsolve("new", str(tmp_path / "no" / "such" / "folder.yaml"))
+    assert ran.code == 2 and "cannot be written" in ran.err
+
+
+def test_schema_is_a_json_schema() -> None:
+    jsonschema.Draft202012Validator.check_schema(json.loads(dynsolve("schema").out))
+
+
+def test_problems_are_listed_and_printed() -> None:
+    listed = dynsolve("problems").out
+    assert "in3140-rp " in listed and "RP manipulator" in listed
+    assert dynsolve("problems", "in3140-rp").out == (ROOT / "problems" / "in3140-rp.yaml").read_text()
+
+
+def test_lint_of_a_clean_file_finds_nothing() -> None:
+    ran = dynsolve("lint", "in3140-rp", "planar-2r")
+    assert ran.code == 0 and not ran.out
+
+
+def test_completion_is_offered() -> None:
+    assert "_DYNSOLVE_COMPLETE=complete_bash" in dynsolve("--show-completion", "bash", SHELL="/bin/bash").out

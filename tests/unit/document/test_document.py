@@ -1,0 +1,74 @@
+"""Documents are data: frozen, comparable, free of markup."""
+
+from __future__ import annotations
+
+from dataclasses import FrozenInstanceError, fields, is_dataclass
+from typing import get_args
+
+import pytest
+
+import dynsolve
+from dynsolve import document
+from dynsolve.document import Block, Document, Fold, Formula, Heading, Text
+from dynsolve.explain.documents import solution_document
+from dynsolve.explain.step import Detail
+
+
+@pytest.mark.parametrize("kind", get_args(Block), ids=lambda kind: kind.__name__)
+def test_a_block_is_frozen_and_says_what_it_is(kind: type) -> None:
+    assert is_dataclass(kind) and kind.__doc__
+    assert kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
+
+
+def test_a_document_cannot_be_changed() -> None:
+    page = Document((Heading("Energy"),))
+    with pytest.raises(FrozenInstanceError):
+        page.blocks = ()  # type: ignore[misc]
+
+
+def blocks_of(page: Document) -> list[Block]:
+    found: list[Block] = []
+    pending = list(page.blocks)
+    while pending:
+        block = pending.pop(0)
+        found.append(block)
+        pending += block.blocks if isinstance(block, Fold) else ()
+    return found
+
+
+@pytest.fixture(scope="module")
+def solution() -> dynsolve.Solution:
+    return dynsolve.solve("in3140-rp")
+
+
+def test_a_level_of_detail_only_chooses(solution: dynsolve.Solution) -> None:
+    """What is shown in brief is shown in full too, unchanged."""
+    shown = {
+        detail: [
+            block.node
+            for block in blocks_of(solution_document(solution, detail))
+            if isinstance(block, Formula)
+        ]
+        for detail in Detail
+    }
+    for less, more in ((Detail.BRIEF, Detail.NORMAL), (Detail.NORMAL, Detail.FULL)):
+        assert len(shown[less]) < len(shown[more])
+        assert all(node in shown[more] for node in shown[less])
+
+
+def test_stages_keep_their_numbers_when_shown_alone(solution: dynsolve.Solution) -> None:
+    alone = blocks_of(solution_document(solution, stages=["torque"]))
+    assert "6. The Euler-Lagrange equations" in [block.text for block in alone if isinstance(block, Heading)]
+    titles = [block.title for block in alone if isinstance(block, Fold)]
+    assert titles[0].startswith("6.1 ") and all(title.startswith("6.") for title in titles)
+
+
+def test_no_markup_of_a_renderer_in_prose(solution: dynsolve.Solution) -> None:
+    for block in blocks_of(solution_document(solution, Detail.FULL)):
+        if isinstance(block, Text):
+            words = "".join(part for part in block.parts if isinstance(part, str))
+            assert not set("\\<>*{}$") & set(words), words
+
+
+def test_every_name_is_public() -> None:
+    assert {field.name for field in fields(document.Document)} == {"blocks"}

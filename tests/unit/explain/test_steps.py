@@ -1,0 +1,225 @@
+"""Steps: all there, in order, and every sentence true of the robot at hand."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pytest
+
+import dynsolve
+from dynsolve.document import Prose
+from dynsolve.explain.step import STAGES, Detail, Step
+from dynsolve.library import bundled
+from dynsolve.notation.unicode import to_unicode
+
+SMALL = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+
+
+@lru_cache
+def solved(problem: str) -> dynsolve.Solution:
+    return dynsolve.solve(problem)
+
+
+def step(problem: str, id: str) -> Step:
+    (found,) = (step for step in solved(problem).steps if step.id == id)
+    return found
+
+
+def said(prose: Prose, problem: str) -> str:
+    style = solved(problem).style
+    return "".join(part if isinstance(part, str) else to_unicode(part, style) for part in prose)
+
+
+def shown(problem: str, id: str) -> list[str]:
+    return [to_unicode(node, solved(problem).style) for node in step(problem, id).result]
+
+
+def everything_said(problem: str) -> str:
+    parts = [said(text, problem) for step in solved(problem).steps for text in (step.why, *step.notes)]
+    return "\n".join(parts + [step.title for step in solved(problem).steps])
+
+
+@pytest.mark.parametrize("problem", SMALL)
+def test_every_stage_in_the_order_of_the_course(problem: str) -> None:
+    stages = list(dict.fromkeys(step.stage for step in solved(problem).steps))
+    assert stages == list(STAGES)
+
+
+@pytest.mark.parametrize("problem", SMALL)
+def test_a_step_is_named_once_and_says_why(problem: str) -> None:
+    steps = solved(problem).steps
+    assert len({step.id for step in steps}) == len(steps)
+    for each in steps:
+        assert each.title and each.source
+        assert said(each.why, problem).strip().endswith((".", ":")), each.id
+
+
+@pytest.mark.parametrize("problem", SMALL)
+def test_every_quantity_of_the_course_has_its_step(problem: str) -> None:
+    robot = solved(problem).robot
+    wanted = {"dh", "axes", "J", "P", "K", "L", "D", "D_direct", "christoffel", "C", "g", "agreement", "skew"}
+    for joint in robot.joints:
+        wanted |= {f"A{joint.index}", f"H{joint.index}"}
+    for q in robot.coordinates:
+        wanted |= {f"{name}{q.index}" for name in ("J", "dLdqd", "ddt", "dLdq", "tau")}
+    for body in robot.bodies:
+        wanted |= {f"{name}{body.name}" for name in ("rc", "P", "Jv", "v", "Kv", "Kw", "K", "I")}
+        wanted |= set() if body.is_point else {f"I_body{body.name}", f"R{body.name}"}
+    assert wanted <= {step.id for step in solved(problem).steps}
+
+
+def test_the_course_s_manipulator_comes_out_right_where_its_document_slips() -> None:
+    """IN3140 dynamics overview: (22) has cos 2θ_1 for 1, (37) and (41) drop I_1zz and m_2."""
+    assert shown("in3140-rp", "Kv2") == ["K_v2 = m₂ (L₂² θ̇₁² + L̇₂²)/2"]
+    assert shown("in3140-rp", "tau1") == ["τ₁ = (m₂ L₂² + I_1zz) θ̈₁ + 2m₂ L₂ θ̇₁ L̇₂"]
+    assert shown("in3140-rp", "tau2") == ["f₂ = m₂ L̈₂ - m₂ L₂ θ̇₁²"]
+    (note,) = step("in3140-rp", "Kv2").notes
+    assert "s₁² + c₁² = 1" in said(note, "in3140-rp")
+
+
+def test_a_row_of_the_table_is_put_into_the_general_matrix() -> None:
+    working = [to_unicode(node, solved("in3140-rp").style) for node in step("in3140-rp", "A1").working]
+    assert working == [
+        "θ = θ₁⋆ + 90°, d = L₁, a = 0, α = 90°",
+        "cos(θ₁⋆ + 90°) = -s₁, sin(θ₁⋆ + 90°) = c₁, cos(90°) = 0, sin(90°) = 1",
+    ]
+
+
+def test_every_christoffel_symbol_is_shown_or_named_as_zero() -> None:
+    for problem in ("in3140-rp", "planar-2r", "puma560-first3"):
+        each = step(problem, "christoffel")
+        n = solved(problem).robot.n
+        text = "\n".join(shown(problem, "christoffel")) + "".join(said(note, problem) for note in each.notes)
+        lowered = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+        for i in range(1, n + 1):
+            for j in range(i, n + 1):
+                for k in range(1, n + 1):
+                    assert f"c{i}{j}{k}".translate(lowered) in text
+
+
+def test_christoffel_symbols_by_the_slopes_that_are_not_zero() -> None:
+    assert shown("planar-2r", "christoffel") == [
+        "c₁₂₁ = c₂₁₁ = ½ ∂d₁₁/∂q₂ = -m₂ l₁ l_c2 s₂",
+        "c₂₂₁ = ∂d₁₂/∂q₂ = -m₂ l₁ l_c2 s₂",
+        "c₁₁₂ = -½ ∂d₁₁/∂q₂ = m₂ l₁ l_c2 s₂",
+    ]
+
+
+def test_an_arm_that_only_slides_is_not_said_to_turn() -> None:
+    text = everything_said("cartesian-pp")
+    assert "revolute" not in text and "an angle" not in text and "torque is" not in text
+    assert "lengths (prismatic joints)" in text
+    assert "D is constant, so every Christoffel symbol is zero." in text
+    assert "is a length, so what drives it is a force." in text
+
+
+def test_an_arm_that_only_turns_is_not_said_to_slide() -> None:
+    text = everything_said("planar-2r")
+    assert "prismatic" not in text and "a force." not in text
+
+
+def test_the_convention_in_play_is_the_one_explained() -> None:
+    assert "the axis of its own frame" in everything_said("rp-vertical")
+    assert "the axis of the frame before it" not in everything_said("rp-vertical")
+    assert "the axis of the frame before it" in everything_said("planar-2r")
+    assert step("rp-vertical", "A").source == "Craig 3.4"
+
+
+def test_a_point_mass_is_said_to_have_no_rotational_energy() -> None:
+    assert "Skipped: a point mass" in said(step("in3140-rp", "Kw2").why, "in3140-rp")
+    assert shown("in3140-rp", "Kw2") == ["K_ω2 = 0"]
+    assert not {f"R{b}" for b in "2"} & {step.id for step in solved("in3140-rp").steps}
+
+
+def test_columns_after_the_link_of_a_body_are_zero_and_said_to_be() -> None:
+    assert "the column of q₂ is zero." in said(step("planar-2r", "Jv1").why, "planar-2r")
+    assert "zero" not in said(step("planar-2r", "Jv2").why, "planar-2r")
+
+
+def test_a_pitfall_is_told_once() -> None:
+    told = [said(note, "planar-2r") for each in solved("planar-2r").steps for note in each.notes]
+    assert sum("is not the origin" in note for note in told) == 1
+    assert sum("Frame 2 is the one to take" in note for note in told) == 1
+
+
+def test_a_centre_on_the_origin_is_not_said_to_be_elsewhere() -> None:
+    assert not any("is not the origin" in text for text in everything_said("cartesian-pp").splitlines())
+    assert "at the far end of link 2, o₂" in said(step("cartesian-pp", "rc2").why, "cartesian-pp")
+
+
+COUPLED = """
+dh: [{theta: q1*, a: l1}, {theta: q2* - q1*, a: l2}, {theta: q2*/2}]
+gravity: none
+masses: [{mass: m1, link: 3}]
+"""
+
+
+def test_a_coordinate_that_moves_several_joints() -> None:
+    assert "moves the joints of rows 1 and 2" in said(step(COUPLED, "J1").why, COUPLED)
+    (formula,) = (each.formula for each in solved(COUPLED).steps if each.id == "J2")
+    assert formula is not None
+    assert to_unicode(formula) == "J₂ = [[z₁ × (o₃ - o₁) + ½ (z₂ × (o₃ - o₂))], [z₁ + ½ z₂]]"
+    assert "There is no gravity." in everything_said(COUPLED)
+
+
+MOVED = """
+base: {rotate: Rx(90deg), move: [0, 0, h]}
+dh: [{theta: 30deg, d: L0}, {theta: q1*, a: l1}]
+masses:
+  - {mass: m1, link: 2, center: {near: [lc, 0, 0]}, inertia: {zz: I1}, about: joint}
+  - {name: p, mass: mp, link: 2, center: tip}
+"""
+
+
+def test_a_turned_base_fixed_rows_and_a_tensor_about_the_joint() -> None:
+    text = everything_said(MOVED)
+    assert "above the origin of the world" in text and "above the origin of the base" not in text
+    assert "Row 1 has no star: a fixed frame" in text
+    assert "given, about the near end of its link" in text
+    assert "Parallel axis: the tensor of body 1 about its mass centre" in text
+    assert to_unicode(step(MOVED, "H2").result[0]).startswith("H₂^w = ")
+
+
+def test_no_parallel_axis_where_the_point_is_the_centre() -> None:
+    body = "{mass: m1, link: 1, center: tip, inertia: {zz: I1}, about: origin}"
+    text = f"dh: [{{theta: q1*, a: l1}}]\nmasses: [{body}]\n"
+    assert "Parallel axis" not in everything_said(text)
+    assert "given, about the mass centre" in everything_said(text)
+
+
+def test_a_tensor_is_not_called_like_its_entry() -> None:
+    assert shown("planar-2r", "I_body1")[0].startswith("I₁^b = ")
+    assert shown("in3140-rp", "I_body1")[0].startswith("I₁ = ")
+
+
+def test_a_shape_with_its_formula_and_its_letters() -> None:
+    each = step("box-cylinder-rod-sphere", "I_body1")
+    assert each.formula is not None
+    assert to_unicode(each.formula) == "I_xx = m (3r² + l²)/12, I_yy = m r²/2, I_zz = m (3r² + l²)/12"
+    assert [to_unicode(node) for node in each.working] == ["m = m₁, r = r₁, l = h"]
+    assert "uniform solid cylinder" in said(each.why, "box-cylinder-rod-sphere")
+
+
+def test_a_frame_that_does_not_turn_is_said_to_be_harmless() -> None:
+    body = "{mass: m, link: 1, center: tip, inertia: {zz: I}, axes: {base: Rz(0)}}"
+    text = f"dh: [{{theta: q1*, d: L}}]\nmasses: [{body}]\n"
+    assert "does not turn with link 1" in everything_said(text)
+    assert [warning.code for warning in solved(text).warnings] == ["axes-fixed"]
+
+
+def test_without_masses_it_ends_with_the_jacobian() -> None:
+    text = "dh: [{theta: q1*, a: l1}, {d: d2*}]\n"
+    assert [step.id for step in solved(text).steps][-1] == "J"
+    assert "Each body gets its own" not in everything_said(text)
+
+
+def test_the_checks_are_shown() -> None:
+    assert "equal, exactly" in said(step("planar-2r", "agreement").why, "planar-2r")
+    assert shown("planar-2r", "skew")[-1] == "N + Nᵀ = 0"
+
+
+def test_levels_of_detail() -> None:
+    levels = {each.id: each.detail for each in solved("planar-2r").steps}
+    assert (
+        levels["D"] is Detail.BRIEF and levels["Kv1"] is Detail.NORMAL and levels["D_direct1"] is Detail.FULL
+    )

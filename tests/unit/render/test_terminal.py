@@ -1,0 +1,139 @@
+"""Documents in a terminal: nothing runs over, nothing is broken inside a matrix."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pytest
+
+import dynsolve
+from dynsolve.document import Document, Fold, Formula, Heading, List, Note, Table, Text
+from dynsolve.explain.documents import solution_document
+from dynsolve.explain.step import Detail
+from dynsolve.notation.text import read
+from dynsolve.notation.tree import Letter, Matrix, Node, Number, Product, Transpose, equation
+from dynsolve.notation.unicode import width
+from dynsolve.render.breaking import break_sum
+from dynsolve.render.terminal import render
+
+LIBRARY = ["in3140-rp", "planar-2r", "rp-vertical", "numeric-2r", "puma560-first3"]
+
+
+def lines(*blocks: object, columns: int = 80) -> list[str]:
+    return [line.text for line in render(Document(blocks), columns)]  # type: ignore[arg-type]
+
+
+def tree(text: str) -> Node:
+    return read(text).tree
+
+
+def matrix(*rows: str) -> Matrix:
+    return Matrix(tuple(tuple(map(tree, row.split(", "))) for row in rows))
+
+
+def test_a_matrix_stands_in_brackets_level_with_its_name() -> None:
+    shown = lines(Formula(equation(Letter("D"), matrix("m1 + m2, 0", "0, m2"))))
+    assert shown == ["    D = ⎡m₁ + m₂  0 ⎤", "        ⎣   0     m₂⎦", ""]
+
+
+def test_a_row_needs_no_tall_brackets() -> None:
+    assert lines(Formula(matrix("a, b, c"))) == ["    [a  b  c]", ""]
+
+
+def test_a_transpose_stands_at_the_top() -> None:
+    shown = lines(Formula(Product((Transpose(matrix("a", "b")), matrix("a", "b")))))
+    assert shown == ["    ⎡a⎤ᵀ ⎡a⎤", "    ⎣b⎦  ⎣b⎦", ""]
+
+
+def test_a_chain_that_does_not_fit_has_a_member_a_line() -> None:
+    wide = matrix(", ".join(["abcd*efgh"] * 4), ", ".join(["0"] * 4))
+    shown = lines(Formula(equation(Letter("H"), Product((wide, wide)), wide)), columns=100)
+    row = "⎡abcd efgh  abcd efgh  abcd efgh  abcd efgh⎤"
+    assert [line.rstrip() for line in shown[::2]] == [f"    H = {row} {row}", f"      = {row}", ""]
+
+
+def test_a_matrix_too_wide_is_given_entry_by_entry() -> None:
+    long = " + ".join(f"m{i}*l{i}*cos(q{i})" for i in range(1, 8))
+    shown = lines(Formula(equation(Letter("D"), matrix(f"{long}, x", "x, 0"))), columns=80)
+    assert shown[0].startswith("      D₁₁ = m₁ l₁ cos(q₁) + ")
+    assert "      D₁₂ = D₂₁ = x" in shown
+    assert "      D₂₂ = 0" in shown
+
+
+def test_names_of_entries_are_used() -> None:
+    long = " + ".join(f"m{i}*l{i}*cos(q{i})" for i in range(1, 8))
+    names = ((Letter("tau", Number(1)),), (Letter("f", Number(2)),))
+    shown = lines(Formula(equation(Letter("tau"), matrix(long, "x")), entries=names))
+    assert "      f₂ = x" in shown
+
+
+def test_an_optional_formula_is_left_out_where_it_does_not_fit() -> None:
+    long = " + ".join(f"m{i}*l{i}*cos(q{i})" for i in range(1, 8))
+    node = Product((matrix(f"{long}, x"), matrix("a", "b")))
+    assert lines(Formula(node, optional=True)) == []
+    assert lines(Formula(node, optional=True), columns=200) != []
+
+
+def test_the_source_stands_at_the_right() -> None:
+    (line, _) = lines(Formula(equation(Letter("L"), tree("K - P")), "Spong et al. 7.1"))
+    assert line.startswith("    L = K - P  ") and line.endswith("(Spong et al. 7.1)") and width(line) == 80
+
+
+def test_every_kind_of_block() -> None:
+    shown = lines(
+        Heading("Title", 1),
+        Heading("Part"),
+        Text(("Look at ", Letter("H", Number(1), Number(0)), " here.")),
+        List((("one",), ("two",))),
+        Note(("mind this",)),
+        Table(("i", Letter("theta")), (("1", tree("theta1 + 90deg")),)),
+        Fold("More", (Text(("inside",)),)),
+    )
+    text = "\n".join(shown)
+    for piece in (
+        "Title\n═════",
+        "Part\n────",
+        "Look at H₁⁰ here.",
+        "• one",
+        "Note: mind this",
+        "1   θ₁ + 90°",
+    ):
+        assert piece in text
+    assert "More\ninside" in text
+
+
+def test_prose_is_wrapped_between_words_and_not_inside_a_formula() -> None:
+    formula = equation(Letter("D"), tree("m1*l1 + m2*l2"))
+    for columns in range(40, 70):
+        shown = lines(
+            Text(("some words before the formula ", formula, ", and some after it.")), columns=columns
+        )
+        assert any("D = m₁ l₁ + m₂ l₂" in line for line in shown)
+        assert all(width(line) <= columns for line in shown)
+
+
+def test_a_sum_is_broken_outside_its_parentheses() -> None:
+    assert break_sum("a b (c + d + e) + f (g + h + i) + j (k + l)", 20, 20) == [
+        "a b (c + d + e)",
+        "+ f (g + h + i)",
+        "+ j (k + l)",
+    ]
+
+
+def test_escape_codes_do_not_reach_the_terminal() -> None:
+    assert not any("\x1b" in line for line in lines(Heading("bad \x1b[31m title"), Text(("\x1b]0;x\x07",))))
+
+
+@lru_cache
+def solved(stem: str) -> dynsolve.Solution:
+    return dynsolve.solve(stem)
+
+
+@pytest.mark.parametrize("columns", [60, 80, 132])
+@pytest.mark.parametrize("stem", LIBRARY)
+def test_no_line_of_a_solution_runs_over(stem: str, columns: int) -> None:
+    document = solution_document(solved(stem), Detail.FULL)
+    too_wide = [
+        line.text for line in render(document, columns, solved(stem).style) if width(line.text) > columns
+    ]
+    assert not too_wide
