@@ -15,7 +15,7 @@ from fractions import Fraction
 from math import isqrt
 from typing import Any
 
-from flint import fmpq, fmpq_mpoly, fmpz, fmpz_poly
+from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_poly
 
 from dynsolve.algebra.lattice import rational_gcd
 from dynsolve.errors import AlgebraError
@@ -120,7 +120,7 @@ class ConstantAngles:
         degree = int(minimal.degree())
         return total / fmpq(2) ** degree, degree
 
-    def cos_sin(self, degrees: Fraction, ctx: Any) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    def cos_sin(self, degrees: Fraction, ctx: fmpq_mpoly_ctx) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         """(cos, sin) of a constant angle."""
         quarters, rest = divmod(degrees % 360, _QUARTER)
         c, s = self._acute(rest, ctx)
@@ -128,7 +128,7 @@ class ConstantAngles:
             c, s = -s, c
         return c, s
 
-    def _acute(self, rest: Fraction, ctx: Any) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    def _acute(self, rest: Fraction, ctx: fmpq_mpoly_ctx) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         if not rest:
             return ctx.constant(1), ctx.constant(0)
         if self.generator is not None:
@@ -142,7 +142,7 @@ class ConstantAngles:
                 return (c, s) if small == rest else (s, c)
         raise AlgebraError(f"the angle {float(rest)}° does not occur in the problem")
 
-    def _multiple(self, angle: Fraction, ctx: Any) -> fmpq_mpoly:
+    def _multiple(self, angle: Fraction, ctx: fmpq_mpoly_ctx) -> fmpq_mpoly:
         """cos of a multiple of δ, by Chebyshev's recursion T_{k+1} = 2x T_k - T_{k-1}."""
         assert self.generator is not None and self.plan.generator_degrees is not None
         relation, _ = self.relation(self.generator)
@@ -152,7 +152,7 @@ class ConstantAngles:
             values.append((2 * self.generator * values[-1] - values[-2]) % relation)
         return values[count]
 
-    def _simple_cos(self, angle: Fraction, ctx: Any) -> fmpq_mpoly:
+    def _simple_cos(self, angle: Fraction, ctx: fmpq_mpoly_ctx) -> fmpq_mpoly:
         match int(angle):
             case 60:
                 return ctx.constant(fmpq(1, 2))
@@ -177,7 +177,7 @@ class ConstantAngles:
             5: lambda: 4 * self._multiple(Fraction(36), ctx) - 1,
         }[p]()
 
-    def sqrt(self, value: Fraction, ctx: Any) -> fmpq_mpoly:
+    def sqrt(self, value: Fraction, ctx: fmpq_mpoly_ctx) -> fmpq_mpoly:
         """√value of a positive rational."""
         outside, primes = square_free_primes(value.numerator * value.denominator)
         result: fmpq_mpoly = ctx.constant(fmpq(outside, value.denominator))

@@ -59,21 +59,16 @@ class Survey:
 
         Raises AlgebraError where there are none: the ring was not built for that angle.
         """
-        vector, _ = _split(angle, self.coordinates)
-        basis = [v for v, _ in self.turning]
-        turning = integer_coordinates(basis, vector) if any(vector) else (Fraction(0),) * len(basis)
-        if turning is not None:
-            for times, (_, offset) in zip(turning, self.turning, strict=True):
-                angle = angle - offset * times
-        _, others = _split(angle, self.coordinates)
+        turning, rest = _without_turning(angle, self.turning, self.coordinates)
+        _, others = _split(rest, self.coordinates)
         known = dict(self.fixed)
-        if turning is None or any(m.denominator != 1 for m in turning) or not others.keys() <= known.keys():
+        if any(m.denominator != 1 for m in turning) or not others.keys() <= known.keys():
             raise AlgebraError("this angle does not occur in the problem")
         fixed = [others.get(atom, Fraction(0)) / rate for atom, rate in self.fixed]
         if any(m.denominator != 1 for m in fixed):
             raise AlgebraError("this part of an angle does not occur in the problem")
         multiples = (*map(int, turning), *map(int, fixed), *(0 for _ in self.constants.pairs))
-        return multiples, angle.degrees
+        return multiples, rest.degrees
 
     def at_rest(self, angle: Angle) -> Angle:
         """What is left of an angle at q = 0."""
@@ -89,6 +84,22 @@ def _split(angle: Angle, coordinates: Sequence[str]) -> tuple[Vector, dict[Atom,
     rates = dict(angle.terms)
     vector = tuple(rates.pop(((name, 1),), Fraction(0)) for name in coordinates)
     return vector, rates
+
+
+def _without_turning(
+    angle: Angle, turning: Sequence[tuple[Vector, Angle]], coordinates: Sequence[str]
+) -> tuple[tuple[Fraction, ...], Angle]:
+    """(multiples of the turning angles, what is left of the angle, without coordinates)
+
+    Raises AlgebraError where the angle turns otherwise.
+    """
+    vector, _ = _split(angle, coordinates)
+    multiples = integer_coordinates([v for v, _ in turning], vector)
+    if multiples is None:
+        raise AlgebraError("this angle does not occur in the problem")
+    for times, (_, offset) in zip(multiples, turning, strict=True):
+        angle = angle - offset * times
+    return multiples, Angle(tuple(sorted(_split(angle, coordinates)[1].items())), angle.degrees)
 
 
 class _Collector:
@@ -158,19 +169,21 @@ def survey(
     for angle in (*preferred, *angles):
         collector.angle(angle)
     every = [*preferred, *collector.angles]
-    turning = lattice_basis([_split(angle, coordinates)[0] for angle in every])
     offsets = _offsets(every, coordinates)
+    vectors = lattice_basis([_split(angle, coordinates)[0] for angle in every])
+    turning = tuple((vector, offsets.get(vector, Angle())) for vector in vectors)
+    constant = [_without_turning(angle, turning, coordinates)[1] for angle in every]
+    constant += [offset for _, offset in turning]
     rates: dict[Atom, list[Fraction]] = {}
-    for angle in every:
-        for atom, rate in _split(angle, coordinates)[1].items():
-            rates.setdefault(atom, []).append(rate)
-    constants = plan_constants((a.degrees for a in every), collector.radicands)
+    for atom, rate in (term for angle in constant for term in angle.terms):
+        rates.setdefault(atom, []).append(rate)
+    constants = plan_constants((angle.degrees for angle in constant), collector.radicands)
     return Survey(
         coordinates=tuple(coordinates),
         symbols=tuple(collector.symbols),
         roots=(*(Number(p) for p in constants.primes), *collector.roots),
         denominators=tuple(collector.denominators),
-        turning=tuple((vector, offsets.get(vector, Angle())) for vector in turning),
+        turning=turning,
         fixed=tuple((atom, rational_gcd(found)) for atom, found in rates.items()),
         constants=constants,
         inverses=2 * len(collector.denominators),
