@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import count
 from typing import TYPE_CHECKING
 
@@ -46,7 +47,7 @@ def _stages(solution: Solution, detail: Detail, stages: Iterable[str] | None) ->
             yield Heading(f"{numbers[stage]}. {STAGES[stage]}", 2)
         place += 1
         if step.detail <= detail:
-            blocks = tuple(step_blocks(step, detail, inputs.get(step.id, ())))
+            blocks = tuple(step_blocks(step, detail, tuple(_used(step.id, inputs))))
             yield Fold(f"{numbers[stage]}.{place} {step.title}", blocks, step.detail)
 
 
@@ -71,6 +72,27 @@ def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Ite
     if detail > Detail.BRIEF:
         for note in step.notes:
             yield Note(note)
+
+
+def _used(name: str, inputs: Mapping[str, tuple[str, ...]]) -> Iterator[str]:
+    """The results of earlier steps that one is computed from, by their labels."""
+    if name.startswith(("I_", "R", "axes")):
+        return  # often given by the problem
+    columns = [column for column in inputs if re.fullmatch(r"ddt\d+", column)]
+    if name == "J":
+        yield from (column.replace("ddt", "J") for column in columns)
+        return
+    if re.fullmatch(r"J\d+", name):
+        yield "axes"
+        return
+    frames = name.startswith("Jv")
+    if frames:
+        yield "axes"
+    for label in inputs.get(name, ()):
+        if label == "tau":
+            yield from (column.replace("ddt", "tau") for column in columns)
+        elif not (frames and label.startswith("H")):
+            yield label
 
 
 def _labels(step: Step) -> Iterator[str]:

@@ -89,9 +89,10 @@ class _Builder:
 class Flow:
     """Takes formulas apart into pieces."""
 
-    def __init__(self, notation: Notation, ruler: Ruler) -> None:
+    def __init__(self, notation: Notation, ruler: Ruler, fine: float = _FINE) -> None:
         self.notation = notation
         self.ruler = ruler
+        self.fine = fine
 
     def pieces(self, node: Node, sign: str = "") -> list[Piece]:
         """The pieces of a formula, with a sign of a relation before it."""
@@ -204,7 +205,7 @@ class Flow:
         )
 
     def _is_wide(self, node: Node) -> bool:
-        return self.ruler.width(node) > _FINE
+        return self.ruler.width(node) > self.fine
 
     def _is_huge(self, node: Node) -> bool:
         return self.ruler.width(node) > 100 * _FINE

@@ -1,0 +1,285 @@
+"""Documents -> one HTML file: MathML, no script, and nothing that is fetched.
+
+A displayed formula is a row of pieces between which the browser breaks lines, so that
+it fits a phone.  A matrix that needs a wide page is there a second time, entry by
+entry, and shown so where the page is narrow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from importlib.resources import files
+
+from dynsolve.document import (
+    Block,
+    Document,
+    Fold,
+    Formula,
+    Heading,
+    List,
+    Note,
+    Picture,
+    Prose,
+    Table,
+    Text,
+    Uses,
+)
+from dynsolve.notation.extent import RELATION, Ruler
+from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
+from dynsolve.notation.printing import PLAIN, Style
+from dynsolve.notation.tree import Matrix, Node, Number, Relation
+from dynsolve.render.flow import Flow, Notation
+from dynsolve.render.references import numbered
+from dynsolve.render.setting import entry_name
+from dynsolve.render.words import spoken, visible
+
+PHONE = 18.0
+"""What fits a phone, in em."""
+
+PAGE = 44.0
+"""What fits the widest page."""
+
+_STEP = 3
+_FINE = 8.0
+_LEVELS = ("brief", "normal", "full")
+_TALL = ("<mfrac>", "<mtable>", "<munderover>")
+
+
+def to_html(document: Document, style: Style = PLAIN, level: str = "normal") -> str:
+    """A page that is complete in itself; `level` is the level of detail that it opens with."""
+    page = _Page(style, numbered(document))
+    title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
+    body = "".join(page.document(document.blocks))
+    css = (files("dynsolve.render") / "report.css").read_text(encoding="utf-8")
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+        "style-src 'unsafe-inline'; img-src data:\">\n"
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
+        f"<title>{escape(title)}</title>\n<style>\n{css}{page.widths_css()}</style>\n</head>\n<body>\n"
+        f"{_switch(level)}{page.contents()}<main>\n{body}</main>\n</body>\n</html>\n"
+    )
+
+
+def _switch(level: str) -> str:
+    """The choice of the level of detail, by style alone."""
+    inputs = "".join(
+        f'<input type="radio" name="level" id="{name}"{" checked" if name == level else ""}>'
+        f'<label for="{name}">{name.capitalize()}</label>'
+        for name in _LEVELS
+    )
+    return f"{inputs}\n"
+
+
+def html_notation(printer: MathMLPrinter) -> Notation:
+    """How MathML writes what a formula is made of."""
+
+    def fence(sign: str, inner: str) -> str:
+        tall = any(mark in inner for mark in _TALL)
+        return f'<mo stretchy="false"{" class=big" if tall else ""}>{sign}</mo>'
+
+    def closed(inner: str, exponent: Node | None) -> str:
+        sign = fence(")", inner)
+        return sign if exponent is None else f"<msup>{sign}{row(printer.text(exponent))}</msup>"
+
+    return Notation(
+        text=printer.text,
+        plus='<mo form="infix">+</mo>',
+        minus='<mo form="infix">\u2212</mo>',
+        lead=MINUS,
+        relation=lambda sign: f'<mo form="infix">{escape(sign)}</mo>',
+        opened=lambda inner: fence("(", inner),
+        closed=closed,
+        joined="".join,
+    )
+
+
+@dataclass(slots=True)
+class _Entry:
+    """A line of the table of contents."""
+
+    anchor: str
+    text: str
+    steps: list[tuple[str, str, int]] = field(default_factory=list)
+
+
+class _Page:
+    """Turns blocks into HTML, and remembers what the contents and the styles need."""
+
+    def __init__(self, style: Style, labels: dict[str, int]) -> None:
+        self.printer = MathMLPrinter(style)
+        self.ruler = Ruler(style)
+        self.flow = Flow(html_notation(self.printer), self.ruler, _FINE)
+        self.labels = labels
+        self.entries: list[_Entry] = []
+        self.widths: set[int] = set()
+
+    def document(self, blocks: Iterable[Block]) -> Iterator[str]:
+        """The blocks, those under a heading in a section."""
+        is_open = False
+        for block in blocks:
+            if isinstance(block, Heading) and block.level > 1:
+                yield "</section>\n" if is_open else ""
+                anchor = f"part-{len(self.entries) + 1}"
+                self.entries.append(_Entry(anchor, self.words(block.text)))
+                yield f'<section id="{anchor}">\n'
+                is_open = True
+            yield from self.block(block)
+        yield "</section>\n" if is_open else ""
+
+    def block(self, block: Block) -> Iterator[str]:
+        match block:
+            case Heading(text, level):
+                yield f'<h{level} dir="auto">{self.words(text)}</h{level}>\n'
+            case Text(parts):
+                yield f'<p class="why" dir="auto">{self.prose(parts)}</p>\n'
+            case Formula():
+                yield from self.formula(block)
+            case Uses(labels):
+                yield from self.uses(labels)
+            case List(items):
+                yield "<ul>" + "".join(f"<li>{self.prose(item)}</li>" for item in items) + "</ul>\n"
+            case Note(parts):
+                yield f'<p class="note"><strong>Note.</strong> {self.prose(parts)}</p>\n'
+            case Table():
+                yield self.table(block)
+            case Picture(svg, caption):
+                yield f"<figure>{svg}<figcaption>{self.words(caption)}</figcaption></figure>\n"
+            case Fold():
+                yield from self.fold(block)
+
+    def fold(self, fold: Fold) -> Iterator[str]:
+        title = self.words(fold.title)
+        anchor = f"step-{sum(len(entry.steps) for entry in self.entries) + 1}"
+        if self.entries:
+            self.entries[-1].steps.append((anchor, title, fold.level))
+        yield f'<details open class="step l{int(fold.level)}" id="{anchor}"><summary>{title}</summary>\n'
+        for block in fold.blocks:
+            yield from self.block(block)
+        yield "</details>\n"
+
+    def words(self, text: str) -> str:
+        parts = (escape(visible(p)) if isinstance(p, str) else self.inline(p) for p in spoken(text))
+        return "".join(parts)
+
+    def prose(self, parts: Prose) -> str:
+        return "".join(self.words(p) if isinstance(p, str) else self.sentence_part(p) for p in parts)
+
+    def sentence_part(self, node: Node) -> str:
+        """A formula in a sentence; a long one may be broken."""
+        if self.ruler.width(node) <= PHONE / 2:
+            return self.inline(node)
+        return "<wbr>".join(math(piece.text) for piece in self.flow.pieces(node))
+
+    def inline(self, node: Node) -> str:
+        return math(self.printer.text(node))
+
+    def uses(self, labels: Sequence[str]) -> Iterator[str]:
+        known = [label for label in labels if label in self.labels]
+        if known:
+            links = [f'<a href="#eq-{label}">({self.labels[label]})</a>' for label in known]
+            listed = ", ".join(links[:-1]) + " and " * (len(links) > 1) + links[-1]
+            yield f'<p class="uses">With {listed}:</p>\n'
+
+    def table(self, table: Table) -> str:
+        head = "".join(f"<th>{self.cell(cell)}</th>" for cell in table.header)
+        body = "".join(
+            "<tr>" + "".join(f"<td>{self.cell(cell)}</td>" for cell in cells) + "</tr>"
+            for cells in table.rows
+        )
+        return (
+            f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>\n'
+        )
+
+    def cell(self, cell: str | Node) -> str:
+        return self.words(cell) if isinstance(cell, str) else self.inline(cell)
+
+    # -- displayed formulas ------------------------------------------------------------------------
+
+    def formula(self, formula: Formula) -> Iterator[str]:
+        number = self.labels.get(formula.label)
+        kind = "result" if formula.label else "work"
+        anchor = f' id="eq-{formula.label}"' if number else ""
+        beside = f'<span class="n">({number})</span>' if number else ""
+        if formula.source:
+            beside = f'<cite>{self.words(formula.source)}</cite>{beside}'
+        yield f'<div class="formula {kind}"{anchor}><div class="box">'
+        yield from self.lines(formula.node, formula)
+        yield f"</div>{beside}</div>\n"
+
+    def lines(self, node: Node, formula: Formula) -> Iterator[str]:
+        """A formula on the page: whole, or in pieces, its matrices whole or entry by entry."""
+        width = self.ruler.width(node)
+        matrix = _lone_matrix(node)
+        if width <= PHONE:
+            yield f'<div class="line">{math(self.printer.text(node), display=True)}</div>'
+        elif matrix is None or self.ruler.width(matrix) <= PHONE:
+            yield self.broken(node)
+        elif self.ruler.width(matrix) > PAGE:
+            yield from self.entry_by_entry(node, matrix, formula)
+        else:
+            needed = self.needed(self.ruler.width(matrix) + RELATION)
+            yield f'<div class="wide w{needed}">{self.broken(node)}</div>'
+            yield f'<div class="narrow n{needed}">'
+            yield from self.entry_by_entry(node, matrix, formula)
+            yield "</div>"
+
+    def broken(self, node: Node) -> str:
+        pieces = "<wbr>".join(math(piece.text, display=True) for piece in self.flow.pieces(node))
+        return f'<div class="line">{pieces}</div>'
+
+    def needed(self, width: float) -> int:
+        """The width of a page, in whole steps, on which so much fits."""
+        needed = int(width * 1.1 / _STEP + 1) * _STEP
+        self.widths.add(needed)
+        return needed
+
+    def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:
+        left = node.parts[0] if isinstance(node, Relation) else None
+        if isinstance(node, Relation) and len(node.parts) > 2:
+            yield self.broken(Relation(node.parts[:-1], node.signs[:-1]))
+        chains: dict[Node, list[Node]] = {}
+        for i, entries in enumerate(matrix.rows):
+            for j, entry in enumerate(entries):
+                chains.setdefault(entry, []).append(entry_name(i, j, matrix, left, formula))
+        zeros = chains.pop(Number(0), [])
+        for value, names in [*chains.items(), *([(Number(0), zeros)] if zeros else [])]:
+            yield self.broken(Relation((*names, value), ("=",) * len(names)))
+
+    def contents(self) -> str:
+        """The table of contents."""
+        items = []
+        for entry in self.entries:
+            steps = "".join(
+                f'<li class="l{int(level)}"><a href="#{anchor}">{title}</a></li>'
+                for anchor, title, level in entry.steps
+            )
+            link = f'<a href="#{entry.anchor}">{entry.text}</a>'
+            inner = f"<details><summary>{link}</summary><ul>{steps}</ul></details>" if steps else link
+            items.append(f"<li>{inner}</li>")
+        return (
+            '<nav aria-label="Contents"><h2>Contents</h2><ul>' + "\n".join(items) + "</ul></nav>\n"
+            if items
+            else ""
+        )
+
+    def widths_css(self) -> str:
+        """From which width of the page on a matrix is shown whole."""
+        return "".join(
+            f"@container (min-width:{width}em){{.w{width}{{display:block}}.n{width}{{display:none}}}}\n"
+            for width in sorted(self.widths)
+        )
+
+
+def math(text: str, display: bool = False) -> str:
+    """Elements as a formula of their own."""
+    return f'<math displaystyle="true">{text}</math>' if display else f"<math>{text}</math>"
+
+
+def _lone_matrix(node: Node) -> Matrix | None:
+    """The matrix that a formula gives: the last member of its chain."""
+    last = node.parts[-1] if isinstance(node, Relation) else node
+    return last if isinstance(last, Matrix) else None
