@@ -1,0 +1,465 @@
+"""The exact value of what a student wrote: trees -> fractions over a field's ring.
+
+Work is counted before a product is formed: a library in C cannot be interrupted,
+and ends the process where memory ends.  Terms that are products of symbols, sines
+and cosines are put together by their exponents, so that a torque of hundreds of
+terms costs one reduction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from math import comb
+from typing import Any
+
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.expr import Expr, rational
+from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.survey import rational_value
+from dynsolve.answers.field import dotted, expected_angle, opaque, plain_radicand
+from dynsolve.answers.submission import REFERENCE_MARK
+from dynsolve.errors import AlgebraError
+from dynsolve.notation.tree import (
+    Degrees,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+
+MOST_WORK = 400_000
+"""The products of terms that one answer may cost."""
+
+MOST_TERMS = 30_000
+"""The most terms of a value."""
+
+MOST_POWER = 20
+MOST_BITS = 6_000
+MOST_TURNS = 24
+
+
+@dataclass(frozen=True, slots=True)
+class Frac:
+    """numerator / denominator over one ring; `below` None stands for 1."""
+
+    above: Expr
+    below: Expr | None = None
+
+    @property
+    def ring(self) -> Ring:
+        """The ring of both."""
+        return self.above.ring
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether it is 0."""
+        return is_zero(self.above)
+
+    @property
+    def bottom(self) -> Expr:
+        """The denominator."""
+        return self.ring.one if self.below is None else self.below
+
+
+def is_zero(expr: Expr) -> bool:
+    """Whether an expression is 0, also where several inverses occur.
+
+    The relations u·p = 1 of several denominators are no complete system of
+    rewriting rules, so u is multiplied away before the answer is no.
+    """
+    if expr.is_zero or not expr.ring.inverses:
+        return expr.is_zero
+    return not clear_inverses(expr).poly
+
+
+def clear_inverses(expr: Expr) -> Expr:
+    """The expression times its denominators."""
+    ring = expr.ring
+    for index, factor in ring.inverses.items():
+        degree = int(expr.poly.degrees()[index]) if expr.poly else 0
+        if degree <= 0:
+            continue
+        total = ring.ctx.constant(0)
+        poly, power = expr.poly, ring.ctx.constant(1)
+        parts = [_coefficient(ring, poly, index, k) for k in range(degree + 1)]
+        for k in range(degree, -1, -1):
+            total = total + parts[k] * power
+            power = power * factor
+        expr = Expr(ring, ring.reduce(total))
+    return expr
+
+
+def _coefficient(ring: Ring, poly: Any, index: int, power: int) -> Any:
+    """The coefficient of generator^power."""
+    terms = {}
+    for exponents, value in poly.to_dict().items():
+        if exponents[index] == power:
+            terms[tuple(0 if i == index else e for i, e in enumerate(exponents))] = value
+    return ring.ctx.from_dict(terms)
+
+
+def equal(a: Frac, b: Frac) -> bool:
+    """Whether two fractions are the same, by cross-multiplication."""
+    if a.below is None and b.below is None:
+        return a.above == b.above or is_zero(a.above - b.above)
+    return is_zero(a.above * b.bottom - b.above * a.bottom)
+
+
+Lookup = Callable[[str], Frac]
+"""The value of an answer that occurs inside another, by its placeholder's name."""
+
+
+def _nothing(name: str) -> Frac:
+    raise AlgebraError(f"{name} stands for no answer")
+
+
+@dataclass(slots=True)
+class _Term:
+    """A product under construction: coefficient · Π generator^exponent · Π polynomials."""
+
+    coefficient: Fraction
+    exponents: dict[int, int]
+    others: list[Frac]
+
+
+class Evaluator:
+    """Values of trees in one ring; `work` is what the current tree has cost."""
+
+    def __init__(self, ring: Ring, lookup: Lookup = _nothing) -> None:
+        self.ring = ring
+        self.lookup = lookup
+        self.work = 0
+        self._width = len(ring.generators)
+        self._basic: dict[tuple[str, Angle], tuple[int, int] | None] = {}
+
+    def value(self, node: Node) -> Frac:
+        """The exact value of a scalar tree.
+
+        Raises AlgebraError for a zero denominator, or for work over the bound.
+        """
+        self.work = 0
+        return self._value(node)
+
+    def more(self, node: Node) -> Frac:
+        """The same, with the work added to what was counted before: entries of one answer share a bound."""
+        return self._value(node)
+
+    # -- descent -----------------------------------------------------------------------------------
+
+    def _value(self, node: Node) -> Frac:
+        match node:
+            case Sum(terms):
+                return self._sum(terms)
+            case Negative(argument) | Parenthesized(argument) if isinstance(argument, Sum):
+                value = self._sum(argument.terms)
+                return Frac(-value.above, value.below) if isinstance(node, Negative) else value
+            case Power(base, exponent):
+                return self._power(self._value(base), exponent)
+        term = _Term(Fraction(1), {}, [])
+        self._gather(node, term, 1)
+        return self._finish(term)
+
+    def _sum(self, terms: Iterable[Node]) -> Frac:
+        flat: dict[tuple[int, ...], Any] = {}
+        polys: list[Expr] = []
+        fractions: list[Frac] = []
+        for node in terms:
+            inner = _unwrapped(node)
+            if isinstance(inner, Sum):
+                self._put(self._value(node), polys, fractions)
+                continue
+            term = _Term(Fraction(1), {}, [])
+            self._gather(node, term, 1)
+            if term.others:
+                self._put(self._finish(term), polys, fractions)
+            elif term.coefficient:
+                key = self._key(term)
+                flat[key] = flat.get(key, 0) + rational(term.coefficient)
+        total = self.ring.reduce(self.ring.ctx.from_dict(flat)) if flat else self.ring.zero.poly
+        for poly in polys:
+            total = total + poly.poly
+        result = Frac(Expr(self.ring, total))
+        return self._add_fractions(result, fractions)
+
+    def _put(self, value: Frac, polys: list[Expr], fractions: list[Frac]) -> None:
+        if value.below is None:
+            polys.append(value.above)
+        else:
+            fractions.append(value)
+
+    def _add_fractions(self, total: Frac, fractions: list[Frac]) -> Frac:
+        groups: dict[Expr, Expr] = {}
+        for fraction in fractions:
+            below = fraction.bottom
+            groups[below] = groups[below] + fraction.above if below in groups else fraction.above
+        for below, above in groups.items():
+            top = self._times(total.above, below) + self._times(above, total.bottom)
+            total = Frac(top, self._times(total.bottom, below))
+        return simplified(total) if groups else total
+
+    def _key(self, term: _Term) -> tuple[int, ...]:
+        exponents = [0] * self._width
+        for index, power in term.exponents.items():
+            if power > 100:
+                raise AlgebraError("a power is too large")
+            exponents[index] = power
+        return tuple(exponents)
+
+    def _gather(self, node: Node, term: _Term, power: int) -> None:
+        """Multiply a tree, to a positive power, into a term."""
+        match node:
+            case Number(p, q):
+                self._number(Fraction(p, q), term, power)
+            case Negative(argument):
+                if power % 2:
+                    term.coefficient = -term.coefficient
+                self._gather(argument, term, power)
+            case Parenthesized(argument):
+                self._gather(argument, term, power)
+            case Product(factors):
+                for factor in factors:
+                    self._gather(factor, term, power)
+            case Symbol():
+                self._symbol(node, term, power)
+            case Degrees(p, q):
+                self._number(Fraction(p, 180 * q), term, power)
+                self._symbol(Symbol("pi"), term, power)
+            case Quotient(numerator, denominator):
+                self._gather(numerator, term, power)
+                value = rational_value(denominator)
+                if value:
+                    self._number(1 / value, term, power)
+                else:
+                    term.others.append(self._power_of(self._inverse(self._value(denominator)), power))
+            case Power(base, Number(p, 1)) if p * power <= MOST_POWER:
+                self._gather(base, term, p * power) if p else None
+            case Power(base, exponent):
+                term.others.append(self._power_of(self._power(self._value(base), exponent), power))
+            case Function():
+                self._function(node, term, power)
+            case Sum():
+                term.others.append(self._power_of(self._value(node), power))
+            case _:
+                raise AlgebraError("this is not an expression")
+
+    def _number(self, value: Fraction, term: _Term, power: int) -> None:
+        if power * max(value.numerator.bit_length(), value.denominator.bit_length()) > MOST_BITS:
+            raise AlgebraError("a number is too large")
+        term.coefficient *= value**power
+        if term.coefficient.numerator.bit_length() + term.coefficient.denominator.bit_length() > MOST_BITS:
+            raise AlgebraError("a number is too large")
+
+    def _symbol(self, node: Symbol, term: _Term, power: int) -> None:
+        index = self.ring._symbols.get((node.name, node.dots))
+        if index is None:
+            if node.name.startswith(REFERENCE_MARK):
+                term.others.append(self._power_of(self.lookup(node.name), power))
+                return
+            index = self._unknown(dotted(node.name, node.dots))
+        term.exponents[index] = term.exponents.get(index, 0) + power
+
+    def _unknown(self, name: str) -> int:
+        index = self.ring._symbols.get((name, 0))
+        if index is None:
+            raise AlgebraError(f"{name} is not a symbol of this problem")
+        return index
+
+    # -- functions ---------------------------------------------------------------------------------
+
+    def _function(self, node: Function, term: _Term, power: int) -> None:
+        if node.name == "sqrt":
+            term.others.append(self._power_of(self._root(node), power))
+            return
+        angle = expected_angle(node, self.ring.names)
+        if angle is None:
+            index = self._unknown(opaque(node))
+            term.exponents[index] = term.exponents.get(index, 0) + power
+            return
+        if node.name == "tan":
+            c, s = self._turned("cos", angle), self._turned("sin", angle)
+            term.others.append(self._power_of(self._product(Frac(s), self._inverse(Frac(c))), power))
+            return
+        if node.name not in ("sin", "cos"):
+            raise AlgebraError(f"{node.name} is not a function that occurs here")
+        found = self._generator(node.name, angle)
+        if found is not None:
+            index, sign = found
+            term.exponents[index] = term.exponents.get(index, 0) + power
+            if sign < 0 and power % 2:
+                term.coefficient = -term.coefficient
+            return
+        term.others.append(self._power_of(Frac(self._turned(node.name, angle)), power))
+
+    def _generator(self, name: str, angle: Angle) -> tuple[int, int] | None:
+        """(generator, ±1) where the function is one."""
+        key = (name, angle)
+        if key not in self._basic:
+            self._basic[key] = None
+            poly = self._turned(name, angle).poly
+            if len(poly) == 1:
+                exponents, coefficient = next(iter(poly.to_dict().items()))
+                used = [i for i, e in enumerate(exponents) if e]
+                if len(used) == 1 and exponents[used[0]] == 1 and abs(coefficient) == 1:
+                    self._basic[key] = used[0], 1 if coefficient > 0 else -1
+        return self._basic[key]
+
+    def _turned(self, name: str, angle: Angle) -> Expr:
+        counts = self.ring.multiples(angle.linear) if angle.terms else ()
+        if sum(map(abs, counts)) > MOST_TURNS:
+            raise AlgebraError(f"an angle is more than {MOST_TURNS} times those of the problem")
+        return self.ring.cos(angle) if name == "cos" else self.ring.sin(angle)
+
+    def _root(self, node: Function) -> Frac:
+        value = rational_value(node.argument)
+        if value is not None:
+            if value < 0:
+                raise AlgebraError("the root of a negative number", "lengths and masses are real")
+            root = self.ring.constant(0) if not value else self.ring.root(node, self.ring.constant(value))
+            return Frac(root)
+        if not plain_radicand(node.argument, self.ring.names):
+            return Frac(self.ring.generator(self._unknown(opaque(node))))
+        inner = self._value(node.argument)
+        if inner.below is None:
+            exact = _exact_root(inner.above)
+            if exact is not None:
+                return Frac(exact)
+        return Frac(self.ring.root(node.argument, inner.above))
+
+    # -- products ----------------------------------------------------------------------------------
+
+    def _finish(self, term: _Term) -> Frac:
+        if not term.coefficient:
+            return Frac(self.ring.zero)
+        poly = self.ring.ctx.from_dict({self._key(term): rational(term.coefficient)})
+        result = Frac(Expr(self.ring, self.ring.reduce(poly)))
+        for other in sorted(term.others, key=lambda f: len(f.above)):
+            result = self._product(result, other)
+        return result
+
+    def _product(self, a: Frac, b: Frac) -> Frac:
+        above = self._times(a.above, b.above)
+        if a.below is None and b.below is None:
+            return Frac(above)
+        return Frac(above, self._times(a.bottom, b.bottom))
+
+    def _times(self, a: Expr, b: Expr) -> Expr:
+        cost = len(a) * len(b)
+        self.work += cost
+        if self.work > MOST_WORK or cost > 8 * MOST_TERMS:
+            raise AlgebraError("multiplied out this is too large", "name a part of it with a symbol of its own")
+        product = a * b
+        if len(product) > MOST_TERMS:
+            raise AlgebraError("multiplied out this has too many terms")
+        if product.poly and _bits(product) > MOST_BITS:
+            raise AlgebraError("a number is too large")
+        return product
+
+    def _inverse(self, value: Frac) -> Frac:
+        if value.is_zero:
+            raise AlgebraError("the denominator is zero", "check what stands below the fraction line")
+        if value.below is None and value.above.is_number:
+            return Frac(self.ring.one / value.above.number)
+        return Frac(value.bottom, value.above)
+
+    def _power(self, base: Frac, exponent: Node) -> Frac:
+        match exponent:
+            case Number(p, 1):
+                count = p
+            case Negative(Number(p, 1)):
+                base, count = self._inverse(base), p
+            case _:
+                raise AlgebraError("an exponent must be a whole number", "write sqrt(...) for a root")
+        return self._power_of(base, count)
+
+    def _power_of(self, base: Frac, count: int) -> Frac:
+        if count == 1:
+            return base
+        size = max(len(base.above), len(base.bottom), 1)
+        if count > MOST_POWER or comb(size + count - 1, count) > MOST_TERMS:
+            raise AlgebraError(f"the power {count} is too large")
+        result = Frac(self.ring.one)
+        for _ in range(count):
+            result = self._product(result, base)
+        return result
+
+
+def _unwrapped(node: Node) -> Node:
+    while isinstance(node, (Negative, Parenthesized)):
+        node = node.argument
+    return node
+
+
+def _bits(expr: Expr) -> int:
+    lead = expr.poly.leading_coefficient()
+    return int(lead.p).bit_length() + int(lead.q).bit_length()
+
+
+def _exact_root(expr: Expr) -> Expr | None:
+    """√p where p is the square of a polynomial, the one with a positive leading coefficient."""
+    try:
+        root = expr.poly.sqrt()
+    except Exception:  # noqa: BLE001  FLINT says "not a square" by several classes
+        return None
+    if root and root.leading_coefficient() < 0:
+        root = -root
+    return Expr(expr.ring, root)
+
+
+def simplified(value: Frac) -> Frac:
+    """The same fraction with a rational denominator drawn in, or without one where it divides.
+
+    Sines are removed from the denominator by their conjugates; what divides then is
+    divided, so that (1 - t²)/(1 + t²) with t = tan(θ/2) becomes a polynomial.
+    """
+    if value.below is None:
+        return value
+    ring = value.ring
+    above, below = value.above, value.below
+    for pair in ring.pairs:
+        if not below.poly or len(above) * len(below) > 20_000:
+            break
+        if int(below.poly.degrees()[pair.sine]) > 0:
+            conjugate = _conjugate(below, pair.sine)
+            above, below = above * conjugate, below * conjugate
+    if below.is_zero:
+        return value
+    if below.is_number:
+        return Frac(above / below.number)
+    shared = above.poly.gcd(below.poly)
+    if not shared.is_constant():
+        above, below = Expr(ring, _divided(above.poly, shared)), Expr(ring, _divided(below.poly, shared))
+    if below.is_number:
+        return Frac(above / below.number)
+    lead = below.poly.leading_coefficient()
+    return Frac(Expr(ring, above.poly / lead), Expr(ring, below.poly / lead))
+
+
+def _divided(poly: Any, divisor: Any) -> Any:
+    quotient, _ = divmod(poly, divisor)
+    return quotient
+
+
+def _conjugate(expr: Expr, sine: int) -> Expr:
+    """The expression with one sine negated; normal forms are linear in it."""
+    terms = {e: (-c if e[sine] % 2 else c) for e, c in expr.poly.to_dict().items()}
+    return Expr(expr.ring, expr.ring.ctx.from_dict(terms))
+
+
+def as_expr(value: Frac) -> Expr | None:
+    """The value as an element of the ring where it is one, with inverses of parameters; else None."""
+    value = simplified(value)
+    if value.below is None:
+        return value.above
+    try:
+        return value.above * value.ring.inverse(value.below)
+    except Exception:  # noqa: BLE001  no room for another inverse, or a joint variable below
+        return None
+

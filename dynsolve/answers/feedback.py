@@ -1,0 +1,167 @@
+"""A report as a document: what a student reads, or a teacher.
+
+The first slip comes first; what rests on it is said to rest on it.  A student is
+told as much as the rung of the ladder allows (1 where, 2 what kind, 3 how), and
+never the solution; a teacher sees the differences too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dynsolve.answers.verdict import Diagnosis, EntryVerdict, Judged, Report, Verdict
+from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Note, Prose, Table, Text
+from dynsolve.notation.tree import Node
+
+_SAID = {
+    Verdict.CORRECT: "correct",
+    Verdict.FOLLOWS: "follows from your earlier answers",
+    Verdict.WRONG: "wrong",
+    Verdict.UNREADABLE: "could not be read",
+    Verdict.MISSING: "missing",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """How much is shown: the rung of the ladder, whether differences are, whether every reading is."""
+
+    level: int = 3
+    teacher: bool = False
+    readings: bool = False
+
+
+def feedback(report: Report, title: str, view: View) -> Document:
+    """The report as a document."""
+    return Document(tuple(_blocks(report, title, view)))
+
+
+def _blocks(report: Report, title: str, view: View) -> Iterator[Block]:
+    yield Heading(title, 1)
+    yield from _opening(report, view)
+    wrong = [a for a in report.answers if a.verdict is Verdict.WRONG]
+    for answer in wrong:
+        yield Fold(f"{_named(answer)}: wrong", tuple(_wrong(answer, report, view)))
+    unread = [a for a in report.answers if a.verdict is Verdict.UNREADABLE]
+    for answer in unread:
+        yield Fold(f"{_named(answer)}: could not be read", tuple(_unreadable(answer)))
+    yield Heading("All answers")
+    yield Table(("answer", "verdict", "note"), tuple(_row(a, view) for a in report.answers))
+    if view.readings:
+        yield from _readings(report)
+    if report.not_recognized:
+        yield Heading("Not recognized")
+        yield List(tuple((f"line {n.place.line}: {_short(n.text)}",) for n in report.not_recognized))
+
+
+def _opening(report: Report, view: View) -> Iterator[Block]:
+    count = sum(a.verdict is Verdict.CORRECT for a in report.answers)
+    if report.all_correct:
+        yield Text((f"All {count} answers are correct.",))
+    elif report.first_wrong:
+        first = next(a for a in report.answers if a.name == report.first_wrong)
+        resting = sum(a.verdict is Verdict.FOLLOWS for a in report.answers)
+        text = f"It first went wrong at {_named(first)}{_where(first)}."
+        if resting:
+            text += f" {resting} later {'answer follows' if resting == 1 else 'answers follow'} from earlier slips."
+        yield Text((text,))
+    else:
+        yield Text((f"{count} of {len(report.answers)} answers are correct.",))
+    if report.of:
+        yield Text((f"Marks: {_number(report.marks)} of {_number(report.of)}.",))
+
+
+def _number(value: object) -> str:
+    return f"{float(value):g}"  # type: ignore[arg-type]
+
+
+def _named(answer: Judged) -> str:
+    return f"{answer.name} {answer.label}".strip()
+
+
+def _where(answer: Judged) -> str:
+    return f" (line {answer.place.line})" if answer.place and answer.place.line else ""
+
+
+def _wrong(answer: Judged, report: Report, view: View) -> Iterator[Block]:
+    if answer.read_as:
+        yield Text((f"Read as: {_short(answer.read_as)}",))
+    bad = [e for e in answer.entries if e.verdict is Verdict.WRONG]
+    if bad:
+        right = [e for e in answer.entries if e.verdict is not Verdict.WRONG]
+        places = ", ".join(map(_index, bad))
+        word = "row" if len(bad[0].index) == 1 else "entry"
+        plural = {"row": "rows", "entry": "entries"}[word] if len(bad) > 1 else word
+        text = f"Wrong in {plural} {places}"
+        yield Text((text + ("; the others are right or follow." if right else "."),))
+    told = [d for d in answer.diagnosis]
+    if view.level >= 2 or view.teacher:
+        yield from _slips(told, view)
+    if view.teacher:
+        if answer.difference is not None:
+            yield Text(("Yours minus what was expected:",))
+            yield Formula(answer.difference)
+        for entry in bad:
+            if entry.difference is not None:
+                yield Text((f"Entry {_index(entry)}, yours minus what was expected:",))
+                yield Formula(entry.difference)
+    for note in answer.notes:
+        yield Note((note,))
+
+
+def _slips(told: list[Diagnosis], view: View) -> Iterator[Block]:
+    if view.level >= 3 or view.teacher:
+        items: list[Prose] = []
+        for d in told:
+            items.append((f"{d.message} {d.look}".strip(),))
+        if items:
+            yield List(tuple(items))
+    else:
+        kinds = tuple(dict.fromkeys(d.kind for d in told if d.kind))
+        if kinds:
+            yield List(tuple((f"What kind of slip: {kind}.",) for kind in kinds))
+
+
+def _index(entry: EntryVerdict) -> str:
+    return str(entry.index[0]) if len(entry.index) == 1 else f"({entry.index[0]}, {entry.index[1]})"
+
+
+def _unreadable(answer: Judged) -> Iterator[Block]:
+    yield Text((f"{answer.fault}{_where(answer)}.",))
+    place = answer.place
+    if place is not None and place.excerpt:
+        start = max(place.column - 1, 0)
+        cut = max(0, start - 60)
+        excerpt = place.excerpt[cut : cut + 100]
+        yield Text((excerpt,))
+        yield Text((" " * 0 + f"at column {place.column}",))
+    if answer.expected:
+        yield Note((answer.expected,))
+
+
+def _row(answer: Judged, view: View) -> tuple[str | Node, ...]:
+    return _named(answer), _SAID[answer.verdict], "; ".join(_remarks(answer, view))
+
+
+def _remarks(answer: Judged, view: View) -> Iterator[str]:
+    if answer.follows_from:
+        yield "from " + ", ".join(answer.follows_from)
+    if answer.verdict is not Verdict.WRONG:
+        yield from answer.notes
+    if len(answer.occurrences) > 1:
+        yield "given {} times: {}".format(
+            len(answer.occurrences),
+            ", ".join(f"{o.label or f'line {o.place.line}'} {o.verdict}" for o in answer.occurrences),
+        )
+
+
+def _readings(report: Report) -> Iterator[Block]:
+    yield Heading("How the answers were read")
+    items = [(f"{_named(a)}: {_short(a.read_as)}",) for a in report.answers if a.read_as]
+    yield List(tuple(items))
+
+
+def _short(text: str, most: int = 2000) -> str:
+    text = " ".join(text.split())
+    return text if len(text) <= most else text[: most - 1] + "…"

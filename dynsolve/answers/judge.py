@@ -1,0 +1,560 @@
+"""The verdicts of a hand-in.
+
+    answers -> values in one field -> held against the key -> held against what the
+    student's own answers lead to -> what is left is diagnosed
+
+The order of the report is that of the derivation, so that the first slip comes first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.compare import Comparison, Written
+from dynsolve.answers.diagnose import Diagnoser, Question
+from dynsolve.answers.dimensions import Dimensions
+from dynsolve.answers.evaluate import Frac, as_expr
+from dynsolve.answers.follow import Candidate, Follow, Own
+from dynsolve.answers.given import Given, Hand, as_value, fitted, same
+from dynsolve.answers.graph import Graph
+from dynsolve.answers.level import find_level
+from dynsolve.answers.submission import Submission
+from dynsolve.answers.verdict import (
+    Diagnosis,
+    EntryVerdict,
+    Judged,
+    Occurrence,
+    Report,
+    Verdict,
+    worst,
+)
+from dynsolve.notation.tree import Node, Symbol
+from dynsolve.pipeline import Derivation, derive
+from dynsolve.problem.model import Problem
+
+NOT_FROM_OWN = "not_from_own"
+NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's"
+BY_PARTS = "judged by its parts"
+
+
+def check(problem: Problem, submission: Submission, key: Derivation | None = None) -> Report:
+    """Judge a hand-in.
+
+    `key` is the problem's derivation, where it has been made already.
+    """
+    return Judge(problem, submission, key if key is not None else derive(problem.robot)).report()
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """What an answer is held against: a node, and the one entry of it that was asked for."""
+
+    node: str
+    entry: tuple[int, int] | None = None
+    christoffel: tuple[int, int, int] | None = None
+
+    def of(self, value: Any) -> Any:
+        """The part of a node's value that is meant."""
+        if self.christoffel is not None:
+            return value[self.christoffel]
+        return value if self.entry is None else value[self.entry]
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """An answer held against the key: its entries as they are compared, and whether each is right."""
+
+    given: Given
+    target: Target
+    rows: tuple[tuple[Written, ...], ...] = ()
+    right: tuple[tuple[str | None, ...], ...] = ()
+    fits: bool = True
+    spoilt: tuple[Diagnosis, ...] = ()
+
+    @property
+    def correct(self) -> bool:
+        """Whether every entry is right."""
+        return (
+            bool(self.rows)
+            and not self.spoilt
+            and all(r is not None for row in self.right for r in row)
+        )
+
+    @property
+    def rounded(self) -> bool:
+        """Whether a decimal rounds."""
+        return any(r for row in self.right for r in row)
+
+
+class Judge:
+    """Judges one hand-in."""
+
+    def __init__(self, problem: Problem, submission: Submission, key: Derivation) -> None:
+        self.problem = problem
+        self.submission = submission
+        robot = problem.robot
+        self.hand = Hand(robot, key, submission.answers)
+        self.field = self.hand.field
+        self.dimensions = Dimensions(self.field.ring, self.field.robot)
+        self.compare = Comparison(problem.values)
+        self.graph = Graph(self.field)
+        self.groups = self._grouped()
+        level = find_level(self.field, dict(self._energies()), self.dimensions)
+        self.graph.shift = level
+        self.held = {name: self._hold(name, self._value(chains)) for name, chains in self.groups.items()}
+
+    # -- what was handed in ------------------------------------------------------------------------
+
+    def _grouped(self) -> dict[str, list[list[Given]]]:
+        """The answers by name, and of each name by the equation they stand in."""
+        groups: dict[str, list[list[Given]]] = {}
+        for given in self.hand.given:
+            chains = groups.setdefault(self._name(given), [])
+            if chains and chains[-1][0].answer.occurrence[0] == given.answer.occurrence[0]:
+                chains[-1].append(given)
+            else:
+                chains.append([given])
+        return groups
+
+    def _name(self, given: Given) -> str:
+        """The quantity that is meant where the notation leaves two: the one that it equals."""
+        answer = given.answer
+        for name in (answer.name, *answer.alternatives) if answer.alternatives and given.rows else ():
+            if self._hold(name, given).correct:
+                return name
+        return answer.name
+
+    def _value(self, chains: list[list[Given]]) -> Given:
+        """The answer that counts: the last member of the last equation."""
+        return chains[-1][-1]
+
+    def _energies(self) -> Iterator[tuple[str, Expr]]:
+        """The student's own P_i, P and L, where they are expressions of the ring."""
+        names = {"P", "L"} | {f"P{b.name}" for b in self.problem.robot.bodies}
+        for name in names & self.groups.keys() if self.problem.robot.bodies else ():
+            given = self._value(self.groups[name])
+            if given.rows is not None and len(given.entries) == 1:
+                value = as_expr(given.entries[0])
+                if value is not None:
+                    yield name, value
+
+    # -- held against the key ----------------------------------------------------------------------
+
+    def target(self, name: str) -> Target:
+        """What an answer of this name is held against."""
+        entry = self.graph.entry(name)
+        if entry is not None:
+            return Target(entry.whole, (entry.row, entry.column))
+        symbol = self.graph.christoffel(name)
+        if symbol is not None:
+            return Target("christoffel", None, symbol)
+        return Target(self.graph.node(name))
+
+    def key(self, target: Target) -> Any:
+        """The key's value of a target."""
+        return target.of(self.graph.key(target.node))
+
+    def _hold(self, name: str, given: Given) -> Held:
+        target = self.target(name)
+        if given.rows is None or target.node not in self.field.rules:
+            return Held(given, target)
+        key = self.key(target)
+        rows, spoilt = self._rows(name, given, key)
+        if rows is None:
+            return Held(given, target, fits=False, spoilt=spoilt)
+        matrix = key if isinstance(key, Matrix) else Matrix(self.field.ring, ((key,),))
+        right = tuple(
+            tuple(map(self.compare, expected, written))
+            for expected, written in zip(matrix.rows, rows, strict=True)
+        )
+        return Held(given, target, rows, right, spoilt=spoilt)
+
+    def _rows(
+        self, name: str, given: Given, key: Any
+    ) -> tuple[tuple[tuple[Written, ...], ...] | None, tuple[Diagnosis, ...]]:
+        """The entries as they are compared; of C, the rows of C q̇."""
+        assert given.rows is not None
+        if name == "C":
+            return self._coriolis(given)
+        rows = fitted(given.rows, key)
+        if rows is None:
+            return None, (self._misfit(given, key),)
+        nodes = given.nodes if len(given.nodes) == len(rows) and len(given.nodes[0]) == len(rows[0]) else None
+        if nodes is None:
+            flat = [node for row in given.nodes for node in row]
+            if len(flat) < len(rows) * len(rows[0]):
+                flat = flat * (len(rows) * len(rows[0]))
+            width = len(rows[0])
+            nodes = tuple(tuple(flat[i * width : (i + 1) * width]) for i in range(len(rows)))
+        return tuple(
+            tuple(Written(value, node, self.hand.moved) for value, node in zip(r, n, strict=True))
+            for r, n in zip(rows, nodes, strict=True)
+        ), ()
+
+    def _misfit(self, given: Given, key: Any) -> Diagnosis:
+        assert given.rows is not None
+        mine = f"{len(given.rows)}×{len(given.rows[0])}"
+        shape = key.shape if isinstance(key, Matrix) else (1, 1)
+        wanted = f"a {shape[0]}×{shape[1]} matrix" if shape != (1, 1) else "a single expression"
+        return Diagnosis(
+            "shape",
+            f"You wrote a {mine} matrix; {given.answer.name} is {wanted}.",
+            "the size of the matrix",
+            "Count rows and columns.",
+        )
+
+    def _coriolis(
+        self, given: Given
+    ) -> tuple[tuple[tuple[Written, ...], ...] | None, tuple[Diagnosis, ...]]:
+        """C as its C q̇, n×1; a C with accelerations in it is none."""
+        assert given.rows is not None
+        n, ring = self.problem.robot.n, self.field.ring
+        zero = len(given.entries) == 1 and given.entries[0].is_zero
+        if not zero and (len(given.rows) != n or len(given.rows[0]) != n):
+            return None, (self._misfit(given, self.field.key("C")),)
+        from dynsolve.notation.tree import Product, Sum
+
+        rows = []
+        for row in given.nodes if not zero else ((given.nodes[0][0],) * n,) * n:
+            factors = zip(row, ring.names, strict=True)
+            node: Node = Sum(tuple(Product((entry, Symbol(name, 1))) for entry, name in factors))
+            rows.append((Written(self.hand.moved(node), node, self.hand.moved),))
+        return tuple(rows), tuple(self._accelerated(given))
+
+    def _accelerated(self, given: Given) -> Iterator[Diagnosis]:
+        ring = self.field.ring
+        for entry in given.entries:
+            for part in (entry.above, entry.bottom):
+                degrees = part.poly.degrees() if part.poly else ()
+                if degrees and any(degrees[ring._symbols[(name, 2)]] > 0 for name in ring.names):
+                    yield Diagnosis(
+                        "acceleration_in_C",
+                        "Your C contains a joint acceleration; what is multiplied by q̈ belongs into D.",
+                        "a term in the wrong matrix",
+                        "C holds only coordinates and velocities.",
+                    )
+                    return
+
+    # -- held against what the student's own answers lead to ---------------------------------------
+
+    @cached_property
+    def follow(self) -> Follow:
+        """The candidates that the student's own answers lead to."""
+        return Follow(self.graph, dict(self._own()))
+
+    def _own(self) -> Iterator[tuple[str, Own]]:
+        for name, held in self.held.items():
+            target = held.target
+            if target.entry is None and target.christoffel is None and target.node in self.field.rules:
+                if held.given.rows is not None and not (name == "Cqd" and "C" in self.held):
+                    yield target.node, self._own_value(name, held)
+        for whole in ("D", "g"):
+            if whole not in self.held:
+                yield from self._own_whole(whole)
+
+    def _own_value(self, name: str, held: Held) -> Own:
+        key = self.graph.key(held.target.node)
+        if held.correct:
+            return Own(key)
+        rows = tuple(tuple(written.value for written in row) for row in held.rows)
+        return Own(as_value(rows, key) if rows else None, (name,))
+
+    def _own_whole(self, whole: str) -> Iterator[tuple[str, Own]]:
+        """A matrix that was given entry by entry; of a symmetric one half is enough."""
+        if not self.problem.robot.bodies:
+            return
+        key: Matrix = self.graph.key(whole)
+        entries: list[list[Expr]] = []
+        names: list[str] = []
+        for i, row in enumerate(key.rows):
+            entries.append([])
+            for j in range(len(row)):
+                candidates = (f"d{i + 1}{j + 1}", f"d{j + 1}{i + 1}") if whole == "D" else (f"g{i + 1}",)
+                name = next((c for c in candidates if c in self.held), None)
+                held = self.held[name] if name else None
+                if name is None or held is None or held.given.rows is None or not held.rows:
+                    return
+                value = key[i, j] if held.correct else as_expr(held.rows[0][0].value)
+                if value is None:
+                    return
+                entries[-1].append(value)
+                names += [] if held.correct else [name]
+        yield whole, Own(Matrix.of(self.field.ring, entries), tuple(dict.fromkeys(names)))
+
+    def _candidates(self, held: Held) -> Sequence[Candidate]:
+        return self.follow.derived(held.target.node)
+
+    # -- verdicts ----------------------------------------------------------------------------------
+
+    @cached_property
+    def diagnoser(self) -> Diagnoser:
+        """Names slips."""
+        return Diagnoser(self.problem, self.graph, self.follow, self.dimensions)
+
+    def judged(self, name: str) -> Judged:
+        """What is said of one answer."""
+        chains = self.groups[name]
+        held = self.held[name]
+        answer = held.given.answer
+        base = Judged(
+            name,
+            Verdict.WRONG,
+            answer.label,
+            answer.place,
+            answer.read_as,
+            answer.notes,
+            of=Fraction(self.problem.marks.get(name, 0)),
+            occurrences=self._occurrences(name, chains),
+        )
+        if held.given.rows is None:
+            return replace(
+                base, verdict=Verdict.UNREADABLE, fault=held.given.fault, expected=held.given.expected
+            )
+        base = self._with_chain(base, chains[-1])
+        if held.target.node not in self.field.rules:
+            return replace(base, verdict=Verdict.UNREADABLE, fault=f"{name} is no quantity of this problem")
+        if held.correct:
+            return self._scored(self._as_correct(base, name, held))
+        return self._scored(self._as_other(base, name, held))
+
+    def _scored(self, judged: Judged) -> Judged:
+        earned = judged.of if judged.verdict in (Verdict.CORRECT, Verdict.FOLLOWS) else Fraction(0)
+        return replace(judged, marks=earned)
+
+    def _as_correct(self, base: Judged, name: str, held: Held) -> Judged:
+        notes = list(base.notes)
+        if held.rounded:
+            notes.append("rounded")
+        if self._not_from_own(held):
+            notes.append(NOT_FROM_OWN)
+        if name == "C" and not self._is_christoffel(held.given):
+            notes.append(NOT_CHRISTOFFEL)
+        entries = tuple(EntryVerdict(index, Verdict.CORRECT) for index, _, _ in self._entries(name, held))
+        return replace(base, verdict=Verdict.CORRECT, notes=tuple(notes), entries=entries)
+
+    def _is_christoffel(self, given: Given) -> bool:
+        assert given.rows is not None
+        C: Matrix = self.field.key("C")
+        key = tuple(tuple(Frac(entry) for entry in row) for row in C.rows)
+        return same(given.rows, key)
+
+    def _not_from_own(self, held: Held) -> bool:
+        """Whether the student's own wrong answers lead elsewhere."""
+        if held.target.node in ("Cqd", "C", "christoffel") and not self.problem.robot.bodies:
+            return False
+        if not self.follow.touched(held.target.node):
+            return False
+        nearest = self.nearest(held.target)
+        if nearest is None:
+            return False
+        key = self.key(held.target)
+        ways = self._nearest_of_ways(held.target)
+        return bool(ways) and all(not _equal(value, key) for value in ways)
+
+    def _nearest_of_ways(self, target: Target) -> list[Any]:
+        """The value of each way from the nearest own answers."""
+        values = []
+        for way in self.graph.ways(target.node):
+            if not any(self.follow.own.get(i) or self.follow.touched(i) for i in way.inputs):
+                continue
+            one = next(iter(self.follow._combinations(way)), None)
+            if one is not None:
+                values.append(target.of(one.value))
+        return values
+
+    def nearest(self, target: Target) -> Any:
+        """The value expected from the student's own nearest answers; None where they lead nowhere."""
+        if not self.follow.touched(target.node):
+            return self.key(target)
+        found = self.follow.derived(target.node)
+        return target.of(found[0].value) if found else None
+
+    def _entries(self, name: str, held: Held) -> Iterator[tuple[tuple[int, ...], int, int]]:
+        """(index from 1, row, column) of the entries that are judged one by one; none of a scalar."""
+        if len(held.rows) == 1 and len(held.rows[0]) == 1:
+            return
+        for i, row in enumerate(held.rows):
+            for j in range(len(row)):
+                yield ((i + 1,) if name == "C" else (i + 1, j + 1)), i, j
+
+    def _as_other(self, base: Judged, name: str, held: Held) -> Judged:
+        if not held.rows or held.spoilt:
+            return replace(base, diagnosis=held.spoilt)
+        whole = self._whole_follows(held)
+        entries = tuple(self._entry(name, held, index, i, j, whole) for index, i, j in self._entries(name, held))
+        if not entries:
+            one = self._entry(name, held, (1, 1), 0, 0, whole)
+            return replace(
+                base, verdict=one.verdict, follows_from=one.follows_from, diagnosis=one.diagnosis,
+                difference=one.difference,
+            )  # fmt: skip
+        verdict = worst([entry.verdict for entry in entries])
+        used = [name for entry in entries for name in entry.follows_from]
+        found = tuple(dict.fromkeys(d for entry in entries for d in entry.diagnosis))
+        if verdict is Verdict.WRONG:
+            found = self.diagnoser.whole(self._question(name, held, 0, 0), held, found)
+        return replace(
+            base, verdict=verdict, entries=entries, diagnosis=found,
+            follows_from=self._sorted(used) if verdict is Verdict.FOLLOWS else (),
+        )  # fmt: skip
+
+    def _sorted(self, names: Sequence[str]) -> tuple[str, ...]:
+        return tuple(sorted(dict.fromkeys(names), key=self.graph.place))
+
+    def _matches(self, held: Held, candidate: Candidate, i: int, j: int) -> bool:
+        value = held.target.of(candidate.value)
+        expected = value[i, j] if isinstance(value, Matrix) else value
+        return self.compare(expected, held.rows[i][j]) is not None
+
+    def _whole_follows(self, held: Held) -> Candidate | None:
+        """The first candidate that explains every entry that is not right by itself."""
+        places = [(i, j) for i, row in enumerate(held.right) for j, r in enumerate(row) if r is None]
+        for one in self._candidates(held):
+            if one.used and all(self._matches(held, one, i, j) for i, j in places):
+                return one
+        return None
+
+    def _row_follows(self, held: Held, i: int) -> Candidate | None:
+        """The force that an entry of τ is taken from."""
+        for one in self.follow.choices(f"tau{i + 1}"):
+            if one.used and one.value is not None and self.compare(one.value, held.rows[i][0]) is not None:
+                return one
+        return None
+
+    def _entry(
+        self, name: str, held: Held, index: tuple[int, ...], i: int, j: int, whole: Candidate | None
+    ) -> EntryVerdict:
+        if held.right[i][j] is not None:
+            return EntryVerdict(index, Verdict.CORRECT)
+        one = self._row_follows(held, i) if held.target.node == "tau" else whole
+        if one is None:
+            one = next((c for c in self._candidates(held) if c.used and self._matches(held, c, i, j)), None)
+        if one is not None:
+            return EntryVerdict(index, Verdict.FOLLOWS, follows_from=self._sorted(list(one.used)))
+        question = self._question(name, held, i, j)
+        return EntryVerdict(
+            index, Verdict.WRONG, self.diagnoser(question), difference=self.diagnoser.difference(question)
+        )
+
+    def _question(self, name: str, held: Held, i: int, j: int) -> Question:
+        nearest = self.nearest(held.target)
+        key = self.key(held.target)
+        return Question(
+            name=name,
+            target=held.target,
+            written=held.rows[i][j],
+            expected=_at(nearest if nearest is not None else key, i, j),
+            key=_at(key, i, j),
+            row=i,
+            column=j,
+        )
+
+    # -- places ------------------------------------------------------------------------------------
+
+    def _occurrences(self, name: str, chains: list[list[Given]]) -> tuple[Occurrence, ...]:
+        """Each place where it was given, where there are several."""
+        if len(chains) < 2:
+            return ()
+        found = []
+        for chain in chains:
+            last = chain[-1]
+            found.append(Occurrence(last.answer.place, last.answer.label, self._verdict_of(name, last)))
+        return tuple(found)
+
+    def _verdict_of(self, name: str, given: Given) -> Verdict:
+        held = self._hold(name, given)
+        if given.rows is None:
+            return Verdict.UNREADABLE
+        if held.correct:
+            return Verdict.CORRECT
+        if not held.rows or held.spoilt:
+            return Verdict.WRONG
+        whole = self._whole_follows(held)
+        if whole is not None:
+            return Verdict.FOLLOWS
+        verdicts = []
+        for i, row in enumerate(held.right):
+            for j, right in enumerate(row):
+                follows = any(c.used and self._matches(held, c, i, j) for c in self._candidates(held))
+                verdicts.append(
+                    Verdict.CORRECT if right is not None else Verdict.FOLLOWS if follows else Verdict.WRONG
+                )
+        return worst(verdicts)
+
+    def _with_chain(self, base: Judged, chain: list[Given]) -> Judged:
+        """The place of the slip in a = b = c: the first member that differs from the one before it."""
+        for before, after in zip(chain, chain[1:], strict=False):
+            if before.rows is None or after.rows is None or same(before.rows, after.rows):
+                continue
+            note = f"differs from what stands before it, {before.answer.text.strip()}"
+            return replace(base, place=after.answer.place, notes=(*base.notes, note))
+        first = chain[0].answer
+        return replace(base, place=first.place if len(chain) > 1 else base.place)
+
+    # -- the whole hand-in -------------------------------------------------------------------------
+
+    def report(self) -> Report:
+        """Everything that is said of the hand-in."""
+        answers = {name: self.judged(name) for name in self.groups}
+        for name in self.problem.marks or self.problem.find:
+            if name not in answers and self.target(name).node in self.field.rules:
+                answers[name] = self._unwritten(name, answers)
+        ordered = sorted(answers.values(), key=lambda a: self.graph.place(a.name))
+        first = next((a.name for a in ordered if a.verdict is Verdict.WRONG), "")
+        return Report(
+            self.problem.stem,
+            self.submission.student,
+            self.submission.file,
+            tuple(ordered),
+            self.submission.not_recognized,
+            first,
+            tuple(map(str, self.submission.faults)),
+        )
+
+    def _unwritten(self, name: str, answers: dict[str, Judged]) -> Judged:
+        """A whole that is not written: judged by its parts where all of them are, else missing."""
+        of = Fraction(self.problem.marks.get(name, 0))
+        parts = self._written_parts(name, answers)
+        if parts is None:
+            return Judged(name, Verdict.MISSING, of=of, given=False)
+        verdict = worst([part.verdict for part in parts])
+        used = [n for part in parts for n in part.follows_from] if verdict is Verdict.FOLLOWS else []
+        return self._scored(
+            Judged(
+                name, verdict, parts[0].label, parts[0].place, of=of, given=False,
+                notes=(BY_PARTS,), follows_from=self._sorted(used),
+            )  # fmt: skip
+        )
+
+    def _written_parts(self, name: str, answers: dict[str, Judged]) -> list[Judged] | None:
+        parts = self.graph.parts(name)
+        found: list[Judged] = []
+        for part in parts:
+            mirrored = f"d{part[2]}{part[1]}" if name == "D" else part
+            if part in answers:
+                found.append(answers[part])
+            elif mirrored in answers:
+                found.append(answers[mirrored])
+            else:
+                inner = self._written_parts(part, answers)
+                if inner is None:
+                    return None
+                found += inner
+        return found or None
+
+
+def _equal(a: Any, b: Any) -> bool:
+    if isinstance(a, Matrix) and isinstance(b, Matrix):
+        return a.shape == b.shape and all(x == y for x, y in zip(a.entries, b.entries, strict=True))
+    return bool(a == b)
+
+
+def _at(value: Any, i: int, j: int) -> Expr:
+    found: Expr = value[i, j] if isinstance(value, Matrix) else value
+    return found
