@@ -281,7 +281,7 @@ class Collector:
         return found
 
     def _split(self, poly: Poly) -> Node:
-        plain = total([self.product(f, m, ()) for m, f in self.ordered(poly)])
+        plain = self._arranged([self.product(f, m, ()) for m, f in self.ordered(poly)])
         best = plain
         for atom in self._worth_splitting(poly):
             node = self._split_by(poly, atom)
@@ -311,7 +311,16 @@ class Collector:
         having = {m: f for m, f in poly.items() if any(a == atom and e > 0 for a, e in m)}
         rest = {m: f for m, f in poly.items() if m not in having}
         parts = [having, rest] if min(poly, key=self.order) in having else [rest, having]
-        return total([self.form(part) for part in parts if part])
+        return self._arranged([self.form(part) for part in parts if part])
+
+    def _arranged(self, nodes: list[Node]) -> Node:
+        """The sum of trees; where one is a sum itself, its terms find their places among the others."""
+        if len(nodes) == 1 or not any(isinstance(split_sign(node)[1], Sum) for node in nodes):
+            return total(nodes)
+        flat = total(nodes)
+        if not isinstance(flat, Sum):
+            return flat
+        return total(sorted(flat.terms, key=lambda term: self.order(self.decompose(term)[1])))
 
     def order(self, mono: Mono) -> tuple[object, ...]:
         """The place of a term in a sum: by its velocities, its angles, its symbols; squares first."""
