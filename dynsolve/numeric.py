@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from dynsolve.errors import UsageError
 from dynsolve.notation.evaluate import DOTS, Program, compile_trees
 from dynsolve.notation.python import python_name
-from dynsolve.notation.tree import Matrix, Node
+from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem
 
 _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt}
@@ -48,8 +48,7 @@ class NumericFunction:
         states = {q + dots for q in coordinates for dots in DOTS}
         parameters = tuple(name for name in program.symbols if name not in states and name != "pi")
         defaults = {name: float(value) for name, value in problem.values.items()}
-        is_vector = isinstance(tree, Matrix) and all(len(row) == 1 for row in tree.rows)
-        return NumericFunction(name, coordinates, parameters, defaults, program, is_vector)
+        return NumericFunction(name, coordinates, parameters, defaults, program, _is_vector(name))
 
     def __call__(
         self,
@@ -85,6 +84,11 @@ class NumericFunction:
                 f"{what} has {len(entries)} entries, the robot {len(self.coordinates)} coordinates"
             )
         return {name + dots: entry for name, entry in zip(self.coordinates, entries, strict=True)}
+
+
+def _is_vector(name: str) -> bool:
+    """Whether a quantity is a column vector by its nature, and not a matrix with one column."""
+    return name in ("tau", "g", "g_direct", "Cqd") or name.startswith(("rc", "v", "w"))
 
 
 def _flat(result: Any) -> list[Any]:

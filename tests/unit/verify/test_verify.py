@@ -9,8 +9,9 @@ import pytest
 
 import dynsolve
 from dynsolve.errors import VerificationError
+from dynsolve.newton_euler import Arm, Mass, Motion, energies, inverse_dynamics
 from dynsolve.notation.tree import Matrix, Node, Number, Product, Sum
-from dynsolve.verify import Arm, Mass, Motion, energies, inverse_dynamics, verify
+from dynsolve.verify import verify
 
 ONE = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 NONE = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))

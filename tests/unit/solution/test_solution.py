@@ -1,0 +1,180 @@
+"""Solutions as Python users hold them: SymPy, NumPy, JSON."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import FrozenInstanceError
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy
+
+import dynsolve
+from dynsolve.errors import ProblemError, UsageError, VerificationError
+from dynsolve.library import bundled, find
+from dynsolve.notation.text import read
+from dynsolve.symbolic import to_sympy
+from tests.support import LIBRARY, numbers
+
+q1, q2, q1_dot, q2_dot = sympy.symbols("q1 q2 q1_dot q2_dot", real=True)
+m2, l1, lc2, g = sympy.symbols("m2 l1 lc2 g", real=True)
+
+
+@pytest.fixture(scope="module")
+def planar() -> dynsolve.Solution:
+    return dynsolve.solve("planar-2r")
+
+
+def test_results_are_sympy_in_real_symbols(planar: dynsolve.Solution) -> None:
+    """Spong, Hutchinson, Vidyasagar, section 7.4: h = -m_2 l_1 l_c2 sin q_2."""
+    h = -m2 * l1 * lc2 * sympy.sin(q2)
+    expected = sympy.Matrix([[h * q2_dot, h * (q2_dot + q1_dot)], [-h * q1_dot, 0]])
+    assert sympy.expand(planar.C - expected) == sympy.zeros(2, 2)
+    assert sympy.expand(planar.g[1] - m2 * g * lc2 * sympy.cos(q1 + q2)) == 0
+    assert planar.christoffel(2, 1, 1) == planar.christoffel(1, 2, 1) == h
+
+
+def test_sympy_s_own_derivation_agrees(planar: dynsolve.Solution) -> None:
+    """D from K, and C q̇ + g from L, by SymPy's derivatives."""
+    rates = sympy.Matrix([q1_dot, q2_dot])
+    assert sympy.simplify(sympy.hessian(planar.K, rates) - planar.D) == sympy.zeros(2, 2)
+    momenta = sympy.Matrix([planar.L]).jacobian(rates)
+    moving = momenta.jacobian([q1, q2]) * rates - sympy.Matrix([planar.L]).jacobian([q1, q2]).T
+    assert sympy.simplify(moving - planar.C * rates - planar.g) == sympy.zeros(2, 1)
+
+
+def test_every_quantity_by_its_name(planar: dynsolve.Solution) -> None:
+    assert planar.symbolic("H2") == planar.H[1] and planar.H[0] == planar.A[0]
+    assert planar.J[:3, :] == planar.Jv and planar.J[3:, :] == planar.Jw
+    assert planar.symbolic("Kw2").subs({q1_dot: 1, q2_dot: 1}) == 2 * sympy.Symbol("I2", real=True)
+    for name in ("nonsense", "K9", "christoffel"):
+        with pytest.raises(UsageError, match=name):
+            planar.symbolic(name)
+
+
+def test_a_solution_is_frozen(planar: dynsolve.Solution) -> None:
+    with pytest.raises(FrozenInstanceError):
+        planar.problem = None  # type: ignore[misc,assignment]
+    assert isinstance(planar.D, sympy.ImmutableMatrix)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["m1*L1**2/2 - 3", "-x*(y - 1)**2", "sin(2*x + 90deg)*cos(y)", "sqrt(x**2 + 3)/y", "pi*x", "lambda_"],
+)
+def test_a_tree_in_sympy_is_the_formula(text: str) -> None:
+    names = {name: sympy.Symbol(name.rstrip("_"), real=True) for name in ("m1", "L1", "x", "y", "lambda_")}
+    functions = {"sin": sympy.sin, "cos": sympy.cos, "sqrt": sympy.sqrt, "pi": sympy.pi}
+    expected = eval(text.replace("90deg", "pi/2"), {"__builtins__": {}}, {**names, **functions})  # noqa: S307
+    assert sympy.simplify(to_sympy(read(text).tree) - expected) == 0
+
+
+NUMBERS = {"m1": 1.2, "m2": 0.8, "l1": 0.5, "lc1": 0.2, "lc2": 0.3, "I1": 0.02, "I2": 0.01, "g": 9.81}
+
+
+def test_numeric_functions_agree_with_each_other(planar: dynsolve.Solution) -> None:
+    q, qd, qdd = [0.3, -1.1], [0.7, 0.4], [-0.2, 1.5]
+    D, C, gravity, tau = (planar.numeric(name) for name in ("D", "C", "g", "tau"))
+    both = D(q, **NUMBERS) @ qdd + C(q, qd, **NUMBERS) @ qd + gravity(q, **NUMBERS)
+    assert tau(q, qd, qdd, **NUMBERS) == pytest.approx(both, rel=1e-12)
+    assert D(q, **NUMBERS).shape == (2, 2) and gravity(q, **NUMBERS).shape == (2,)
+    assert planar.numeric("K")(q, qd, **NUMBERS) == pytest.approx(0.5 * np.array(qd) @ D(q, **NUMBERS) @ qd)
+
+
+def test_numeric_functions_take_many_states_at_once(planar: dynsolve.Solution) -> None:
+    q = np.random.default_rng(1).uniform(-3, 3, (2, 50))
+    many = planar.numeric("D")(q, **NUMBERS)
+    assert many.shape == (2, 2, 50)
+    assert many[:, :, 7] == pytest.approx(planar.numeric("D")(q[:, 7], **NUMBERS))
+
+
+def test_numeric_functions_say_what_is_missing(planar: dynsolve.Solution) -> None:
+    D = planar.numeric("D")
+    assert set(D.parameters) == {"m1", "m2", "l1", "lc1", "lc2", "I1", "I2"}
+    with pytest.raises(UsageError, match="D needs values for I2"):
+        D([0, 0], **{name: value for name, value in NUMBERS.items() if name != "I2"})
+    with pytest.raises(UsageError, match="q has 3 entries, the robot 2 coordinates"):
+        D([0, 0, 0], **NUMBERS)
+
+
+def test_values_of_the_file_are_defaults() -> None:
+    text = "dh: [{theta: q1*, a: l1}]\ngravity: [0, -g, 0]\nmasses: [{mass: m, link: 1}]\n"
+    text += "values: {m: 2, l1: 0.5, g: 10}\n"
+    gravity = dynsolve.solve(text).numeric("g")
+    assert gravity([0.0]) == pytest.approx([10.0])
+    assert gravity([0.0], g=1) == pytest.approx([1.0])
+
+
+def test_a_parameter_may_have_a_name_that_python_keeps() -> None:
+    text = "dh: [{theta: q1*, a: lambda}]\nmasses: [{mass: q, link: 1}]"
+    solution = dynsolve.solve(text)
+    assert solution.numeric("D")([0.0], lambda_=2.0, q=3.0) == pytest.approx(np.array([[12.0]]))
+    assert solution.to_json()["results"]["D"] == [["q*lambda_**2"]]
+
+
+@pytest.mark.parametrize(
+    "path", [path for path in LIBRARY if path.stem not in ("panda-7r", "puma560")], ids=lambda p: p.stem
+)
+def test_json_and_numpy_say_the_same(path: Path) -> None:
+    solution = dynsolve.solve(path)
+    results = json.loads(json.dumps(solution.to_json()))["results"]
+    rng = np.random.default_rng(3)
+    values = {name: rng.uniform(0.5, 1.5) for name in solution.robot.parameters}
+    state = {name: rng.uniform(-1, 1, solution.robot.n) for name in ("", "_dot", "_ddot")}
+    plain = {
+        q.name + dots: x
+        for dots, vector in state.items()
+        for q, x in zip(solution.robot.coordinates, vector, strict=True)
+    }
+    for name in ("D", "C", "g", "tau", "K", "P", "L", "Jv", "Jw"):
+        ours = solution.numeric(name)(*state.values(), **values)
+        assert ours == pytest.approx(numbers(results[name], {**values, **plain}), rel=1e-9, abs=1e-12)
+
+
+def test_steps_are_in_json_as_text_and_latex(planar: dynsolve.Solution) -> None:
+    steps = {step["id"]: step for step in planar.to_json()["steps"]}
+    assert steps["L"]["text"].startswith("𝓛 = 𝒦 - 𝒫\n")
+    assert steps["H2"]["latex"].count(r"\begin{bmatrix}") >= 2
+    assert steps["D"]["stage"] == "vectorized" and steps["D"]["why"]
+
+
+def test_a_robot_without_masses_ends_with_the_jacobian() -> None:
+    solution = dynsolve.solve("dh: [{theta: q1*, a: l1}, {d: d2*, alpha: 30deg}]\n")
+    assert set(solution.to_json()["results"]) == {"A", "H", "Jv", "Jw", "bodies"}
+    assert solution.verification.max_relative_error < 1e-12
+    with pytest.raises(UsageError):
+        _ = solution.D
+
+
+def test_what_can_be_solved(planar: dynsolve.Solution) -> None:
+    """A path, a stem, a text, a problem: all the same."""
+    path = bundled()["planar-2r"]
+    for problem in (path, str(path), dynsolve.load(path), path.read_text()):
+        assert dynsolve.solve(problem).D == planar.D
+    assert dynsolve.load("planar-2r").title == planar.problem.title
+
+
+def test_an_unknown_stem_is_a_problem_error() -> None:
+    with pytest.raises(ProblemError, match="did you mean"):
+        find("planar-2rr")
+
+
+def test_progress_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[tuple[int, int]] = []
+    dynsolve.solve("planar-2r", progress=lambda done, of: told.append((done, of)))
+    assert [done for done, _ in told] == list(range(told[0][1]))
+
+
+def test_ways_that_disagree_are_never_returned(monkeypatch: pytest.MonkeyPatch) -> None:
+    from dynsolve import pipeline, solution
+
+    monkeypatch.setattr(solution, "agreement", lambda *_: pipeline.Agreement(True, False, True, True))
+    with pytest.raises(VerificationError):
+        dynsolve.solve("planar-2r")
+
+
+def test_the_public_face() -> None:
+    assert {"load", "solve"} <= set(dir(dynsolve))
+    with pytest.raises(AttributeError, match="has no attribute 'sove'"):
+        _ = dynsolve.sove  # type: ignore[attr-defined]
