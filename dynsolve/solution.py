@@ -166,7 +166,7 @@ class Solution:
         from dynsolve.explain import explain
         from dynsolve.explain.course import Course
 
-        return explain(Course(self.robot, self.values, self.forms), stages)
+        return explain(Course(self.robot, self.values, self.forms, self.agreement), stages)
 
     def to_json(self) -> dict[str, Any]:
         """The solution as JSON, `dynsolve-solution/1`."""

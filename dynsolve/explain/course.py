@@ -11,7 +11,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Row, Words
-from dynsolve.pipeline import Derivation
+from dynsolve.pipeline import Agreement, Derivation
 from dynsolve.robot.model import Convention, Coordinate, Joint, JointType, Robot
 
 SHV = "Spong, Hutchinson, Vidyasagar"
@@ -23,11 +23,12 @@ LARGEST_WORKING = 260
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """A robot with its derivation, exact and as trees."""
+    """A robot with its derivation, exact and as trees, and whether the two ways to D, C, g agree."""
 
     robot: Robot
     values: Derivation
     forms: Forms
+    agreement: Agreement | None = None
 
     @property
     def standard(self) -> bool:
