@@ -30,9 +30,10 @@ class Heading:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A paragraph."""
+    """A paragraph; `source` is where the textbook has what it says."""
 
     parts: Prose
+    source: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -234,9 +234,7 @@ class MathMLPrinter(Printer):
             return f"<msup>{row(self.text(base))}{exponent}</msup>"
         if type(base) is Letter and base.sup is None:
             sub = "" if base.sub is None else _one(self.text(base.sub))
-            return indexed(
-                self._letter(Letter(base.base, None, None, base.style, base.dots)), sub, exponent
-            )
+            return indexed(self._letter(Letter(base.base, None, None, base.style, base.dots)), sub, exponent)
         text = self.text(base)
         bare = type(base) in _BARE_BASES or is_whole(base)
         return f"<msup>{row(text if bare else self.parenthesized(text))}{exponent}</msup>"

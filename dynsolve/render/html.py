@@ -55,7 +55,7 @@ def to_html(document: Document, style: Style = PLAIN, level: str = "normal") -> 
     css = (files("dynsolve.render") / "report.css").read_text(encoding="utf-8")
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+        '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
         "style-src 'unsafe-inline'; img-src data:\">\n"
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
@@ -205,7 +205,7 @@ class _Page:
         anchor = f' id="eq-{formula.label}"' if number else ""
         beside = f'<span class="n">({number})</span>' if number else ""
         if formula.source:
-            beside = f'<cite>{self.words(formula.source)}</cite>{beside}'
+            beside = f"<cite>{self.words(formula.source)}</cite>{beside}"
         yield f'<div class="formula {kind}"{anchor}><div class="box">'
         yield from self.lines(formula.node, formula)
         yield f"</div>{beside}</div>\n"

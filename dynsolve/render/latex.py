@@ -3,7 +3,9 @@ r"""Documents -> LaTeX: a complete document, or a fragment to \input; amsmath an
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from typing import ClassVar
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, groupby
 
 from dynsolve.document import (
     Block,
@@ -21,11 +23,11 @@ from dynsolve.document import (
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
-from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Node
+from dynsolve.notation.printing import PLAIN, Rules, Style
+from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.render.flow import Notation
 from dynsolve.render.latex_text import latex_text
-from dynsolve.render.references import numbered, slug
+from dynsolve.render.references import numbered, slug, with_sources
 from dynsolve.render.setting import Line, Setter
 from dynsolve.render.words import spoken
 
@@ -36,6 +38,7 @@ FRAGMENT_PAGE = 32.8
 """The narrowest page of the standard classes, which a fragment must fit."""
 
 _NUMBER = 3.4
+_MOST_LINES = 60  # what TeX holds in memory at once is bounded
 _TALL = (r"\frac", r"\sum", r"\begin")
 _SIGNS = {"≈": r"\approx", "≠": r"\neq", "≤": r"\leq", "≥": r"\geq", "⇒": r"\Rightarrow", "×": r"\times"}
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
@@ -52,7 +55,13 @@ _PREAMBLE = r"""\documentclass[a4paper,11pt]{article}
 \setlength{\emergencystretch}{4em}
 \setcounter{tocdepth}{1}
 \setcounter{MaxMatrixCols}{30}
-\allowdisplaybreaks[1]
+\allowdisplaybreaks[3]
+\AtBeginDocument{\setlength{\abovedisplayskip}{7pt plus 3pt}\setlength{\belowdisplayskip}{7pt plus 3pt}}
+"""
+
+# A source stands at the end of its line, or of the next where it does not fit.
+_MACROS = r"""\providecommand{\formulasource}[1]{\unskip\nobreak
+  \hfill\penalty50\hskip1em\hbox{}\nobreak\hfill\mbox{\footnotesize #1}}
 """
 
 
@@ -62,8 +71,8 @@ def to_latex_document(document: Document, style: Style = PLAIN) -> str:
     title = next((block.text for block in document.blocks if isinstance(block, Heading)), "")
     body = "\n".join(page.blocks(b for b in document.blocks if not _is_title(b)))
     return (
-        f"{_PREAMBLE}\\title{{{page.words(title)}}}\n\\author{{}}\n\\date{{}}\n\\begin{{document}}\n"
-        f"\\maketitle\n\\thispagestyle{{plain}}\n{body}\n\\end{{document}}\n"
+        f"{_PREAMBLE}{_MACROS}\\begin{{document}}\n"
+        f"{{\\LARGE\\bfseries\\raggedright {page.words(title)}\\par}}\n\\bigskip\n{body}\n\\end{{document}}\n"
     )
 
 
@@ -71,7 +80,7 @@ def to_latex_fragment(document: Document, style: Style = PLAIN) -> str:
     r"""What a document of the reader's own takes in with \input; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
     needs = r"% Needs \usepackage{amsmath}; for matrices of more than ten columns also \setcounter{MaxMatrixCols}{30}"
-    return f"{needs}\n" + "\n".join(page.blocks(document.blocks)) + "\n"
+    return f"{needs}\n{_MACROS}" + "\n".join(page.blocks(document.blocks)) + "\n"
 
 
 def _is_title(block: Block) -> bool:
@@ -100,30 +109,55 @@ def latex_notation(printer: LatexPrinter) -> Notation:
     )
 
 
+class _Printer(LatexPrinter):
+    """LaTeX for a page: rows with fractions in them stand further apart, formulas side by side too."""
+
+    def _matrix(self, node: Matrix) -> str:
+        rows = [" & ".join(map(self.text, row)) for row in node.rows]
+        ends = [r" \\[3pt] " if r"\frac" in row else r" \\ " for row in rows[:-1]]
+        body = "".join(chain.from_iterable(zip(rows, [*ends, ""], strict=True)))
+        return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
+
+    def _words(self, node: Words) -> str:
+        if node.text == ", ":
+            return r",\quad"
+        return "," if node.text == "," else super()._words(node)
+
+    rules: ClassVar[Rules] = {**LatexPrinter.rules, Matrix: _matrix, Words: _words}
+
+
 class _Page:
     """Turns blocks into LaTeX; knows the page's width and the numbers of the equations."""
 
     def __init__(self, style: Style, width: float, document: Document) -> None:
-        self.printer = LatexPrinter(style)
+        self.printer = _Printer(style)
         ruler, notation = Ruler(style), latex_notation(self.printer)
         self.plain = Setter(notation, ruler, width)
         self.with_number = Setter(notation, ruler, width - _NUMBER)
         self.labels = numbered(document)
         self.prefix = slug(document)
 
-    def blocks(self, blocks: Iterator[Block] | Sequence[Block]) -> Iterator[str]:
-        """The blocks one after the other."""
-        for block in blocks:
-            yield from self.block(block)
+    def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
+        """The blocks one after the other, formulas that follow each other in one display."""
+        in_text = False
+        for is_formula, run in groupby(blocks, lambda block: isinstance(block, Formula)):
+            if is_formula:
+                yield from self.formulas(block for block in run if isinstance(block, Formula))
+                in_text = True
+                continue
+            for block in run:
+                if in_text:
+                    yield ""
+                yield from self.block(block)
+                in_text = isinstance(block, Text | Uses)
 
     def block(self, block: Block) -> Iterator[str]:
         match block:
             case Heading(text, level):
                 yield self.heading(text, level)
-            case Text(parts):
-                yield f"{self.prose(parts)}\n"
-            case Formula():
-                yield from self.formula(block)
+            case Text(parts, source):
+                beside = f"\\formulasource{{{self.words(source)}}}" if source else ""
+                yield f"{self.prose(parts)}{beside}"
             case Uses(labels):
                 yield from self.uses(labels)
             case List(items):
@@ -139,7 +173,7 @@ class _Page:
                     yield f"\\begin{{center}}\n{latex}\n\n\\small {self.words(caption)}\n\\end{{center}}"
             case Fold(title, blocks):
                 yield self.heading(title, 3)
-                yield from self.blocks(blocks)
+                yield from self.blocks(with_sources(blocks))
 
     def heading(self, text: str, level: int) -> str:
         """A heading keeps the number that it has in the whole derivation."""
@@ -166,15 +200,20 @@ class _Page:
             listed = ", ".join(references[:-1]) + " and " * (len(references) > 1) + references[-1]
             yield f"With {listed}:"
 
-    def formula(self, formula: Formula) -> Iterator[str]:
-        is_numbered = formula.label in self.labels
-        lines = (self.with_number if is_numbered else self.plain).set(formula)
-        if not lines:
-            return
-        if formula.source:
-            yield f"\\mbox{{}}\\hfill{{\\footnotesize {self.words(formula.source)}}}\\nopagebreak"
-        label = f"\\label{{{self.prefix}:{formula.label}}}" if is_numbered else ""
-        yield _display(lines, label)
+    def formulas(self, formulas: Iterable[Formula]) -> Iterator[str]:
+        """Displays: formulas of one line together, one that is broken alone."""
+        rows: list[tuple[list[Line], str]] = []
+        for formula in formulas:
+            is_numbered = formula.label in self.labels
+            lines = (self.with_number if is_numbered else self.plain).set(formula)
+            label = f"\\label{{{self.prefix}:{formula.label}}}" if is_numbered else ""
+            if len(lines) == 1:
+                rows.append((lines, label))
+            elif lines:
+                yield from _gathered(rows)
+                rows = []
+                yield from _aligned(lines, label)
+        yield from _gathered(rows)
 
     def table(self, table: Table) -> str:
         rows = [" & ".join(map(self.cell, row)) for row in (table.header, *table.rows)]
@@ -190,17 +229,31 @@ class _Page:
         return self.words(cell) if isinstance(cell, str) else f"${self.printer.text(cell)}$"
 
 
-def _display(lines: Sequence[Line], label: str) -> str:
-    """Lines as a displayed equation, the number beside the last one."""
-    star = "" if label else "*"
-    if len(lines) == 1:
-        text = (lines[0].left + " " + lines[0].right).strip()
-        return f"\\begin{{equation{star}}}{label}\n{text}\n\\end{{equation{star}}}"
-    last = len(lines) - 1
-    rows = []
-    for place, line in enumerate(lines):
-        indent = "\\qquad " if line.indented else ""
-        number = (label if place == last else r" \notag") if label else ""
-        rows.append(f"{line.left} & {indent}{line.right}{number}")
-    body = " \\\\\n".join(rows)
-    return f"\\begin{{align{star}}}\n{body}\n\\end{{align{star}}}"
+def _gathered(rows: Sequence[tuple[list[Line], str]]) -> Iterator[str]:
+    """Formulas of one line each, one under the other."""
+    if not rows:
+        return
+    texts = [f"{line.left} {line.right}".strip() for (line,), _ in rows]
+    if len(rows) == 1:
+        label = rows[0][1]
+        star = "" if label else "*"
+        yield f"\\begin{{equation{star}}}{label}\n{texts[0]}\n\\end{{equation{star}}}"
+        return
+    body = " \\\\\n".join(text + (label or r" \notag") for text, (_, label) in zip(texts, rows, strict=True))
+    yield f"\\begin{{gather}}\n{body}\n\\end{{gather}}"
+
+
+def _aligned(lines: Sequence[Line], label: str) -> Iterator[str]:
+    """One formula on several lines, the number beside the last; a very long one in several displays."""
+    for start in range(0, len(lines), _MOST_LINES):
+        part = lines[start : start + _MOST_LINES]
+        number = label if start + _MOST_LINES >= len(lines) else ""
+        last = len(part) - 1
+        rows = []
+        for place, line in enumerate(part):
+            indent = "\\qquad " if line.indented else ""
+            tag = (number if place == last else r" \notag") if number else ""
+            rows.append(f"{line.left} & {indent}{line.right}{tag}")
+        star = "" if number else "*"
+        body = " \\\\\n".join(rows)
+        yield f"\\begin{{align{star}}}\n{body}\n\\end{{align{star}}}"

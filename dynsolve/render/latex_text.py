@@ -81,7 +81,7 @@ _ACCENTS = {
     "\u0304": r"\=",
     "\u0306": r"\u",
     "\u0307": r"\.",
-    "\u0308": r'\"',
+    "\u0308": r"\"",
     "\u030a": r"\r",
     "\u030b": r"\H",
     "\u030c": r"\v",
@@ -114,7 +114,9 @@ def latex_text(text: str) -> str:
 def _foreign(character: str) -> str:
     parts = unicodedata.normalize("NFD", character)
     if len(parts) == 2 and parts[0].isascii() and parts[1] in _ACCENTS:
-        base = {"i": r"\i", "j": r"\j"}.get(parts[0], parts[0]) if parts[1] not in "\u0323\u0327" else parts[0]
+        base = (
+            {"i": r"\i", "j": r"\j"}.get(parts[0], parts[0]) if parts[1] not in "\u0323\u0327" else parts[0]
+        )
         return f"{_ACCENTS[parts[1]]}{{{base}}}"
     plain = unicodedata.normalize("NFKD", character)
     if plain != character and plain.isascii() and plain.isalnum():

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
-from dynsolve.document import Block, Document, Fold, Formula, Heading
+from dynsolve.document import Block, Document, Fold, Formula, Heading, Text
 
 
 def numbered(document: Document) -> dict[str, int]:
@@ -21,6 +22,15 @@ def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:
             yield block
         elif isinstance(block, Fold):
             yield from formulas(block.blocks)
+
+
+def with_sources(blocks: Sequence[Block]) -> Iterator[Block]:
+    """The same blocks, the source of a formula beside the paragraph that introduces it."""
+    for block, following in zip(blocks, [*blocks[1:], None], strict=True):
+        if isinstance(block, Text) and isinstance(following, Formula) and not block.source:
+            yield replace(block, source=following.source)
+        else:
+            yield block
 
 
 def slug(document: Document) -> str:
