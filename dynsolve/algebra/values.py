@@ -7,14 +7,29 @@ from math import cos, pi, radians, sin, sqrt
 
 from flint import fmpq_mpoly
 
-from dynsolve.algebra.angles import Atom
+from dynsolve.algebra.angles import Atom, names_of
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.from_tree import value_of
 
+DOTS = ("", "_dot", "_ddot")
+
 
 def evaluate(expr: Expr, values: Mapping[str, float]) -> float:
-    """The value at plain names: `theta1`, `theta1_dot`, `theta1_ddot` and the parameters."""
+    """The value at plain names: `theta1`, `theta1_dot`, `theta1_ddot` and the parameters.
+
+    Raises KeyError for a symbol that occurs and has no value.
+    """
+    for g, degree in zip(expr.ring.generators, expr.poly.degrees(), strict=True):
+        if degree > 0:
+            _require(g, values)
     return _value(expr.poly, _point(expr, values))
+
+
+def _require(g: Generator, values: Mapping[str, float]) -> None:
+    names = [g.name + DOTS[g.dots]] if g.kind == "symbol" else names_of(g.angle)
+    for name in names:
+        if name != "pi" and name not in values:
+            raise KeyError(name)
 
 
 def _point(expr: Expr, values: Mapping[str, float]) -> list[float]:
@@ -24,7 +39,7 @@ def _point(expr: Expr, values: Mapping[str, float]) -> list[float]:
     later: list[Generator] = []
     for g in ring.generators:
         if g.kind == "symbol":
-            name = g.name + ("", "_dot", "_ddot")[g.dots]
+            name = g.name + DOTS[g.dots]
             point[g.index] = pi if g.name == "pi" else values.get(name, 0.0)
         elif g.kind in ("sin", "cos", "constant"):
             turn = sum(float(rate) * _atom_value(atom, values) for atom, rate in g.angle.terms)
@@ -72,4 +87,4 @@ def describe(expr: Expr) -> str:
 def _describe(g: Generator) -> str:
     if g.kind in ("sin", "cos"):
         return f"{g.kind}({' + '.join(f'{rate}*{atom}' for atom, rate in g.angle.terms)})"
-    return g.name + ("", "_dot", "_ddot")[g.dots] or f"{g.kind}{g.index}"
+    return g.name + DOTS[g.dots] or f"{g.kind}{g.index}"

@@ -41,8 +41,12 @@ class Forms:
     @cached_property
     def compactor(self) -> Compactor:
         """The one that writes everything about this robot."""
-        robot = self.robot
-        return Compactor(robot.ring, leading_names(robot), _parallel(robot), decimal=is_numeric(robot))
+        return Compactor(self.robot.ring, *self.collecting, decimal=is_numeric(self.robot))
+
+    @property
+    def collecting(self) -> tuple[list[str], list[frozenset[str]]]:
+        """What a compactor of this robot must know: its masses and inertias, its parallel joints."""
+        return leading_names(self.robot), _parallel(self.robot)
 
     def __call__(self, name: str) -> Node:
         """The compact tree of a value, a `tree.Matrix` for a matrix."""

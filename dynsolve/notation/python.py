@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from keyword import iskeyword
+from math import radians
 from typing import ClassVar
 
 from dynsolve.notation.printing import Printer, Rules, Style, decimal_text, is_whole
@@ -57,7 +58,8 @@ class PythonPrinter(Printer):
         return decimal or f"{node.p}/{node.q}"
 
     def _degrees(self, node: Degrees) -> str:
-        return f"{node.p}*pi/{180 * node.q}"
+        # Radians as a float: who evaluates the text needs no name beyond sin, cos, sqrt and the symbols.
+        return repr(radians(node.p / node.q))
 
     def _symbol(self, node: Symbol) -> str:
         return python_name(node.name, node.dots)

@@ -32,7 +32,8 @@ numbers = st.builds(
     st.fractions(min_value=0, max_value=50, max_denominator=100),
 )
 symbols = st.builds(Symbol, st.sampled_from(NAMES), st.integers(0, 2))
-leaves = st.one_of(symbols, symbols, numbers, st.builds(Degrees, st.integers(0, 360), st.integers(1, 4)))
+undegreed = st.one_of(symbols, symbols, numbers)
+leaves = undegreed | st.builds(Degrees, st.integers(0, 360), st.integers(1, 4))
 exponents = st.one_of(
     st.builds(Number, st.integers(0, 4)),
     st.builds(lambda p: Negative(Number(p)), st.integers(1, 3)),
@@ -54,6 +55,8 @@ def _grow(parts):
 
 
 trees = _grow(_grow(leaves | _grow(leaves)))
+rational_trees = _grow(_grow(undegreed | _grow(undegreed)))
+"""Trees without degrees, which Python text gives in radians to double precision."""
 
 
 def symbol_value(name: str) -> Fraction:
