@@ -1,4 +1,4 @@
-"""`dynsolve solve`: the whole derivation, in a terminal, in a pipe, or as JSON."""
+"""`dynsolve solve`: the whole derivation, in a terminal, as a report, or as JSON."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from dynsolve.cli.common import Problems, Quiet, read, say
+from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer
+from dynsolve.cli.output import chosen as chosen_output
 from dynsolve.errors import ExitCode, ProblemError
+from dynsolve.render.formats import Format
 
 if TYPE_CHECKING:
     from dynsolve.solution import Solution
@@ -48,6 +51,18 @@ def solve(
         StageName | None, typer.Option("--to", metavar="STAGE", help="Show up to this stage.")
     ] = None,
     detail: Annotated[DetailName, typer.Option(help="How much is shown.")] = DetailName.NORMAL,
+    output: OutputOption = None,
+    format: FormatOption = None,
+    latex: Annotated[bool, typer.Option("--latex", help="A LaTeX document.")] = False,
+    fragment: Annotated[
+        bool, typer.Option("--fragment", help="LaTeX for another document's \\input.")
+    ] = False,
+    pdf: Annotated[bool, typer.Option("--pdf", help="PDF, without TeX; needs the extra [pdf].")] = False,
+    html: Annotated[bool, typer.Option("--html", help="One HTML file that needs no network.")] = False,
+    markdown: Annotated[bool, typer.Option("--markdown", help="Markdown for GitHub and Jupyter.")] = False,
+    star: Annotated[
+        bool, typer.Option("--star", help="Mark joint variables with a star everywhere.")
+    ] = False,
     quiet: Quiet = False,
 ) -> int:
     """Derive a robot's dynamics step by step, verified.
@@ -56,6 +71,16 @@ def solve(
     vectorized. A robot without masses ends with the Jacobian.
     """
     stages = _chosen(stage, first, last)
+    short = {
+        Format.JSON: json,
+        Format.LATEX: latex,
+        Format.PDF: pdf,
+        Format.HTML: html,
+        Format.MARKDOWN: markdown,
+    }
+    asked = [form for form, is_asked in short.items() if is_asked]
+    place_and_form = chosen_output(format, asked, output, problem, fragment)
+    writer = Writer(place_and_form)
     code = ExitCode.DONE
     for place, name in enumerate(problem):
         try:
@@ -68,10 +93,13 @@ def solve(
             continue
         if not quiet:
             say(solution.warnings, "warning")
-        if json:
+        if place_and_form == Output(Format.TEXT, None):
+            _print_document(solution, detail, stages, star, place > 0)
+        elif place_and_form == Output(Format.JSON, None):
             _print_json(solution)
         else:
-            _print_document(solution, detail, stages, place > 0)
+            writer.write(name, _report(solution, place_and_form, detail, stages, star, fragment))
+    writer.close()
     return code
 
 
@@ -109,13 +137,30 @@ def _print_json(solution: Solution) -> None:
     sys.stdout.write("\n")
 
 
+def _report(
+    solution: Solution,
+    output: Output,
+    detail: DetailName,
+    stages: list[str] | None,
+    star: bool,
+    fragment: bool,
+) -> bytes:
+    from dynsolve.explain.step import Detail
+    from dynsolve.reports import report
+
+    level = Detail[detail.name]
+    return report(solution, output.format, detail=level, stages=stages, star=star, fragment=fragment)
+
+
 def _print_document(
-    solution: Solution, detail: DetailName, stages: list[str] | None, follows_another: bool
+    solution: Solution, detail: DetailName, stages: list[str] | None, star: bool, follows_another: bool
 ) -> None:
     from dynsolve.cli.page import print_document
     from dynsolve.explain.documents import solution_document
     from dynsolve.explain.step import Detail
+    from dynsolve.reports import style_of
 
     if follows_another:
         typer.echo()
-    print_document(solution_document(solution, Detail[detail.name], stages), solution.style)
+    document = solution_document(solution, Detail[detail.name], stages)
+    print_document(document, style_of(solution, star))

@@ -3,9 +3,9 @@ r"""Documents -> LaTeX: a complete document, or a fragment to \input; amsmath an
 from __future__ import annotations
 
 import re
-from typing import ClassVar
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, groupby
+from typing import ClassVar
 
 from dynsolve.document import (
     Block,
@@ -65,6 +65,11 @@ _MACROS = r"""\providecommand{\formulasource}[1]{\unskip\nobreak
 """
 
 
+_NEEDS = r"""% Needs \usepackage{amsmath}, and where a matrix has more than ten columns
+% \setcounter{MaxMatrixCols}{30}.
+"""
+
+
 def to_latex_document(document: Document, style: Style = PLAIN) -> str:
     """A complete document."""
     page = _Page(style, PAGE, document)
@@ -79,8 +84,7 @@ def to_latex_document(document: Document, style: Style = PLAIN) -> str:
 def to_latex_fragment(document: Document, style: Style = PLAIN) -> str:
     r"""What a document of the reader's own takes in with \input; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
-    needs = r"% Needs \usepackage{amsmath}; for matrices of more than ten columns also \setcounter{MaxMatrixCols}{30}"
-    return f"{needs}\n{_MACROS}" + "\n".join(page.blocks(document.blocks)) + "\n"
+    return f"{_NEEDS}{_MACROS}" + "\n".join(page.blocks(document.blocks)) + "\n"
 
 
 def _is_title(block: Block) -> bool:

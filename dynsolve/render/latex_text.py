@@ -1,4 +1,4 @@
-r"""Any text as LaTeX text that pdflatex sets with its own fonts: `50% & <b>` is 50\% \& \textless{}b\textgreater{}."""
+r"""Any text as LaTeX text that pdflatex sets with its own fonts."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ _ESCAPES = {
     '"': r"\textquotedbl{}",
     "`": r"\textasciigrave{}",
     "'": r"{'}",
-    "-": r"{-}",
     "[": "{[}",
     "]": "{]}",
     "!": "{!}",
@@ -108,7 +107,7 @@ def latex_text(text: str) -> str:
             pieces.append(f"{_ACCENTS[character]}{{{pieces.pop()}}}")
         else:
             pieces.append(_foreign(character))
-    return "".join(pieces)
+    return "".join(pieces).replace("--", "-{}-").replace("--", "-{}-")
 
 
 def _foreign(character: str) -> str:

@@ -45,13 +45,15 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 #show math.equation: set block(breakable: true)
 #show heading: set text(hyphenate: false)
 #show heading.where(level: 1): set text(size: 17pt)
-#show heading.where(level: 2): it => block(above: 2em, below: 1em, sticky: true, text(size: 13pt, it.body))
-#show heading.where(level: 3): it => block(above: 1.6em, below: 0.8em, sticky: true, text(size: 10.5pt, it.body))
+#show heading.where(level: 2): it => block(above: 2em, below: 1em, sticky: true, text(13pt, it.body))
+#show heading.where(level: 3): it => block(above: 1.6em, below: .8em, sticky: true, text(10.5pt, it.body))
 #show link: set text(fill: rgb("#1a5a96"))
 #let source(body) = {
   [ ] + box[] + sym.wj + h(1fr) + sym.wj + box(text(size: 8.5pt, fill: luma(90), body))
 }
-#let note(body) = block(inset: (left: 0.8em, y: 0.3em), stroke: (left: 1.5pt + luma(150)), text(size: 9.3pt, body))
+#let note(body) = {
+  block(inset: (left: 0.8em, y: 0.3em), stroke: (left: 1.5pt + luma(150)), text(9.3pt, body))
+}
 """
 
 

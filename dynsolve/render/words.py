@@ -32,9 +32,9 @@ _SPOKEN = re.compile(r"(?<![^\W_])" + _FORMULA.pattern + r"(?![^\W_])")
 
 
 def visible(text: str) -> str:
-    """The text without characters that are not seen: controls, marks of direction, strays.
+    r"""The text without characters that are not seen: controls, marks of direction, strays.
 
-    >>> visible("RP\\u202e\\tarm")
+    >>> visible("RP\u202e\tarm")
     'RP arm'
     """
     text = unicodedata.normalize("NFC", text)
@@ -81,7 +81,12 @@ def _formula(found: re.Match[str]) -> Node:
 def _index(text: str, table: dict[str, str]) -> Node | None:
     if not text:
         return None
-    parts: list[Node] = []
-    for run in re.findall(r"\d+|\D", "".join(table[character] for character in text)):
-        parts.append(Number(int(run)) if run.isdecimal() else Words(run) if run == "-" else Symbol(run))
+    runs = re.findall(r"\d+|\D", "".join(table[character] for character in text))
+    parts = [_run(run) for run in runs]
     return parts[0] if len(parts) == 1 else Row(tuple(parts))
+
+
+def _run(run: str) -> Node:
+    if run.isdecimal():
+        return Number(int(run))
+    return Words(run) if run == "-" else Symbol(run)

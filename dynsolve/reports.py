@@ -1,0 +1,82 @@
+"""Solutions in the form their reader uses: text, JSON, LaTeX, PDF, HTML, Markdown.
+
+To add a form, write its renderer, and add it to
+`dynsolve.render.formats` and to `report`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from dynsolve.render.formats import Format
+
+if TYPE_CHECKING:
+    from dynsolve.document import Document
+    from dynsolve.explain.step import Detail
+    from dynsolve.notation.printing import Style
+    from dynsolve.solution import Solution
+
+
+def report(
+    solution: Solution,
+    format: Format,
+    *,
+    detail: Detail | None = None,
+    stages: Iterable[str] | None = None,
+    star: bool = False,
+    fragment: bool = False,
+) -> bytes:
+    r"""A solution in a form.
+
+    `stages` are those that are shown, or all; `star` puts the mark of a joint variable
+    on every coordinate; `fragment` gives LaTeX that another document takes in.
+
+    >>> import dynsolve
+    >>> page = report(dynsolve.solve("planar-2r"), Format.LATEX)
+    >>> page.decode().splitlines()[0]
+    '\\documentclass[a4paper,11pt]{article}'
+    """
+    from dynsolve.explain.documents import solution_document
+    from dynsolve.explain.step import Detail
+
+    detail = detail or Detail.NORMAL
+    if format is Format.JSON:
+        from json import dumps
+
+        return (dumps(solution.to_json(), ensure_ascii=False) + "\n").encode()
+    style = style_of(solution, star)
+    shown = Detail.FULL if format is Format.HTML else detail
+    document = solution_document(solution, shown, stages)
+    return _rendered(document, style, format, detail, fragment)
+
+
+def style_of(solution: Solution, star: bool = False) -> Style:
+    """How a solution's formulas look; with `star` every joint variable carries its mark."""
+    if not star:
+        return solution.style
+    return replace(solution.style, stars=frozenset(q.name for q in solution.robot.coordinates))
+
+
+def _rendered(document: Document, style: Style, format: Format, detail: Detail, fragment: bool) -> bytes:
+    match format:
+        case Format.LATEX:
+            from dynsolve.render.latex import to_latex_document, to_latex_fragment
+
+            return (to_latex_fragment if fragment else to_latex_document)(document, style).encode()
+        case Format.PDF:
+            from dynsolve.render.typst import to_pdf
+
+            return to_pdf(document, style)
+        case Format.HTML:
+            from dynsolve.render.html import to_html
+
+            return to_html(document, style, detail.name.lower()).encode()
+        case Format.MARKDOWN:
+            from dynsolve.render.markdown import to_markdown
+
+            return to_markdown(document, style).encode()
+    from dynsolve.render.terminal import render
+
+    return "".join(f"{line.text}\n" for line in render(document, style=style)).encode()
