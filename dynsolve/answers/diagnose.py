@@ -1,19 +1,55 @@
-"""Naming the slip in an answer that is wrong."""
+"""Naming the slip in an answer that is wrong.
+
+What is explained is the difference between the answer and the value that the
+student's own nearest answers lead to.  The simplest slip that explains it wins:
+
+1. one number for the whole (a sign, a factor), or one substitution (m₁ for m₂,
+   θ₂ for θ₁ + θ₂, gravity's sign);
+2. one slip in one term;
+3. the step done otherwise;
+4. the derivation with a rule replaced;
+5. several slips in several terms, each named;
+6. where none fits, which terms differ.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.compare import Written
-from dynsolve.answers.dimensions import Dimensions
+from dynsolve.answers.dimensions import (
+    ENERGY,
+    INERTIA,
+    LENGTH,
+    NONE,
+    Dimension,
+    Dimensions,
+    describe,
+    dimension,
+    times,
+)
 from dynsolve.answers.evaluate import as_expr
 from dynsolve.answers.follow import Follow
 from dynsolve.answers.graph import Graph
+from dynsolve.answers.slips.derivation import DerivationSlips
+from dynsolve.answers.slips.stage import variants
+from dynsolve.answers.slips.substitution import substitutions
+from dynsolve.answers.slips.table import slip
+from dynsolve.answers.slips.terms import LIGHT, Found, TermSlips
+from dynsolve.answers.slips.waves import monomial_expr, parts
+from dynsolve.answers.slips.words import Words
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
+from dynsolve.robot.model import JointType
+
+MOST_NAMED = 4
+"""More slips than this in one answer are told as the terms that differ."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,15 +78,213 @@ class Diagnoser:
         self.graph = graph
         self.follow = follow
         self.dimensions = dimensions
+        self.ring = graph.field.ring
+
+    @cached_property
+    def words(self) -> Words:
+        """Writes terms in messages."""
+        words = Words(self.ring, self.graph.robot)
+        words.problem_symbols({*self.problem.robot.ring.parameters, *self.ring.names, "pi"})
+        return words
+
+    @cached_property
+    def terms(self) -> TermSlips:
+        """Finds slips in terms."""
+        return TermSlips(self.ring, self.dimensions, self.words)
+
+    @cached_property
+    def derivations(self) -> DerivationSlips:
+        """The derivations with a rule replaced."""
+        return DerivationSlips(self.graph)
 
     def __call__(self, question: Question) -> tuple[Diagnosis, ...]:
         """The slips in one scalar."""
-        return ()
+        mine = question.mine
+        if mine is None:
+            return ()
+        found = tuple(dict.fromkeys(self._named(question, mine)))
+        return (*found, *(d for d in self._misfits(question, mine) if d not in found))
+
+    def _named(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
+        expected = question.expected
+        constant = self._constant(question, mine)
+        if constant is not None:
+            yield constant
+            return
+        one = self.terms.whole(mine, expected)
+        if one is None:
+            one = next(substitutions(self.graph, self.words, mine, expected), None)
+        if one is not None:
+            yield self._refined(one, question, mine)
+            return
+        found = self.terms(mine, expected)
+        if found is not None and len(found) == 1 and found[0].weight < LIGHT:
+            yield found[0].diagnosis
+            return
+        step = self._step(question, mine)
+        if step is not None:
+            yield step
+            return
+        yield from self._told(found or [])
+
+    def _refined(self, one: Diagnosis, question: Question, mine: Expr) -> Diagnosis:
+        """A wrong sign of everything that is gravity is gravity's."""
+        if one.code in ("sign", "sign_all") and question.target.node.rstrip("0123456789") in ("P", "g"):
+            return slip("gravity_sign")
+        return one
+
+    def _told(self, found: list[Found]) -> Iterator[Diagnosis]:
+        if len(found) > MOST_NAMED:
+            found = sorted(found, key=lambda f: f.weight)[:MOST_NAMED]
+        for one in found:
+            yield one.diagnosis
+
+    # -- the step, the derivation ------------------------------------------------------------------
+
+    def nearest(self, node: str) -> Any:
+        """A node's value from the student's own nearest answers: their own where there is one."""
+        choices = self.follow.choices(node)
+        value = choices[0].value if choices else None
+        return self.graph.key(node) if value is None else value
+
+    def _step(self, question: Question, mine: Expr) -> Diagnosis | None:
+        node = question.target.node
+        for value, told in self._variants(question, node):
+            if self._at(question, value) == mine:
+                return told
+        for value, told in self.derivations.values(node):
+            if self._at(question, value) == mine:
+                return told
+        return None
+
+    def _variants(self, question: Question, node: str) -> Iterator[tuple[Any, Diagnosis]]:
+        nodes = {"C": "Cqd", "christoffel": "Cqd"}
+        if question.target.christoffel is not None or nodes.get(node):
+            return
+
+        def value(name: str) -> Any:
+            if name == node:  # of a whole, the value that its inputs lead to
+                derived = self.follow.derived(name)
+                return derived[0].value if derived else self.graph.key(name)
+            return self.nearest(name)
+
+        try:
+            yield from variants(self.graph.robot, node, value)
+        except Exception:  # noqa: BLE001  inputs of the student's from which the step cannot be taken
+            return
+
+    def _at(self, question: Question, value: Any) -> Expr | None:
+        found = question.target.of(value)
+        if isinstance(found, Matrix):
+            rows, columns = found.shape
+            if question.row >= rows or question.column >= columns:
+                return None
+            return found[question.row, question.column]
+        return found if isinstance(found, Expr) else None
+
+    # -- constants, dimensions ---------------------------------------------------------------------
+
+    def _constant(self, question: Question, mine: Expr) -> Diagnosis | None:
+        """A potential energy that differs by a constant only."""
+        bodies = {f"P{b.name}" for b in self.graph.robot.bodies}
+        if question.target.node not in {"P", "L", *bodies}:
+            return None
+        difference = mine - question.expected
+        if difference.is_zero or self.ring.depends_on_coordinates(difference):
+            return None
+        return slip("constant_term")
+
+    def _misfits(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
+        """Terms that cannot be added to the others."""
+        wanted = self._dimension(question)
+        if wanted is None or not self.dimensions.known or self.problem.values:
+            return
+        for monomial in parts(mine) if len(mine) < 2_000 else ():
+            term = monomial_expr(self.ring, monomial)
+            found = self.dimensions.of(term)
+            if found is not None and found != wanted:
+                yield slip(
+                    "dimensions", term=self.words.of(term), part=describe(found), other=describe(wanted)
+                )
+                return
+
+    def _dimension(self, question: Question) -> Dimension | None:
+        """The dimension of an answer, by its name."""
+        node = question.target.node
+        entry = question.target.entry
+        row, column = entry if entry is not None else (question.row, question.column)
+        head = node.rstrip("0123456789") if node not in self._heads else node
+        for name in sorted(self._heads, key=len, reverse=True):
+            if node.startswith(name):
+                head = name
+                break
+        return self._of_head(head, node[len(head) :], row, column)
+
+    _heads = ("P", "K", "L", "Kv", "Kw", "tau", "dLdqd", "ddt", "dLdq", "D", "Cqd", "g", "I_body", "I", "rc", "v", "w")
+
+    def _of_head(self, head: str, index: str, row: int, column: int) -> Dimension | None:
+        match head:
+            case "P" | "K" | "L" | "Kv" | "Kw":
+                return ENERGY
+            case "I_body" | "I":
+                return INERTIA
+            case "rc":
+                return LENGTH
+            case "v":
+                return dimension(length=1, time=-1)
+            case "w":
+                return dimension(time=-1)
+            case "D":
+                per = times(self._unit(row), self._unit(column))
+                return times(dimension(mass=1, length=2), per, -1)
+            case "Cqd" | "g":
+                return times(ENERGY, self._unit(row), -1)
+            case "tau" | "ddt" | "dLdq":
+                return times(ENERGY, self._unit(int(index) - 1 if index.isdigit() else row), -1)
+            case "dLdqd":
+                per = self._unit(int(index) - 1)
+                return times(dimension(mass=1, length=2, time=-1), per, -1)
+        return None
+
+    def _unit(self, k: int) -> Dimension:
+        """The dimension of coordinate k, from 0."""
+        q = self.graph.robot.coordinates[k]
+        return NONE if q.type is JointType.REVOLUTE else LENGTH
+
+    # -- matrices, differences ---------------------------------------------------------------------
 
     def whole(self, question: Question, held: Any, found: tuple[Diagnosis, ...]) -> tuple[Diagnosis, ...]:
-        """The slips of a matrix, given those of its entries."""
+        """The slips of a matrix, given those of its entries: one for all, where one explains all."""
+        mine = [[as_expr(w.value) for w in row] for row in held.rows]
+        if len(mine) * len(mine[0]) == 1 or any(e is None for row in mine for e in row):
+            return found
+        target = question.target
+        given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
+        candidates = [*self._variants(question, target.node), *self._transposed(target)]
+        for value, told in candidates:
+            if _same(target.of(value), given):
+                return (told, *(d for d in found if d.code == "dimensions"))
+        for value, told in self.derivations.values(target.node):
+            if _same(target.of(value), given):
+                return (told, *(d for d in found if d.code == "dimensions"))
         return found
+
+    def _transposed(self, target: Any) -> Iterator[tuple[Any, Diagnosis]]:
+        right = target.of(self.graph.key(target.node))
+        if isinstance(right, Matrix) and right.shape[0] == right.shape[1] > 1:
+            yield right.T, slip("transposed")
 
     def difference(self, question: Question) -> Node | None:
         """The answer minus what was expected, in compact form."""
-        return None
+        mine = question.mine
+        if mine is None:
+            return None
+        return self.words.form(mine - question.expected)
+
+
+def _same(a: Any, b: Matrix) -> bool:
+    return (
+        isinstance(a, Matrix)
+        and a.shape == b.shape
+        and all(x == y for x, y in zip(a.entries, b.entries, strict=True))
+    )

@@ -1,0 +1,218 @@
+"""The records of the slips.
+
+In messages {yours} is what the student wrote, {term} the term that is meant, {part}
+a factor or symbol, {other} what belongs in its place.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from dynsolve.answers.verdict import Diagnosis
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A hand-in that shows a slip: the answer `name` of `problem` with a wrong value, other answers beside it."""
+
+    problem: str
+    name: str
+    value: str | list[list[str]]
+    beside: dict[str, str | list[list[str]]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Slip:
+    """A slip: `code`, its class in a few words, the message, and what to look at."""
+
+    code: str
+    kind: str
+    message: str
+    look: str
+    example: Example | None = None
+
+    def told(self, **what: str) -> Diagnosis:
+        """The slip as it happened."""
+        return Diagnosis(self.code, self.message.format(**what), self.kind, self.look.format(**what))
+
+
+_RP = "in3140-rp"
+_2R = "planar-2r"
+
+_SLIPS = (
+    Slip("sign", "a sign", "The sign of {term} is wrong.", "Go through the signs of this term once more.",
+         Example(_RP, "f2", "m2*L2_ddot + m2*L2*theta1_dot^2")),
+    Slip("sign_all", "a sign", "Everything has the wrong sign.",
+         "Check on which side of the equation this quantity stands.",
+         Example(_2R, "L", "-I1*theta1_dot^2/2 - I2*(theta1_dot+theta2_dot)^2/2"
+                 " - m1*lc1^2*theta1_dot^2/2 - m2*(l1^2*theta1_dot^2 + lc2^2*(theta1_dot+theta2_dot)^2"
+                 " + 2*l1*lc2*cos(theta2)*theta1_dot*(theta1_dot+theta2_dot))/2"
+                 " + m1*g*lc1*sin(theta1) + m2*g*(l1*sin(theta1)+lc2*sin(theta1+theta2))")),
+    Slip("factor", "a number", "{term} has {yours} in front where {other} belongs.",
+         "Look for a ½ or a 2 that was lost or gained.",
+         Example(_RP, "Kw1", "I1zz*theta1_dot^2", {"K": "I1zz*theta1_dot^2"})),
+    Slip("factor_all", "a number", "Your answer is {part} times what it should be.",
+         "Look for a ½ or a 2 that was lost or gained.",
+         Example(_RP, "Kw1", "I1zz*theta1_dot^2")),
+    Slip("missing_term", "a missing term", "The term {term} is missing.",
+         "Count the contributions: every body and every joint gives its own.",
+         Example(_RP, "P", "m1*g*L1/2")),
+    Slip("extra_term", "a term too many", "The term {term} does not belong here.",
+         "Ask of which body or joint this term would be.",
+         Example(_RP, "f2", "m2*L2_ddot - m2*L2*theta1_dot^2 + m2*g")),
+    Slip("dropped_mass", "a mass left out", "In {yours} the mass {part} is left out.",
+         "Every term of an energy, a momentum or a force carries a mass or an inertia.",
+         Example(_RP, "f2", "L2_ddot - m2*L2*theta1_dot^2")),
+    Slip("dropped_inertia", "a moment of inertia left out", "In {yours} the moment of inertia {part} is left out.",
+         "Every term of an energy, a momentum or a force carries a mass or an inertia.",
+         Example(_RP, "dLdqd1", "theta1_dot + m2*L2^2*theta1_dot")),
+    Slip("dropped_square", "a square left out", "In {yours} the {part} should be squared.",
+         "Count the powers: a term has the dimension of the whole.",
+         Example(_RP, "Kv2", "m2*(L2*theta1_dot^2 + L2_dot^2)/2")),
+    Slip("extra_square", "a power too many", "In {yours} the {part} has one power too many.",
+         "Count the powers: a term has the dimension of the whole.",
+         Example(_RP, "f2", "m2*L2_ddot - m2*L2^2*theta1_dot^2")),
+    Slip("dropped_dot", "a dot left out", "In {yours} stands {part} where its derivative {other} belongs.",
+         "Energy of motion has velocities in it: look for a lost dot.",
+         Example(_RP, "K", "I1zz*theta1_dot^2/2 + m2*(L2^2*theta1_dot^2 + L2^2)/2")),
+    Slip("extra_dot", "a dot too many", "In {yours} stands {part} where {other} belongs.",
+         "Derive factor by factor: the factors that are not derived keep no dot.",
+         Example(_RP, "ddt1", "I1zz*theta1_ddot + m2*L2^2*theta1_ddot + 2*m2*L2_dot^2*theta1_dot")),
+    Slip("dropped_velocity", "a velocity left out", "In {yours} the velocity {part} is left out.",
+         "By the chain rule every derived coordinate brings its velocity.",
+         Example(_RP, "ddt1", "I1zz*theta1_ddot + m2*L2^2*theta1_ddot + 2*m2*L2*L2_dot")),
+    Slip("dropped_factor", "a factor left out", "In {yours} the factor {part} is left out.",
+         "Compare the factors of this term with those of the formula it comes from.",
+         Example(_RP, "P2", "m2*g")),
+    Slip("extra_factor", "a factor too many", "In {yours} the factor {part} is too many.",
+         "Compare the factors of this term with those of the formula it comes from.",
+         Example(_RP, "P2", "m2*g*L1*L2")),
+    Slip("symbol", "one symbol for another", "In {yours} stands {part} where {other} belongs.",
+         "Check the index: which body, which link?",
+         Example(_RP, "P2", "m1*g*L1")),
+    Slip("symbols_swapped", "two symbols exchanged", "{part} and {other} are exchanged.",
+         "Check the indices: which body, which link?",
+         Example(_2R, "P", "m2*g*lc1*sin(theta1) + m1*g*(l1*sin(theta1)+lc2*sin(theta1+theta2))")),
+    Slip("sin_for_cos", "sine and cosine", "In {yours} stands {part} where {other} belongs.",
+         "Check from which axis the angle is measured, and which function the derivative gives.",
+         Example(_2R, "P1", "m1*g*lc1*cos(theta1)")),
+    Slip("double_angle", "cos² − sin² for cos² + sin²",
+         "In {yours} stands {part}, which is cos² − sin²; squares of both components add up to cos² + sin² = 1.",
+         "Square the components of the velocity one by one, and mind the sign of the square.",
+         Example(_RP, "Kv2", "m2*(cos(2*theta1)*L2^2*theta1_dot^2 + L2_dot^2)/2")),
+    Slip("angle", "the angle of a sine or cosine", "In {yours} stands {part} where {other} belongs.",
+         "Angles add up along the chain: see from where each one is measured.",
+         Example(_2R, "P2", "m2*g*(l1*sin(theta1) + lc2*sin(theta2))")),
+    Slip("angle_product", "the angle of a sine or cosine",
+         "In {yours} the angles are multiplied: {part}, where {other} belongs.",
+         "A subscript 12 stands for the sum of the angles.",
+         Example(_2R, "P2", "m2*g*(l1*sin(theta1) + lc2*sin(theta1*theta2))")),
+    Slip("trig_part", "a trigonometric factor",
+         "The factor of {term} in sines and cosines is {yours}, which is not what it should be.",
+         "Derive or multiply out this factor once more."),
+    Slip("dimensions", "dimensions",
+         "{term} is {part}, but it is added to what is {other}.",
+         "Terms that are added must have the same units.",
+         Example(_RP, "tau1", "theta1_ddot + m2*L2^2*theta1_ddot + 2*m2*L2*L2_dot*theta1_dot")),
+    Slip("unknown_symbol", "a symbol that the problem does not have",
+         "{part} is no symbol of this problem.", "Compare with the names of the problem."),
+    Slip("constant_term", "a constant term",
+         "Your potential energy differs from the right one by a constant that is no common zero level.",
+         "One zero level of height holds for all bodies. The forces are unaffected: tau is the derivative.",
+         Example(_RP, "P", "m1*g*L1/2 + m2*g*L1 + m2*g*L1/3")),
+    Slip("gravity_sign", "the sign of gravity", "The terms with gravity have the wrong sign.",
+         "P = m g h grows with the height; the vector of gravity points downwards, P = -m gᵀ r.",
+         Example(_2R, "P", "-m1*g*lc1*sin(theta1) - m2*g*(l1*sin(theta1)+lc2*sin(theta1+theta2))")),
+    Slip("gravity_missing", "gravity left out", "Gravity is left out.",
+         "L = K - P holds the potential energy too."),
+    Slip("product_rule", "the product rule",
+         "When you derived with respect to time, {part} was treated as constant.",
+         "Everything that moves is a function of time: derive every factor, and bring its velocity.",
+         Example(_2R, "ddt2", "(m2*(lc2^2 + l1*lc2*cos(theta2)) + I2)*theta1_ddot + (m2*lc2^2+I2)*theta2_ddot")),
+    Slip("chain_rule", "the chain rule",
+         "When you derived with respect to time, the inner derivative {part} was left out.",
+         "d/dt f(q) = ∂f/∂q · q̇.",
+         Example(_2R, "ddt2", "(m2*(lc2^2 + l1*lc2*cos(theta2)) + I2)*theta1_ddot"
+                 " + (m2*lc2^2+I2)*theta2_ddot - m2*l1*lc2*sin(theta2)*theta1_dot")),
+    Slip("lagrangian_sum", "the Lagrangian", "You added P where it is subtracted: L = K - P.",
+         "Look at the definition of the Lagrangian.",
+         Example(_RP, "L", "I1zz*theta1_dot^2/2 + m2*(L2^2*theta1_dot^2 + L2_dot^2)/2 + m1*g*L1/2 + m2*g*L1")),
+    Slip("slope_sign", "the Euler-Lagrange equation",
+         "∂L/∂q is added where it is subtracted: τ = d/dt ∂L/∂q̇ - ∂L/∂q.",
+         "Look at the signs in the Euler-Lagrange equation.",
+         Example(_RP, "f2", "m2*L2_ddot + m2*L2*theta1_dot^2", {"dLdq2": "m2*L2*theta1_dot^2"})),
+    Slip("slope_missing", "the Euler-Lagrange equation", "∂L/∂q is left out: τ = d/dt ∂L/∂q̇ - ∂L/∂q.",
+         "The Euler-Lagrange equation has two parts.",
+         Example(_RP, "f2", "m2*L2_ddot")),
+    Slip("body_missing", "a body left out", "The contribution of body {part} is left out.",
+         "Energies are sums over all bodies.",
+         Example(_RP, "P", "m2*g*L1", {"P1": "m1*g*L1/2"})),
+    Slip("rotation_missing", "the rotational energy left out",
+         "The kinetic energy of rotation ½ ωᵀ I ω is left out.",
+         "A body that is no point has energy of rotation too.",
+         Example(_2R, "K", "m1*lc1^2*theta1_dot^2/2 + m2*(l1^2*theta1_dot^2 + lc2^2*(theta1_dot+theta2_dot)^2"
+                 " + 2*l1*lc2*cos(theta2)*theta1_dot*(theta1_dot+theta2_dot))/2")),
+    Slip("translation_missing", "the translational energy left out",
+         "The kinetic energy of translation ½ m vᵀ v is left out.",
+         "A moving mass centre has energy, whatever turns about it."),
+    Slip("frame_origin", "the point that moves",
+         "You took the origin of frame {part} for the mass centre of body {other}.",
+         "Positions, Jacobians and velocities of a body are those of its mass centre.",
+         Example(_2R, "P1", "m1*g*l1*sin(theta1)")),
+    Slip("not_rotated", "the inertia tensor's frame",
+         "The inertia tensor of body {part} was used in its own frame, not turned into the base frame.",
+         "I_base = R I Rᵀ, with ω along the axes of the base too."),
+    Slip("rotation_transposed", "a rotation the wrong way round",
+         "The inertia tensor of body {part} was turned with Rᵀ I R in place of R I Rᵀ.",
+         "R turns from the body's axes into the base's: I_base = R I Rᵀ."),
+    Slip("frame_before", "the frame of the inertia tensor",
+         "The inertia tensor of body {part} was turned with the frame before the mass, not with the one after it.",
+         "The frame that moves with the body is the one that comes after the mass."),
+    Slip("spin_frame", "the frame of the angular velocity",
+         "Body {part}'s angular velocity is along the base's axes, its inertia tensor along its own.",
+         "ω and I must be given in one frame."),
+    Slip("parallel_axis_missing", "the parallel-axis theorem",
+         "The parallel-axis theorem was not applied to body {part}: its tensor is not given about the mass centre.",
+         "Move the tensor to the mass centre before you use it beside ½ m vᵀ v."),
+    Slip("parallel_axis_twice", "the parallel-axis theorem",
+         "The parallel-axis term of body {part} is counted twice.",
+         "½ m vᵀ v of the mass centre holds it already."),
+    Slip("joint_columns", "a column of the Jacobian",
+         "Body {part}'s Jacobian has a column for a joint after it.",
+         "A body is moved only by the joints before it."),
+    Slip("prismatic_turns", "a prismatic joint",
+         "A prismatic joint was given a column in J_ω.", "A prismatic joint turns nothing: its column is 0."),
+    Slip("order", "the order of a product", "The matrices are multiplied in the wrong order.",
+         "H_i = H_{{i-1}} A_i: each new frame stands on the right.",
+         Example(_RP, "H2", [["-sin(theta1)", "0", "cos(theta1)", "0"], ["cos(theta1)", "0", "sin(theta1)", "0"],
+                 ["0", "1", "0", "L1+L2"], ["0", "0", "0", "1"]])),
+    Slip("convention", "the convention", "This is the matrix of the other Denavit-Hartenberg convention.",
+         "Standard: Rot_z Trans_z Trans_x Rot_x; modified: Rot_x Trans_x Rot_z Trans_z."),
+    Slip("offset", "an offset of the joint variable", "The constant part of the joint angle is left out.",
+         "Look at the table: the angle is the variable plus its offset.",
+         Example(_RP, "A1", [["cos(theta1)", "0", "sin(theta1)", "0"], ["sin(theta1)", "0", "-cos(theta1)", "0"],
+                 ["0", "1", "0", "L1"], ["0", "0", "0", "1"]])),
+    Slip("twist_sign", "the sign of α", "The sign of α is wrong.", "α turns about x, from z to the next z."),
+    Slip("transposed", "rows and columns exchanged", "Your matrix is the transpose of the right one.",
+         "Check which index is the row."),
+    Slip("rows_swapped", "rows exchanged", "Rows {part} and {other} are exchanged.",
+         "Check which joint or axis each row belongs to.",
+         Example(_RP, "tau", [["m2*L2_ddot - m2*L2*theta1_dot^2"],
+                 ["(I1zz + m2*L2^2)*theta1_ddot + 2*m2*L2*L2_dot*theta1_dot"]])),
+    Slip("christoffel_without_rates", "the velocities of Christoffel's sum",
+         "Christoffel's symbols are added without their velocities: c_kj = Σ_i c_ijk q̇_i.",
+         "C q̇ is quadratic in the velocities, so C is linear in them."),
+    Slip("christoffel_half", "the ½ of Christoffel's formula", "The ½ of Christoffel's formula is left out.",
+         "c_ijk = ½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k)."),
+    Slip("acceleration_in_C", "a term in the wrong matrix",
+         "Your C contains a joint acceleration; what is multiplied by q̈ belongs into D.",
+         "C holds only coordinates and velocities."),
+    Slip("shape", "the size of the matrix", "{yours}", "Count rows and columns."),
+)  # fmt: skip
+
+SLIPS = {slip.code: slip for slip in _SLIPS}
+
+
+def slip(code: str, **what: str) -> Diagnosis:
+    """A slip of the table as it happened."""
+    return SLIPS[code].told(**what)

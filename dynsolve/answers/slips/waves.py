@@ -1,0 +1,130 @@
+"""An expression as terms that a person would name: a monomial in the symbols times waves.
+
+A wave is the sine or cosine of an integer combination of the ring's basic angles;
+c₁² - s₁² is one wave, cos 2θ₁, whatever dress it came in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.expr import Expr, rational
+from dynsolve.algebra.ring import Ring
+
+Monomial = tuple[tuple[int, int], ...]
+"""(generator, exponent) of the generators that are no sines and cosines."""
+
+Wave = tuple[str, tuple[int, ...]]
+"""(`sin` or `cos`, multiples of the basic angles), the first multiple that is not 0 positive."""
+
+ONE: Monomial = ()
+
+MOST_TERMS = 2_000
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """monomial · Σ coefficient·wave"""
+
+    monomial: Monomial
+    waves: tuple[tuple[Wave, Fraction], ...]
+
+    @property
+    def single(self) -> tuple[Wave, Fraction] | None:
+        """The one wave, where it is one."""
+        return self.waves[0] if len(self.waves) == 1 else None
+
+
+def parts(expr: Expr) -> dict[Monomial, Part]:
+    """The parts of an expression, by monomial."""
+    ring = expr.ring
+    turning = _turning(ring)
+    groups: dict[Monomial, dict[tuple[int, ...], Fraction]] = {}
+    for exponents, value in expr.poly.to_dict().items():
+        powers = [int(e) for e in exponents]
+        monomial = tuple((i, e) for i, e in enumerate(powers) if e and i not in turning)
+        trig = tuple(powers[i] for pair in ring.pairs for i in (pair.sine, pair.cosine))
+        group = groups.setdefault(monomial, {})
+        group[trig] = group.get(trig, Fraction(0)) + Fraction(int(value.p), int(value.q))
+    return {monomial: Part(monomial, _waves(terms, len(ring.pairs))) for monomial, terms in groups.items()}
+
+
+def _turning(ring: Ring) -> frozenset[int]:
+    return frozenset(i for pair in ring.pairs for i in (pair.sine, pair.cosine))
+
+
+_Laurent = dict[tuple[int, ...], tuple[Fraction, Fraction]]
+
+
+def _waves(terms: Mapping[tuple[int, ...], Fraction], width: int) -> tuple[tuple[Wave, Fraction], ...]:
+    """Products of powers of sines and cosines as sums of waves, by exponentials."""
+    total: _Laurent = {}
+    for powers, value in terms.items():
+        product: _Laurent = {(0,) * width: (value, Fraction(0))}
+        for k in range(width):
+            for _ in range(powers[2 * k]):
+                product = _shift(product, k, sine=True)
+            for _ in range(powers[2 * k + 1]):
+                product = _shift(product, k, sine=False)
+        for vector, (re, im) in product.items():
+            a, b = total.get(vector, (Fraction(0), Fraction(0)))
+            total[vector] = (a + re, b + im)
+    found: dict[Wave, Fraction] = {}
+    for vector, (re, im) in total.items():
+        lead = next((x for x in vector if x), 0)
+        if lead < 0:
+            continue
+        factor = 2 if lead else 1
+        if re:
+            found["cos", vector] = factor * re
+        if im:
+            found["sin", vector] = -factor * im
+    return tuple(sorted(found.items()))
+
+
+def _shift(product: _Laurent, k: int, *, sine: bool) -> _Laurent:
+    """times (z + 1/z)/2, or (z - 1/z)/2i"""
+    result: _Laurent = {}
+    half = Fraction(1, 2)
+    for vector, (re, im) in product.items():
+        for step in (1, -1):
+            to = (*vector[:k], vector[k] + step, *vector[k + 1 :])
+            x, y = (im * half * step, -re * half * step) if sine else (re * half, im * half)
+            a, b = result.get(to, (Fraction(0), Fraction(0)))
+            result[to] = (a + x, b + y)
+    return {v: c for v, c in result.items() if c != (0, 0)}
+
+
+def angle_of(ring: Ring, wave: Wave) -> Angle:
+    """The angle of a wave."""
+    total = Angle.zero()
+    for pair, times in zip(ring.pairs, wave[1], strict=True):
+        total = total + pair.angle * times
+    return total
+
+
+def wave_expr(ring: Ring, wave: Wave, factor: Fraction = Fraction(1)) -> Expr:
+    """factor·sin or factor·cos of a wave's angle."""
+    angle = angle_of(ring, wave)
+    return (ring.sin(angle) if wave[0] == "sin" else ring.cos(angle)) * factor
+
+
+def monomial_expr(ring: Ring, monomial: Iterable[tuple[int, int]], factor: Fraction = Fraction(1)) -> Expr:
+    """factor·Π generator^exponent"""
+    exponents = [0] * len(ring.generators)
+    for index, power in monomial:
+        exponents[index] = power
+    poly: Any = ring.ctx.from_dict({tuple(exponents): rational(factor)})
+    return Expr(ring, poly)
+
+
+def part_expr(ring: Ring, part: Part) -> Expr:
+    """A part as an expression."""
+    total = ring.zero
+    for wave, factor in part.waves:
+        total = total + wave_expr(ring, wave, factor)
+    return total * monomial_expr(ring, part.monomial)
