@@ -87,15 +87,16 @@ def _angle(terms: _Laurent, degrees: Fraction) -> Angle:
     return Angle(tuple(sorted((a, r) for a, r in terms.items() if r)), Fraction(degrees))
 
 
-def angle_from_tree(node: Node) -> Angle:
+def angle_from_tree(node: Node, *, radians: bool = False) -> Angle:
     """Read a tree as an angle: `theta1 + 90deg`, `pi/6 - beta/2`, `p2 - p1`.
 
+    With `radians`, a bare number counts them: it is the atom `()` times that number.
     Raises AlgebraError for a bare number (90 for 90deg), for a function or a sum
     in a denominator inside an angle.
     """
     terms = _laurent(node)
     degrees = terms.pop(_PI, Fraction(0)) * _DEGREES_PER_PI
-    bare = terms.pop((), Fraction(0))
+    bare = Fraction(0) if radians else terms.pop((), Fraction(0))
     if bare:
         raise AlgebraError(
             f"the bare number {bare} stands as an angle",

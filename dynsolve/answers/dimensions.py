@@ -1,172 +1,31 @@
-"""Dimensions: what may be added to what, from the roles that symbols have in a problem.
-
-A mass stands under `mass`, a length under `a`, a moment of inertia in a tensor; so
-every term of an answer has a dimension, and terms that cannot be added are a slip
-that can be named without a key.  Where a problem gives numbers for lengths or
-masses nothing can be told, and nothing is said.
-"""
+"""Dimensions for whoever judges answers; see `dynsolve.robot.dimensions`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from fractions import Fraction
-from typing import Any
+from dynsolve.robot.dimensions import (
+    ACCELERATION,
+    ENERGY,
+    INERTIA,
+    LENGTH,
+    MASS,
+    NONE,
+    Dimension,
+    Dimensions,
+    describe,
+    dimension,
+    times,
+)
 
-from dynsolve.algebra.expr import Expr, Generator
-from dynsolve.algebra.ring import Ring
-from dynsolve.robot.model import JointType, Robot
-
-Dimension = tuple[Fraction, Fraction, Fraction]
-"""Exponents of mass, length and time."""
-
-
-def dimension(mass: int = 0, length: int = 0, time: int = 0) -> Dimension:
-    """M^mass L^length T^time"""
-    return Fraction(mass), Fraction(length), Fraction(time)
-
-
-NONE = dimension()
-MASS = dimension(mass=1)
-LENGTH = dimension(length=1)
-INERTIA = dimension(mass=1, length=2)
-ACCELERATION = dimension(length=1, time=-2)
-ENERGY = dimension(mass=1, length=2, time=-2)
-
-
-class Dimensions:
-    """The dimensions of the generators of a ring; `known` is False where the problem has bare numbers."""
-
-    def __init__(self, ring: Ring, robot: Robot) -> None:
-        self.ring = ring
-        self.robot = robot
-        self.known = True
-        self._of: dict[int, Dimension] = {}
-        self._coordinates()
-        roles = [(e, d) for e, d in _roles(robot) if not e.is_zero]
-        for _ in range(3):
-            for expr, role in roles:
-                self._learn(expr, role)
-        self.known = all(self._sound(expr, role) for expr, role in roles)
-
-    def _coordinates(self) -> None:
-        for q in self.robot.coordinates:
-            base = NONE if q.type is JointType.REVOLUTE else LENGTH
-            for dots in (0, 1, 2):
-                self._of[self.ring._symbols[(q.name, dots)]] = times(base, dimension(time=-dots))
-        for g in self.ring.generators:
-            if g.kind in ("sin", "cos", "constant"):
-                self._of[g.index] = NONE
-            if g.kind == "symbol" and g.name == "pi":
-                self._of[g.index] = NONE
-
-    def _learn(self, expr: Expr, role: Dimension) -> None:
-        """Conclude the dimension of a symbol that is the only unknown one of a term."""
-        for exponents, _ in _terms(expr):
-            unknown = [(i, e) for i, e in enumerate(exponents) if e and i not in self._of]
-            unknown = [(i, e) for i, e in unknown if self.of_generator(self.ring.generators[i]) is None]
-            if len(unknown) != 1:
-                continue
-            index, power = unknown[0]
-            rest = self._product((i, e) for i, e in enumerate(exponents) if e and i != index)
-            if rest is not None and self.ring.generators[index].kind == "symbol":
-                a, b, c = ((x - y) / int(power) for x, y in zip(role, rest, strict=True))
-                self._of[index] = (a, b, c)
-
-    def _sound(self, expr: Expr, role: Dimension) -> bool:
-        """Whether every term of a role has its dimension: a bare number for a length has not."""
-        return all(found in (None, role) for found in self.terms(expr))
-
-    def of_generator(self, g: Generator) -> Dimension | None:
-        """The dimension of one generator, None where it is unknown."""
-        if g.index in self._of:
-            return self._of[g.index]
-        found: Dimension | None = None
-        if g.kind == "root" and g.node is not None:
-            inner = self.of(self.ring.expr(g.node))
-            found = None if inner is None else tuple(x / 2 for x in inner)  # type: ignore[assignment]
-        elif g.kind == "inverse" and g.index in self.ring.inverses:
-            inner = self.of(Expr(self.ring, self.ring.inverses[g.index]))
-            found = None if inner is None else tuple(-x for x in inner)  # type: ignore[assignment]
-        if found is not None:
-            self._of[g.index] = found
-        return found
-
-    def _product(self, powers: Iterable[tuple[int, int]]) -> Dimension | None:
-        total = NONE
-        for index, power in powers:
-            found = self.of_generator(self.ring.generators[index])
-            if found is None:
-                return None
-            total = times(total, found, power)
-        return total
-
-    def terms(self, expr: Expr) -> Iterator[Dimension | None]:
-        """The dimension of every term, None where a symbol's is unknown."""
-        for exponents, _ in _terms(expr):
-            yield self._product((i, e) for i, e in enumerate(exponents) if e)
-
-    def of(self, expr: Expr) -> Dimension | None:
-        """The dimension of an expression, None where it is unknown or its terms differ."""
-        found = set(self.terms(expr))
-        return found.pop() if len(found) == 1 else None
-
-    def fits(self, expr: Expr, wanted: Dimension) -> bool:
-        """Whether every term has a dimension, as far as it is known."""
-        return not self.known or all(found in (None, wanted) for found in self.terms(expr))
-
-
-def times(a: Dimension, b: Dimension, power: int | Fraction = 1) -> Dimension:
-    """a · b^power"""
-    power = power if isinstance(power, Fraction) else int(power)
-    return a[0] + b[0] * power, a[1] + b[1] * power, a[2] + b[2] * power
-
-
-def _terms(expr: Expr) -> Iterator[tuple[tuple[int, ...], Any]]:
-    yield from expr.poly.to_dict().items()
-
-
-def _roles(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
-    """The expressions whose dimension their place in the problem tells."""
-    for joint in robot.joints:
-        yield joint.a, LENGTH
-        yield joint.d, LENGTH
-    for entry in robot.base_position.entries:
-        yield entry, LENGTH
-    for body in robot.bodies:
-        yield body.mass, MASS
-        for entry in body.center.entries:
-            yield entry, LENGTH
-        if body.about_point is not None:
-            for entry in body.about_point.entries:
-                yield entry, LENGTH
-        if body.inertia is not None:
-            for entry in body.inertia.entries:
-                yield entry, INERTIA
-    for entry in robot.gravity.entries:
-        yield entry, ACCELERATION
-
-
-_UNITS = {
-    NONE: "a pure number",
-    MASS: "a mass",
-    LENGTH: "a length",
-    INERTIA: "a moment of inertia",
-    ACCELERATION: "an acceleration",
-    ENERGY: "an energy (or a torque)",
-    dimension(mass=1, length=1, time=-2): "a force",
-    dimension(mass=1, length=2, time=-1): "an angular momentum",
-    dimension(mass=1, length=1, time=-1): "a momentum",
-    dimension(length=1, time=-1): "a velocity",
-    dimension(time=-1): "an angular velocity",
-    dimension(time=-2): "an angular acceleration",
-    dimension(length=2): "an area",
-    dimension(mass=1, length=1): "a mass times a length",
-}
-
-
-def describe(dim: Dimension) -> str:
-    """A dimension in words, or in SI units where it has no name."""
-    if dim in _UNITS:
-        return _UNITS[dim]
-    units = [(u, e) for u, e in zip(("kg", "m", "s"), dim, strict=True) if e]
-    return " ".join(u if e == 1 else f"{u}^{e}" for u, e in units)
+__all__ = [
+    "ACCELERATION",
+    "ENERGY",
+    "INERTIA",
+    "LENGTH",
+    "MASS",
+    "NONE",
+    "Dimension",
+    "Dimensions",
+    "describe",
+    "dimension",
+    "times",
+]

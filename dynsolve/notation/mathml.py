@@ -135,7 +135,7 @@ class MathMLPrinter(Printer):
     def _number(self, node: Number) -> str:
         if node.q == 1:
             return (MINUS if node.p < 0 else "") + f"<mn>{abs(node.p)}</mn>"
-        if self.style.decimal and (decimal := decimal_text(node.p, node.q)):
+        if (self.style.decimal or node.decimal) and (decimal := decimal_text(node.p, node.q)):
             return (MINUS if node.p < 0 else "") + f"<mn>{decimal.lstrip('-')}</mn>"
         return (MINUS if node.p < 0 else "") + _fraction(f"<mn>{abs(node.p)}</mn>", f"<mn>{node.q}</mn>")
 

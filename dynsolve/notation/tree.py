@@ -43,10 +43,14 @@ def _node(cls: type[_T]) -> type[_T]:
 
 @_node
 class Number(Node):
-    """An exact rational p/q; negative numbers are written `Negative(Number(...))`."""
+    """An exact rational p/q; negative numbers are written `Negative(Number(...))`.
+
+    `decimal` asks for a decimal point, whatever the style of the formula.
+    """
 
     p: int
     q: int = 1
+    decimal: bool = False
 
 
 @_node

@@ -103,7 +103,7 @@ class TypstPrinter(Printer):
     def _number(self, node: Number) -> str:
         if node.q == 1:
             return str(node.p)
-        if self.style.decimal and (decimal := decimal_text(node.p, node.q)):
+        if (self.style.decimal or node.decimal) and (decimal := decimal_text(node.p, node.q)):
             return decimal
         return ("-" if node.p < 0 else "") + f"frac({abs(node.p)}, {node.q})"
 

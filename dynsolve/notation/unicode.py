@@ -154,7 +154,7 @@ class UnicodePrinter(Printer):
     def _number(self, node: Number) -> str:
         if node.q == 1:
             return str(node.p)
-        if self.style.decimal and (decimal := decimal_text(node.p, node.q)):
+        if (self.style.decimal or node.decimal) and (decimal := decimal_text(node.p, node.q)):
             return decimal
         return _FRACTIONS.get((node.p, node.q)) or f"{node.p}/{node.q}"
 
