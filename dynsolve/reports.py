@@ -62,21 +62,21 @@ def style_of(solution: Solution, star: bool = False) -> Style:
 def _rendered(document: Document, style: Style, format: Format, detail: Detail, fragment: bool) -> bytes:
     match format:
         case Format.LATEX:
-            from dynsolve.render.latex import to_latex_document, to_latex_fragment
+            from dynsolve.render import latex
 
-            return (to_latex_fragment if fragment else to_latex_document)(document, style).encode()
+            return (latex.render_fragment if fragment else latex.render)(document, style).encode()
         case Format.PDF:
-            from dynsolve.render.typst import to_pdf
+            from dynsolve.render import typst
 
-            return to_pdf(document, style)
+            return typst.render(document, style)
         case Format.HTML:
-            from dynsolve.render.html import to_html
+            from dynsolve.render import html
 
-            return to_html(document, style, detail.name.lower()).encode()
+            return html.render(document, style, detail.name.lower()).encode()
         case Format.MARKDOWN:
-            from dynsolve.render.markdown import to_markdown
+            from dynsolve.render import markdown
 
-            return to_markdown(document, style).encode()
-    from dynsolve.render.terminal import render
+            return markdown.render(document, style).encode()
+    from dynsolve.render import terminal
 
-    return "".join(f"{line.text}\n" for line in render(document, style=style)).encode()
+    return "".join(f"{line.text}\n" for line in terminal.render(document, style=style)).encode()

@@ -218,9 +218,9 @@ _OVERFULL = 1e4
 def lines(pieces: Sequence[Piece], first: float, rest: float) -> list[list[Piece]]:
     """The pieces in lines, the first `first` em wide, the others `rest`: as even and as shallow as can be.
 
-    >>> parts = [Piece("a", 4), Piece("+b", 4, 1), Piece("(+c", 4, 3), Piece("+d", 4, 1)]
-    >>> [[piece.text for piece in line] for line in lines(parts, 12, 12)]
-    [['a', '+b'], ['(+c', '+d']]
+    >>> parts = [Piece("a", 4), Piece("+ b (c", 6, 1), Piece("+ d)", 4, 3), Piece("+ e", 4, 1)]
+    >>> [[piece.text for piece in line] for line in lines(parts, 14, 14)]
+    [['a', '+ b (c', '+ d)'], ['+ e']]
     """
     n = len(pieces)
     best = [0.0] * (n + 1)

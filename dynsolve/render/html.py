@@ -47,7 +47,7 @@ _LEVELS = ("brief", "normal", "full")
 _TALL = ("<mfrac>", "<mtable>", "<munderover>")
 
 
-def to_html(document: Document, style: Style = PLAIN, level: str = "normal") -> str:
+def render(document: Document, style: Style = PLAIN, level: str = "normal") -> str:
     """A page that is complete in itself; `level` is the level of detail that it opens with."""
     page = _Page(style, numbered(document))
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
@@ -60,7 +60,7 @@ def to_html(document: Document, style: Style = PLAIN, level: str = "normal") -> 
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
         f"<title>{escape(title)}</title>\n<style>\n{css}{page.widths_css()}</style>\n</head>\n<body>\n"
-        f"{_switch(level)}{page.contents()}<main>\n{body}</main>\n</body>\n</html>\n"
+        f"{_switch(level) if page.has_levels() else ''}{page.contents()}<main>\n{body}</main>\n</body>\n</html>\n"
     )
 
 
@@ -248,6 +248,10 @@ class _Page:
         zeros = chains.pop(Number(0), [])
         for value, names in [*chains.items(), *([(Number(0), zeros)] if zeros else [])]:
             yield self.broken(Relation((*names, value), ("=",) * len(names)))
+
+    def has_levels(self) -> bool:
+        """Whether there are steps of different levels of detail to choose between."""
+        return len({level for entry in self.entries for _, _, level in entry.steps}) > 1
 
     def contents(self) -> str:
         """The table of contents."""

@@ -70,7 +70,7 @@ _NEEDS = r"""% Needs \usepackage{amsmath}, and where a matrix has more than ten 
 """
 
 
-def to_latex_document(document: Document, style: Style = PLAIN) -> str:
+def render(document: Document, style: Style = PLAIN) -> str:
     """A complete document."""
     page = _Page(style, PAGE, document)
     title = next((block.text for block in document.blocks if isinstance(block, Heading)), "")
@@ -81,7 +81,7 @@ def to_latex_document(document: Document, style: Style = PLAIN) -> str:
     )
 
 
-def to_latex_fragment(document: Document, style: Style = PLAIN) -> str:
+def render_fragment(document: Document, style: Style = PLAIN) -> str:
     r"""What a document of the reader's own takes in with \input; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
     return f"{_NEEDS}{_MACROS}" + "\n".join(page.blocks(document.blocks)) + "\n"

@@ -42,7 +42,7 @@ _SPECIAL = re.compile(r"[\\`*_{}\[\]#|~$<>&]")
 _ENTITIES = {"<": "&lt;", ">": "&gt;", "&": "&amp;", "$": "&#36;", "|": "&#124;"}
 
 
-def to_markdown(document: Document, style: Style = PLAIN) -> str:
+def render(document: Document, style: Style = PLAIN) -> str:
     """The document in Markdown."""
     return "\n".join(_Page(style, numbered(document)).blocks(document.blocks))
 

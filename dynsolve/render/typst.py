@@ -57,7 +57,7 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 """
 
 
-def to_pdf(document: Document, style: Style = PLAIN) -> bytes:
+def render(document: Document, style: Style = PLAIN) -> bytes:
     """A PDF, the same bytes for the same document.
 
     Raises UsageError where the extra `pdf` is not installed.

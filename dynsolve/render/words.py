@@ -56,7 +56,7 @@ def spoken(text: str) -> Iterator[str | Node]:
     """Words of an explanation, the mathematics in them as formulas: A₁, θ, q̇.
 
     >>> list(spoken("Row 1: A₁"))
-    ['Row 1: ', Letter(base='A', sub=Number(p=1, q=1), sup=None, style='italic', dots=0)]
+    ['Row 1: ', Letter(base='A', sub=Number(...), sup=None, style='italic', dots=0)]
     """
     place = 0
     for found in _SPOKEN.finditer(text):
