@@ -107,27 +107,33 @@ class Diagnoser:
 
     def _named(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
         expected = question.expected
-        constant = self._constant(question, mine)
-        if constant is not None:
-            yield constant
-            return
-        one = self.terms.whole(mine, expected)
+        if self._is_constant(question, mine):
+            yield slip("constant_term")
+        one = self._first_of(self._variants(question, question.target.node), question, mine)
+        if one is None:
+            one = self.terms.whole(mine, expected)
         if one is None:
             one = next(substitutions(self.graph, self.words, mine, expected), None)
         if one is not None:
-            yield self._refined(one, question, mine)
+            yield self._refined(one, question)
             return
         found = self.terms(mine, expected)
         if found is not None and len(found) == 1 and found[0].weight < LIGHT:
             yield found[0].diagnosis
             return
-        step = self._step(question, mine)
-        if step is not None:
-            yield step
+        one = self._first_of(self.derivations.values(question.target.node), question, mine)
+        if one is not None:
+            yield one
             return
         yield from self._told(found or [])
 
-    def _refined(self, one: Diagnosis, question: Question, mine: Expr) -> Diagnosis:
+    def _first_of(
+        self, values: Iterator[tuple[Any, Diagnosis]], question: Question, mine: Expr
+    ) -> Diagnosis | None:
+        """The first slip that gives what was written."""
+        return next((told for value, told in values if self._at(question, value) == mine), None)
+
+    def _refined(self, one: Diagnosis, question: Question) -> Diagnosis:
         """A wrong sign of everything that is gravity is gravity's."""
         if one.code in ("sign", "sign_all") and question.target.node.rstrip("0123456789") in ("P", "g"):
             return slip("gravity_sign")
@@ -146,16 +152,6 @@ class Diagnoser:
         choices = self.follow.choices(node)
         value = choices[0].value if choices else None
         return self.graph.key(node) if value is None else value
-
-    def _step(self, question: Question, mine: Expr) -> Diagnosis | None:
-        node = question.target.node
-        for value, told in self._variants(question, node):
-            if self._at(question, value) == mine:
-                return told
-        for value, told in self.derivations.values(node):
-            if self._at(question, value) == mine:
-                return told
-        return None
 
     def _variants(self, question: Question, node: str) -> Iterator[tuple[Any, Diagnosis]]:
         nodes = {"C": "Cqd", "christoffel": "Cqd"}
@@ -184,15 +180,13 @@ class Diagnoser:
 
     # -- constants, dimensions ---------------------------------------------------------------------
 
-    def _constant(self, question: Question, mine: Expr) -> Diagnosis | None:
-        """A potential energy that differs by a constant only."""
+    def _is_constant(self, question: Question, mine: Expr) -> bool:
+        """Whether a potential energy differs by a constant only."""
         bodies = {f"P{b.name}" for b in self.graph.robot.bodies}
         if question.target.node not in {"P", "L", *bodies}:
-            return None
+            return False
         difference = mine - question.expected
-        if difference.is_zero or self.ring.depends_on_coordinates(difference):
-            return None
-        return slip("constant_term")
+        return not difference.is_zero and not self.ring.depends_on_coordinates(difference)
 
     def _misfits(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
         """Terms that cannot be added to the others."""
