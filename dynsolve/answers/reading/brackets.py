@@ -1,0 +1,168 @@
+"""Parentheses and matrices in every notation: bmatrix, array, [[a, b], [c, d]], [a, b; c, d], rows below one another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from dynsolve.answers.reading.grids import Abstract, Grid, Value, stacked
+from dynsolve.answers.reading.limits import MAX_ENTRIES
+from dynsolve.answers.reading.scan import Token
+from dynsolve.errors import ReadError
+from dynsolve.notation.tree import Node, Symbol
+
+if TYPE_CHECKING:
+    from dynsolve.answers.reading.reader import Reader
+
+STOPS = frozenset({"quad", "qquad"})
+_MATRICES = frozenset("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix psmallmatrix bsmallmatrix array".split())
+
+
+def read(reader: Reader) -> Value:
+    """A parenthesis or a matrix, whose bracket is looked at."""
+    if reader.token.kind == "begin":
+        return environment(reader)
+    if reader.token.kind == "(":
+        return parenthesis(reader)
+    return square(reader)
+
+
+def parenthesis(reader: Reader) -> Value:
+    """(a + b); or a tuple (a, b), a column."""
+    opening = reader.take()
+    if reader.token.kind == ")":
+        raise ReadError("there is nothing between these parentheses", opening.start, 2, "write what belongs there")
+    first = reader.sum()
+    if reader.token.kind == ",":
+        rows = [[first]]
+        while reader.token.kind == ",":
+            reader.take()
+            rows.append([reader.sum()])
+        reader.expect(")", opening)
+        return finished(reader, rows, opening)
+    reader.expect(")", opening)
+    return first
+
+
+def square(reader: Reader) -> Value:
+    """[...]: rows after commas, semicolons or line ends; or a bracket around a sum."""
+    opening = reader.take()
+    rows: list[list[Value]] = [[]]
+    if reader.token.kind == "]":
+        raise ReadError("there is nothing between these brackets", opening.start, 2, "write the entries")
+    count = 0
+    while True:
+        while reader.token.kind in (";", "\\\\"):
+            reader.take()
+            if rows[-1]:
+                rows.append([])
+        if reader.token.kind == "]":
+            break
+        rows[-1].append(reader.sum())
+        count += 1
+        if count > MAX_ENTRIES:
+            raise ReadError(f"a matrix of more than {MAX_ENTRIES} entries", opening.start, 1, "check the brackets")
+        kind = reader.token.kind
+        if kind == "," or kind == "&":
+            reader.take()
+        elif kind not in (";", "\\\\", "]") and not ("spaces" in reader.options and reader.token.spaced):
+            reader.expect("]", opening)
+    reader.expect("]", opening)
+    rows = [row for row in rows if row]
+    if len(rows) == 1 and len(rows[0]) == 1:
+        only = rows[0][0]
+        return only
+    if len(rows) == 1 and all(isinstance(entry, Grid) and entry.shape[0] == 1 for entry in rows[0]):
+        rows = [[entry] for entry in rows[0]]
+    found = finished(reader, rows, opening)
+    if _next_row(reader, found):
+        return _rows_below(reader, found, opening)
+    return found
+
+
+def _next_row(reader: Reader, found: Value) -> bool:
+    """Whether a line below begins with one more row, as MATLAB prints a matrix."""
+    one_row = isinstance(found, Grid) and found.shape[0] == 1
+    return one_row and reader.token.kind == "[" and reader.token.broken
+
+
+def _rows_below(reader: Reader, first: Value, opening: Token) -> Value:
+    assert isinstance(first, Grid)
+    rows: list[list[Value]] = [list(first.rows[0])]
+    while reader.token.kind == "[" and reader.token.broken and len(rows) < MAX_ENTRIES:
+        bracket = reader.take()
+        row: list[Value] = []
+        while reader.token.kind != "]":
+            row.append(reader.sum())
+            if reader.token.kind == ",":
+                reader.take()
+            elif reader.token.kind != "]":
+                reader.expect("]", bracket)
+        reader.expect("]", bracket)
+        rows.append(row)
+    return finished(reader, rows, opening)
+
+
+def environment(reader: Reader) -> Value:
+    r"""`\begin{bmatrix} a & b \\ c & d \end{bmatrix}`."""
+    opening = reader.take()
+    name = opening.text.rstrip("*")
+    if name not in _MATRICES:
+        message = f"the environment `{name[:40]}` is not read"
+        raise ReadError(message, opening.start, opening.end - opening.start, "matrices are written in bmatrix")
+    if name == "array":
+        _skip_columns(reader)
+    rows: list[list[Value]] = [[]]
+    count = 0
+    while reader.token.kind not in ("close", "end"):
+        kind = reader.token.kind
+        if kind == "\\\\":
+            reader.take()
+            rows.append([])
+        elif kind == "&":
+            missing = reader.take()
+            raise ReadError("an entry of this matrix is empty", missing.start, 1, "write 0 where nothing stands")
+        else:
+            rows[-1].append(reader.sum())
+            count += 1
+            if reader.token.kind in ("&", ",") and count <= MAX_ENTRIES:
+                sign = reader.take()
+                if reader.token.kind in ("\\\\", "close"):
+                    raise ReadError("an entry of this matrix is empty", sign.start, 1, "write 0 where nothing stands")
+            elif reader.token.kind not in ("\\\\", "close"):
+                raise reader.unexpected("`&` or `\\\\` is expected between the entries of a matrix")
+    if reader.token.kind == "end":
+        message = f"this `\\begin{{{name}}}` is never closed"
+        raise ReadError(message, opening.start, opening.end - opening.start, f"add \\end{{{name}}}")
+    reader.take()
+    rows = [row for row in rows if row]
+    if not rows:
+        raise ReadError("this matrix is empty", opening.start, opening.end - opening.start, "write its entries")
+    return finished(reader, rows, opening)
+
+
+def _skip_columns(reader: Reader) -> None:
+    r"""The `{cc}` of an array, which may have been unwrapped to a name."""
+    if reader.token.kind == "{":
+        reader.until("}", reader.take())
+    elif reader.token.kind == "name" and not reader.token.text.strip("lcr"):
+        reader.take()
+
+
+def finished(reader: Reader, rows: list[list[Value]], opening: Token) -> Value:
+    """The matrix of these rows; one of one entry is that entry."""
+    if len(rows) == 1 and len(rows[0]) == 1:
+        return rows[0][0]
+    found = reader.placed(opening.start, stacked, rows)
+    return found if isinstance(found, Abstract) else _as_rates(reader, found)
+
+
+def _as_rates(reader: Reader, value: Value) -> Value:
+    """Mark the column of the velocities or accelerations as that."""
+    coordinates = reader.vocabulary.coordinates
+    if not isinstance(value, Grid) or value.shape != (len(coordinates), 1):
+        return value
+    for dots in range(3):
+        wanted: list[Node] = [Symbol(q.name, dots) for q in coordinates]
+        if [row[0] for row in value.rows] == wanted:
+            return Grid(value.rows, is_rates=dots)
+    return value

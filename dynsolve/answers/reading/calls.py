@@ -1,0 +1,133 @@
+"""What programs print: Derivative(q1(t), t), diff(q1(t), t, 2), Matrix([[a, b], [c, d]]), Rational(1, 2)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from dynsolve.answers.reading import functions, lookup
+from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
+from dynsolve.answers.reading.scan import Token
+from dynsolve.errors import ReadError
+from dynsolve.notation.tree import Node, Symbol
+
+if TYPE_CHECKING:
+    from dynsolve.answers.reading.reader import Reader
+
+_MATRICES = frozenset("Matrix matrix MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix array".split())
+_DERIVATIVES = frozenset({"Derivative", "diff", "Diff"})
+_OTHERS = frozenset({"Rational", "transpose", "Transpose", "Integer"})
+
+
+def is_call(reader: Reader) -> bool:
+    """Whether a call of a function that programs print stands here."""
+    token = reader.token
+    if token.kind != "name" or reader.peek().kind != "(":
+        return False
+    if functions.is_elsewhere(token):
+        length = token.end - token.start
+        raise ReadError(f"unknown function `{token.text}`", token.start, length, "functions are sin, cos, tan and sqrt")
+    return token.text in _MATRICES or token.text in _DERIVATIVES or token.text in _OTHERS
+
+
+def read(reader: Reader) -> Value:
+    """The value of a call."""
+    reader.enter()
+    name = reader.take()
+    opening = reader.take()
+    if name.text in _DERIVATIVES:
+        found = _derivative(reader, opening)
+    elif name.text in _MATRICES:
+        found = _matrix(reader, opening)
+    else:
+        first = reader.sum()
+        if name.text == "Rational" and reader.token.kind == ",":
+            reader.take()
+            first = reader.placed(opening.start, divided, first, reader.sum())
+        found = transposed(first) if name.text.lower() == "transpose" else first
+        reader.expect(")", opening)
+    reader.nesting -= 1
+    return found
+
+
+def _matrix(reader: Reader, opening: Token) -> Value:
+    from dynsolve.answers.reading import brackets
+
+    rows: list[list[Value]] = []
+    while True:
+        value = reader.sum()
+        rows.append([value])
+        if reader.token.kind != ",":
+            break
+        reader.take()
+    reader.expect(")", opening)
+    if len(rows) == 1:
+        only = rows[0][0]
+        if isinstance(only, Grid) and only.shape[0] == 1 and not _was_nested(reader, opening):
+            return brackets.finished(reader, [[entry] for entry in only.rows[0]], opening)
+        return only
+    return brackets.finished(reader, rows, opening)
+
+
+def _was_nested(reader: Reader, opening: Token) -> bool:
+    """Whether the call holds a list of lists: Matrix([[a, b]]) is a row, Matrix([a, b]) a column."""
+    at = next((i for i in range(reader.position) if reader.tokens[i].start == opening.start), 0)
+    return reader.tokens[at + 2].kind == "[" if at + 2 < len(reader.tokens) else False
+
+
+def _derivative(reader: Reader, opening: Token) -> Value:
+    """diff(x, t), diff(x, t, 2), Derivative(x, (t, 2)), diff(L, x)."""
+    of = reader.sum()
+    tokens = reader.until(")", opening)
+    order, by_time, others = 0, False, []
+    for token in tokens:
+        if token.kind == "name" and token.text == "t":
+            order, by_time = order + 1, True
+        elif token.kind == "number" and token.text in ("1", "2", "3") and by_time:
+            order += int(token.text) - 1
+        elif token.kind not in (",", "(", ")", "[", "]", "{", "}"):
+            others.append(token)
+    if others or not by_time:
+        return _partial(reader, of, tokens, opening)
+    dotted = lookup.rate(of, reader.vocabulary, order)
+    if isinstance(dotted, Symbol):
+        return dotted
+    return dotted if dotted is not None else total_rate(of)
+
+
+def total_rate(of: Value) -> Value:
+    """d/dt of what is no coordinate: of an answer it is one, of an expression it is left undone."""
+    if isinstance(of, Symbol) and of.name.startswith("@dLdqd"):
+        return Symbol("@ddt" + of.name[6:])
+    return Abstract("a derivative that is not carried out")
+
+
+def _partial(reader: Reader, of: Value, tokens: list[Token], opening: Token) -> Value:
+    from dynsolve.answers.reading import derivatives
+
+    if tokens and tokens[0].kind == ",":
+        tokens = tokens[1:]
+    if not tokens:
+        raise ReadError("this derivative says not by what", opening.start, 1, "write diff(q1(t), t)")
+    return derivatives.partial(reader, of, derivatives.variable_of(reader, tokens))
+
+
+def running_sum(reader: Reader) -> Value:
+    """A sum over an index: a formula for every robot, whose value is not taken."""
+    reader.take()
+    while reader.token.kind in ("_", "^"):
+        reader.take()
+        reader.group()
+    reader.names_used += 1
+    try:
+        reader.term()
+    except ReadError:
+        reader.position = len(reader.tokens) - 1
+        reader.token = reader.tokens[-1]
+    return Abstract("a sum over an index")
+
+
+def node_of(value: Value) -> Node | None:
+    """The value as a tree, None for what is abstract."""
+    if isinstance(value, Grid):
+        return value.node
+    return value if isinstance(value, Node) else None

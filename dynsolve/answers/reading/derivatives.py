@@ -1,0 +1,222 @@
+"""Derivatives as names and as operators: ∂L/∂q̇_1, d/dt(∂L/∂q̇_1), d²θ/dt², dL/dtheta1."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from dynsolve.answers.reading import calls, lookup
+from dynsolve.answers.reading.forms import Form
+from dynsolve.answers.reading.grids import Abstract, Grid, Value
+from dynsolve.answers.reading.scan import Token
+from dynsolve.answers.reading.vocabulary import key
+from dynsolve.errors import ReadError
+from dynsolve.notation.tree import Symbol
+
+if TYPE_CHECKING:
+    from dynsolve.answers.reading.reader import Reader
+
+
+class UnknownVariable(ReadError):
+    """A derivative with respect to what is no coordinate; `family` are the answers of its kind."""
+
+    def __init__(self, token: Token, shown: str, family: tuple[str, ...]) -> None:
+        help = "derivatives are taken with respect to a coordinate or its velocity"
+        super().__init__(f"`{shown[:40]}` is no coordinate of the problem", token.start, max(token.end - token.start, 1), help)
+        self.family = family
+
+
+def _is_d(token: Token) -> bool:
+    """Whether a token is the sign of a derivative: d, ∂, δ."""
+    return (
+        (token.kind == "command" and token.text == "partial")
+        or (token.kind == "name" and token.text == "d" and not token.dots)
+        or (token.kind == "letter" and token.text in ("delta", "Delta"))
+    )
+
+
+def quotient(reader: Reader, above: list[Token], below: list[Token], start: int) -> Value | None:
+    r"""The derivative that `\frac{above}{below}` is, None where it is a fraction."""
+    top, bottom = _strip_d(above), _strip_d(below)
+    if top is None or bottom is None:
+        return None
+    order, rest = _order(top)
+    time = _is_time(bottom)
+    if not time and _order(bottom)[0] != 1:
+        return None
+    of = reader.inner(rest, naming=True) if rest else _operand(reader)
+    if time:
+        return by_time(reader, of, order)
+    return _by(reader, of, bottom)
+
+
+def _strip_d(tokens: list[Token]) -> list[Token] | None:
+    """The tokens behind the d of a derivative, None where there is none."""
+    if not tokens:
+        return None
+    first = tokens[0]
+    if _is_d(first):
+        return tokens[1:]
+    if first.kind == "name" and first.text[0] == "d" and len(first.text) > 1 and not first.dots:
+        rest = first.text[1:].lstrip("_")
+        return [first._replace(text=rest, start=first.start + 1), *tokens[1:]] if rest else None
+    return None
+
+
+def _order(tokens: list[Token]) -> tuple[int, list[Token]]:
+    """The order of a derivative, and what follows it: `^2 q` is (2, q)."""
+    if tokens and tokens[0].kind == "raised":
+        return (2 if tokens[0].text == "²" else 1), tokens[1:]
+    if len(tokens) > 1 and tokens[0].kind == "^" and tokens[1].kind == "number":
+        return (int(tokens[1].text) if tokens[1].text in ("1", "2") else 1), tokens[2:]
+    return 1, tokens
+
+
+def _is_time(tokens: list[Token]) -> bool:
+    return bool(tokens) and tokens[0].kind == "name" and tokens[0].text == "t" and all(
+        t.kind in ("^", "number", "raised", "{", "}") for t in tokens[1:]
+    )
+
+
+def _operand(reader: Reader) -> Value:
+    """What an operator is applied to: the next factor, names of answers winning in it."""
+    before = reader.naming
+    reader.naming = True
+    reader.enter()
+    try:
+        return reader.factor()
+    finally:
+        reader.naming = before
+        reader.nesting -= 1
+
+
+def by_time(reader: Reader, of: Value, order: int) -> Value:
+    """d/dt of a value."""
+    if isinstance(of, Symbol) and of.name.startswith("@"):
+        found = calls.total_rate(of)
+        if isinstance(found, Symbol):
+            reader.references.pop(of.name[1:], None)
+            reader.references.setdefault(found.name[1:])
+        return found
+    dotted = lookup.rate(of, reader.vocabulary, order)
+    return dotted if dotted is not None else calls.total_rate(of)
+
+
+def _by(reader: Reader, of: Value, variable: list[Token]) -> Value:
+    """∂of/∂variable"""
+    letter = of.name[1:] if isinstance(of, Symbol) and of.name.startswith("@") else ""
+    try:
+        by = variable_of(reader, variable)
+    except ReadError:
+        if letter in ("L", "K", "P"):
+            shown = "".join(t.text for t in variable)
+            dotted = any(t.text in ("dot", "ddot") or t.dots or "dot" in t.text for t in variable)
+            kind = "dLdqd" if dotted else "dLdq"
+            family = tuple(f"{kind}{q.index}" for q in reader.vocabulary.coordinates)
+            raise UnknownVariable(variable[0], shown, family) from None
+        return Abstract("a derivative that is not carried out")
+    return partial(reader, of, by)
+
+
+def variable_of(reader: Reader, tokens: list[Token]) -> Value:
+    """What a derivative is taken by; it does not count as a symbol of the value."""
+    before = dict(reader.symbols)
+    found = reader.inner(tokens, naming=False)
+    reader.symbols.clear()
+    reader.symbols.update(before)
+    return found
+
+
+def partial(reader: Reader, of: Value, by: Value) -> Value:
+    """The partial derivative of L (or K, or P) by a coordinate or its velocity, as an answer's name."""
+    letter = of.name[1:] if isinstance(of, Symbol) and of.name.startswith("@") else ""
+    if letter in ("L", "K", "P"):
+        reader.references.pop(letter, None)
+    if isinstance(by, Grid):
+        return Abstract("a derivative by a vector")
+    q = reader.vocabulary.coordinate(by) if isinstance(by, Symbol) else None
+    if q is None or not isinstance(by, Symbol) or not letter:
+        return Abstract("a derivative that is not carried out")
+    if letter in ("L", "K") and by.dots == 1:
+        return _named(reader, f"dLdqd{q.index}")
+    if letter == "L" and by.dots == 0:
+        return _named(reader, f"dLdq{q.index}")
+    if letter == "P" and by.dots == 0:
+        return _named(reader, f"g{q.index}")
+    return Abstract("a derivative that is not carried out")
+
+
+def _named(reader: Reader, name: str) -> Symbol:
+    reader.references.setdefault(name)
+    reader.candidates = (name,)
+    reader.names_used += 1
+    return Symbol("@" + name)
+
+
+# In plain text: dL/dtheta1_dot, ∂L/∂q1, d/dt(dL/dq1')
+
+
+def stands_here(reader: Reader) -> bool:
+    """Whether a derivative in plain text begins here."""
+    token = reader.token
+    if token.kind == "name" and token.text == "d" or token.text == "partial":
+        return _slash(reader) is not None
+    if token.kind == "name" and len(token.text) > 1 and token.text[0] == "d" and reader.peek().kind == "/":
+        return _begins_with_d(reader.peek(2)) and key(token.text[1:]) in ("L", "K", "P", "T", "V", "U")
+    return False
+
+
+def _begins_with_d(token: Token) -> bool:
+    return _is_d(token) or (token.kind == "name" and token.text[0] == "d")
+
+
+def _slash(reader: Reader) -> int | None:
+    """How far ahead the `/` of the derivative stands, None where there is none."""
+    level = 0
+    for ahead in range(1, 40):
+        token = reader.peek(ahead)
+        if token.kind in ("(", "{"):
+            level += 1
+        elif token.kind in (")", "}"):
+            level -= 1
+        elif token.kind in ("+", "-", "=", "end", ",", "*"):
+            return None
+        elif token.kind == "/" and level == 0:
+            return ahead if _begins_with_d(reader.peek(ahead + 1)) else None
+        if level < 0:
+            return None
+    return None
+
+
+def read(reader: Reader) -> Value:
+    """The derivative in plain text that begins here."""
+    reader.enter()
+    above: list[Token] = []
+    while reader.token.kind != "/" or _depth(above):
+        if reader.token.kind == "end":
+            raise reader.unexpected()
+        above.append(reader.take())
+    reader.take()
+    below = _variable(reader)
+    found = quotient(reader, above, below, above[0].start)
+    reader.nesting -= 1
+    return found if found is not None else Abstract("a derivative that is not carried out")
+
+
+def _depth(tokens: list[Token]) -> int:
+    return sum((t.kind in ("(", "{")) - (t.kind in (")", "}")) for t in tokens)
+
+
+def _variable(reader: Reader) -> list[Token]:
+    """The tokens of the variable: `dtheta1'`, `d(theta1_dot)`, `∂\\dot q_1`."""
+    first = reader.take()
+    start = reader.position
+    if _is_d(first):
+        if reader.token.kind == "(":
+            opening = reader.take()
+            inner = reader.until(")", opening)
+            return [first, *inner]
+        reader.form()
+        return [first, *reader.tokens[start : reader.position]]
+    form = Form(first.text, first.start, first.end)
+    reader.beside(form)
+    return [first, *reader.tokens[start : reader.position]]

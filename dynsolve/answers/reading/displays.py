@@ -1,0 +1,167 @@
+"""One display of a report, cut into equations, and these into the members of a chain."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from dynsolve.answers.reading.limits import MAX_MEMBERS
+from dynsolve.answers.reading.scan import SEPARATORS, Token
+from dynsolve.answers.submission import Place
+
+Locate = Callable[[int, int], Place]
+"""(offset, length) in the text of a display -> where that is in the file."""
+
+
+@dataclass(frozen=True, slots=True)
+class Display:
+    """The text of one displayed equation, or of several below one another."""
+
+    text: str
+    label: str
+    locate: Locate
+    plain: bool = False
+
+
+@dataclass(slots=True)
+class Equation:
+    """The members of one chain a = b = c."""
+
+    members: list[list[Token]]
+    label: str = ""
+
+
+_OPENS = {"(": 1, "[": 1, "{": 1, "begin": 1, ")": -1, "]": -1, "}": -1, "close": -1}
+_ENDINGS = frozenset({",", ";", ".", ":"})
+
+
+def equations(tokens: list[Token], label: str) -> list[Equation]:
+    """The equations of one display; `label` is the number that stands beside it."""
+    found: list[Equation] = []
+    for row in _rows(tokens):
+        own, row = _label(row)
+        for piece in _pieces(row):
+            members = _members(piece)
+            if members:
+                found.append(Equation(members[:MAX_MEMBERS], own or label))
+    return found
+
+
+def is_label(tokens: list[Token]) -> str:
+    """The number of an equation, if a display holds nothing else: `(17)`."""
+    shown = [t for t in tokens if t.kind not in ("end",) and t.text not in SEPARATORS]
+    if [t.kind for t in shown] == ["tag"]:
+        return f"({shown[0].text.strip('()')})"
+    if 3 <= len(shown) <= 6 and shown[0].kind == "(" and shown[-1].kind == ")":
+        inside = shown[1:-1]
+        if all(t.kind in ("number", "name", ".", "'") for t in inside) and any(t.kind == "number" for t in inside):
+            return "(" + "".join(t.text for t in inside) + ")"
+    return ""
+
+
+def _rows(tokens: list[Token]) -> list[list[Token]]:
+    """The rows of a display; one that goes on with the equation before is added to it."""
+    rows: list[list[Token]] = [[]]
+    level = 0
+    for token in tokens:
+        if token.kind in ("begin", "{"):
+            level += 1
+        elif token.kind in ("close", "}"):
+            level = max(level - 1, 0)
+        if token.kind == "end":
+            break
+        if token.kind == "\\\\" and level == 0:
+            rows.append([])
+        elif token.kind != "&" or level:
+            rows[-1].append(token)
+    joined: list[list[Token]] = []
+    for row in rows:
+        if joined and _goes_on(joined[-1], row):
+            joined[-1] += row
+        elif row:
+            joined.append(row)
+    return joined
+
+
+def _goes_on(before: list[Token], row: list[Token]) -> bool:
+    content = [t for t in row if t.text not in SEPARATORS and t.kind != "tag"]
+    if not content or content[0].kind in ("=", "+", "-", "*", "cdot", "times", "/"):
+        return True
+    previous = [t for t in before if t.text not in SEPARATORS and t.kind != "tag"]
+    if previous and previous[-1].kind in ("=", "+", "-", "*", "cdot", "times", "/"):
+        return True
+    return not any(t.kind == "=" for t in content) and not is_label(content)
+
+
+def _label(row: list[Token]) -> tuple[str, list[Token]]:
+    """The number inside a row, and the row without it."""
+    label = ""
+    kept: list[Token] = []
+    for token in row:
+        if token.kind == "tag":
+            label = f"({token.text.strip('()')})"
+        else:
+            kept.append(token)
+    if not label and len(kept) > 4 and [t.kind for t in kept[-3:]] == ["(", "number", ")"]:
+        before = kept[-4]
+        if before.text in SEPARATORS or (kept[-3].spaced and kept[-2].text.isdigit() and before.kind not in _PENDING):
+            label = f"({kept[-2].text})"
+            kept = kept[:-3]
+    return label, kept
+
+
+_PENDING = frozenset({"+", "-", "*", "/", "=", "cdot", "times", "command"})
+
+
+def _pieces(row: list[Token]) -> list[list[Token]]:
+    """The equations that stand beside one another in a row: `P_1 = 0, \\quad P_2 = 0`."""
+    pieces: list[list[Token]] = [[]]
+    level = 0
+    for token in row:
+        level = max(level + _OPENS.get(token.kind, 0), 0)
+        if level == 0 and (token.kind == "separator" or token.text in SEPARATORS and token.kind == "command" or token.kind in (",", ";")):
+            pieces.append([])
+        else:
+            pieces[-1].append(token)
+    merged: list[list[Token]] = []
+    for piece in pieces:
+        if merged and not _is_equation(piece):
+            if _is_words(piece):
+                continue
+            merged[-1] += piece
+        elif merged and not _is_equation(merged[-1]):
+            merged[-1] += piece
+        elif piece:
+            merged.append(piece)
+    return [_trimmed(piece) for piece in merged]
+
+
+def _is_words(piece: list[Token]) -> bool:
+    return not piece or all(t.kind in _ENDINGS or t.kind == "text" for t in piece)
+
+
+def _is_equation(piece: list[Token]) -> bool:
+    level = 0
+    for token in piece:
+        level += _OPENS.get(token.kind, 0)
+        if token.kind == "=" and level <= 0:
+            return True
+    return False
+
+
+def _trimmed(piece: list[Token]) -> list[Token]:
+    while piece and piece[-1].kind in _ENDINGS:
+        piece = piece[:-1]
+    return [t for t in piece if not (t.kind == "command" and t.text in SEPARATORS)]
+
+
+def _members(piece: list[Token]) -> list[list[Token]]:
+    members: list[list[Token]] = [[]]
+    level = 0
+    for token in piece:
+        level = max(level + _OPENS.get(token.kind, 0), 0)
+        if token.kind == "=" and level == 0:
+            members.append([])
+        else:
+            members[-1].append(token)
+    return [member for member in members if member] if len(members) > 1 else []

@@ -1,0 +1,46 @@
+"""A file that was handed in -> a `Submission`, by its ending."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+
+from dynsolve.answers.reading.limits import MAX_BYTES
+from dynsolve.answers.reading.reports import read_report
+from dynsolve.answers.reading.session import Session
+from dynsolve.answers.reading.sources import Source, decoded
+from dynsolve.answers.reading.vocabulary import vocabulary
+from dynsolve.answers.submission import Submission
+from dynsolve.errors import Finding
+from dynsolve.problem.model import Problem
+
+ENDINGS = (".yaml", ".yml", ".json", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm")
+"""The endings of files that are read."""
+
+
+def read_file(problem: Problem, content: bytes | str, file: str) -> Submission:
+    """Read what was handed in; what is wrong with the file as a whole is in `faults`."""
+    if len(content) > MAX_BYTES:
+        message = f"the file is larger than {MAX_BYTES // 1_000_000} MB"
+        return Submission("", "", file, (), (), (Finding(message, "hand in the text alone", file),))
+    session = Session(vocabulary(problem))
+    source = Source(decoded(content), file)
+    ending = PurePath(file.replace("\0", "")).suffix.lower()
+    head = ("", "")
+    faults: list[Finding] = []
+    if ending in (".ipynb",):
+        from dynsolve.answers.reading.notebooks import read_notebook
+
+        faults = read_notebook(session, source)
+    elif ending in (".html", ".htm"):
+        from dynsolve.answers.reading.web import read_page
+
+        read_page(session, source)
+    elif ending in (".md", ".markdown", ".tex", ".txt"):
+        read_report(session, source, latex=ending == ".tex")
+    else:
+        from dynsolve.answers.reading.answer_file import read_answer_file
+
+        head, faults = read_answer_file(session, source)
+    session.finish()
+    answers, refused = tuple(session.answers), tuple(session.not_recognized)
+    return Submission(head[0], head[1], file, answers, refused, tuple(faults))

@@ -1,0 +1,66 @@
+"""A name as it is written, with what stands over, under and beside it: `\\dot{L}_2^{\\star 2}`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from dynsolve.answers.reading.scan import Token
+from dynsolve.answers.reading.vocabulary import key
+
+
+@dataclass(slots=True)
+class Scripts:
+    """What stands behind a factor: the mark of a joint variable, powers, T, primes."""
+
+    powers: list[Fraction] = field(default_factory=list)
+    mark: bool = False
+    transposed: bool = False
+    primes: int = 0
+
+    @property
+    def any(self) -> bool:
+        """Whether there is one."""
+        return bool(self.powers or self.mark or self.transposed or self.primes)
+
+
+@dataclass(slots=True)
+class Form:
+    """A name before it is looked up.
+
+    `base` with `index` is the name; `script` says that it is set in calligraphic type;
+    `dots` are those over it.  `angle` are the tokens of an index that is an angle
+    (`C_{\\theta_1}`).  `repaired` says that a power stood under the dot.
+    """
+
+    base: str
+    start: int
+    end: int
+    index: str = ""
+    script: bool = False
+    dots: int = 0
+    angle: list[Token] = field(default_factory=list)
+    scripts: Scripts = field(default_factory=Scripts)
+    repaired: bool = False
+
+    @property
+    def key(self) -> str:
+        """The letters and digits of the name."""
+        return key(self.base + self.index)
+
+    @property
+    def text(self) -> str:
+        """The name as messages show it."""
+        index = self.index.strip("_{}")
+        return f"{self.base}_{{{index}}}" if index else self.base
+
+
+def index_text(tokens: list[Token]) -> str:
+    """The index that tokens spell: `{\\omega_1}` is omega1, `{1,zz}` is 1zz."""
+    kept = [t.text for t in tokens if t.kind in ("name", "letter", "number") or t.kind in ("+", "-")]
+    return key("".join(kept))
+
+
+def is_angle(tokens: list[Token]) -> bool:
+    """Whether an index is an angle rather than digits: `\\theta_1`, `q_1+q_2`, `1+2`."""
+    return any(t.kind in ("name", "letter", "+", "-", "command") for t in tokens)

@@ -1,0 +1,226 @@
+"""Matrices of trees, put together as they are written: products, transposes, stacks.
+
+Nothing is computed: an entry of a product is the tree of the sum of products.  Only
+zeros and ones that matrices are full of are left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from dynsolve.answers.reading.limits import MAX_ENTRIES, MAX_NODES
+from dynsolve.errors import ReadError
+from dynsolve.notation.tree import ONE, ZERO, Matrix, Negative, Node, Product, Quotient, Sum
+
+_TEXT = "name a part of it with an abbreviation"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Grid:
+    """A matrix of trees.
+
+    `quantity` is the canonical name where it stands for an answer as a whole;
+    `is_rates` says that it is the column of the coordinates (0), the velocities (1) or
+    the accelerations (2), -1 otherwise.  `factors` are the two matrices of a product,
+    `terms` the matrices of a sum, as they were written.
+    """
+
+    rows: tuple[tuple[Node, ...], ...]
+    quantity: str = ""
+    is_rates: int = -1
+    factors: tuple[Grid, Grid] | None = None
+    terms: tuple[Grid, ...] = ()
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return len(self.rows), len(self.rows[0])
+
+    @property
+    def node(self) -> Matrix:
+        """The matrix as a tree."""
+        return Matrix(self.rows)
+
+
+@dataclass(frozen=True, slots=True)
+class Abstract:
+    """What stands for no value of this robot: a running index, z_0, an operator; `why` names it."""
+
+    why: str
+
+
+Value = Node | Grid | Abstract
+
+
+def grid(rows: Iterable[Iterable[Node]]) -> Grid:
+    """A matrix of these rows; raises ReadError where they differ in length."""
+    entries = tuple(tuple(row) for row in rows)
+    lengths = {len(row) for row in entries}
+    if len(lengths) != 1 or 0 in lengths:
+        raise ReadError("the rows of this matrix differ in length", help="give every row as many entries")
+    if sum(map(len, entries)) > MAX_ENTRIES:
+        raise ReadError(f"a matrix of more than {MAX_ENTRIES} entries", help=_TEXT)
+    return Grid(entries)
+
+
+def negative(value: Value) -> Value:
+    """-value"""
+    if isinstance(value, Abstract):
+        return value
+    return mapped(value, _minus) if isinstance(value, Grid) else Negative(value)
+
+
+def _minus(node: Node) -> Node:
+    if node == ZERO:
+        return node
+    return node.argument if isinstance(node, Negative) else Negative(node)
+
+
+def mapped(value: Grid, change: object) -> Grid:
+    """The matrix with every entry changed."""
+    assert callable(change)
+    return Grid(tuple(tuple(change(entry) for entry in row) for row in value.rows))
+
+
+def total(terms: Sequence[Value]) -> Value:
+    """The sum of terms, all scalars or all matrices of one shape."""
+    for term in terms:
+        if isinstance(term, Abstract):
+            return term
+    grids = [term for term in terms if isinstance(term, Grid)]
+    if not grids:
+        return Sum(tuple(terms))  # type: ignore[arg-type]
+    others = [term for term in terms if not isinstance(term, Grid)]
+    if any(other != ZERO for other in others):
+        raise ReadError("a matrix and a scalar are added here", help="add matrices of one shape")
+    if len({g.shape for g in grids}) > 1:
+        shapes = " and ".join(sorted({f"{r}×{c}" for r, c in (g.shape for g in grids)}))
+        raise ReadError(f"matrices of different shapes are added here: {shapes}", help="check the shapes")
+    rows = tuple(
+        tuple(_sum([g.rows[i][j] for g in grids]) for j in range(grids[0].shape[1]))
+        for i in range(grids[0].shape[0])
+    )
+    return Grid(rows, terms=tuple(grids))
+
+
+def _sum(terms: Sequence[Node]) -> Node:
+    kept = [term for term in terms if term != ZERO]
+    if not kept:
+        return ZERO
+    return kept[0] if len(kept) == 1 else Sum(tuple(kept))
+
+
+def times(left: Value, right: Value, sign: str = "") -> Value:
+    """left right; `sign` is `times` for a cross, `cdot` for a dot between vectors."""
+    if isinstance(left, Abstract):
+        return left
+    if isinstance(right, Abstract):
+        return right
+    if not isinstance(left, Grid) and not isinstance(right, Grid):
+        return Product((*left.factors, right)) if type(left) is Product else Product((left, right))
+    if not isinstance(left, Grid):
+        scale = left
+        assert isinstance(right, Grid)
+        return mapped(right, lambda entry: scaled(scale, entry))
+    if not isinstance(right, Grid):
+        factor = right
+        return mapped(left, lambda entry: scaled(entry, factor))
+    if sign == "times" and left.shape == right.shape == (3, 1):
+        return _cross(left, right)
+    if sign == "cdot" and left.shape == right.shape and left.shape[1] == 1:
+        left = transposed(left)
+    return _product(left, right)
+
+
+def scaled(left: Node, right: Node) -> Node:
+    """left right, without the ones and zeros."""
+    if left == ZERO or right == ZERO:
+        return ZERO
+    if left == ONE:
+        return right
+    if right == ONE:
+        return left
+    if type(left) is Negative:
+        return Negative(scaled(left.argument, right))
+    if type(right) is Negative:
+        return Negative(scaled(left, right.argument))
+    return Product((left, right))
+
+
+def _product(left: Grid, right: Grid) -> Value:
+    (rows, inner), (height, columns) = left.shape, right.shape
+    if inner != height:
+        message = f"a {rows}×{inner} matrix cannot be multiplied by a {height}×{columns} one"
+        raise ReadError(message, help="check the shapes, and which one is transposed")
+    if rows * inner * columns > MAX_NODES:
+        raise ReadError("a product of matrices that is too large", help=_TEXT)
+    entries = tuple(
+        tuple(_sum([scaled(left.rows[i][k], right.rows[k][j]) for k in range(inner)]) for j in range(columns))
+        for i in range(rows)
+    )
+    if rows == columns == 1:
+        return entries[0][0]
+    if left.quantity == "C" and right.is_rates == 1:
+        return Grid(entries, quantity="Cqd", factors=(left, right))
+    return Grid(entries, factors=(left, right))
+
+
+def _cross(left: Grid, right: Grid) -> Grid:
+    a, b = ([row[0] for row in g.rows] for g in (left, right))
+    return Grid(
+        tuple(
+            (_sum([scaled(a[i], b[j]), _minus(scaled(a[j], b[i]))]),) for i, j in ((1, 2), (2, 0), (0, 1))
+        )
+    )
+
+
+def transposed(value: Value) -> Value:
+    """The transpose; a scalar is its own."""
+    if not isinstance(value, Grid):
+        return value
+    return Grid(tuple(zip(*value.rows, strict=True)))
+
+
+def divided(left: Value, right: Value) -> Value:
+    """left / right, where right is a scalar."""
+    if isinstance(left, Abstract):
+        return left
+    if isinstance(right, Abstract):
+        return right
+    if isinstance(right, Grid):
+        raise ReadError("a division by a matrix", help="a matrix cannot divide")
+    if isinstance(left, Grid):
+        divisor = right
+        return mapped(left, lambda entry: entry if entry == ZERO else Quotient(entry, divisor))
+    return Quotient(left, right)
+
+
+def stacked(rows: Sequence[Sequence[Value]]) -> Value:
+    """The matrix of these entries, blocks among them."""
+    for row in rows:
+        for entry in row:
+            if isinstance(entry, Abstract):
+                return entry
+    if not any(isinstance(entry, Grid) for row in rows for entry in row):
+        return grid(rows)  # type: ignore[arg-type]
+    lines: list[tuple[Node, ...]] = []
+    for row in rows:
+        height = max(entry.shape[0] if isinstance(entry, Grid) else 1 for entry in row)
+        for i in range(height):
+            line: list[Node] = []
+            for entry in row:
+                line += _line(entry, i, height)
+            lines.append(tuple(line))
+    return grid(lines)
+
+
+def _line(entry: Value, i: int, height: int) -> tuple[Node, ...]:
+    if isinstance(entry, Grid):
+        if entry.shape[0] != height:
+            raise ReadError("blocks of different heights stand in one row here", help="check the shapes")
+        return entry.rows[i]
+    assert isinstance(entry, Node)
+    if height > 1 and entry != ZERO:
+        raise ReadError("a scalar stands beside a matrix here", help="check the shapes")
+    return (entry,)

@@ -1,0 +1,43 @@
+"""How much is read: a hand-in over one of these bounds is `unreadable`, and says which."""
+
+from __future__ import annotations
+
+MAX_BYTES = 20_000_000
+"""Of a file: notebooks and web pages carry their pictures with them."""
+
+MAX_LENGTH = 60_000
+"""Characters of one equation."""
+
+MAX_TOKENS = 40_000
+"""Tokens of one equation, its macros written out."""
+
+MAX_NESTING = 60
+"""Levels of parentheses, fractions, signs and powers."""
+
+MAX_IDENTIFIER = 200
+"""Characters of one name."""
+
+MAX_EQUATIONS = 1_000
+"""Equations of one file."""
+
+MAX_ANSWERS = 2_000
+"""Values of one file."""
+
+MAX_MEMBERS = 50
+"""Members of one chain a = b = c."""
+
+MAX_ENTRIES = 1_000
+"""Entries of one matrix."""
+
+MAX_NODES = 60_000
+"""Nodes of one value, its abbreviations written out."""
+
+MAX_TERMS = 200_000
+"""Terms of one value, multiplied out; an upper bound known from the tree alone."""
+
+MAX_DEGREE = 200
+"""The degree of one value."""
+
+MAX_EXPONENT = 20
+MAX_MACROS = 500
+MAX_DEFINITIONS = 300

@@ -1,0 +1,610 @@
+"""The descent: prepared tokens -> a value in the symbols of the problem.
+
+    sum      = [sign] term {("+" | "-") term}
+    term     = factor {["*" | "/" | cdot | times] factor}        a product needs no sign
+    factor   = {sign} atom scripts
+    atom     = number | name | function | fraction | matrix | "(" sum ")" | derivative
+
+Names are looked up in the vocabulary as they come; nothing else happens to a value
+than being put together.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from dynsolve.answers.reading import brackets, calls, derivatives, functions, lookup
+from dynsolve.answers.reading.forms import Form, Scripts, index_text, is_angle
+from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, mapped, negative, times, total, transposed
+from dynsolve.answers.reading.limits import MAX_EXPONENT, MAX_NESTING
+from dynsolve.answers.reading.scan import Token
+from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.errors import ReadError
+from dynsolve.notation import tokens as plain
+from dynsolve.notation.tree import (
+    Degrees,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+
+_BEGINS = frozenset({"number", "fraction", "name", "letter", "command", "(", "[", "{", "√", "begin"})
+_PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
+_TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
+
+
+class Reader:
+    """Reads one list of prepared tokens; `token` is the one that is looked at.
+
+    `naming` makes names of answers win over symbols, as on a left-hand side.
+    `references`, `symbols` and `notes` collect what the value is made of.
+    """
+
+    __slots__ = (
+        "vocabulary",
+        "tokens",
+        "position",
+        "token",
+        "nesting",
+        "naming",
+        "references",
+        "symbols",
+        "notes",
+        "candidates",
+        "free",
+        "options",
+        "owner",
+        "names_used",
+    )
+
+    def __init__(
+        self,
+        tokens: list[Token],
+        vocabulary: Vocabulary,
+        naming: bool = False,
+        owner: str = "",
+        options: frozenset[str] = frozenset(),
+    ) -> None:
+        end = tokens[-1].end if tokens else 0
+        self.tokens = tokens if tokens and tokens[-1].kind == "end" else [*tokens, Token("end", "", end, end)]
+        self.vocabulary = vocabulary
+        self.position = 0
+        self.token = self.tokens[0]
+        self.nesting = 0
+        self.naming = naming
+        self.owner = owner
+        self.options = options
+        self.references: dict[str, None] = {}
+        self.symbols: dict[str, None] = {}
+        self.notes: dict[str, None] = {}
+        self.free: dict[str, None] = {}
+        self.candidates: tuple[str, ...] = ()
+        self.names_used = 0
+
+    def value(self) -> Value:
+        """The value of all tokens; raises ReadError for what cannot be read."""
+        if self.token.kind == "end":
+            raise ReadError("there is nothing here", self.token.start, 1, "write the formula")
+        found = self.sum()
+        if self.token.kind != "end":
+            raise self.unexpected()
+        return found
+
+    # Moving about
+
+    def take(self) -> Token:
+        """The token that is looked at; the next one is looked at then."""
+        token = self.token
+        self.position += 1
+        self.token = self.tokens[self.position] if self.position < len(self.tokens) else self.tokens[-1]
+        return token
+
+    def peek(self, ahead: int = 1) -> Token:
+        """A token further on."""
+        at = self.position + ahead
+        return self.tokens[at] if at < len(self.tokens) else self.tokens[-1]
+
+    def expect(self, kind: str, opening: Token) -> Token:
+        """Take the token that closes a bracket."""
+        if self.token.kind == kind:
+            return self.take()
+        if self.token.kind == "end":
+            message = f"this `{opening.text}` is never closed"
+            raise ReadError(message, opening.start, 1, f"add the `{kind}` that it belongs to")
+        raise self.unexpected(f"`{kind}` is expected here")
+
+    def unexpected(self, help: str = "") -> ReadError:
+        """The error about the token that is looked at."""
+        token = self.token
+        if token.kind == "end":
+            return ReadError("the formula ends here too early", max(token.start - 1, 0), 1, help)
+        if token.kind in (")", "]", "}"):
+            help = help or "delete it, or add the bracket that it belongs to"
+            return ReadError(f"this `{token.text}` closes nothing", token.start, 1, help)
+        shown = "\\" + token.text if token.kind in ("command", "letter") else token.text
+        help = help or "a sum of products of numbers, names and functions is expected"
+        length = max(token.end - token.start, 1)
+        return ReadError(f"`{shown[:40]}` cannot stand here", token.start, length, help)
+
+    def enter(self) -> None:
+        """One level deeper."""
+        self.nesting += 1
+        if self.nesting > MAX_NESTING:
+            message = f"more than {MAX_NESTING} levels of brackets, fractions and signs"
+            raise ReadError(message, self.token.start, 1, "name a part of it with an abbreviation")
+
+    def inner(self, tokens: list[Token], naming: bool | None = None) -> Value:
+        """The value of tokens that stand inside this text."""
+        self.enter()
+        reader = Reader(tokens, self.vocabulary, self.naming if naming is None else naming, self.owner, self.options)
+        reader.nesting = self.nesting
+        reader.references, reader.symbols = self.references, self.symbols
+        reader.notes, reader.free = self.notes, self.free
+        found = reader.value()
+        self.names_used += reader.names_used
+        self.nesting -= 1
+        return found
+
+    def group(self) -> list[Token]:
+        """The tokens of an argument: those between braces, or one token."""
+        opening = self.take()
+        if opening.kind == "end":
+            raise ReadError("an argument is missing here", max(opening.start - 1, 0), 1, "write it in { }")
+        if opening.kind not in ("{", "("):
+            return [opening]
+        if opening.kind == "(":
+            return [opening, *self.until(")", opening), Token(")", ")", opening.start, opening.start + 1)]
+        return self.until("}", opening)
+
+    def until(self, closing: str, opening: Token) -> list[Token]:
+        """The tokens up to the bracket that closes, which is taken too."""
+        level, start = 1, self.position
+        while self.token.kind != "end":
+            level += (self.token.kind == opening.kind) - (self.token.kind == closing)
+            if level == 0:
+                found = self.tokens[start : self.position]
+                self.take()
+                return found
+            self.take()
+        message = f"this `{opening.text}` is never closed"
+        raise ReadError(message, opening.start, 1, f"add the `{closing}` that it belongs to")
+
+    # The grammar
+
+    def sum(self, seed: Form | None = None) -> Value:
+        """Terms with their signs; `seed` is a name that was taken already."""
+        self.enter()
+        terms: list[Value] = []
+        sign = "+"
+        if seed is None:
+            while self.token.kind in ("+", "-"):
+                sign = "-" if (self.take().kind == "-") != (sign == "-") else "+"
+        while True:
+            start = self.token.start
+            term = self.term(seed)
+            seed = None
+            terms.append(negative(term) if sign == "-" else term)
+            sign = self.token.kind
+            if sign != "+" and sign != "-":
+                break
+            self.take()
+        self.nesting -= 1
+        found = terms[0] if len(terms) == 1 else self.placed(start, total, terms)
+        if self.token.kind == "over":
+            self.take()
+            return self.placed(start, divided, found, self.sum())
+        return found
+
+    def placed(self, start: int, operation: object, *values: object) -> Value:
+        """The result of an operation on matrices, whose errors get their place here."""
+        assert callable(operation)
+        try:
+            result: Value = operation(*values)
+        except ReadError as error:
+            end = self.tokens[max(self.position - 1, 0)].end
+            raise ReadError(error.message, start, max(end - start, 1), error.help) from None
+        return result
+
+    def term(self, seed: Form | None = None) -> Value:
+        """Factors, with or without a sign between them."""
+        start = self.token.start
+        scalars: list[Node] = []
+        other: Value | None = None
+        sign, value = "", self.factor(seed)
+        while True:
+            if isinstance(value, Node):
+                scalars.append(value)
+            else:
+                other = value if other is None else self.placed(start, times, other, value, sign)
+            while self.token.kind == "/":
+                self.take()
+                other = self.placed(start, divided, _with_scalars(scalars, other), self.factor())
+                scalars = []
+            if isinstance(other, Node):
+                scalars.append(other)
+                other = None
+            if not self.follows():
+                return _with_scalars(scalars, other)
+            sign = self.take().kind if self.token.kind in _PRODUCT_SIGNS else ""
+            value = self.factor()
+
+    def follows(self) -> bool:
+        """Whether a product or a quotient goes on at the token that is looked at."""
+        kind = self.token.kind
+        if kind == "command" and self.token.text in brackets.STOPS:
+            return False
+        if "spaces" in self.options and self.token.spaced and kind in _BEGINS:
+            return False
+        return kind in _BEGINS or kind in _PRODUCT_SIGNS
+
+    def factor(self, seed: Form | None = None) -> Value:
+        """Signs, then an atom with its scripts."""
+        if seed is not None:
+            return self.named(seed)
+        kind = self.token.kind
+        if kind == "-" or kind == "+":
+            self.enter()
+            self.take()
+            found = self.factor()
+            self.nesting -= 1
+            return negative(found) if kind == "-" else found
+        return self.atom()
+
+    def atom(self) -> Value:
+        """A number, a name, a bracket, a function; with the scripts behind it."""
+        token = self.token
+        kind = token.kind
+        if kind == "name" or kind == "letter":
+            return self.word(token)
+        if kind == "number":
+            return self.number()
+        if kind == "fraction":
+            p, _, q = self.take().text.partition("/")
+            return self.scripted(Number(int(p), int(q)))
+        if kind == "command":
+            return self.command(token)
+        if kind in ("(", "[", "{", "begin"):
+            return self.bracketed()
+        if kind == "√":
+            self.enter()
+            self.take()
+            argument = self.atom()
+            self.nesting -= 1
+            return functions.applied(self, "sqrt", argument, token)
+        if kind == "'" and self.peek().text == "diff":
+            self.take()
+            return self.word(self.token)
+        raise self.unexpected()
+
+    def number(self) -> Value:
+        token = self.take()
+        value = plain.rational(plain.Token("number", token.text, token.start, token.end))
+        if self.token.kind == "°" or (self.token.kind == "name" and self.token.text == "deg"):
+            self.take()
+            return Degrees(value.numerator, value.denominator)
+        if self.token.kind == "^" and self.circle():
+            return Degrees(value.numerator, value.denominator)
+        return self.scripted(Number(value.numerator, value.denominator))
+
+    def circle(self) -> bool:
+        r"""Take `^\circ`, if that is what stands here."""
+        ahead = [self.peek(1), self.peek(2), self.peek(3)]
+        if ahead[0].text == "circ":
+            self.take(), self.take()
+            return True
+        if ahead[0].kind == "{" and ahead[1].text == "circ" and ahead[2].kind == "}":
+            self.take(), self.take(), self.take(), self.take()
+            return True
+        return False
+
+    def bracketed(self) -> Value:
+        """A parenthesis, a group or a matrix, with its scripts."""
+        self.enter()
+        if self.token.kind == "{":
+            opening = self.take()
+            if self.token.kind in ("name", "letter") or (
+                self.token.kind == "command" and self.token.text in lookup.ACCENTS
+            ):
+                if not self.special():
+                    form = self.form()
+                    if self.token.kind == "}":
+                        self.take()
+                        self.nesting -= 1
+                        return self.named(form)
+                    found = self.sum(form)
+                else:
+                    found = self.sum()
+            else:
+                found = self.sum()
+            self.expect("}", opening)
+        else:
+            found = brackets.read(self)
+        self.nesting -= 1
+        return self.scripted(found)
+
+    def special(self) -> bool:
+        """Whether the name here is a function, a call or a derivative rather than a symbol."""
+        return (
+            functions.name_of(self.token) is not None
+            or calls.is_call(self)
+            or derivatives.stands_here(self)
+            or lookup.is_short_function(self)
+        )
+
+    def word(self, token: Token) -> Value:
+        """A letter or a run of them: a function, a call, a derivative or a name."""
+        if token.kind == "name":
+            if derivatives.stands_here(self):
+                return self.scripted(derivatives.read(self))
+            if (function := functions.name_of(token)) is not None:
+                return functions.read(self, function)
+            if calls.is_call(self):
+                return self.scripted(calls.read(self))
+        if lookup.is_short_function(self):
+            return functions.read(self, "sin" if token.text in "sS" else "cos")
+        return self.named(self.form())
+
+    def command(self, token: Token) -> Value:
+        name = token.text
+        if name in lookup.ACCENTS or name == "script":
+            return self.named(self.form())
+        if (function := functions.name_of(token)) is not None:
+            return functions.read(self, function)
+        if name == "frac":
+            return self.scripted(self.fraction())
+        if derivatives.stands_here(self):
+            return self.scripted(derivatives.read(self))
+        if name in ("sum", "int", "prod"):
+            return calls.running_sum(self)
+        if name in ("cdots", "ldots", "dots", "vdots", "ddots"):
+            raise ReadError("dots stand for something that was left out", token.start, token.end - token.start, "write it out")
+        if name in ("underbrace", "overbrace"):
+            self.take()
+            found = self.inner(self.group())
+            while self.token.kind in ("_", "^"):
+                self.take()
+                self.group()
+            return found
+        message = f"unknown command `\\{name[:40]}`"
+        raise ReadError(message, token.start, token.end - token.start, "the commands of LaTeX's formulas are read")
+
+    def fraction(self) -> Value:
+        self.enter()
+        start = self.take().start
+        above, below = self.group(), self.group()
+        found = derivatives.quotient(self, above, below, start)
+        if found is None:
+            found = self.placed(start, divided, self.inner(above), self.inner(below))
+        self.nesting -= 1
+        return found
+
+    # Names and what stands beside them
+
+    def form(self) -> Form:
+        """A name with its accents and scripts, before it is looked up."""
+        self.enter()
+        token = self.take()
+        if token.kind == "command" and token.text in lookup.ACCENTS:
+            form = self.accented(token)
+        elif token.kind == "command" and token.text == "script":
+            form = self.under(token)
+            form.script = True
+        elif token.kind in ("name", "letter"):
+            form = Form(token.text, token.start, token.end, dots=token.dots)
+        else:
+            self.position -= 1
+            self.token = token
+            raise self.unexpected("a name is expected here")
+        self.beside(form)
+        self.nesting -= 1
+        return form
+
+    def accented(self, accent: Token) -> Form:
+        form = self.under(accent)
+        form.dots += lookup.ACCENTS[accent.text]
+        if form.scripts.powers:
+            form.repaired = True
+        return form
+
+    def under(self, command: Token) -> Form:
+        """The name that an accent or a face stands over."""
+        if self.token.kind == "{":
+            opening = self.take()
+            form = self.form()
+            if self.token.kind != "}":
+                message = f"more than one name stands under `\\{command.text}`"
+                raise ReadError(message, opening.start, max(self.token.start - opening.start, 1), "one name is read there")
+            self.take()
+            return form
+        token = self.token
+        if token.kind in ("name", "letter"):
+            self.take()
+            return Form(token.text, token.start, token.end, dots=token.dots)
+        if token.kind == "command":
+            return self.form()
+        raise self.unexpected(f"a name is expected under `\\{command.text}`")
+
+    def beside(self, form: Form) -> None:
+        """The indices and scripts that follow a name."""
+        while True:
+            kind = self.token.kind
+            if kind == "_":
+                self.take()
+                tokens = self.group()
+                form.index += index_text(tokens)
+                if is_angle(tokens):
+                    form.angle = tokens
+            elif kind == "*" and self.star_is_mark(form):
+                self.take()
+                form.scripts.mark = True
+            elif not self.script(form.scripts):
+                break
+        form.end = self.tokens[max(self.position - 1, 0)].end
+
+    def star_is_mark(self, form: Form) -> bool:
+        """Whether the star here touches a coordinate's name and no factor follows."""
+        if self.token.spaced or self.peek().kind in _BEGINS:
+            return False
+        meaning = self.vocabulary.symbol(form.key)
+        return (
+            meaning is not None
+            and isinstance(meaning.value, Symbol)
+            and self.vocabulary.coordinate(meaning.value) is not None
+        )
+
+    def script(self, scripts: Scripts) -> bool:
+        """Take one script, if one stands here."""
+        token = self.token
+        if token.kind == "raised":
+            self.take()
+            scripts.powers.append(self.bounded(Fraction(_raised(token)), token))
+            return True
+        if token.kind == "'" or token.kind == "''":
+            self.take()
+            scripts.primes += len(token.kind)
+            return True
+        if token.kind == "." and self.peek().text == "T" and not self.peek().spaced:
+            self.take(), self.take()
+            scripts.transposed = True
+            return True
+        if token.kind != "^":
+            return False
+        self.take()
+        self.enter()
+        self.superscript(scripts, token)
+        self.nesting -= 1
+        return True
+
+    def superscript(self, scripts: Scripts, sign: Token) -> None:
+        """What stands after `^`."""
+        if self.token.kind in ("-", "+"):
+            tokens = [self.take(), *self.group()]
+        else:
+            tokens = self.group()
+        tokens = [t for t in tokens if t.kind not in ("command",) or t.text not in ("quad", "qquad")]
+        if tokens and tokens[0].kind == "*":
+            scripts.mark = True
+            tokens = [t for t in tokens[1:] if t.kind not in ("^", "{", "}")]
+        elif tokens and tokens[-1].kind == "*":
+            scripts.mark = True
+            tokens = tokens[:-1]
+        if not tokens:
+            return
+        if all(t.kind in ("'", "''") for t in tokens):
+            scripts.primes += sum(len(t.kind) for t in tokens)
+        elif len(tokens) == 1 and tokens[0].text in _TRANSPOSES:
+            scripts.transposed = True
+        else:
+            scripts.powers.append(self.bounded(self.exponent(tokens, sign), sign))
+
+    def exponent(self, tokens: list[Token], sign: Token) -> Fraction:
+        """The value of an exponent, a small constant."""
+        if len(tokens) == 1 and tokens[0].kind == "number" and tokens[0].text.isdigit() and len(tokens[0].text) < 4:
+            return Fraction(int(tokens[0].text))
+        value = self.inner(tokens)
+        found = constant(value) if isinstance(value, Node) else None
+        if found is None:
+            end = tokens[-1].end
+            raise ReadError("this exponent is no number", sign.start, max(end - sign.start, 1), "an exponent is a small whole number")
+        return found
+
+    def bounded(self, value: Fraction, sign: Token) -> Fraction:
+        """The exponent, if it is one that is read."""
+        if value != Fraction(1, 2) and value != Fraction(-1, 2) and (value.denominator != 1 or abs(value) > MAX_EXPONENT):
+            message = f"an exponent is a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}"
+            raise ReadError(message, sign.start, max(sign.end - sign.start, 1), "a square root is written \\sqrt{x} or sqrt(x)")
+        return value
+
+    def scripted(self, value: Value) -> Value:
+        """The value with the scripts that follow it."""
+        if self.token.kind not in ("^", "raised", "'", "''", "."):
+            return value
+        scripts, start = Scripts(), self.token.start
+        while self.script(scripts):
+            pass
+        return self.with_scripts(value, scripts, start)
+
+    def with_scripts(self, value: Value, scripts: Scripts, start: int) -> Value:
+        """The value transposed and raised to its powers."""
+        if scripts.transposed or scripts.primes:
+            if isinstance(value, Node) and scripts.primes:
+                dotted = lookup.rate(value, self.vocabulary, scripts.primes)
+                if dotted is None:
+                    raise ReadError("a prime stands here after what has no derivative", start, 1, "theta1' is a velocity")
+                value = dotted
+            else:
+                value = transposed(value)
+        for power in scripts.powers:
+            value = self.raised(value, power, start)
+        return value
+
+    def raised(self, value: Value, power: Fraction, start: int) -> Value:
+        if isinstance(value, Abstract):
+            return value
+        if isinstance(value, Grid):
+            if power == 2 and value.shape[1] == 1:
+                return times(transposed(value), value)
+            raise ReadError("a power of a matrix", start, 1, "write the product out")
+        return raise_to(value, power)
+
+    def named(self, form: Form) -> Value:
+        """The value of a name with its scripts."""
+        return lookup.value_of(self, form)
+
+
+def raise_to(base: Node, power: Fraction) -> Node:
+    """base^power; a half is a root."""
+    if power.denominator == 2:
+        root = Function("sqrt", base)
+        return root if power > 0 else Quotient(Number(1), root)
+    whole = Number(abs(power.numerator))
+    return Power(base, Negative(whole) if power < 0 else whole)
+
+
+def constant(node: Node) -> Fraction | None:
+    """The value of a tree of small numbers, None for every other."""
+    match node:
+        case Number(p, q):
+            return Fraction(p, q)
+        case Negative(argument):
+            inner = constant(argument)
+            return None if inner is None else -inner
+        case Quotient(numerator, denominator):
+            top, bottom = constant(numerator), constant(denominator)
+            return top / bottom if top is not None and bottom else None
+        case Sum(terms):
+            values = [constant(term) for term in terms]
+            return sum((v for v in values if v is not None), Fraction(0)) if None not in values else None
+        case Product(factors):
+            product = Fraction(1)
+            for factor in factors[:4]:
+                value = constant(factor)
+                if value is None:
+                    return None
+                product *= value
+            return product if len(factors) <= 4 else None
+    return None
+
+
+def _with_scalars(scalars: list[Node], other: Value | None) -> Value:
+    if other is None:
+        return scalars[0] if len(scalars) == 1 else Product(tuple(scalars))
+    if not scalars:
+        return other
+    return times(_with_scalars(scalars, None), other)
+
+
+_RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+
+
+def _raised(token: Token) -> int:
+    digits = token.text.translate(_RAISED)
+    if len(digits) > 4:
+        raise ReadError("an exponent is a small whole number", token.start, token.end - token.start, "")
+    return int(digits)

@@ -1,0 +1,192 @@
+"""Reports in Markdown, LaTeX and plain text: their displayed equations, in order."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACROS
+from dynsolve.answers.reading.prepare import Macro
+from dynsolve.answers.reading.scan import Token, closing_brace, scan
+from dynsolve.answers.reading.session import Session, label_alone
+from dynsolve.answers.reading.sources import Source
+from dynsolve.answers.submission import Place
+from dynsolve.errors import ReadError
+
+_ENVIRONMENT = (
+    "equation|align|gather|multline|eqnarray|alignat|flalign|displaymath|math|dmath|IEEEeqnarray|subequations|split"
+)
+_OPENING = re.compile(
+    rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}"
+    r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$]))",
+    re.MULTILINE,
+)
+_LABEL = re.compile(r"[ \t]*(?:\n[ \t]*){0,2}\(([0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?)\)[ \t]*(?=\n|$)")
+_MACRO = re.compile(
+    r"\\(?:(?:re)?newcommand|providecommand|DeclareMathOperator)\*?\s{0,20}(?:\{\s{0,9}\\(?P<name>[A-Za-z]{1,60})\s{0,9}\}"
+    r"|\\(?P<bare>[A-Za-z]{1,60}))\s{0,20}(?:\[(?P<count>[0-9])\])?\s{0,20}(?=\{)"
+    r"|\\def\s{0,20}\\(?P<defined>[A-Za-z]{1,60})(?P<hash>#1)?\s{0,20}(?=\{)"
+)
+_COMMENT = re.compile(r"(?<!\\)%[^\n]*")
+_ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
+_PLAIN_LINE = re.compile(r"[^\n=]{1,200}=")
+_TRAILING = frozenset("=+-*/,([{&\\")
+
+
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """A macro with the offset from which it holds."""
+
+    offset: int
+    name: str
+    macro: Macro
+
+
+def read_report(session: Session, source: Source, latex: bool = False) -> None:
+    """Read the displayed equations of a report, in order, with the macros that hold for each."""
+    text = _COMMENT.sub(lambda found: " " * len(found.group()), source.text) if latex else source.text
+    text, macros = _macros(text)
+    waiting = list(reversed(macros))
+    displays = _labelled(list(_displays(text, source)))
+    if not displays:
+        displays = [(offset, display) for offset, display in _plain_lines(text, source, 0, len(text), True)]
+    for offset, display in displays[:MAX_EQUATIONS]:
+        while waiting and waiting[-1].offset <= offset:
+            found = waiting.pop()
+            session.macros[found.name] = found.macro
+        session.display(display)
+
+
+def _macros(text: str) -> tuple[str, list[Definition]]:
+    """The student's commands, and the text with blanks in their place."""
+    found: list[Definition] = []
+    pieces: list[str] = []
+    done = 0
+    for match in _MACRO.finditer(text):
+        if match.start() < done or len(found) >= MAX_MACROS:
+            continue
+        try:
+            end = closing_brace(text, match.end())
+            body = _body(text[match.end() + 1 : end - 1])
+        except ReadError:
+            continue
+        name = match["name"] or match["bare"] or match["defined"]
+        takes = 1 if match["count"] or match["hash"] else 0
+        if not match["count"] or match["count"] == "1":
+            found.append(Definition(match.start(), name, Macro(tuple(body), takes)))
+        pieces += [text[done : match.start()], " " * (end - match.start())]
+        done = end
+    return "".join([*pieces, text[done:]]), found
+
+
+def _body(text: str) -> list[Token]:
+    tokens: list[Token] = []
+    for number, piece in enumerate(text.split("#1")):
+        if number:
+            tokens.append(Token("argument", "#1", 0, 0))
+        tokens += scan(piece)[:-1]
+    return tokens
+
+
+def _displays(text: str, source: Source) -> Iterator[tuple[int, Display]]:
+    """The displayed equations of a text with their offsets."""
+    position = 0
+    exhausted: set[str] = set()
+    while (opening := _OPENING.search(text, position)) is not None:
+        kind = str(opening.lastgroup)
+        start = opening.end()
+        closing = _closing(opening)
+        end = -1 if closing in exhausted else text.find(closing, start)
+        if end < 0:
+            exhausted.add(closing)
+            position = start
+            continue
+        position = end + len(closing)
+        if kind == "fence":
+            position = end + len(closing)
+            yield from _fenced(opening.group(), text, source, start, end)
+            continue
+        if kind == "inline":
+            line = text.rfind("\n", 0, opening.start()) + 1
+            stop = text.find("\n", position)
+            after = text[position : stop if stop >= 0 else len(text)]
+            if end - start > 5_000 or "\n\n" in text[start:end]:
+                position = start
+                continue
+            if not _ALONE.fullmatch(text[line : opening.start()]) or not _ends(after) or "=" not in text[start:end]:
+                continue
+        label = _LABEL.match(text, position)
+        yield start, _display(text, source, start, end, f"({label[1]})" if label else "")
+
+
+def _ends(after: str) -> bool:
+    """Whether nothing but a number or a full stop follows an equation on its line."""
+    return not after.strip(" \t.,;()0123456789")
+
+
+def _closing(opening: re.Match[str]) -> str:
+    if opening["environment"]:
+        return f"\\end{{{opening['environment']}}}"
+    if opening["dollars"]:
+        return "$$"
+    if opening["bracket"]:
+        return "\\]"
+    if opening["fence"]:
+        return "\n" + opening["fence"].strip()[:3]
+    return "$"
+
+
+def _display(text: str, source: Source, start: int, end: int, label: str, plain: bool = False) -> Display:
+    def locate(offset: int, length: int) -> Place:
+        return source.place(start + min(offset, max(end - start - 1, 0)), length)
+
+    return Display(text[start:end], label, locate, plain)
+
+
+def _fenced(opening: str, text: str, source: Source, start: int, end: int) -> Iterator[tuple[int, Display]]:
+    if "math" in opening or "latex" in opening or "tex" in opening:
+        yield start, _display(text, source, start, end, "")
+    else:
+        yield from _plain_lines(text, source, start, end, False)
+
+
+def _plain_lines(text: str, source: Source, start: int, end: int, prose: bool) -> Iterator[tuple[int, Display]]:
+    """Lines that are equations in plain text: `tau1 = ...`, with the lines that go on with them."""
+    position = start
+    while position < end:
+        stop = text.find("\n", position, end)
+        stop = end if stop < 0 else stop
+        if _PLAIN_LINE.match(text, position, stop):
+            stop = _whole(text, position, stop, end)
+            yield position, _display(text, source, position, stop, "", plain=True)
+        position = stop + 1
+
+
+def _whole(text: str, start: int, stop: int, end: int) -> int:
+    """Where an equation ends that goes on in the lines below."""
+    level, seen = 0, start
+    for _ in range(100):
+        level += sum((c in "([{") - (c in ")]}") for c in text[seen:stop])
+        below = text.find("\n", stop + 1, end)
+        below = end if below < 0 else below
+        following = text[stop + 1 : below].strip()
+        last = text[seen:stop].rstrip()[-1:]
+        if stop >= end or not following or not (level > 0 or last in _TRAILING or following[0] in "=+-*/)]["):
+            break
+        seen, stop = stop, below
+    return stop
+
+
+def _labelled(displays: list[tuple[int, Display]]) -> list[tuple[int, Display]]:
+    """A display that holds a number alone is the number of the one before it."""
+    found: list[tuple[int, Display]] = []
+    for offset, display in displays:
+        label = label_alone(display.text)
+        if not label:
+            found.append((offset, display))
+        elif found and not found[-1][1].label:
+            before = found[-1][1]
+            found[-1] = (found[-1][0], Display(before.text, label, before.locate, before.plain))
+    return found

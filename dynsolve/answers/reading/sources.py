@@ -1,0 +1,60 @@
+"""The text of a hand-in, whatever its bytes, and where in the file each character stands."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from dynsolve.answers.submission import Place
+
+_LONGEST_EXCERPT = 400
+_UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff\ud800-\udfff]")
+
+
+@dataclass(frozen=True)
+class Source:
+    """A text; `origins` are (offset, line, column) of its stretches, where the file is not the text itself."""
+
+    text: str
+    file: str = ""
+    origins: Sequence[tuple[int, int, int]] = field(default=())
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [0, *(match.end() for match in re.finditer("\n", self.text))]
+
+    def place(self, offset: int, length: int = 1) -> Place:
+        """Where the characters at an offset stand, with their line as it is shown."""
+        offset = min(max(offset, 0), len(self.text))
+        line = bisect_right(self._starts, offset)
+        start = self._starts[line - 1]
+        end = self._starts[line] - 1 if line < len(self._starts) else len(self.text)
+        column = offset - start + 1
+        excerpt = shown(self.text[start:end]) if end - start <= _LONGEST_EXCERPT else ""
+        length = max(1, min(length, end - offset))
+        if self.origins:
+            at = max(bisect_right([origin[0] for origin in self.origins], offset) - 1, 0)
+            first, line, base = self.origins[at]
+            between = self.text[first:offset]
+            line += between.count("\n")
+            column = len(between) - between.rfind("\n") if "\n" in between else base + len(between)
+            excerpt = excerpt if len(excerpt) >= column else ""
+        return Place(line, column, length, excerpt)
+
+
+def shown(text: str) -> str:
+    """A text without the characters that could steer a terminal."""
+    return _UNSEEN.sub("\ufffd", text.replace("\t", " "))
+
+
+def decoded(content: str | bytes) -> str:
+    """The text of a file: UTF-8, UTF-16 with its mark, else what can be read of it."""
+    if isinstance(content, bytes):
+        if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            content = content.decode("utf-16", errors="replace")
+        else:
+            content = content.decode("utf-8", errors="replace")
+    return content.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
