@@ -108,18 +108,21 @@ def divide(mono: Mono, by: Mono) -> Mono:
 
 
 def content(factors: Iterable[Factor]) -> Factor:
-    """What is worth drawing out: the common divisor, and a denominator if none is whole or most share it."""
+    """What is worth drawing out: the common divisor, and a denominator if most share it or all have one.
+
+    The denominator must be a multiple of the others: (m₁ + 2 m₂)/4, but a/2 + b/3.
+    """
     factors = list(factors)
     shared = gcd(*(f.numerator for f in factors))
     if all(type(f) is int for f in factors):
         return shared
     denominators = Counter(f.denominator for f in factors)
-    if 1 not in denominators:
-        return Fraction(shared, lcm(*denominators))
-    denominator, count = denominators.most_common(1)[0]
-    if 2 * count <= len(factors) or any(denominator % d for d in denominators):
+    largest = max(denominators)
+    if any(largest % d for d in denominators) or (
+        1 in denominators and 2 * denominators[largest] <= len(factors)
+    ):
         return shared
-    return Fraction(shared, denominator)
+    return Fraction(shared, largest)
 
 
 def whole_content(factors: Iterable[Factor]) -> Factor:
