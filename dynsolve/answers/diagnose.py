@@ -54,13 +54,15 @@ MOST_NAMED = 4
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """One scalar that is wrong: what was written, what its own inputs lead to, and the key."""
+    """One scalar that is wrong: what was written, and what its own inputs lead to, the nearest first.
+
+    The last one that is expected is the key.
+    """
 
     name: str
     target: Any
     written: Written
-    expected: Expr
-    key: Expr
+    expected: tuple[Expr, ...]
     row: int = 0
     column: int = 0
 
@@ -105,8 +107,20 @@ class Diagnoser:
         found = tuple(dict.fromkeys(self._named(question, mine)))
         return (*found, *(d for d in self._misfits(question, mine) if d not in found))
 
+    def expected(self, question: Question) -> Expr:
+        """The nearest value that the answer may be held against: one whose terms can be added.
+
+        What follows from a term that cannot be added tells nobody how to mend this one.
+        """
+        wanted = self._dimension(question)
+        if wanted is not None and not self.problem.values:
+            for value in question.expected:
+                if self.dimensions.fits(value, wanted):
+                    return value
+        return question.expected[0]
+
     def _named(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
-        expected = question.expected
+        expected = self.expected(question)
         if self._is_constant(question, mine):
             yield slip("constant_term")
         one = self._first_of(self._variants(question, question.target.node), question, mine)
@@ -185,7 +199,7 @@ class Diagnoser:
         bodies = {f"P{b.name}" for b in self.graph.robot.bodies}
         if question.target.node not in {"P", "L", *bodies}:
             return False
-        difference = mine - question.expected
+        difference = mine - self.expected(question)
         return not difference.is_zero and not self.ring.depends_on_coordinates(difference)
 
     def _misfits(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
@@ -273,7 +287,7 @@ class Diagnoser:
         mine = question.mine
         if mine is None:
             return None
-        return self.words.form(mine - question.expected)
+        return self.words.form(mine - self.expected(question))
 
 
 def _same(a: Any, b: Matrix) -> bool:

@@ -40,6 +40,9 @@ from dynsolve.problem.model import Problem
 
 NOT_FROM_OWN = "not_from_own"
 NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's"
+MOST_EXPECTED = 4
+"""From so many of the values that a student's own answers lead to a slip is looked for."""
+
 BY_PARTS = "judged by its parts"
 
 
@@ -443,17 +446,21 @@ class Judge:
         )
 
     def _question(self, name: str, held: Held, i: int, j: int) -> Question:
-        nearest = self.nearest(held.target)
         key = self.key(held.target)
         return Question(
             name=name,
             target=held.target,
             written=held.rows[i][j],
-            expected=_at(nearest if nearest is not None else key, i, j),
-            key=_at(key, i, j),
+            expected=tuple(_at(value, i, j) for value in (*self._led_to(held.target), key)),
             row=i,
             column=j,
         )
+
+    def _led_to(self, target: Target) -> Iterator[Any]:
+        """The values that the student's own answers lead to, the nearest first."""
+        if self.follow.touched(target.node):
+            for one in self.follow.derived(target.node)[:MOST_EXPECTED]:
+                yield target.of(one.value)
 
     # -- places ------------------------------------------------------------------------------------
 
