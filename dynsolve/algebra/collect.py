@@ -285,12 +285,13 @@ class Collector:
 
     def _split(self, poly: Poly) -> Node:
         plain = self._arranged([self.product(f, m, ()) for m, f in self.ordered(poly)])
-        best = plain
+        best, least = plain, self.cost(plain)
         for atom in self._worth_splitting(poly):
             node = self._split_by(poly, atom)
-            gain = self.cost(best) - self.cost(node)
-            if gain > 0:
-                best = node
+            # Books draw a mass out rather than a length, though it may cost one operation more.
+            price = self.cost(node) - (self.atoms.ranks[atom][0] is Rank.LEADING)
+            if price < least:
+                best, least = node, price
         return best
 
     def _worth_splitting(self, poly: Poly) -> list[int]:

@@ -157,7 +157,7 @@ class Compactor:
         """(±1, atom); an angle is written with its last coordinate positive, q₂ - q₁ and not q₁ - q₂."""
         found = self._waves.get((g, name, turns))
         if found is None and name == "sqrt":
-            found = 1, self.atoms.number(Function(name, Number(*turns)), Rank.ROOT)
+            found = 1, self.atoms.number(Function(name, Number(turns[0])), Rank.ROOT)
         elif found is None:
             angle = self._groups[g].angle(turns)
             sign = 1
