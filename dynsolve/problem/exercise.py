@@ -11,10 +11,11 @@ from math import radians
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.survey import rational_value
 from dynsolve.errors import AlgebraError, ReadError
+from dynsolve.notation.evaluate import evaluate
 from dynsolve.notation.names import normalize
 from dynsolve.notation.tree import Node as Tree
 from dynsolve.problem.answer_names import AnswerNames
-from dynsolve.problem.cells import read_cell
+from dynsolve.problem.cells import Cell, read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.model import FIND
 from dynsolve.problem.sheet import Sheet
@@ -33,6 +34,7 @@ class Exercise:
     find: tuple[str, ...]
     marks: Mapping[str, Fraction]
     values: Mapping[str, Fraction]
+    written: Mapping[str, str]
     units: Mapping[str, str]
 
 
@@ -44,10 +46,12 @@ def read_exercise(report: Report, fields: Fields, sheet: Sheet) -> Exercise:
     names = None  # as long as the table or a body is faulty, which answers there are is not known
     if sheet.table.sound and not any(body.faulty for body in sheet.bodies):
         names = AnswerNames(len(sheet.table.rows), forces, [body.name for body in sheet.bodies])
+    values, written = _read_values(report, fields.get("values"))
     return Exercise(
         find=_read_find(report, fields.get("find"), names) or FIND,
         marks=_read_marks(report, fields.get("marks"), names),
-        values=_read_values(report, fields.get("values")),
+        values=values,
+        written=written,
         units=_read_units(report, fields.get("units")),
     )
 
@@ -106,16 +110,18 @@ def _read_marks(report: Report, node: Node | None, names: AnswerNames | None) ->
     return marks
 
 
-def _read_values(report: Report, node: Node | None) -> dict[str, Fraction]:
+def _read_values(report: Report, node: Node | None) -> tuple[dict[str, Fraction], dict[str, str]]:
+    """The values as numbers, and as they are written."""
     values: dict[str, Fraction] = {}
+    written: dict[str, str] = {}
     for key, value in _entries(report, node, "values", "{l1: 0.4, m1: 2, g: 9.81}"):
         name = _symbol(report, key)
         number = _number(report, value, f"the value of {key.decoded}", angles=True)
         if name in values:
             report.error(key.span, f"{name} has a value already, in another spelling", "keep one of them")
-        elif name and number is not None:
-            values[name] = number
-    return values
+        elif name and number is not None and isinstance(value, Scalar):
+            values[name], written[name] = number, value.text
+    return values, written
 
 
 def _read_units(report: Report, node: Node | None) -> dict[str, str]:
@@ -150,9 +156,9 @@ def _number(report: Report, node: Node, what: str, *, angles: bool = False) -> F
         return None
     value = rational_value(cell.tree)
     if value is None and angles:
-        value = _radians(cell.tree)
+        value = _radians(cell.tree) or _constant(cell)
     if value is None:
-        help = "write a number: 0.4, 2, 1/3" + (", or 30deg" if angles else "")
+        help = "write a number: 0.4, 2, 1/3" + (", sqrt(2)/2, or 30deg" if angles else "")
         report.error(cell.span, f"{what} is not a number", help)
     return value
 
@@ -164,3 +170,13 @@ def _radians(tree: Tree) -> Fraction | None:
     except AlgebraError:
         return None
     return Fraction(radians(float(angle.degrees))) if angle.is_constant else None
+
+
+def _constant(cell: Cell) -> Fraction | None:
+    """The value of a formula without names, a root among its parts; to double precision."""
+    if cell.names:
+        return None
+    try:
+        return Fraction(evaluate(cell.tree, {}))
+    except (ArithmeticError, ValueError):
+        return None

@@ -32,7 +32,8 @@ class Problem:
     """One problem file, read and checked.
 
     `find` and the keys of `marks` are names of answers in their canonical form
-    (`D`, never `M`).  `values` are the numbers for numeric results, angles in radians.
+    (`D`, never `M`).  `values` are the numbers for numeric results, angles in radians;
+    `written` are the same as they stand in the file, which is exact.
     `places` tells where each part of the file stands; `warnings` are what deserves
     a look and is no error.
     """
@@ -45,6 +46,7 @@ class Problem:
     find: tuple[str, ...] = FIND
     marks: Mapping[str, Fraction] = field(default_factory=dict)
     values: Mapping[str, Fraction] = field(default_factory=dict)
+    written: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     places: Mapping[Path, Place] = field(default_factory=dict)
     warnings: tuple[Finding, ...] = ()

@@ -115,6 +115,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         find=exercise.find,
         marks=exercise.marks,
         values=exercise.values,
+        written=exercise.written,
         units=exercise.units,
         places=dict(_places(report, root)),
         warnings=tuple(report.warnings),

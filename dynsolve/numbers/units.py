@@ -1,0 +1,122 @@
+"""Units: how large one is in SI, and of which dimension.
+
+A result is in SI units; a value given in others (`units: {L1: mm}`) is turned into
+them exactly.  To add a unit, add its line to `_KNOWN`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from dynsolve.robot.dimensions import NONE, Dimension, dimension, times
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """`size` in SI units of this dimension; `degrees` marks an angle counted in degrees."""
+
+    size: Fraction
+    dimension: Dimension
+    degrees: bool = False
+
+
+def _unit(size: str, mass: int = 0, length: int = 0, time: int = 0) -> Unit:
+    return Unit(Fraction(size), dimension(mass, length, time))
+
+
+_KNOWN: Mapping[str, Unit] = {
+    "1": _unit("1"),
+    "rad": _unit("1"),
+    "m": _unit("1", length=1),
+    "dm": _unit("1/10", length=1),
+    "cm": _unit("1/100", length=1),
+    "mm": _unit("1/1000", length=1),
+    "um": _unit("1/1000000", length=1),
+    "km": _unit("1000", length=1),
+    "in": _unit("0.0254", length=1),
+    "ft": _unit("0.3048", length=1),
+    "kg": _unit("1", mass=1),
+    "g": _unit("1/1000", mass=1),
+    "mg": _unit("1/1000000", mass=1),
+    "t": _unit("1000", mass=1),
+    "lb": _unit("0.45359237", mass=1),
+    "s": _unit("1", time=1),
+    "ms": _unit("1/1000", time=1),
+    "min": _unit("60", time=1),
+    "N": _unit("1", 1, 1, -2),
+    "mN": _unit("1/1000", 1, 1, -2),
+    "kN": _unit("1000", 1, 1, -2),
+    "Nm": _unit("1", 1, 2, -2),
+    "J": _unit("1", 1, 2, -2),
+    "W": _unit("1", 1, 2, -3),
+    "deg": Unit(Fraction(1), NONE, degrees=True),
+    "°": Unit(Fraction(1), NONE, degrees=True),
+}
+
+_RAISED = str.maketrans("⁻¹²³", "-123")
+_PIECE = re.compile(r"(?P<unit>[A-Za-zµμ°]+|1)(?:\^?\(?(?P<power>-?[0-9])\)?)?")
+
+
+def parse(text: str) -> Unit | None:
+    """The unit of a text, None for one that is not known.
+
+    >>> parse("g mm²").size, parse("m/s^2").dimension == parse("m s^-2").dimension
+    (Fraction(1, 1000000000), True)
+    """
+    size, dim, sign = Fraction(1), NONE, 1
+    compact = text.strip().replace("**", "^").replace("µ", "u").replace("μ", "u").translate(_RAISED)
+    if compact in ("deg", "°"):
+        return _KNOWN["deg"]
+    for piece in re.split(r"([ *·/]+)", compact):
+        if not piece.strip(" *·"):
+            continue
+        if piece.strip(" *·") == "/":
+            sign = -1
+            continue
+        found = _PIECE.fullmatch(piece)
+        unit = _KNOWN.get(found["unit"]) if found else None
+        if found is None or unit is None or unit.degrees:
+            return None
+        power = sign * int(found["power"] or 1)
+        size, dim, sign = size * unit.size**power, times(dim, unit.dimension, power), 1
+    return Unit(size, dim)
+
+
+_NAMED: Mapping[Dimension, str] = {
+    NONE: "",
+    dimension(mass=1): "kg",
+    dimension(length=1): "m",
+    dimension(mass=1, length=2): "kg m^2",
+    dimension(mass=1, length=2, time=-2): "J",
+    dimension(mass=1, length=1, time=-2): "N",
+}
+
+
+def si(dim: Dimension) -> str:
+    """The SI unit of a dimension, as text.
+
+    >>> si(dimension(length=1, time=-2)), si(dimension(mass=1, length=2))
+    ('m/s^2', 'kg m^2')
+    """
+    if dim in _NAMED:
+        return _NAMED[dim]
+    units = list(zip(("kg", "m", "s"), dim, strict=True))
+    above = " ".join(_raised(name, power) for name, power in units if power > 0)
+    below = [_raised(name, -power) for name, power in units if power < 0]
+    return "/".join([above or "1", *below])
+
+
+def _raised(name: str, power: Fraction) -> str:
+    return name if power == 1 else f"{name}^{power}"
+
+
+def pretty(unit: str) -> str:
+    """A unit as it is set: raised digits, a dot for a star.
+
+    >>> pretty("kg*m^2/s")
+    'kg·m²/s'
+    """
+    return unit.replace("**", "^").replace("^2", "²").replace("^3", "³").replace("*", "·")
