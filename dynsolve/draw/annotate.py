@@ -1,0 +1,267 @@
+"""What is written and drawn around a robot: axes of frames, joint variables, lengths, mass centres, gravity.
+
+Each function gives paths, and the labels that belong to them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from dynsolve.draw import ink
+from dynsolve.draw.ink import Path
+from dynsolve.draw.labels import Wanted
+from dynsolve.draw.parts import RADIUS, Part
+from dynsolve.draw.pose import AXIS, Pose
+from dynsolve.draw.space import Taken
+from dynsolve.draw.typography import typeset
+from dynsolve.draw.vectors import Point, Vector, along, cross, dot, length, scale, subtract, unit
+from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import Node, Row, Symbol, Words
+from dynsolve.robot.model import JointType
+
+_END_ON = 0.06
+"""The foreshortening below which an axis is drawn as a point or a cross in a circle."""
+
+_RING = 1.75 * RADIUS
+_ARC = 31.0
+_SAME = 5.0
+
+
+@dataclass
+class Notes:
+    """Paths and labels as they are collected; `taken` is what is drawn so far."""
+
+    style: Style
+    taken: Taken
+    paths: list[Path] = field(default_factory=list)
+    wanted: list[Wanted] = field(default_factory=list)
+
+    def draw(self, *paths: Path) -> None:
+        """Add paths."""
+        self.paths += paths
+        self.taken.add(paths)
+
+    def label(
+        self, node: Node, anchors: Sequence[Point], toward: Point, colour: str, kind: str
+    ) -> None:
+        """Ask for a label."""
+        self.wanted.append(Wanted(node, typeset(node, self.style), tuple(anchors), toward, colour, kind))
+
+
+# -- frames ----------------------------------------------------------------------------------------
+
+
+def frames(pose: Pose, notes: Notes) -> None:
+    """The z and x axes of every frame; axes that fall on one another share a label."""
+    view = pose.view
+    groups: list[tuple[Point, Point, list[Node]]] = []
+    for i, frame in enumerate(pose.skeleton.frames):
+        origin = view.point(frame.origin)
+        for letter, axis in (("x", frame.x), ("z", frame.z)):
+            name = Symbol(f"{letter}{i}")
+            tip = _axis(origin, axis, pose, notes)
+            known = next((g for g in groups if math.dist(g[1], tip) < _SAME and math.dist(g[0], origin) < _SAME), None)
+            if known:
+                known[2].append(name)
+            else:
+                groups.append((origin, tip, [name]))
+    for origin, tip, names in groups:
+        toward = (tip[0] - origin[0], tip[1] - origin[1])
+        anchors = [tip] if toward != (0.0, 0.0) else [origin]
+        notes.label(_listed(names), anchors, toward or (1.0, 1.0), ink.FRAME, "axis")
+
+
+def _listed(names: Sequence[Node]) -> Node:
+    parts: list[Node] = [names[0]]
+    for name in names[1:]:
+        parts += [Words(", "), name]
+    return parts[0] if len(parts) == 1 else Row(tuple(parts))
+
+
+def _axis(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
+    """Draw an axis, and give its tip."""
+    view = pose.view
+    x, y = view.direction(axis)
+    if math.hypot(x, y) < _END_ON:
+        _end_on(origin, dot(axis, view.toward) > 0, notes)
+        return origin
+    tip = (origin[0] + x * AXIS, origin[1] + y * AXIS)
+    back = (tip[0] - x / math.hypot(x, y) * 6.0, tip[1] - y / math.hypot(x, y) * 6.0)
+    notes.draw(
+        Path(ink.line(origin, back), ink.WHITE, 4.2),
+        Path(ink.line(origin, back), ink.FRAME, 1.6),
+        Path(ink.head(tip, (x, y)), None, fill=ink.FRAME),
+    )
+    return tip
+
+
+def _end_on(origin: Point, toward: bool, notes: Notes) -> None:
+    """An axis seen end on: a point for the tip of the arrow, a cross for its feathers."""
+    notes.draw(Path(ink.circle(origin, 6.0), ink.FRAME, 1.4, ink.WHITE))
+    if toward:
+        notes.draw(Path(ink.circle(origin, 2.0), None, fill=ink.FRAME))
+        return
+    (x, y), s = origin, 4.2
+    for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
+        notes.draw(Path(ink.line(a, b), ink.FRAME, 1.4))
+
+
+# -- joint variables -------------------------------------------------------------------------------
+
+
+def turns(pose: Pose, written: Sequence[Node], notes: Notes) -> None:
+    """The angles of revolute joints: arcs in a flat view, arrows around the axis in space."""
+    for part in pose.parts.joints:
+        if part.type is JointType.REVOLUTE:
+            (_flat_angle if pose.view.flat else _ring)(pose, part, written[part.row - 1], notes)
+
+
+def _flat_angle(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
+    """θ_i from the x axis before the joint to the one after it."""
+    view, leg = pose.view, pose.skeleton.legs[part.row - 1]
+    center = view.point(part.center)
+    first = view.direction(leg.before)
+    angle = math.remainder(leg.angle, 2 * math.pi)
+    if dot(leg.axis, view.toward) < 0:
+        angle = -angle
+    second = (first[1], -first[0])
+    if math.dist(view.point(leg.start), center) > 1.0:
+        end = (center[0] + first[0] * (_ARC + 14), center[1] + first[1] * (_ARC + 14))
+        notes.draw(Path(ink.line(center, end), ink.GREY, 0.9, dashed=True))
+    radius = _ARC if abs(angle) > 0.5 else _ARC + 16.0
+    p, q = (first[0] * radius, first[1] * radius), (second[0] * radius, second[1] * radius)
+    short = angle - math.copysign(min(6.0 / radius, abs(angle) / 2), angle)
+    tip = ink.on_ellipse(center, p, q, angle)
+    before = ink.on_ellipse(center, p, q, short - math.copysign(1e-3, angle))
+    notes.draw(
+        Path(ink.arc(center, p, q, 0.0, short), ink.VARIABLE, 1.4),
+        Path(ink.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.0), None, fill=ink.VARIABLE),
+    )
+    middle = [ink.on_ellipse(center, p, q, angle * part_of) for part_of in (0.5, 0.35, 0.65)]
+    toward = (middle[0][0] - center[0], middle[0][1] - center[1])
+    notes.label(node, middle, toward, ink.VARIABLE, "variable")
+
+
+def _ring(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
+    """An arrow around a joint's axis, in front of its cylinder, in the positive sense."""
+    view = pose.view
+    center = view.point(part.center)
+    lean = dot(part.axis, view.toward)
+    front = subtract(view.toward, scale(part.axis, lean))
+    front = unit(front) if length(front) > 0.05 else unit(cross(part.axis, view.up))
+    side = cross(part.axis, front)
+    p, q = _scaled(view.direction(front), _RING), _scaled(view.direction(side), _RING)
+    half = math.radians(105)
+    tip, before = ink.on_ellipse(center, p, q, half), ink.on_ellipse(center, p, q, half - 0.22)
+    notes.draw(
+        Path(ink.arc(center, p, q, -half, half - 0.2), ink.WHITE, 3.6),
+        Path(ink.arc(center, p, q, -half, half - 0.2), ink.VARIABLE, 1.4),
+        Path(ink.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.5), None, fill=ink.VARIABLE),
+    )
+    anchors = [ink.on_ellipse(center, p, q, t) for t in (half, -half, half / 2, -half / 2, 0.0)]
+    notes.label(node, anchors, (tip[0] - center[0], tip[1] - center[1]), ink.VARIABLE, "variable")
+
+
+def _scaled(a: Point, factor: float) -> Point:
+    return a[0] * factor, a[1] * factor
+
+
+# -- lengths ---------------------------------------------------------------------------------------
+
+_OFFSETS = (24.0, -24.0, 34.0, -34.0, 46.0, -46.0, 60.0, -60.0)
+_SHORT = 20.0
+
+
+def dimension(
+    start: Vector, end: Vector, node: Node, pose: Pose, notes: Notes, colour: str = ink.BLACK
+) -> None:
+    """A length: a thin line with two heads beside what it measures, where there is room for it."""
+    a, b = pose.view.point(start), pose.view.point(end)
+    reach = math.dist(a, b)
+    kind = "variable" if colour == ink.VARIABLE else "length"
+    if reach < _SHORT:
+        notes.label(node, [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)], (0.0, 0.0), colour, kind)
+        return
+    x, y = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    normal = (y, -x) if -x < 0 or (x == 0 and y > 0) else (-y, x)
+
+    def cost(offset: float) -> tuple[float, float]:
+        p, q = _moved(a, normal, offset), _moved(b, normal, offset)
+        crossed = notes.taken.on_line(_moved(p, (x, y), 3.0), _moved(q, (x, y), -3.0))
+        return round(crossed * 100.0 + abs(offset) * 0.35 + (offset < 0) * 2.0, 6), offset
+
+    offset = min(_OFFSETS, key=cost)
+    p, q = _moved(a, normal, offset), _moved(b, normal, offset)
+    sign = math.copysign(1.0, offset)
+    ticks = [
+        Path(ink.line(_moved(at, normal, sign * 8.0), _moved(at, normal, offset + sign * 4.0)), ink.GREY, 0.7)
+        for at in (a, b)
+    ]
+    shaft = ink.line(_moved(p, (x, y), 5.0), _moved(q, (x, y), -5.0))
+    notes.draw(
+        *ticks,
+        Path(shaft, ink.WHITE, 3.4),
+        Path(shaft, colour, 1.0),
+        Path(ink.head(p, (-x, -y), 7.5), None, fill=colour),
+        Path(ink.head(q, (x, y), 7.5), None, fill=colour),
+    )
+    anchors = [_moved(p, (x, y), reach * part) for part in (0.5, 0.35, 0.65, 0.2, 0.8)]
+    notes.label(node, anchors, _scaled(normal, sign), colour, kind)
+
+
+def _moved(point: Point, direction: Point, amount: float) -> Point:
+    return point[0] + direction[0] * amount, point[1] + direction[1] * amount
+
+
+# -- mass centres and gravity ----------------------------------------------------------------------
+
+
+def masses(pose: Pose, notes: Notes) -> None:
+    """Mass centres: the quartered disk of mechanics, a ball for a point mass."""
+    for mass in pose.skeleton.masses:
+        center = pose.view.point(mass.center)
+        notes.draw(*(_ball(center) if mass.is_point else _quartered(center)))
+        notes.label(Symbol(f"rc{mass.name}"), [center], (0.0, 0.0), ink.BLACK, "mass")
+
+
+def _ball(center: Point) -> tuple[Path, ...]:
+    return (Path(ink.circle(center, 6.0), ink.WHITE, 1.2, ink.BLACK),)
+
+
+def _quartered(center: Point) -> tuple[Path, ...]:
+    r = 6.0
+    quarters = tuple(
+        Path(
+            (("M", (center,)), *ink.arc(center, (r, 0.0), (0.0, r), start, start + math.pi / 2, move=False), ("Z", ())),
+            None,
+            fill=ink.BLACK,
+        )
+        for start in (0.0, math.pi)
+    )
+    return (Path(ink.circle(center, r), ink.BLACK, 1.2, ink.WHITE), *quarters)
+
+
+def gravity(place: Point, direction: Point | None, notes: Notes) -> None:
+    """The arrow of gravity; a cross in a circle where it points away from the viewer."""
+    node = Symbol("g")
+    if direction is None:
+        notes.draw(Path(ink.circle(place, 8.0), ink.BLACK, 1.4))
+        (x, y), s = place, 5.6
+        for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
+            notes.draw(Path(ink.line(a, b), ink.BLACK, 1.4))
+        notes.label(node, [(x + 8.0, y)], (1.0, 0.0), ink.BLACK, "gravity")
+        return
+    x, y = direction
+    tip = _moved(place, (x, y), 46.0)
+    notes.draw(
+        Path(ink.line(place, _moved(place, (x, y), 38.0)), ink.BLACK, 2.0),
+        Path(ink.head(tip, (x, y), 11.0), None, fill=ink.BLACK),
+    )
+    notes.label(node, [_moved(place, (x, y), 22.0)], (1.0, 0.0), ink.BLACK, "gravity")
+
+
+def along_axis(start: Vector, direction: Vector, amount: float) -> Vector:
+    """start + amount·direction"""
+    return along(start, direction, amount)

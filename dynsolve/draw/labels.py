@@ -1,0 +1,117 @@
+"""Where labels stand: near what they name, on nothing else, and never on one another.
+
+Every label tries places around its anchor, nearest first; all are placed in turn,
+and again once the others are known.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from dynsolve.draw.space import Box, Taken
+from dynsolve.draw.typography import Line
+from dynsolve.draw.vectors import Point
+from dynsolve.notation.tree import Node
+
+_ROUNDS = 4
+_DIRECTIONS = tuple(2 * math.pi * k / 16 for k in range(16))
+_DISTANCES = (4.0, 8.0, 13.0, 19.0, 27.0, 36.0, 46.0, 60.0, 76.0, 95.0)
+_FAR = 22.0
+"""The distance from which a thin line leads from a label to what it names."""
+
+_MARGIN = 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """A label to be placed: beside any of its anchors, best in the direction `toward` from it."""
+
+    node: Node
+    line: Line
+    anchors: tuple[Point, ...]
+    toward: Point
+    colour: str
+    kind: str
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A label in its place; `lead` is the line to what it names, where it stands far away."""
+
+    node: Node
+    line: Line
+    box: Box
+    colour: str
+    kind: str
+    lead: tuple[Point, Point] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    box: Box
+    anchor: Point
+    distance: float
+    cost: float
+
+
+def place(wanted: Sequence[Wanted], taken: Taken) -> tuple[Label, ...]:
+    """Place labels, in their order."""
+    options = [_options(label, taken) for label in wanted]
+    chosen: list[_Place | None] = [None] * len(wanted)
+    for _ in range(_ROUNDS):
+        before = list(chosen)
+        for k, places in enumerate(options):
+            others = [other.box for j, other in enumerate(chosen) if other is not None and j != k]
+            chosen[k] = _best(places, others)
+        if chosen == before:
+            break
+    return tuple(
+        Label(label.node, label.line, found.box, label.colour, label.kind, _lead(found))
+        for label, found in zip(wanted, chosen, strict=True)
+        if found is not None
+    )
+
+
+def _best(places: Sequence[_Place], others: Sequence[Box]) -> _Place:
+    """The cheapest place that is free of other labels; places come cheapest first."""
+    for option in places:
+        if not any(option.box.overlaps(other, _MARGIN) for other in others):
+            return option
+    return places[-1]
+
+
+def _options(label: Wanted, taken: Taken) -> list[_Place]:
+    wide, high = label.line.width, label.line.height
+    preferred = math.atan2(label.toward[1], label.toward[0]) if label.toward != (0.0, 0.0) else None
+    places = []
+    for rank, anchor in enumerate(label.anchors):
+        for away in _DISTANCES:
+            for angle in _DIRECTIONS:
+                box = _beside(anchor, away, angle, wide, high)
+                turn = 0.0 if preferred is None else abs(math.remainder(angle - preferred, 2 * math.pi))
+                hits = taken.inside(box)
+                lead = 0.0
+                if away >= _FAR:
+                    lead = 14.0 * taken.on_line(anchor, box.nearest(anchor))
+                cost = 9.0 * hits + 0.45 * away + 2.2 * turn + 1.5 * rank + lead
+                places.append(_Place(box, anchor, away, round(cost, 6)))
+    places.sort(key=lambda option: option.cost)
+    return places
+
+
+def _beside(anchor: Point, away: float, angle: float, wide: float, high: float) -> Box:
+    """A box of this size whose nearest point is that far from its anchor."""
+    c, s = math.cos(angle), math.sin(angle)
+    return Box.around((anchor[0] + c * (away + wide / 2), anchor[1] + s * (away + high / 2)), wide, high)
+
+
+def _lead(place: _Place) -> tuple[Point, Point] | None:
+    if place.distance < _FAR:
+        return None
+    x, y = place.anchor
+    end = place.box.nearest(place.anchor)
+    reach = math.dist(end, place.anchor) or 1.0
+    start = (x + (end[0] - x) * 3.0 / reach, y + (end[1] - y) * 3.0 / reach)
+    return start, end

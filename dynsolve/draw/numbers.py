@@ -1,0 +1,152 @@
+"""Numbers for what a picture cannot leave open: how long L_1 is drawn.
+
+Lengths with a number in the problem file keep their proportions, but the shortest
+is drawn long enough to be seen; the others are all equally long.  A mass centre
+that is given by symbols lies near the middle of its link.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.expr import Expr
+from dynsolve.problem.model import Problem
+from dynsolve.robot.model import Robot
+
+SHORTEST = 0.42
+"""The shortest length that is drawn, as a part of the longest."""
+
+_TINY = 1e-9
+_ANGLE = math.radians(35)
+_RETRIES = ((1.0, 0.0), (1.3, 0.1), (0.7, 0.3), (1.1, -0.4))
+"""(factor, spread) of what undetermined parameters are tried with, until every root is real."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of the table in numbers, without its joint variable; the longest length is 1."""
+
+    theta: float
+    d: float
+    a: float
+    alpha: float
+
+
+@dataclass(frozen=True, slots=True)
+class Numbers:
+    """A robot in numbers: its rows in picture lengths, and the value of every parameter.
+
+    `unit` is the value that is drawn with length 1.
+    """
+
+    rows: tuple[Row, ...]
+    values: Mapping[str, float]
+    unit: float
+
+
+def numbers(problem: Problem) -> Numbers:
+    """Pleasant numbers for a problem's table."""
+    robot = problem.robot
+    given = {name: float(value) for name, value in problem.values.items()}
+    for factor, spread in _RETRIES:
+        try:
+            return _numbers(robot, given, factor, spread)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            continue
+    rows = tuple(Row(0.0, 0.0, 1.0, 0.0) for _ in robot.joints)
+    return Numbers(rows, dict.fromkeys(robot.ring.parameters, 1.0), 1.0)
+
+
+def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: float) -> Numbers:
+    values = _all_values(robot, given, factor, spread)
+    named = _lengths(robot)
+    unit, shortest = _range(robot, values)
+    if shortest < SHORTEST * unit:
+        values |= {name: unit * drawn_length(values[name] / unit) for name in named}
+        unit, shortest = _range(robot, values)
+
+    def drawn(expr: Expr) -> float:
+        ratio = evaluate(robot, expr, values) / unit
+        return drawn_length(ratio) if shortest < 0.8 * SHORTEST * unit else ratio
+
+    rows = tuple(
+        Row(angle(joint.theta, values), drawn(joint.d), drawn(joint.a), angle(joint.alpha, values))
+        for joint in robot.joints
+    )
+    return Numbers(rows, values, unit)
+
+
+def _range(robot: Robot, values: Mapping[str, float]) -> tuple[float, float]:
+    """The longest length of the table, and the shortest that is not 0; 1 where there is none."""
+    lengths = [abs(evaluate(robot, x, values)) for joint in robot.joints for x in (joint.d, joint.a)]
+    real = [x for x in lengths if x > _TINY]
+    return max(real, default=1.0), min(real, default=1.0)
+
+
+def _all_values(robot: Robot, given: Mapping[str, float], factor: float, spread: float) -> dict[str, float]:
+    known = [abs(given[name]) for name in _lengths(robot) if given.get(name)]
+    usual = factor * (sum(known) / len(known) if known else 1.0)
+    values = {name: usual * (1.0 + spread * place) for place, name in enumerate(robot.ring.parameters)}
+    for joint in robot.joints:
+        for atom, _ in (*joint.theta.terms, *joint.alpha.terms):
+            values.update({name: _ANGLE for name, _ in atom if len(atom) == 1})
+    values.update(given)
+    values["pi"] = math.pi
+    for q in robot.coordinates:
+        values.update({q.name: 0.0, q.velocity: 0.0, q.acceleration: 0.0})
+    return values
+
+
+def _lengths(robot: Robot) -> list[str]:
+    """The parameters that stand in the columns d and a."""
+    columns = [node for joint in robot.joints for node in joint.written[1:3]]
+    names = names_in(columns)
+    coordinates = {q.name for q in robot.coordinates}
+    return [name for name in robot.ring.parameters if name in names - coordinates]
+
+
+def names_in(nodes: Iterable[object]) -> set[str]:
+    """The names of all symbols in trees."""
+    from dynsolve.notation.tree import Node, Symbol
+
+    found: set[str] = set()
+    waiting = list(nodes)
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, Symbol):
+            found.add(node.name)
+        elif isinstance(node, Node):
+            waiting.extend(getattr(node, name) for name in node.__dataclass_fields__)
+        elif isinstance(node, tuple):
+            waiting.extend(node)
+    return found
+
+
+def evaluate(robot: Robot, expr: Expr, values: Mapping[str, float]) -> float:
+    """The value of an expression; ValueError where it has none that is finite."""
+    value = robot.ring.evaluate(expr, values)
+    if not math.isfinite(value):
+        raise ValueError(value)
+    return value
+
+
+def angle(form: Angle, values: Mapping[str, float]) -> float:
+    """The value of an angle in radians."""
+    total = math.radians(float(form.degrees))
+    for atom, rate in form.terms:
+        total += float(rate) * math.prod(values[name] ** exponent for name, exponent in atom)
+    return total
+
+
+def drawn_length(ratio: float) -> float:
+    """How long a length is drawn: 0 stays 0, 1 stays 1, and nothing else is too short to be seen.
+
+    >>> drawn_length(0.0), drawn_length(1.0), drawn_length(-1.0)
+    (0.0, 1.0, -1.0)
+    """
+    if abs(ratio) < _TINY:
+        return 0.0
+    return math.copysign(SHORTEST + (1.0 - SHORTEST) * abs(ratio), ratio)

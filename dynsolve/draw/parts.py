@@ -1,0 +1,162 @@
+"""Where the parts stand along the chain: cylinders and boxes on the axes, links between them.
+
+A part may stand anywhere on its joint's axis without a change of the kinematics;
+it is put where it meets no other part.  Sizes are in picture units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from dynsolve.draw.skeleton import NEAR, Leg, Skeleton
+from dynsolve.draw.vectors import Vector, along, distance, dot, scale, subtract, unit
+from dynsolve.draw.view import View
+from dynsolve.robot.model import JointType
+
+RADIUS = 13.0
+HALF_HEIGHT = 16.0
+BOX = 14.0
+TUBE = 4.5
+"""Half the width of a link."""
+
+_CLEAR = 36.0
+"""The least distance between the centres of two parts."""
+
+_PEDESTAL = 46.0
+_ROOM = 44.0
+"""The length of a leg that has room for its joint in the middle."""
+
+_PARALLEL = 0.99
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A cylinder (revolute) or a box (prismatic) around a joint's axis."""
+
+    row: int
+    type: JointType
+    center: Vector
+    axis: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """All parts, and the links between them, the first from the ground; `ground` is where the base stands."""
+
+    joints: tuple[Part, ...]
+    links: tuple[tuple[Vector, ...], ...]
+    ground: Vector
+    ground_normal: Vector
+
+
+def arrange(pose: Skeleton, view: View, up: Vector) -> Parts:
+    """Put the parts of a robot along its chain."""
+    joints: list[Part] = []
+    for row, leg in enumerate(pose.legs, 1):
+        if leg.type is None:
+            continue
+        places = _places(pose, row, leg, view, up, first=not joints)
+        center = next((p for p in places if _is_clear(p, joints, view)), places[0])
+        joints.append(Part(row, leg.type, center, leg.axis))
+    ground, normal = _ground(pose, joints, view, up)
+    return Parts(tuple(joints), _links(pose, joints, ground), ground, normal)
+
+
+def _is_clear(place: Vector, joints: Sequence[Part], view: View) -> bool:
+    return all(distance(place, part.center) * view.size >= _CLEAR * 0.98 for part in joints)
+
+
+def _places(
+    pose: Skeleton, row: int, leg: Leg, view: View, up: Vector, first: bool
+) -> list[Vector]:
+    """Where a joint's part may stand, best first."""
+    span = dot(subtract(leg.head, leg.foot), leg.axis)
+    gap = view.space(_CLEAR)
+    onward = 1.0 if span >= -NEAR else -1.0
+    ahead = [along(leg.foot, leg.axis, onward * gap * k) for k in (0.0, 1.0, -1.0, 2.0, -2.0)]
+    if leg.type is JointType.PRISMATIC:
+        return ahead
+    if abs(span) * view.size > _ROOM:
+        return [along(leg.foot, leg.axis, span * part) for part in (0.5, 0.3, 0.7)] + ahead
+    upright = dot(leg.axis, up)
+    if first and not view.flat and abs(upright) > 0.5 and abs(span) < NEAR:
+        down = -1.0 if upright > 0 else 1.0
+        return [along(leg.foot, leg.axis, down * view.space(_PEDESTAL)), *ahead]
+    before = _neighbour(pose, row, leg, view, -1)
+    after = _neighbour(pose, row, leg, view, 1)
+    return [*before, *ahead[:1], *after, *ahead[1:]]
+
+
+def _neighbour(pose: Skeleton, row: int, leg: Leg, view: View, step: int) -> list[Vector]:
+    """A place on the link that comes before or after, where that lies along the joint's axis."""
+    path = pose.path
+    at = [k for k, point in enumerate(path) if distance(point, leg.foot if step < 0 else leg.head) < NEAR]
+    if not at or not 0 <= at[0] + step < len(path):
+        return []
+    here = path[at[0]]
+    way = subtract(path[at[0] + step], here)
+    gap = view.space(_CLEAR)
+    if abs(dot(unit(way), leg.axis)) < _PARALLEL or distance(here, path[at[0] + step]) < 1.6 * gap:
+        return []
+    return [along(here, unit(way), gap)]
+
+
+def _ground(pose: Skeleton, joints: Sequence[Part], view: View, up: Vector) -> tuple[Vector, Vector]:
+    """Where the ground is under the robot, and its normal."""
+    start = pose.frames[0].origin
+    if not joints:
+        return start, up
+    first = joints[0]
+    if view.flat and first.type is JointType.REVOLUTE:
+        return along(first.center, up, -view.space(RADIUS + 14.0)), up
+    if first.type is JointType.REVOLUTE and abs(dot(first.axis, up)) < 0.5:
+        return along(first.center, up, -view.space(RADIUS + 34.0)), up
+    leg = pose.legs[first.row - 1]
+    span = dot(subtract(leg.head, leg.foot), leg.axis)
+    normal = scale(leg.axis, 1.0 if span > NEAR or (abs(span) <= NEAR and dot(leg.axis, up) > 0) else -1.0)
+    low = min(dot(subtract(first.center, start), normal) - view.space(HALF_HEIGHT + 8.0), 0.0)
+    return along(start, normal, low), normal
+
+
+def _links(pose: Skeleton, joints: Sequence[Part], ground: Vector) -> tuple[tuple[Vector, ...], ...]:
+    """The way from the ground to the first part, and from each part to the next, or to the end."""
+    centers = {part.row: part.center for part in joints}
+    way = [ground]
+    links = []
+    for row, leg in enumerate(pose.legs, 1):
+        way.append(leg.foot)
+        if row in centers:
+            way.append(centers[row])
+            links.append(straightened(way if links else _grounded(way)))
+            way = [centers[row]]
+        way += [leg.head, leg.end]
+    links.append(straightened(way))
+    return tuple(links)
+
+
+def _grounded(way: list[Vector]) -> list[Vector]:
+    """The first link: straight up from the ground where the part stands over it."""
+    return way
+
+
+def straightened(way: Sequence[Vector]) -> tuple[Vector, ...]:
+    """The points of a way, each once, without going somewhere and straight back.
+
+    >>> straightened([(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 0.0, 0.0), (1.0, 0.0, 0.0)])
+    ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+    """
+    points: list[Vector] = []
+    for point in way:
+        if points and distance(points[-1], point) < NEAR:
+            continue
+        points.append(point)
+        while len(points) > 2 and _in_line(*points[-3:]):
+            del points[-2]
+            if distance(points[-1], points[-2]) < NEAR:
+                del points[-1]
+    return tuple(points)
+
+
+def _in_line(a: Vector, b: Vector, c: Vector) -> bool:
+    return abs(dot(unit(subtract(b, a)), unit(subtract(c, b)))) > 1 - 1e-9

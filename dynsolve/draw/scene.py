@@ -1,0 +1,160 @@
+"""A robot's picture, whole: its body, what is written around it, and the room it takes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from dynsolve.draw import annotate, ink
+from dynsolve.draw.ink import Path, flattened
+from dynsolve.draw.labels import Label, place
+from dynsolve.draw.numbers import Numbers, numbers
+from dynsolve.draw.pose import Pose, best_pose
+from dynsolve.draw.setting import Setting, setting
+from dynsolve.draw.skeleton import NEAR, Mass, free_symbols, near_and_far
+from dynsolve.draw.solids import solids
+from dynsolve.draw.space import Box, Taken
+from dynsolve.draw.vectors import Point, Vector, distance, dot, subtract
+from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import Negative, Node, Number, Quotient, Symbol
+from dynsolve.problem.model import Problem
+from dynsolve.robot.model import JointType, Robot
+
+MARGIN = 14.0
+
+_STAR = Style(star=True, decimal=True)
+_PLAIN = Style(decimal=True)
+_ZERO = Number(0)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Paths from back to front, labels on top of them, and the box that holds everything."""
+
+    title: str
+    description: str
+    paths: tuple[Path, ...]
+    labels: tuple[Label, ...]
+    frame: Box
+    style: Style
+
+
+def scene(problem: Problem, star: bool = True) -> Scene:
+    """The picture of a problem's robot, drawn from its table at a pose where it shows best."""
+    robot = problem.robot
+    values = numbers(problem)
+    world = setting(robot, values)
+    pose = best_pose(robot, values, world)
+    body = solids(pose.parts, pose.view, world.up)
+    notes = annotate.Notes(_STAR if star else _PLAIN, Taken())
+    notes.taken.add(body)
+    annotate.frames(pose, notes)
+    annotate.turns(pose, [joint.written[0] for joint in robot.joints], notes)
+    annotate.masses(pose, notes)
+    _lengths(robot, pose, notes)
+    _center_lengths(robot, values, pose, notes)
+    _gravity(world, pose, body, notes)
+    labels = place(notes.wanted, notes.taken)
+    paths = (*body, *notes.paths, *_leads(labels))
+    return Scene(
+        problem.title or "Manipulator",
+        _description(problem),
+        paths,
+        labels,
+        _frame(paths, labels),
+        notes.style,
+    )
+
+
+def _lengths(robot: Robot, pose: Pose, notes: annotate.Notes) -> None:
+    """d and a of every row that has them."""
+    for joint, leg in zip(robot.joints, pose.skeleton.legs, strict=True):
+        _, d, a, _ = joint.written
+        if distance(leg.foot, leg.head) > NEAR:
+            slides = joint.type is JointType.PRISMATIC
+            colour = ink.VARIABLE if slides else ink.BLACK
+            annotate.dimension(leg.foot, leg.head, d if slides else unsigned(d), pose, notes, colour)
+        start, end = (leg.start, leg.foot) if distance(leg.start, leg.foot) > NEAR else (leg.head, leg.end)
+        if distance(start, end) > NEAR:
+            annotate.dimension(start, end, unsigned(a), pose, notes)
+
+
+def unsigned(node: Node) -> Node:
+    """A length without the sign that says only which way it is measured."""
+    return node.argument if isinstance(node, Negative) else node
+
+
+def _center_lengths(robot: Robot, values: Numbers, pose: Pose, notes: annotate.Notes) -> None:
+    """The distances of mass centres that are given by one symbol."""
+    for body, mass in zip(robot.bodies, pose.skeleton.masses, strict=True):
+        if mass.from_ is None or _is_end(robot, pose, mass):
+            continue
+        symbols = free_symbols(robot, body)
+        if len(symbols) == 1:
+            annotate.dimension(mass.from_, mass.center, Symbol(symbols[0]), pose, notes)
+
+
+def _is_end(robot: Robot, pose: Pose, mass: Mass) -> bool:
+    return False
+
+
+def _gravity(world: Setting, pose: Pose, body: Iterable[Path], notes: annotate.Notes) -> None:
+    """The arrow of gravity, at the side where there is most room."""
+    if world.gravity is None:
+        return
+    box = _bounds([*body, *notes.paths])
+    end_on = pose.view.flat and abs(dot(world.gravity, pose.view.toward)) > 0.9
+    direction = None if end_on else _unit(pose.view.direction(world.gravity))
+    places = [
+        (x, y)
+        for y in (box.top + 14.0, box.top + 60.0, (box.top + box.bottom) / 2)
+        for x in (box.right - 12.0, box.left + 12.0)
+    ]
+
+    def crowded(at: Point) -> int:
+        return notes.taken.inside(Box(at[0] - 26.0, at[1] - 18.0, at[0] + 36.0, at[1] + 64.0))
+
+    best = min(places, key=crowded)
+    if crowded(best):
+        best = (box.right + 40.0, box.top + 30.0)
+    annotate.gravity(best, direction, notes)
+
+
+def _unit(a: Point) -> Point:
+    size = (a[0] ** 2 + a[1] ** 2) ** 0.5
+    return a[0] / size, a[1] / size
+
+
+def _leads(labels: Iterable[Label]) -> Iterable[Path]:
+    return [Path(ink.line(*label.lead), ink.GREY, 0.7) for label in labels if label.lead]
+
+
+def _frame(paths: Iterable[Path], labels: Iterable[Label]) -> Box:
+    """The box around everything, with a margin."""
+    box = _bounds(paths)
+    boxes = [box, *(label.box for label in labels)]
+    return Box(
+        round(min(b.left for b in boxes) - MARGIN, 0),
+        round(min(b.top for b in boxes) - MARGIN, 0),
+        round(max(b.right for b in boxes) + MARGIN, 0),
+        round(max(b.bottom for b in boxes) + MARGIN, 0),
+    )
+
+
+def _bounds(paths: Iterable[Path]) -> Box:
+    points = [point for path in paths for piece in flattened(path.commands) for point in piece]
+    xs, ys = [x for x, _ in points], [y for _, y in points]
+    return Box(min(xs), min(ys), max(xs), max(ys))
+
+
+def _description(problem: Problem) -> str:
+    """What the picture shows, for those who cannot see it."""
+    robot = problem.robot
+    kinds = [
+        f"{'revolute' if q.type is JointType.REVOLUTE else 'prismatic'} joint {q.index} ({q.name})"
+        for q in robot.coordinates
+    ]
+    return (
+        f"The manipulator with {', '.join(kinds)}; frames 0 to {len(robot.joints)} with their x and z axes"
+        f" ({robot.convention.value} Denavit-Hartenberg); not to scale."
+    )

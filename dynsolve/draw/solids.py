@@ -1,0 +1,233 @@
+"""Cylinders, boxes, links and the ground, each as paths with a depth to sort by."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from dynsolve.draw import ink
+from dynsolve.draw.ink import Path
+from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, TUBE, Part, Parts
+from dynsolve.draw.vectors import (
+    Point,
+    Vector,
+    along,
+    any_normal,
+    between,
+    cross,
+    distance,
+    dot,
+    length,
+    scale,
+    subtract,
+    unit,
+)
+from dynsolve.draw.view import View
+from dynsolve.robot.model import JointType
+
+_PIECE = 5.0
+"""How long the pieces are that a link is cut into, so that each can be sorted."""
+
+_END_ON = 0.999
+_GROUND = 30.0
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """Paths that belong together; what is nearer the viewer is drawn later."""
+
+    depth: float
+    paths: tuple[Path, ...]
+
+
+def solids(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
+    """All of a robot's body, from back to front."""
+    found = [*_link_pieces(parts, view)]
+    for part in parts.joints:
+        shape = cylinder if part.type is JointType.REVOLUTE else box
+        found.append(shape(part, view, up))
+    found.sort(key=lambda solid: round(solid.depth, 6))
+    return (*ground(parts, view, up), *(path for solid in found for path in solid.paths))
+
+
+# -- joints ----------------------------------------------------------------------------------------
+
+
+def cylinder(part: Part, view: View, up: Vector) -> Solid:
+    """A revolute joint: a cylinder along its axis."""
+    axis = part.axis if dot(part.axis, view.toward) >= 0 else scale(part.axis, -1.0)
+    depth = view.depth(part.center)
+    center = view.point(part.center)
+    across, lift = _half_axes(axis, view, RADIUS)
+    if dot(axis, view.toward) > _END_ON:
+        dot_path = Path(ink.circle(center, 2.2), None, fill=ink.BLACK)
+        return Solid(depth + 1.0, (Path(ink.circle(center, RADIUS), fill=ink.CAP), dot_path))
+    near = view.point(along(part.center, axis, view.space(HALF_HEIGHT)))
+    far = view.point(along(part.center, axis, -view.space(HALF_HEIGHT)))
+    # cos t runs across the axis, sin t along it towards the viewer: the far end shows its lower half
+    body = (
+        *ink.arc(far, across, lift, math.pi, 2 * math.pi),
+        *ink.arc(near, across, lift, 0.0, math.pi, move=False),
+        ("Z", ()),
+    )
+    return Solid(depth, (Path(body, fill=ink.SIDE), Path(ink.ellipse(near, across, lift), fill=ink.CAP)))
+
+
+def _half_axes(axis: Vector, view: View, radius: float) -> tuple[Point, Point]:
+    """The half axes, on paper, of a circle around an axis; the second points along the axis on paper."""
+    if abs(dot(axis, view.toward)) > _END_ON:
+        return (radius, 0.0), (0.0, -radius)
+    across = unit(cross(axis, view.toward))
+    along_axis = cross(across, axis)
+    x, y = view.direction(across)
+    u, v = view.direction(along_axis)
+    forward = view.direction(axis)
+    sign = 1.0 if u * forward[0] + v * forward[1] >= 0 else -1.0
+    return (x * radius, y * radius), (sign * u * radius, sign * v * radius)
+
+
+def box(part: Part, view: View, up: Vector) -> Solid:
+    """A prismatic joint: a box along its axis."""
+    first = part.axis
+    second = _crosswise(first, view, up)
+    third = cross(first, second)
+    halves = ((first, HALF_HEIGHT + 2.0), (second, BOX - 1.0), (third, BOX - 1.0))
+    faces = [
+        (axis if dot(axis, view.toward) > 0 else scale(axis, -1.0), half, k)
+        for k, (axis, half) in enumerate(halves)
+        if abs(dot(axis, view.toward)) > 1e-3
+    ]
+    faces.sort(key=lambda face: round(dot(face[0], view.toward), 6))
+    paths = tuple(_face(part.center, face, halves, view, up) for face in faces)
+    return Solid(view.depth(part.center) + (1.0 if view.flat else 0.0), paths)
+
+
+def _crosswise(axis: Vector, view: View, up: Vector) -> Vector:
+    """A direction across a box: the viewer's in a flat view, else level or upright."""
+    for wanted in (view.toward,) if view.flat else (up, view.right):
+        level = subtract(wanted, scale(axis, dot(wanted, axis)))
+        if length(level) > 0.3:
+            return unit(level)
+    return any_normal(axis)
+
+
+def _face(
+    center: Vector,
+    face: tuple[Vector, float, int],
+    halves: Sequence[tuple[Vector, float]],
+    view: View,
+    up: Vector,
+) -> Path:
+    normal, half, k = face
+    middle = along(center, normal, view.space(half))
+    (a, a_half), (b, b_half) = (halves[j] for j in range(3) if j != k)
+    corners = [
+        along(along(middle, a, view.space(s * a_half)), b, view.space(t * b_half))
+        for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))
+    ]
+    lit = dot(normal, up)
+    fill = ink.CAP if view.flat or lit > 0.4 else ink.SIDE if dot(normal, view.right) < 0.4 else ink.DARK_SIDE
+    return Path(ink.polygon([view.point(corner) for corner in corners]), fill=fill)
+
+
+# -- links -----------------------------------------------------------------------------------------
+
+
+def _link_pieces(parts: Parts, view: View) -> Iterator[Solid]:
+    sink = 0.5 if view.flat else 0.0
+    for way in parts.links:
+        for k, point in enumerate(way):
+            if not _inside(point, parts, view):
+                elbow = Path(ink.circle(view.point(point), TUBE), fill=ink.LINK)
+                yield Solid(view.depth(point) - 1e-3 - sink, (elbow,))
+            if k:
+                yield from _segment(way[k - 1], point, parts, view, sink)
+
+
+def _segment(a: Vector, b: Vector, parts: Parts, view: View, sink: float) -> Iterator[Solid]:
+    """A straight part of a link in short pieces; what lies inside a joint is left out."""
+    ends = view.point(a), view.point(b)
+    reach = math.dist(*ends)
+    if reach < 0.5:
+        return
+    normal = ((ends[0][1] - ends[1][1]) / reach * TUBE, (ends[1][0] - ends[0][0]) / reach * TUBE)
+    pieces = max(1, math.ceil(distance(a, b) * view.size / _PIECE))
+    overlap = 0.15 / pieces
+    for k in range(pieces):
+        middle = between(a, b, (k + 0.5) / pieces)
+        if _inside(middle, parts, view):
+            continue
+        p = view.point(between(a, b, max(0.0, k / pieces - overlap)))
+        q = view.point(between(a, b, min(1.0, (k + 1) / pieces + overlap)))
+        edges = [
+            (p[0] + normal[0], p[1] + normal[1]),
+            (q[0] + normal[0], q[1] + normal[1]),
+            (q[0] - normal[0], q[1] - normal[1]),
+            (p[0] - normal[0], p[1] - normal[1]),
+        ]
+        fill = Path(ink.polygon(edges), None, fill=ink.LINK)
+        sides = (Path(ink.line(edges[0], edges[1])), Path(ink.line(edges[2], edges[3])))
+        yield Solid(view.depth(middle) - sink, (fill, *sides))
+
+
+def _inside(point: Vector, parts: Parts, view: View) -> bool:
+    for part in parts.joints:
+        offset = scale(subtract(point, part.center), view.size)
+        height = dot(offset, part.axis)
+        across = length(subtract(offset, scale(part.axis, height)))
+        wide = RADIUS if part.type is JointType.REVOLUTE else BOX - 1.0
+        if abs(height) < HALF_HEIGHT - 1.0 and across < wide - 1.0:
+            return True
+    return False
+
+
+# -- the ground ------------------------------------------------------------------------------------
+
+
+def ground(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
+    """The ground under the base: a hatched line, or a hatched plate where there is space."""
+    normal, place = parts.ground_normal, parts.ground
+    if view.flat:
+        return _hatched_line(place, cross(normal, view.toward), normal, view, _GROUND, 12)
+    first = _level(normal, view)
+    second = cross(normal, first)
+    half = view.space(_GROUND)
+    corners = [
+        along(along(place, first, s * half), second, t * half * 0.8)
+        for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))
+    ]
+    plate = Path(ink.polygon([view.point(corner) for corner in corners]), fill="#f4f1ea")
+    middle = [between(corners[k], corners[(k + 1) % 4], 0.5) for k in range(4)]
+    front = sorted(range(4), key=lambda k: round(view.depth(middle[k]) * view.size + view.point(middle[k])[1], 4))
+    hatches = []
+    for k in front[2:]:
+        a, b = corners[k], corners[(k + 1) % 4]
+        hatches += _hatches(view.point(a), view.point(b), view.direction(scale(normal, -1.0)))
+    return (*hatches, plate)
+
+
+def _level(normal: Vector, view: View) -> Vector:
+    """A direction in a plane that runs sideways on paper."""
+    return unit(subtract(view.right, scale(normal, dot(view.right, normal))))
+
+
+def _hatched_line(
+    place: Vector, direction: Vector, normal: Vector, view: View, half: float, _count: int
+) -> tuple[Path, ...]:
+    a = view.point(along(place, direction, -view.space(half)))
+    b = view.point(along(place, direction, view.space(half)))
+    return (*_hatches(a, b, view.direction(scale(normal, -1.0))), Path(ink.line(a, b), width=1.6))
+
+
+def _hatches(a: Point, b: Point, down: Point) -> list[Path]:
+    """Short slanted strokes under a line."""
+    reach = math.dist(a, b)
+    drop = math.hypot(*down) or 1.0
+    x, y = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    slant = (down[0] / drop * 8.0 - x * 6.0, down[1] / drop * 8.0 - y * 6.0)
+    count = max(2, round(reach / 7.5))
+    starts = [(a[0] + x * reach * k / count, a[1] + y * reach * k / count) for k in range(1, count + 1)]
+    return [
+        Path(ink.line(start, (start[0] + slant[0], start[1] + slant[1])), width=0.8) for start in starts
+    ]

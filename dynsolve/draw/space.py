@@ -1,0 +1,102 @@
+"""Which places on paper are taken, on a grid, so that labels find free ones."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from dynsolve.draw.ink import Path, flattened
+from dynsolve.draw.vectors import Point
+
+CELL = 3.0
+"""The side of a cell of the grid."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """An upright rectangle on paper."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    @staticmethod
+    def around(center: Point, width: float, height: float) -> Box:
+        """The box with this centre and size."""
+        x, y = center
+        return Box(x - width / 2, y - height / 2, x + width / 2, y + height / 2)
+
+    @property
+    def center(self) -> Point:
+        """Its middle."""
+        return (self.left + self.right) / 2, (self.top + self.bottom) / 2
+
+    def overlaps(self, other: Box, margin: float = 0.0) -> bool:
+        """Whether two boxes have anything in common."""
+        return (
+            self.left < other.right + margin
+            and other.left < self.right + margin
+            and self.top < other.bottom + margin
+            and other.top < self.bottom + margin
+        )
+
+    def nearest(self, point: Point) -> Point:
+        """Its point that is nearest to another."""
+        return min(max(point[0], self.left), self.right), min(max(point[1], self.top), self.bottom)
+
+
+class Taken:
+    """The cells that lines and areas cover."""
+
+    def __init__(self) -> None:
+        self._cells: set[tuple[int, int]] = set()
+
+    def add(self, paths: Iterable[Path]) -> None:
+        """Take the cells under the lines of paths, and inside their areas."""
+        for path in paths:
+            pieces = list(flattened(path.commands))
+            for a, b in pieces:
+                self.add_line(a, b)
+            if path.fill is not None:
+                self._fill(pieces)
+
+    def add_line(self, a: Point, b: Point) -> None:
+        """Take the cells under a line."""
+        steps = max(1, math.ceil(math.dist(a, b) / (CELL * 0.7)))
+        for k in range(steps + 1):
+            t = k / steps
+            self._cells.add(_cell((a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t)))
+
+    def _fill(self, pieces: list[tuple[Point, Point]]) -> None:
+        """Take the cells whose middle is inside, by counting the edges to its left."""
+        heights = [y for piece in pieces for _, y in piece]
+        for row in range(math.floor(min(heights) / CELL), math.floor(max(heights) / CELL) + 1):
+            y = (row + 0.5) * CELL
+            crossings = sorted(
+                a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]) for a, b in pieces if (a[1] > y) != (b[1] > y)
+            )
+            for left, right in zip(crossings[::2], crossings[1::2], strict=False):
+                for column in range(math.floor(left / CELL), math.floor(right / CELL) + 1):
+                    self._cells.add((column, row))
+
+    def on_line(self, a: Point, b: Point) -> float:
+        """The part of a line that runs over what is taken."""
+        steps = max(1, math.ceil(math.dist(a, b) / CELL))
+        hits = sum(
+            _cell((a[0] + (b[0] - a[0]) * k / steps, a[1] + (b[1] - a[1]) * k / steps)) in self._cells
+            for k in range(steps + 1)
+        )
+        return hits / (steps + 1)
+
+    def inside(self, box: Box) -> int:
+        """How many taken cells a box touches."""
+        columns = range(math.floor(box.left / CELL), math.floor(box.right / CELL) + 1)
+        rows = range(math.floor(box.top / CELL), math.floor(box.bottom / CELL) + 1)
+        cells = self._cells
+        return sum((column, row) in cells for row in rows for column in columns)
+
+
+def _cell(point: Point) -> tuple[int, int]:
+    return math.floor(point[0] / CELL), math.floor(point[1] / CELL)

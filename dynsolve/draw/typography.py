@@ -1,0 +1,106 @@
+"""Formulas as runs of letters: italics, upright digits, indices below and the star above the line.
+
+Widths are those of a book face, on the generous side, so that whatever face shows
+the picture, a label stays within its box.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dynsolve.notation.names import split
+from dynsolve.notation.printing import Rules, Style
+from dynsolve.notation.characters import GREEK
+from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.unicode import UnicodePrinter
+
+SIZE = 17.0
+"""The size of a label's letters in picture units."""
+
+INDEX = 0.7
+"""The size of an index, as a part of that."""
+
+_DROP, _RISE = 0.24, 0.36
+_DOWN, _UP, _BACK = "\ue000", "\ue001", "\ue002"
+_STAR = "∗"
+
+_NARROW = "fijlrtι.,:;'| ()/°"
+_WIDE = "mwMWGHKNOQDUAωφψΦΨΩΘ"
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """Letters of one look; `shift` is how far below the line they stand, in picture units."""
+
+    text: str
+    italic: bool
+    size: float
+    shift: float
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A label as it is set: its runs, its width and its height."""
+
+    runs: tuple[Run, ...]
+    width: float
+    height: float = SIZE * 1.12
+
+
+class _MarkedPrinter(UnicodePrinter):
+    """Unicode with marks where indices begin and end."""
+
+    rules: Rules = {**UnicodePrinter.rules}
+
+    def _symbol(self, node: Symbol) -> str:
+        base, groups = split(node.name)
+        text = GREEK.get(base, base)
+        if groups:
+            text += _DOWN + ",".join(_index(group) for group in groups) + _BACK
+        return text + (_UP + _STAR + _BACK if self.style.starred(node) else "")
+
+
+_MarkedPrinter.rules = {**UnicodePrinter.rules, Symbol: _MarkedPrinter._symbol}
+
+
+def _index(group: str) -> str:
+    return GREEK.get(group, group)
+
+
+def typeset(node: Node, style: Style) -> Line:
+    """A formula on one line."""
+    runs = tuple(_runs(_MarkedPrinter(style).text(node)))
+    return Line(runs, sum(map(_width, runs)))
+
+
+def _runs(marked: str) -> Iterator[Run]:
+    size, shift, text, italic = SIZE, 0.0, "", False
+    for character in marked + _BACK:
+        slanted = character.isalpha()
+        if character in (_DOWN, _UP, _BACK) or slanted != italic:
+            if text:
+                yield Run(text, italic, round(size, 2), round(shift, 2))
+            text, italic = "", slanted
+        if character == _DOWN:
+            size, shift = SIZE * INDEX, SIZE * _DROP
+        elif character == _UP:
+            size, shift = SIZE * INDEX, -SIZE * _RISE
+        elif character == _BACK:
+            size, shift = SIZE, 0.0
+        else:
+            text += "−" if character == "-" else character
+
+
+def _width(run: Run) -> float:
+    return run.size * sum(map(_letter_width, run.text))
+
+
+def _letter_width(character: str) -> float:
+    if character in _NARROW:
+        return 0.36
+    if character in _WIDE:
+        return 0.82
+    if character.isupper():
+        return 0.70
+    return 0.56

@@ -1,0 +1,93 @@
+"""Vectors of three and of two numbers: as much geometry as a picture needs."""
+
+from __future__ import annotations
+
+import math
+
+Vector = tuple[float, float, float]
+Point = tuple[float, float]
+Rotation = tuple[Vector, Vector, Vector]
+"""The columns of a 3×3 matrix: the axes x, y and z of a frame."""
+
+ORIGIN: Vector = (0.0, 0.0, 0.0)
+IDENTITY: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+def add(a: Vector, b: Vector) -> Vector:
+    """a + b"""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def subtract(a: Vector, b: Vector) -> Vector:
+    """a - b"""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+def scale(a: Vector, factor: float) -> Vector:
+    """factor·a"""
+    return a[0] * factor, a[1] * factor, a[2] * factor
+
+
+def along(start: Vector, direction: Vector, length: float) -> Vector:
+    """start + length·direction"""
+    return (
+        start[0] + direction[0] * length,
+        start[1] + direction[1] * length,
+        start[2] + direction[2] * length,
+    )
+
+
+def between(a: Vector, b: Vector, fraction: float) -> Vector:
+    """The point that fraction of the way from a to b."""
+    return along(a, subtract(b, a), fraction)
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """aᵀ b"""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """a × b"""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def length(a: Vector) -> float:
+    """|a|"""
+    return math.sqrt(dot(a, a))
+
+
+def distance(a: Vector, b: Vector) -> float:
+    """|b - a|"""
+    return length(subtract(b, a))
+
+
+def unit(a: Vector) -> Vector:
+    """a / |a|, of a vector that is not zero."""
+    return scale(a, 1.0 / length(a))
+
+
+def any_normal(a: Vector) -> Vector:
+    """A unit vector at right angles to a."""
+    smallest = min(range(3), key=lambda k: (abs(round(a[k], 9)), k))
+    return unit(cross(a, IDENTITY[smallest]))
+
+
+def turned(R: Rotation, axis: int, angle: float) -> Rotation:
+    """R after a turn about its own axis, 0 for x and 2 for z."""
+    c, s = math.cos(angle), math.sin(angle)
+    first, second = R[(axis + 1) % 3], R[(axis + 2) % 3]
+    columns = list(R)
+    columns[(axis + 1) % 3] = add(scale(first, c), scale(second, s))
+    columns[(axis + 2) % 3] = add(scale(first, -s), scale(second, c))
+    return columns[0], columns[1], columns[2]
+
+
+def applied(R: Rotation, a: Vector) -> Vector:
+    """R a"""
+    return add(add(scale(R[0], a[0]), scale(R[1], a[1])), scale(R[2], a[2]))
+
+
+def into(R: Rotation, a: Vector) -> Vector:
+    """Rᵀ a"""
+    return dot(R[0], a), dot(R[1], a), dot(R[2], a)
