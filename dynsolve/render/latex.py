@@ -84,7 +84,8 @@ def render(document: Document, style: Style = PLAIN) -> str:
 def render_fragment(document: Document, style: Style = PLAIN) -> str:
     r"""What a document of the reader's own takes in with \input; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
-    return f"{_NEEDS}{_MACROS}" + "\n".join(page.blocks(document.blocks)) + "\n"
+    body = "\n".join(page.blocks(document.blocks))
+    return f"{_NEEDS}{_MACROS}\\begingroup\\allowdisplaybreaks[3]\n{body}\n\\par\\endgroup\n"
 
 
 def _is_title(block: Block) -> bool:
