@@ -1,0 +1,140 @@
+"""Exact results shown as decimals: the only place where a number is rounded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from decimal import Decimal
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+from flint import arb, ctx, fmpq
+
+from dynsolve.algebra.expr import Expr, Generator, rational
+from dynsolve.algebra.ring import Ring
+from dynsolve.notation.tree import (
+    Function,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Relation,
+    Row,
+    Sum,
+)
+
+DIGITS = 4
+"""Significant digits, unless others are asked for."""
+
+_WORKING_DIGITS = 40
+_WORKING_BITS = 400
+
+
+def significant(value: Fraction, digits: int) -> Fraction:
+    """A number rounded to significant digits; the digits before the point are all kept.
+
+    >>> significant(Fraction(2, 3), 4), significant(Fraction(123456), 4)
+    (Fraction(6667, 10000), Fraction(123456, 1))
+    """
+    if not value:
+        return value
+    size = abs(value)
+    exponent = len(str(int(size))) if size >= 1 else -_zeros(size)
+    return round(value, max(digits - exponent, 0))
+
+
+def _zeros(size: Fraction) -> int:
+    """How many zeros follow the point: 0.0042 -> 2."""
+    count = 0
+    while size * 10 < 1:
+        size, count = size * 10, count + 1
+    return count
+
+
+def rounded(node: Node, digits: int) -> Node:
+    """A tree with every number in it as a decimal of so many significant digits; exponents stay."""
+    match node:
+        case Number(p, q):
+            value = significant(Fraction(p, q), digits)
+            return Number(value.numerator, value.denominator, decimal=True)
+        case Sum(terms):
+            return Sum(tuple(rounded(term, digits) for term in terms))
+        case Product(factors):
+            return Product(tuple(rounded(factor, digits) for factor in factors))
+        case Quotient(Number(p, q), Number(r, s)):
+            return rounded(Number(p * s, q * r), digits)
+        case Quotient(numerator, denominator):
+            return Quotient(rounded(numerator, digits), rounded(denominator, digits))
+        case Power(base, exponent):
+            return Power(rounded(base, digits), exponent)
+        case Negative(argument):
+            return Negative(rounded(argument, digits))
+        case Parenthesized(argument):
+            return Parenthesized(rounded(argument, digits))
+        case Function("sqrt", argument):
+            return Function("sqrt", rounded(argument, digits))
+        case Matrix(rows):
+            return Matrix(tuple(tuple(rounded(entry, digits) for entry in row) for row in rows))
+        case Relation(parts, signs):
+            return Relation(tuple(rounded(part, digits) for part in parts), signs)
+        case Row(parts):
+            return Row(tuple(rounded(part, digits) for part in parts))
+    return node
+
+
+def without_constants(expr: Expr) -> Expr:
+    """The expression with √3, cos 17° and π in it as decimals of 40 digits.
+
+    >>> ring = Ring.build([], [Function("sqrt", Number(2))])
+    >>> float(without_constants(ring.expr(Function("sqrt", Number(2)))).number)
+    1.4142135623730951
+    """
+    constants = _constants(expr.ring)
+    used = expr.poly.degrees()
+    if not any(used[index] > 0 for index in constants):
+        return expr
+    collected: dict[tuple[int, ...], Any] = {}
+    with ctx.workprec(_WORKING_BITS):
+        for exponents, coefficient in expr.poly.to_dict().items():
+            value = arb(coefficient)
+            for index, number in constants.items():
+                if exponents[index]:
+                    value *= number ** int(exponents[index])
+            rest = tuple(0 if i in constants else int(e) for i, e in enumerate(exponents))
+            collected[rest] = collected.get(rest, arb(0)) + value
+        numbers = {rest: rational(_fraction(value)) for rest, value in collected.items()}
+    poly = expr.ring.ctx.from_dict({rest: number for rest, number in numbers.items() if number})
+    return Expr(expr.ring, poly)
+
+
+def _fraction(value: arb) -> Fraction:
+    """The value to 40 digits; rounding that is left of a sum that is 0 counts as 0."""
+    if abs(float(value)) < 10.0**-_WORKING_DIGITS:
+        return Fraction(0)
+    return Fraction(Decimal(value.str(_WORKING_DIGITS, radius=False)))
+
+
+@lru_cache(maxsize=8)
+def _constants(ring: Ring) -> Mapping[int, arb]:
+    """The generators that are numbers, with their values."""
+    with ctx.workprec(_WORKING_BITS):
+        found = {g.index: _value(g) for g in ring.generators}
+    return {index: value for index, value in found.items() if value is not None}
+
+
+def _value(g: Generator) -> arb | None:
+    match g.kind:
+        case "symbol" if g.name == "pi":
+            return arb.pi()
+        case "root" if isinstance(g.node, Number):
+            return arb(fmpq(g.node.p, g.node.q)).sqrt()
+        case "sin" | "cos" | "constant" if all(atom == () for atom, _ in g.angle.terms):
+            angle = arb.pi() * arb(rational(g.angle.degrees / 180))
+            for _, radians in g.angle.terms:
+                angle += arb(rational(radians))
+            return angle.sin() if g.kind == "sin" else angle.cos()
+    return None
