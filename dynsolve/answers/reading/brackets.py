@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from dynsolve.answers.reading.reader import Reader
 
 STOPS = frozenset({"quad", "qquad"})
-_MATRICES = frozenset("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix psmallmatrix bsmallmatrix array".split())
+_MATRICES = frozenset(
+    "matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix psmallmatrix bsmallmatrix array".split()
+)
 
 
 def read(reader: Reader) -> Value:
@@ -30,7 +32,9 @@ def parenthesis(reader: Reader) -> Value:
     """(a + b); or a tuple (a, b), a column."""
     opening = reader.take()
     if reader.token.kind == ")":
-        raise ReadError("there is nothing between these parentheses", opening.start, 2, "write what belongs there")
+        raise ReadError(
+            "there is nothing between these parentheses", opening.start, 2, "write what belongs there"
+        )
     first = reader.sum()
     if reader.token.kind == ",":
         rows = [[first]]
@@ -60,7 +64,9 @@ def square(reader: Reader) -> Value:
         rows[-1].append(reader.sum())
         count += 1
         if count > MAX_ENTRIES:
-            raise ReadError(f"a matrix of more than {MAX_ENTRIES} entries", opening.start, 1, "check the brackets")
+            raise ReadError(
+                f"a matrix of more than {MAX_ENTRIES} entries", opening.start, 1, "check the brackets"
+            )
         kind = reader.token.kind
         if kind == "," or kind == "&":
             reader.take()
@@ -108,7 +114,9 @@ def environment(reader: Reader) -> Value:
     name = opening.text.rstrip("*")
     if name not in _MATRICES:
         message = f"the environment `{name[:40]}` is not read"
-        raise ReadError(message, opening.start, opening.end - opening.start, "matrices are written in bmatrix")
+        raise ReadError(
+            message, opening.start, opening.end - opening.start, "matrices are written in bmatrix"
+        )
     if name == "array":
         _skip_columns(reader)
     rows: list[list[Value]] = [[]]
@@ -120,14 +128,18 @@ def environment(reader: Reader) -> Value:
             rows.append([])
         elif kind == "&":
             missing = reader.take()
-            raise ReadError("an entry of this matrix is empty", missing.start, 1, "write 0 where nothing stands")
+            raise ReadError(
+                "an entry of this matrix is empty", missing.start, 1, "write 0 where nothing stands"
+            )
         else:
             rows[-1].append(reader.sum())
             count += 1
             if reader.token.kind in ("&", ",") and count <= MAX_ENTRIES:
                 sign = reader.take()
                 if reader.token.kind in ("\\\\", "close"):
-                    raise ReadError("an entry of this matrix is empty", sign.start, 1, "write 0 where nothing stands")
+                    raise ReadError(
+                        "an entry of this matrix is empty", sign.start, 1, "write 0 where nothing stands"
+                    )
             elif reader.token.kind not in ("\\\\", "close"):
                 raise reader.unexpected("`&` or `\\\\` is expected between the entries of a matrix")
     if reader.token.kind == "end":
@@ -136,7 +148,9 @@ def environment(reader: Reader) -> Value:
     reader.take()
     rows = [row for row in rows if row]
     if not rows:
-        raise ReadError("this matrix is empty", opening.start, opening.end - opening.start, "write its entries")
+        raise ReadError(
+            "this matrix is empty", opening.start, opening.end - opening.start, "write its entries"
+        )
     return finished(reader, rows, opening)
 
 

@@ -25,7 +25,9 @@ def is_call(reader: Reader) -> bool:
         return False
     if functions.is_elsewhere(token):
         length = token.end - token.start
-        raise ReadError(f"unknown function `{token.text}`", token.start, length, "functions are sin, cos, tan and sqrt")
+        raise ReadError(
+            f"unknown function `{token.text}`", token.start, length, "functions are sin, cos, tan and sqrt"
+        )
     return token.text in _MATRICES or token.text in _DERIVATIVES or token.text in _OTHERS
 
 

@@ -21,7 +21,12 @@ class UnknownVariable(ReadError):
 
     def __init__(self, token: Token, shown: str, family: tuple[str, ...]) -> None:
         help = "derivatives are taken with respect to a coordinate or its velocity"
-        super().__init__(f"`{shown[:40]}` is no coordinate of the problem", token.start, max(token.end - token.start, 1), help)
+        super().__init__(
+            f"`{shown[:40]}` is no coordinate of the problem",
+            token.start,
+            max(token.end - token.start, 1),
+            help,
+        )
         self.family = family
 
 
@@ -72,8 +77,11 @@ def _order(tokens: list[Token]) -> tuple[int, list[Token]]:
 
 
 def _is_time(tokens: list[Token]) -> bool:
-    return bool(tokens) and tokens[0].kind == "name" and tokens[0].text == "t" and all(
-        t.kind in ("^", "number", "raised", "{", "}") for t in tokens[1:]
+    return (
+        bool(tokens)
+        and tokens[0].kind == "name"
+        and tokens[0].text == "t"
+        and all(t.kind in ("^", "number", "raised", "{", "}") for t in tokens[1:])
     )
 
 

@@ -54,7 +54,9 @@ def is_label(tokens: list[Token]) -> str:
         return f"({shown[0].text.strip('()')})"
     if 3 <= len(shown) <= 6 and shown[0].kind == "(" and shown[-1].kind == ")":
         inside = shown[1:-1]
-        if all(t.kind in ("number", "name", ".", "'") for t in inside) and any(t.kind == "number" for t in inside):
+        if all(t.kind in ("number", "name", ".", "'") for t in inside) and any(
+            t.kind == "number" for t in inside
+        ):
             return "(" + "".join(t.text for t in inside) + ")"
     return ""
 
@@ -104,7 +106,9 @@ def _label(row: list[Token]) -> tuple[str, list[Token]]:
             kept.append(token)
     if not label and len(kept) > 4 and [t.kind for t in kept[-3:]] == ["(", "number", ")"]:
         before = kept[-4]
-        if before.text in SEPARATORS or (kept[-3].spaced and kept[-2].text.isdigit() and before.kind not in _PENDING):
+        if before.text in SEPARATORS or (
+            kept[-3].spaced and kept[-2].text.isdigit() and before.kind not in _PENDING
+        ):
             label = f"({kept[-2].text})"
             kept = kept[:-3]
     return label, kept
@@ -119,7 +123,12 @@ def _pieces(row: list[Token]) -> list[list[Token]]:
     level = 0
     for token in row:
         level = max(level + _OPENS.get(token.kind, 0), 0)
-        if level == 0 and (token.kind == "separator" or token.text in SEPARATORS and token.kind == "command" or token.kind in (",", ";")):
+        if level == 0 and (
+            token.kind == "separator"
+            or token.text in SEPARATORS
+            and token.kind == "command"
+            or token.kind in (",", ";")
+        ):
             pieces.append([])
         else:
             pieces[-1].append(token)
@@ -165,3 +174,17 @@ def _members(piece: list[Token]) -> list[list[Token]]:
         else:
             members[-1].append(token)
     return [member for member in members if member] if len(members) > 1 else []
+
+
+def chain(tokens: list[Token]) -> list[list[Token]]:
+    """The members of a value as an answer file gives it, which is no display: a = b, or one value alone."""
+    kept = _trimmed([token for token in tokens if token.kind not in ("end", "tag")])
+    members: list[list[Token]] = [[]]
+    level = 0
+    for token in kept:
+        level = max(level + _OPENS.get(token.kind, 0), 0)
+        if token.kind == "=" and level == 0:
+            members.append([])
+        else:
+            members[-1].append(token)
+    return members[:MAX_MEMBERS]

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     from dynsolve.answers.reading.reader import Reader
 
 _NAMES = {"sin": "sin", "cos": "cos", "tan": "tan", "sqrt": "sqrt", "cot": "cot", "sec": "sec", "csc": "csc"}
-_NAMES |= {name.capitalize(): name for name in _NAMES} | {name.upper(): name for name in _NAMES} | {"cosec": "csc"}
+_NAMES |= (
+    {name.capitalize(): name for name in _NAMES} | {name.upper(): name for name in _NAMES} | {"cosec": "csc"}
+)
 _RECIPROCALS = {"cot": ("cos", "sin"), "sec": ("", "cos"), "csc": ("", "sin")}
 _ELSEWHERE = frozenset(
     "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh abs sgn sign max min pow sind cosd root det "
@@ -47,7 +49,12 @@ def read(reader: Reader, function: str) -> Value:
             pass
     if scripts.transposed or scripts.primes or scripts.mark or any(power < 1 for power in scripts.powers):
         length = max(reader.token.start - name.start, 1)
-        raise ReadError(f"this exponent of {function} cannot be read", name.start, length, f"write {function}(x)^2 for a square")
+        raise ReadError(
+            f"this exponent of {function} cannot be read",
+            name.start,
+            length,
+            f"write {function}(x)^2 for a square",
+        )
     argument, outer = _argument(reader, name)
     found = applied(reader, function, argument, name)
     for power in [*scripts.powers, *outer]:
@@ -110,7 +117,9 @@ def _open(reader: Reader) -> tuple[Value, list[Fraction]]:
         return factor, []
     powers: list[Fraction] = []
     if isinstance(factor, Power) and isinstance(factor.exponent, Number):
-        reader.notes.setdefault("a power behind an angle without parentheses is read as the power of the function")
+        reader.notes.setdefault(
+            "a power behind an angle without parentheses is read as the power of the function"
+        )
         powers, factor = [Fraction(factor.exponent.p)], factor.base
     parts.append(factor)
     return (parts[0] if len(parts) == 1 else Product(tuple(parts))), powers

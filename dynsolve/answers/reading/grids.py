@@ -169,9 +169,7 @@ def _product(left: Grid, right: Grid) -> Value:
 def _cross(left: Grid, right: Grid) -> Grid:
     a, b = ([row[0] for row in g.rows] for g in (left, right))
     return Grid(
-        tuple(
-            (_sum([scaled(a[i], b[j]), _minus(scaled(a[j], b[i]))]),) for i, j in ((1, 2), (2, 0), (0, 1))
-        )
+        tuple((_sum([scaled(a[i], b[j]), _minus(scaled(a[j], b[i]))]),) for i, j in ((1, 2), (2, 0), (0, 1)))
     )
 
 

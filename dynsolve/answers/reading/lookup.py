@@ -42,7 +42,9 @@ class UnknownName(ReadError):
     """A name that means nothing here; `family` are the answers of the kind it would be one of."""
 
     def __init__(self, form: Form, help: str, family: tuple[str, ...] = ()) -> None:
-        super().__init__(f"unknown symbol `{form.text[:60]}`", form.start, max(form.end - form.start, 1), help)
+        super().__init__(
+            f"unknown symbol `{form.text[:60]}`", form.start, max(form.end - form.start, 1), help
+        )
         self.form, self.family = form, family
 
 
@@ -54,7 +56,13 @@ def value_of(reader: Reader, form: Form) -> Value:
         found = _quantity(reader, form, name)
         if found is not None:
             return found
-    meaning = vocabulary.symbol(name)
+    meaning = vocabulary.defined.get(name + "'" * form.dots) if form.dots else None
+    if meaning is not None:
+        form.dots = 0
+    else:
+        meaning = vocabulary.symbol(name)
+    if meaning is None and (name, form.dots) in vocabulary.derived:
+        meaning, form.dots = Meaning(vocabulary.derived[name, form.dots]), 0
     if meaning is None and form.angle and form.base in ("c", "s", "C", "S"):
         meaning = Meaning(_short(reader, form))
     if meaning is None:
@@ -77,7 +85,12 @@ def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
     short = vocabulary.short_angle(name)
     if short is not None:
         return Meaning(short)
-    if form.dots and name.isascii() and (angle := vocabulary.angle_of(form.index)) and form.base in ("q", "theta"):
+    if (
+        form.dots
+        and name.isascii()
+        and (angle := vocabulary.angle_of(form.index))
+        and form.base in ("q", "theta")
+    ):
         return Meaning(angle, f"{form.text} is read as a sum of coordinates")
     if "inertia" in reader.options and (meaning := vocabulary.inertia(name)):
         return meaning
@@ -93,7 +106,7 @@ def _scripted(reader: Reader, form: Form, meaning: Meaning) -> Value:
     value, scripts = meaning.value, form.scripts
     dots = form.dots + (scripts.primes if isinstance(value, Node) else 0)
     if dots:
-        dotted = rate(value, reader.vocabulary, dots)
+        dotted = vocabulary_rate(reader, form, dots) or rate(value, reader.vocabulary, dots)
         if dotted is None:
             message = f"{form.text} has no derivative here"
             help = "velocities and accelerations are those of the coordinates"
@@ -111,6 +124,11 @@ def _scripted(reader: Reader, form: Form, meaning: Meaning) -> Value:
     if form.repaired:
         reader.notes.setdefault("a power under a dot is read as the power of the derivative")
     return reader.with_scripts(value, scripts, form.start)
+
+
+def vocabulary_rate(reader: Reader, form: Form, dots: int) -> Value | None:
+    """A derivative that the student defined on its own."""
+    return reader.vocabulary.derived.get((form.key, dots))
 
 
 def _note_use(reader: Reader, value: Value) -> None:
@@ -141,7 +159,12 @@ def _short(reader: Reader, form: Form) -> Function:
     if angle is None:
         angle = reader.inner(form.angle, naming=False)
     if not isinstance(angle, Node):
-        raise ReadError("this index is no angle", form.start, form.end - form.start, "write c_1, c_{12} or \\cos(\\theta_1)")
+        raise ReadError(
+            "this index is no angle",
+            form.start,
+            form.end - form.start,
+            "write c_1, c_{12} or \\cos(\\theta_1)",
+        )
     return Function("sin" if form.base in "sS" else "cos", angle)
 
 
@@ -237,7 +260,9 @@ def placeholder(vocabulary: Vocabulary, name: str) -> Value:
         return Symbol(reference(name))
     rows, columns = shape
     return Grid(
-        tuple(tuple(Symbol(reference(name, i, j)) for j in range(1, columns + 1)) for i in range(1, rows + 1)),
+        tuple(
+            tuple(Symbol(reference(name, i, j)) for j in range(1, columns + 1)) for i in range(1, rows + 1)
+        ),
         quantity=name,
     )
 
@@ -260,11 +285,21 @@ def _only_coordinates(reader: Reader, position: int) -> bool:
         if kind in ("name", "letter"):
             name = key(token.text)
             meaning = vocabulary.symbol(name)
-            is_coordinate = isinstance(meaning.value, Symbol) and vocabulary.coordinate(meaning.value) if meaning else None
-            if not (is_coordinate or vocabulary.is_vector(name) or name in ("t", "qdot", "dq", "qd", "theta", "L", "d")):
+            is_coordinate = (
+                isinstance(meaning.value, Symbol) and vocabulary.coordinate(meaning.value)
+                if meaning
+                else None
+            )
+            if not (
+                is_coordinate
+                or vocabulary.is_vector(name)
+                or name in ("t", "qdot", "dq", "qd", "theta", "L", "d")
+            ):
                 return False
             found = True
-        elif not (kind in (",", "_", "number", "{", "}", "^", "*", "'") or token.text in ("dot", "ddot", "star")):
+        elif not (
+            kind in (",", "_", "number", "{", "}", "^", "*", "'") or token.text in ("dot", "ddot", "star")
+        ):
             return False
     return False
 
@@ -292,13 +327,21 @@ def _letter(reader: Reader, form: Form, name: str) -> Value | None:
     if name in _FREE and _POTENTIAL.fullmatch(reader.owner):
         reader.free.setdefault(name)
         return reader.with_scripts(Symbol(name), form.scripts, form.start)
-    if form.base[:1].isalpha() and _LETTERS.fullmatch(name) and not reader.naming and len(form.base.split("_")[0]) <= 2:
+    if (
+        form.base[:1].isalpha()
+        and _LETTERS.fullmatch(name)
+        and not reader.naming
+        and len(form.base.split("_")[0]) <= 2
+    ):
         reader.names_used += 1
         return Abstract(f"{form.text} is a letter of the derivation")
     if _HEIGHT.fullmatch(name) and _POTENTIAL.fullmatch(reader.owner):
         reader.names_used += 1
         return Abstract(f"{form.text} is a height")
-    if name in ("Jv", "Jw", "Kv", "Kw", "Jomega", "Komega", "I", "omega", "v", "A", "H", "R") and not reader.naming:
+    if (
+        name in ("Jv", "Jw", "Kv", "Kw", "Jomega", "Komega", "I", "omega", "v", "A", "H", "R")
+        and not reader.naming
+    ):
         reader.names_used += 1
         return Abstract(f"{form.text} has no index")
     return None

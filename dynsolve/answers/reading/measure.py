@@ -43,7 +43,9 @@ def check(node: Node, known: dict[int, _Measure] | None = None) -> None:
 def _checked(measure: _Measure) -> _Measure:
     nodes, depth, terms, degree = measure
     if nodes > MAX_NODES:
-        raise ReadError(f"this is too large: over {MAX_NODES} signs when its abbreviations are written out", help=_HELP)
+        raise ReadError(
+            f"this is too large: over {MAX_NODES} signs when its abbreviations are written out", help=_HELP
+        )
     if depth > MAX_DEPTH:
         raise ReadError(f"this is nested over {MAX_DEPTH} levels deep", help=_HELP)
     if terms > MAX_TERMS:

@@ -104,7 +104,9 @@ def simplified(tokens: list[Token]) -> list[Token]:
                 position = _split_digits(tokens, position, token, out)
                 continue
         elif kind in ("begin", "close") and token.text.rstrip("*") in _ENVIRONMENTS:
-            position = _skip_columns(tokens, position) if token.text.startswith(("aligned", "alignat")) else position
+            position = (
+                _skip_columns(tokens, position) if token.text.startswith(("aligned", "alignat")) else position
+            )
             continue
         elif kind == "text":
             word = _word(token, out)
@@ -151,7 +153,9 @@ def _word(token: Token, out: list[Token]) -> Token | None:
     r"""`\text{...}`: an index, a function, a word between equations, or nothing."""
     word = token.text
     if out and (out[-1].kind in ("_", "^") or (out[-1].kind in ("{", ",", "name") and _in_script(out))):
-        return token._replace(kind="name") if word.isascii() and word.isalnum() and word[0].isalpha() else None
+        return (
+            token._replace(kind="name") if word.isascii() and word.isalnum() and word[0].isalpha() else None
+        )
     if word in _CALLABLE:
         return token._replace(kind="name")
     if any(part.strip(",.:;").lower() in _WORDS for part in word.split()):

@@ -15,7 +15,17 @@ from fractions import Fraction
 
 from dynsolve.answers.reading import brackets, calls, derivatives, functions, lookup
 from dynsolve.answers.reading.forms import Form, Scripts, index_text, is_angle
-from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, mapped, negative, times, total, transposed
+from dynsolve.answers.reading.grids import (
+    Abstract,
+    Grid,
+    Value,
+    divided,
+    mapped,
+    negative,
+    times,
+    total,
+    transposed,
+)
 from dynsolve.answers.reading.limits import MAX_EXPONENT, MAX_NESTING
 from dynsolve.answers.reading.scan import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
@@ -142,7 +152,9 @@ class Reader:
     def inner(self, tokens: list[Token], naming: bool | None = None) -> Value:
         """The value of tokens that stand inside this text."""
         self.enter()
-        reader = Reader(tokens, self.vocabulary, self.naming if naming is None else naming, self.owner, self.options)
+        reader = Reader(
+            tokens, self.vocabulary, self.naming if naming is None else naming, self.owner, self.options
+        )
         reader.nesting = self.nesting
         reader.references, reader.symbols = self.references, self.symbols
         reader.notes, reader.free = self.notes, self.free
@@ -363,7 +375,12 @@ class Reader:
         if name in ("sum", "int", "prod"):
             return calls.running_sum(self)
         if name in ("cdots", "ldots", "dots", "vdots", "ddots"):
-            raise ReadError("dots stand for something that was left out", token.start, token.end - token.start, "write it out")
+            raise ReadError(
+                "dots stand for something that was left out",
+                token.start,
+                token.end - token.start,
+                "write it out",
+            )
         if name in ("underbrace", "overbrace"):
             self.take()
             found = self.inner(self.group())
@@ -372,7 +389,9 @@ class Reader:
                 self.group()
             return found
         message = f"unknown command `\\{name[:40]}`"
-        raise ReadError(message, token.start, token.end - token.start, "the commands of LaTeX's formulas are read")
+        raise ReadError(
+            message, token.start, token.end - token.start, "the commands of LaTeX's formulas are read"
+        )
 
     def fraction(self) -> Value:
         self.enter()
@@ -419,7 +438,9 @@ class Reader:
             form = self.form()
             if self.token.kind != "}":
                 message = f"more than one name stands under `\\{command.text}`"
-                raise ReadError(message, opening.start, max(self.token.start - opening.start, 1), "one name is read there")
+                raise ReadError(
+                    message, opening.start, max(self.token.start - opening.start, 1), "one name is read there"
+                )
             self.take()
             return form
         token = self.token
@@ -505,20 +526,39 @@ class Reader:
 
     def exponent(self, tokens: list[Token], sign: Token) -> Fraction:
         """The value of an exponent, a small constant."""
-        if len(tokens) == 1 and tokens[0].kind == "number" and tokens[0].text.isdigit() and len(tokens[0].text) < 4:
+        if (
+            len(tokens) == 1
+            and tokens[0].kind == "number"
+            and tokens[0].text.isdigit()
+            and len(tokens[0].text) < 4
+        ):
             return Fraction(int(tokens[0].text))
         value = self.inner(tokens)
         found = constant(value) if isinstance(value, Node) else None
         if found is None:
             end = tokens[-1].end
-            raise ReadError("this exponent is no number", sign.start, max(end - sign.start, 1), "an exponent is a small whole number")
+            raise ReadError(
+                "this exponent is no number",
+                sign.start,
+                max(end - sign.start, 1),
+                "an exponent is a small whole number",
+            )
         return found
 
     def bounded(self, value: Fraction, sign: Token) -> Fraction:
         """The exponent, if it is one that is read."""
-        if value != Fraction(1, 2) and value != Fraction(-1, 2) and (value.denominator != 1 or abs(value) > MAX_EXPONENT):
+        if (
+            value != Fraction(1, 2)
+            and value != Fraction(-1, 2)
+            and (value.denominator != 1 or abs(value) > MAX_EXPONENT)
+        ):
             message = f"an exponent is a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}"
-            raise ReadError(message, sign.start, max(sign.end - sign.start, 1), "a square root is written \\sqrt{x} or sqrt(x)")
+            raise ReadError(
+                message,
+                sign.start,
+                max(sign.end - sign.start, 1),
+                "a square root is written \\sqrt{x} or sqrt(x)",
+            )
         return value
 
     def scripted(self, value: Value) -> Value:
@@ -536,7 +576,9 @@ class Reader:
             if isinstance(value, Node) and scripts.primes:
                 dotted = lookup.rate(value, self.vocabulary, scripts.primes)
                 if dotted is None:
-                    raise ReadError("a prime stands here after what has no derivative", start, 1, "theta1' is a velocity")
+                    raise ReadError(
+                        "a prime stands here after what has no derivative", start, 1, "theta1' is a velocity"
+                    )
                 value = dotted
             else:
                 value = transposed(value)

@@ -15,9 +15,7 @@ from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.submission import Place
 from dynsolve.errors import ReadError
 
-_ENVIRONMENT = (
-    "equation|align|gather|multline|eqnarray|alignat|flalign|displaymath|math|dmath|IEEEeqnarray|subequations|split"
-)
+_ENVIRONMENT = "equation|align|gather|multline|eqnarray|alignat|flalign|displaymath|math|dmath|IEEEeqnarray|subequations|split"
 _OPENING = re.compile(
     rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}"
     r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$]))",
@@ -115,7 +113,11 @@ def _displays(text: str, source: Source) -> Iterator[tuple[int, Display]]:
             if end - start > 5_000 or "\n\n" in text[start:end]:
                 position = start
                 continue
-            if not _ALONE.fullmatch(text[line : opening.start()]) or not _ends(after) or "=" not in text[start:end]:
+            if (
+                not _ALONE.fullmatch(text[line : opening.start()])
+                or not _ends(after)
+                or "=" not in text[start:end]
+            ):
                 continue
         label = _LABEL.match(text, position)
         yield start, _display(text, source, start, end, f"({label[1]})" if label else "")
@@ -152,7 +154,9 @@ def _fenced(opening: str, text: str, source: Source, start: int, end: int) -> It
         yield from _plain_lines(text, source, start, end, False)
 
 
-def _plain_lines(text: str, source: Source, start: int, end: int, prose: bool) -> Iterator[tuple[int, Display]]:
+def _plain_lines(
+    text: str, source: Source, start: int, end: int, prose: bool
+) -> Iterator[tuple[int, Display]]:
     """Lines that are equations in plain text: `tau1 = ...`, with the lines that go on with them."""
     position = start
     while position < end:

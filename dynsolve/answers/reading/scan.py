@@ -82,7 +82,9 @@ _INK = frozenset(
     "hfill hfil noindent centering small normalsize large Large it rm cal sf tt scriptsize footnotesize "
     "allowbreak newline hline protect relax smallskip medskip bigskip par".split()
 )
-SEPARATORS = frozenset("quad qquad implies Rightarrow Leftrightarrow Longrightarrow iff therefore because".split())
+SEPARATORS = frozenset(
+    "quad qquad implies Rightarrow Leftrightarrow Longrightarrow iff therefore because".split()
+)
 """Commands that stand between two equations of one display."""
 
 # Commands whose argument is no formula; those in `_KEPT` leave a token of their own.

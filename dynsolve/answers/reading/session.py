@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from dynsolve.answers.reading import measure
 from dynsolve.answers.reading.derivatives import UnknownVariable
-from dynsolve.answers.reading.displays import Display, Equation, equations, is_label
+from dynsolve.answers.reading.displays import Display, Equation, chain, equations, is_label
 from dynsolve.answers.reading.forms import Form
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, transposed
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS
@@ -20,7 +20,7 @@ from dynsolve.answers.reading.prepare import Macro, cut_names, expand, simplifie
 from dynsolve.answers.reading.reader import Reader
 from dynsolve.answers.reading.scan import Token, scan
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, key
-from dynsolve.answers.submission import Answer, NotRecognized, referred
+from dynsolve.answers.submission import Answer, NotRecognized, Place, referred
 from dynsolve.errors import ReadError
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import (
@@ -37,6 +37,12 @@ from dynsolve.notation.tree import (
     Words,
 )
 from dynsolve.notation.unicode import to_unicode
+
+
+_WAYS: tuple[frozenset[str], ...] = (frozenset(), frozenset({"inertia"}), frozenset({"spaces"}))
+"""How a value may be read: as it stands; a bare I_1 as the moment of inertia; blanks between entries."""
+
+_EXPECTED = "a formula is made of numbers, the problem's symbols, + - * / ^, sin, cos, tan and sqrt"
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,11 +133,66 @@ class Session:
         read: list[tuple[int, Read | ReadError]] = []
         for index, member in enumerate(members):
             if not isinstance(sides[index], (Name, Unknown)):
-                read.append((index, self._member(member, owner, bool(names))))
+                read.append((index, self.member(member, owner)))
         if names:
             self._judged(names, read, equation, display)
         else:
             self._without_name(sides, read, equation, display)
+
+    def answer(self, name: str, place: Place, display: Display) -> None:
+        """Read the value that an answer file gives under a name."""
+        self.chains += 1
+        side = self._key(name)
+        if not isinstance(side, Name):
+            family = side.family if isinstance(side, Unknown) else ()
+            refused = NotRecognized(_shown(f"{name}: {display.text}"), "", place)
+            if not family:
+                self.not_recognized.append(refused)
+                return
+            side = Name(family[:1])
+        before = len(self.answers)
+        self._given(side.candidates, display)
+        if isinstance(self._key(name), Unknown):
+            made = tuple(self.answers[before:])
+            del self.answers[before:]
+            self.pending.append(_Pending(family, made, refused, before))
+
+    def _key(self, name: str) -> Name | Unknown | None:
+        """What a key of an answer file names."""
+        if name.startswith("I") and name in self.vocabulary.shapes:
+            return Name((name,))
+        try:
+            return self._side(simplified(scan(name))[:-1])
+        except ReadError:
+            return None
+
+    def _given(self, candidates: tuple[str, ...], display: Display) -> None:
+        """The members of a value, each of them an answer."""
+        label = display.label
+        try:
+            tokens = simplified(expand(scan(display.text), self.macros))
+        except ReadError as error:
+            self._unreadable(candidates, display, error, label, (self.chains, 0))
+            return
+        members = chain(tokens)
+        side = self._side(members[0]) if len(members) > 1 else None
+        if isinstance(side, Name) and set(side.candidates) & set(candidates):
+            members = members[1:]
+        for index, member in enumerate(members):
+            where = (self.chains, index)
+            if not member:
+                error = ReadError("nothing stands on one side of this `=`", 0, 1, "write the value alone")
+                self._unreadable(candidates, display, error, label, where)
+                continue
+            found = self.member(member, candidates[0])
+            if isinstance(found, Read) and isinstance(found.value, Abstract):
+                found = ReadError(
+                    found.value.why, member[0].start, 1, "write it in the symbols of the problem"
+                )
+            if isinstance(found, ReadError):
+                self._unreadable(candidates, display, found, label, where)
+            else:
+                self._value([candidates], found, member, label, display, where)
 
     # What the sides are
 
@@ -167,7 +228,9 @@ class Session:
             value = reader.value()
         except UnknownName as error:
             simple = self._is_simple(tokens, error.form)
-            return Unknown(self._defined_key(error.form), error.family if simple else (), simple, error.message)
+            return Unknown(
+                self._defined_key(error.form), error.family if simple else (), simple, error.message
+            )
         except UnknownVariable as error:
             return Unknown("", error.family, False, error.message)
         except ReadError:
@@ -206,42 +269,53 @@ class Session:
             "D": [[f"d{i}{j}" for j in numbers] for i in numbers],
             "C": [[f"C{i}{j}" for j in numbers] for i in numbers],
         }
-        written = [[entry.name[1:] if isinstance(entry, Symbol) else "" for entry in row] for row in value.rows]
+        written = [
+            [entry.name[1:] if isinstance(entry, Symbol) else "" for entry in row] for row in value.rows
+        ]
         return next(((name,) for name, rows in wholes.items() if rows == written), ())
 
     # Members
 
-    def _member(self, member: list[Token], owner: str, in_report: bool = True) -> Read | ReadError:
-        """A member's value, or why it has none; readings that need a bolder guess come last."""
+    def member(self, member: list[Token], owner: str = "") -> Read | ReadError:
+        """A member's value, or why it has none; readings that take a bolder guess come last."""
         tokens = cut_names(member, self.vocabulary)
-        first: ReadError | None = None
-        for options in (frozenset[str](), frozenset({"inertia"}), frozenset({"spaces"})):
+        first: Read | ReadError | None = None
+        for options in _WAYS:
             if options and not _may_help(options, tokens):
                 continue
-            reader = Reader(tokens, self.vocabulary, owner=owner, options=options)
-            try:
-                value = reader.value()
-                if owner and not isinstance(value, Abstract) and not reader_only_names(reader, self.vocabulary):
-                    self._fits((owner,), value)
-                if isinstance(value, Grid):
-                    measure.check(value.node)
-                elif isinstance(value, Node):
-                    measure.check(value)
-            except UnknownName as error:
-                first = first or error
-                continue
-            except ReadError as error:
-                first = first or error
-                continue
-            except RecursionError:
-                return ReadError("this is nested too deeply", 0, 1, "write it in fewer levels")
-            references = tuple(name for name in reader.references)
-            definition = isinstance(value, Abstract) or reader_only_names(reader, self.vocabulary)
-            return Read(value, references, tuple(reader.notes), tuple(reader.free), definition)
+            found = self._read(tokens, owner, options)
+            if isinstance(found, Read) and self._has_shape(found, owner):
+                return found
+            if first is None or (isinstance(first, ReadError) and isinstance(found, Read)):
+                first = found
         assert first is not None
-        if first.length < 1 or first.offset == 0:
-            first = ReadError(first.message, max(first.offset, member[0].start), max(first.length, 1), first.help)
-        return first
+        if isinstance(first, Read):
+            return first
+        return ReadError(first.message, max(first.offset, member[0].start), max(first.length, 1), first.help)
+
+    def _read(self, tokens: list[Token], owner: str, options: frozenset[str]) -> Read | ReadError:
+        reader = Reader(tokens, self.vocabulary, owner=owner, options=options)
+        try:
+            value = reader.value()
+            definition = isinstance(value, Abstract) or is_names_only(reader, self.vocabulary)
+            if not definition and owner:
+                self._fits((owner,), value)
+            if not isinstance(value, Abstract):
+                measure.check(value.node if isinstance(value, Grid) else value)
+        except ReadError as error:
+            return error
+        except RecursionError:
+            return ReadError("this is nested too deeply", 0, 1, "write it in fewer levels")
+        return Read(value, tuple(reader.references), tuple(reader.notes), tuple(reader.free), definition)
+
+    def _has_shape(self, found: Read, owner: str) -> bool:
+        """Whether a value has the shape of what it is given for."""
+        shape = self.vocabulary.shapes.get(owner)
+        if isinstance(found.value, Abstract) or not owner:
+            return True
+        if isinstance(found.value, Grid):
+            return found.value.shape in (shape, shape and shape[::-1])
+        return shape is None or shape == (1, 1) or found.value == ZERO
 
     def _fits(self, candidates: tuple[str, ...], value: Value) -> None:
         """Raise ReadError for a value that is a matrix where a scalar belongs, or the other way."""
@@ -329,6 +403,7 @@ class Session:
             self._unreadable(candidates, display, error, label, chain)
             return
         name, node, note = fitted[0]
+        note = "" if display.plain and "row" in note else note
         notes = (*found.notes, note) if note else found.notes
         self.answers.append(
             Answer(
@@ -377,7 +452,9 @@ class Session:
         shape = self.vocabulary.shapes.get(name)
         found = f"a {value.shape[0]}×{value.shape[1]} matrix" if isinstance(value, Grid) else "one expression"
         wanted = f"a {shape[0]}×{shape[1]} matrix" if shape else "one expression"
-        return ReadError(f"{name} is {wanted}; this is {found}", start, max(end - start, 1), f"write {wanted}")
+        return ReadError(
+            f"{name} is {wanted}; this is {found}", start, max(end - start, 1), f"write {wanted}"
+        )
 
     def _unreadable(
         self,
@@ -395,7 +472,7 @@ class Session:
                 place=display.locate(error.offset, error.length),
                 text=_shown(display.text),
                 fault=error.message,
-                expected=error.help,
+                expected=error.help or _EXPECTED,
                 alternatives=candidates[1:],
                 occurrence=chain,
             )
@@ -410,7 +487,9 @@ class Session:
         equation: Equation,
         display: Display,
     ) -> None:
-        values = [found for _, found in read if isinstance(found, Read) and not isinstance(found.value, Abstract)]
+        values = [
+            found for _, found in read if isinstance(found, Read) and not isinstance(found.value, Abstract)
+        ]
         first = sides[0]
         tokens = equation.members[0]
         place = display.locate(tokens[0].start, max(tokens[-1].end - tokens[0].start, 1))
@@ -432,7 +511,9 @@ class Session:
         if model:
             index = next(i for i, found in read if isinstance(found, Read) and self._model_parts(found.value))
             found = next(f for i, f in read if i == index and isinstance(f, Read))
-            self._value([("tau",)], found, equation.members[index], equation.label, display, (self.chains, index))
+            self._value(
+                [("tau",)], found, equation.members[index], equation.label, display, (self.chains, index)
+            )
             return
         leading = read[0][1] if read and read[0][0] == 0 else None
         if isinstance(leading, Read) and leading.is_definition:
@@ -453,7 +534,12 @@ class Session:
         if values:
             index = next(i for i, found in read if found is values[-1])
             self._add(
-                unknown.family[:1], values[-1], equation.members[index], equation.label, display, (self.chains, index)
+                unknown.family[:1],
+                values[-1],
+                equation.members[index],
+                equation.label,
+                display,
+                (self.chains, index),
             )
         made = tuple(self.answers[before:])
         del self.answers[before:]
@@ -512,7 +598,7 @@ def with_names(node: Node) -> Node:
     return node
 
 
-def reader_only_names(reader: Reader, vocabulary: Vocabulary) -> bool:
+def is_names_only(reader: Reader, vocabulary: Vocabulary) -> bool:
     """Whether what was read holds names of the derivation alone, or masses beside its vectors."""
     if not reader.references and not reader.names_used:
         return False

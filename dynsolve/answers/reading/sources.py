@@ -11,7 +11,9 @@ from functools import cached_property
 from dynsolve.answers.submission import Place
 
 _LONGEST_EXCERPT = 400
-_UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff\ud800-\udfff]")
+_UNSEEN = re.compile(
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff\ud800-\udfff]"
+)
 
 
 @dataclass(frozen=True)
@@ -26,6 +28,10 @@ class Source:
     def _starts(self) -> list[int]:
         return [0, *(match.end() for match in re.finditer("\n", self.text))]
 
+    @cached_property
+    def _offsets(self) -> list[int]:
+        return [origin[0] for origin in self.origins]
+
     def place(self, offset: int, length: int = 1) -> Place:
         """Where the characters at an offset stand, with their line as it is shown."""
         offset = min(max(offset, 0), len(self.text))
@@ -36,7 +42,7 @@ class Source:
         excerpt = shown(self.text[start:end]) if end - start <= _LONGEST_EXCERPT else ""
         length = max(1, min(length, end - offset))
         if self.origins:
-            at = max(bisect_right([origin[0] for origin in self.origins], offset) - 1, 0)
+            at = max(bisect_right(self._offsets, offset) - 1, 0)
             first, line, base = self.origins[at]
             between = self.text[first:offset]
             line += between.count("\n")

@@ -49,6 +49,8 @@ class Vocabulary:
 
     `symbols` are those of the problem by key, `others` further spellings of them;
     `quantities` are canonical names by key, several where the notation allows several;
+    `derived` are derivatives that were defined on their own, `broken` definitions that
+    could not be read, `angles` the student's own by subscript.
     `shapes` are those of every canonical name; `masses` are the masses and g;
     `defined` is what the student defined.
     """
@@ -62,7 +64,9 @@ class Vocabulary:
     bodies: tuple[str, ...]
     masses: frozenset[str]
     defined: dict[str, Meaning] = field(default_factory=dict)
+    derived: dict[tuple[str, int], Value] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
+    angles: dict[str, Node] = field(default_factory=dict)
     subscripts: dict[str, Coordinate] = field(default_factory=dict)
 
     def symbol(self, name: str) -> Meaning | None:
@@ -97,12 +101,19 @@ class Vocabulary:
         if not digits or len(digits) > len(self.coordinates) and digits not in self.subscripts:
             return None
         if digits in self.subscripts:
-            return _angle(self.subscripts[digits])
+            return self._angle(digits)
         names = list(digits)
         if len(set(names)) < len(names) or any(name not in self.subscripts for name in names):
             return None
-        parts = [_angle(self.subscripts[name]) for name in names]
+        parts = [self._angle(name) for name in names]
         return Sum(tuple(part for part in parts if part)) if all(parts) else None
+
+    def _angle(self, index: str) -> Node | None:
+        """The revolute coordinate with a subscript; the student's own where there is one."""
+        if index in self.angles:
+            return self.angles[index]
+        q = self.subscripts[index]
+        return Symbol(q.name) if q.type is JointType.REVOLUTE else None
 
     def similar(self, name: str) -> Meaning | None:
         """A parameter that is written in another way: I_{zz1} for I_{1,zz}, l_1 for L_1."""
@@ -144,10 +155,6 @@ class Vocabulary:
 def is_running(index: str) -> bool:
     """Whether an index runs: K_i, v_{ci}, omega_{i-1}."""
     return bool(_RUNNING.fullmatch(key(index)))
-
-
-def _angle(coordinate: Coordinate) -> Node | None:
-    return Symbol(coordinate.name) if coordinate.type is JointType.REVOLUTE else None
 
 
 def _family(name: str) -> str:
@@ -201,12 +208,13 @@ def _add_derivatives(
             name = (q.name, f"q{q.index}", f"{letter}{index}")[rank]
             if rank and name in symbols:
                 continue
-            for spelling, dots in _spellings(name):
+            for spelling, dots in spellings(name):
                 if spelling not in symbols:
                     others.setdefault(spelling, Symbol(q.name, dots))
 
 
-def _spellings(name: str) -> list[tuple[str, int]]:
+def spellings(name: str) -> list[tuple[str, int]]:
+    """Every way to write a coordinate and its derivatives in one word, with the number of dots."""
     plain = key(name)
     base, _ = split(name)
     index = plain[len(base) :]
@@ -247,7 +255,12 @@ def _quantities(
     digits = [str(i) for i in range(1, n + 1)]
     for i in digits:
         for j in digits:
-            table.add(f"d{i}{j}", None, "d", (f"d{i}{j}", f"D{i}{j}", f"m{i}{j}", f"M{i}{j}", f"b{i}{j}", f"B{i}{j}"))
+            table.add(
+                f"d{i}{j}",
+                None,
+                "d",
+                (f"d{i}{j}", f"D{i}{j}", f"m{i}{j}", f"M{i}{j}", f"b{i}{j}", f"B{i}{j}"),
+            )
             table.add(f"C{i}{j}", None, "C", (f"C{i}{j}", f"c{i}{j}"))
             for k in digits:
                 table.add(f"c{i}{j}{k}", None, "c", (f"c{i}{j}{k}", f"C{i}{j}{k}", f"Gamma{i}{j}{k}"))

@@ -1,0 +1,55 @@
+"""Jupyter notebooks: the Markdown cells as one report, its places those of the .ipynb file."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from dynsolve.answers.reading.reports import read_report
+from dynsolve.answers.reading.session import Session
+from dynsolve.answers.reading.sources import Source
+from dynsolve.errors import Finding
+
+MAX_CELLS = 2_000
+
+
+def read_notebook(session: Session, source: Source) -> list[Finding]:
+    """Read the Markdown cells of a notebook; gives what is wrong with the file."""
+    try:
+        content = json.loads(source.text)
+    except (ValueError, RecursionError):
+        return [
+            Finding("this is no notebook: its JSON cannot be read", "save the notebook anew", source.file)
+        ]
+    lines: list[str] = []
+    origins: list[tuple[int, int, int]] = []
+    offset, position, line = 0, 0, 1
+    for text in _lines(content):
+        if text.strip():
+            found = source.text.find(json.dumps(text.rstrip("\n"), ensure_ascii=False)[1:-1], position)
+            if found < 0:
+                found = source.text.find(json.dumps(text.rstrip("\n"))[1:-1], position)
+            if found >= 0:
+                line += source.text.count("\n", position, found)
+                position = found
+        column = position - source.text.rfind("\n", 0, position)
+        origins.append((offset, line, column))
+        lines.append(text)
+        offset += len(text)
+    read_report(session, Source("".join(lines), source.file, tuple(origins)))
+    return []
+
+
+def _lines(content: Any) -> list[str]:
+    """The lines of all Markdown cells, a blank one between cells."""
+    cells = content.get("cells") if isinstance(content, dict) else None
+    lines: list[str] = []
+    for cell in cells[:MAX_CELLS] if isinstance(cells, list) else ():
+        if not isinstance(cell, dict) or cell.get("cell_type") != "markdown":
+            continue
+        text = cell.get("source", "")
+        if isinstance(text, list):
+            text = "".join(part for part in text if isinstance(part, str))
+        if isinstance(text, str):
+            lines += [*(f"{part}\n" for part in text.split("\n")), "\n"]
+    return lines

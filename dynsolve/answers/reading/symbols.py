@@ -1,0 +1,59 @@
+"""The student's own names: `symbols: {q1: theta1 - 90deg}` and `let: {h: m2*l1*lc2*sin(q2)}`."""
+
+from __future__ import annotations
+
+from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.grids import Abstract, Value
+from dynsolve.answers.reading.lookup import rate
+from dynsolve.answers.reading.prepare import expand, simplified
+from dynsolve.answers.reading.scan import scan
+from dynsolve.answers.reading.session import Read, Session
+from dynsolve.answers.reading.vocabulary import Meaning, key, spellings
+from dynsolve.errors import ReadError
+from dynsolve.notation.names import split
+from dynsolve.notation.tree import Node
+
+
+def own_symbols(session: Session, display: Display, name: str, is_symbol: bool) -> ReadError | None:
+    """Keep one of the student's names; the error where its meaning cannot be read."""
+    try:
+        shown = simplified(scan(name))[:-1]
+        plain = key("".join(t.text for t in shown if t.kind in ("name", "letter", "number")))
+        dots = sum(t.dots + ("dot" == t.text) + 2 * ("ddot" == t.text) for t in shown)
+        tokens = simplified(expand(scan(display.text), session.macros))[:-1]
+    except ReadError as error:
+        session.vocabulary.broken[key(name)] = error.message
+        return error
+    found = session.member(tokens)
+    if isinstance(found, ReadError):
+        session.vocabulary.broken[plain] = found.message
+        return found
+    if isinstance(found.value, Abstract):
+        return ReadError(found.value.why, 0, 1, "write it in the symbols of the problem")
+    if not plain:
+        return ReadError("this is no name", 0, 1, "a name is a letter with an index: q1")
+    if is_symbol:
+        _keep(session, plain, dots, found)
+    else:
+        session.vocabulary.defined[plain] = Meaning(found.value)
+    return None
+
+
+def _keep(session: Session, name: str, dots: int, found: Read) -> None:
+    """A name for a coordinate is one for its derivatives, and for its sine and cosine too."""
+    vocabulary = session.vocabulary
+    if dots:
+        vocabulary.derived[(name, dots)] = found.value
+        return
+    vocabulary.defined[name] = Meaning(found.value)
+    rates: dict[int, Value] = {}
+    for order in (1, 2):
+        value = rate(found.value, vocabulary, order)
+        if value is not None:
+            rates[order] = value
+    for spelling, order in spellings(name):
+        if order in rates and spelling not in vocabulary.symbols:
+            vocabulary.defined.setdefault(spelling, Meaning(rates[order]))
+    index = "".join(split(name)[1])
+    if rates and index.isdigit() and isinstance(found.value, Node):
+        vocabulary.angles[index] = found.value

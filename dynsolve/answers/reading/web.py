@@ -1,0 +1,83 @@
+"""Web pages: the text of an HTML file, its formulas as they were written in LaTeX."""
+
+from __future__ import annotations
+
+from html.parser import HTMLParser
+
+from dynsolve.answers.reading.reports import read_report
+from dynsolve.answers.reading.session import Session
+from dynsolve.answers.reading.sources import Source
+
+_SILENT = frozenset({"style", "head", "template", "noscript", "title"})
+_BLOCKS = frozenset(
+    "p div br li tr h1 h2 h3 h4 h5 h6 pre table ul ol section article blockquote hr td th".split()
+)
+_VOID = frozenset("area base br col embed hr img input link meta source track wbr".split())
+_LONGEST_TAG_STACK = 5_000
+
+
+def read_page(session: Session, source: Source) -> None:
+    """Read the displayed equations of a web page."""
+    page = _Page()
+    page.feed(source.text)
+    page.close()
+    read_report(session, Source("".join(page.pieces), source.file, tuple(page.origins) or ((0, 1, 1),)))
+
+
+class _Page(HTMLParser):
+    """Gathers text with its places; what MathJax and KaTeX render is taken from its LaTeX source."""
+
+    def __init__(self) -> None:
+        super().__init__(convert_charrefs=True)
+        self.pieces: list[str] = []
+        self.origins: list[tuple[int, int, int]] = []
+        self.length = 0
+        self.open: list[tuple[str, str]] = []
+        self.display = 0
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = {name: value or "" for name, value in attrs}
+        classes = given.get("class", "").split()
+        kind = ""
+        if tag in _SILENT or "katex-html" in classes or tag.startswith("mjx-") or "MathJax" in classes:
+            kind = "silent"
+        elif tag == "script":
+            kind = (
+                "display" if "math/tex" in given.get("type", "") and "display" in given["type"] else "silent"
+            )
+        elif tag == "math":
+            kind = "silent"
+        elif tag == "annotation" and given.get("encoding") == "application/x-tex":
+            kind = "display" if self.display else "inline"
+        if "katex-display" in classes:
+            self.display = len(self.open) + 1
+        if tag not in _VOID and len(self.open) < _LONGEST_TAG_STACK:
+            self.open.append((tag, kind))
+        if tag in _BLOCKS:
+            self._add("\n")
+        if kind == "display":
+            self._add("\n$$")
+
+    def handle_endtag(self, tag: str) -> None:
+        while self.open and any(name == tag for name, _ in self.open[-20:]):
+            name, kind = self.open.pop()
+            if kind == "display":
+                self._add("$$\n")
+            if len(self.open) < self.display:
+                self.display = 0
+            if name == tag:
+                break
+        if tag in _BLOCKS:
+            self._add("\n")
+
+    def handle_data(self, data: str) -> None:
+        kinds = [kind for _, kind in self.open if kind]
+        if kinds and kinds[-1] in ("silent", "inline"):
+            return
+        self._add(data)
+
+    def _add(self, text: str) -> None:
+        line, column = self.getpos()
+        self.origins.append((self.length, line, column + 1))
+        self.pieces.append(text)
+        self.length += len(text)
