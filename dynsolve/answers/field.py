@@ -27,6 +27,7 @@ from dynsolve.algebra.lattice import Vector, integer_coordinates, lattice_basis,
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.survey import Survey, rational_value
+from dynsolve.answers.submission import referred
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Degrees, Function, Node, Number, Symbol
@@ -129,7 +130,7 @@ class _Collector:
             here = waiting.pop()
             match here:
                 case Symbol(name, dots):
-                    if not self.known.has_symbol(name, dots):
+                    if not self.known.has_symbol(name, dots) and referred(name) is None:
                         self.symbols.setdefault(dotted(name, dots))
                 case Degrees():
                     self.symbols.setdefault("pi")

@@ -1,0 +1,315 @@
+"""The verdicts, rule by rule."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.answers.judge import NOT_CHRISTOFFEL, NOT_FROM_OWN, check
+from dynsolve.answers.submission import Submission
+from tests.unit.answers.hands import Text, answer, codes, judge, judged, key, problem, verdicts
+
+RP, ELBOW = "in3140-rp", "planar-2r"
+
+D11 = "m1*lc1^2 + m2*(l1^2 + lc2^2 + 2*l1*lc2*cos(q2)) + I1 + I2"
+D12 = "m2*(lc2^2 + l1*lc2*cos(q2)) + I2"
+D22 = "m2*lc2^2 + I2"
+H = "(-m2*l1*lc2*sin(q2))"
+G1 = "(m1*lc1 + m2*l1)*g*cos(q1) + m2*lc2*g*cos(q1 + q2)"
+G2 = "m2*lc2*g*cos(q1 + q2)"
+TAU2 = f"({D12})*q1_ddot + ({D22})*q2_ddot - {H}*q1_dot^2 + {G2}"
+TAU1 = f"({D11})*q1_ddot + ({D12})*q2_ddot + {H}*(2*q1_dot*q2_dot + q2_dot^2) + {G1}"
+P = "m1*g*lc1*sin(q1) + m2*g*(l1*sin(q1) + lc2*sin(q1 + q2))"
+K = f"({D11})*q1_dot^2/2 + ({D12})*q1_dot*q2_dot + ({D22})*q2_dot^2/2"
+
+
+def column(*entries: str) -> list[list[str]]:
+    return [[entry] for entry in entries]
+
+
+RIGHT: list[tuple[str, str, Text]] = [
+    (ELBOW, "D", [[D11, D12], [D12, D22]]),
+    (ELBOW, "d21", D12),
+    (ELBOW, "g", column(G1, G2)),
+    (ELBOW, "g", [[G1, G2]]),
+    (ELBOW, "g1", G1),
+    (ELBOW, "tau", column(TAU1, TAU2)),
+    (ELBOW, "tau2", TAU2),
+    (ELBOW, "K", K),
+    (ELBOW, "P", P),
+    (ELBOW, "g2", "m2*lc2*g*(cos(q1)*cos(q2) - sin(q1)*sin(q2))"),
+    (ELBOW, "g2", "m2*lc2*g*(2*cos(q1/2 + q2/2)^2 - 1)"),
+    (ELBOW, "g2", "m2*lc2*g*(1 - tan((q1+q2)/2)^2)/(1 + tan((q1+q2)/2)^2)"),
+    (ELBOW, "g2", "m2*lc2*g*sin(q1 + q2 + 90deg)"),
+    (ELBOW, "g2", "m2*lc2*g*sin(q1 + q2)/tan(q1 + q2)"),
+    (ELBOW, "g2", "(m2^2 - 4*I1^2)*lc2*g*cos(q1 + q2)/(m2 - 2*I1) - 2*I1*lc2*g*cos(q1+q2)"),
+    (ELBOW, "d12", "m2*lc2^2 + 0.5*l1*lc2*m2*(cos(q2) + cos(-q2)) + I2"),
+    (ELBOW, "C", [[f"{H}*q2_dot", f"{H}*(q1_dot + q2_dot)"], [f"-{H}*q1_dot", "0"]]),
+    (ELBOW, "C12", f"{H}*(q1_dot + q2_dot)"),
+    (ELBOW, "c121", H),
+    (ELBOW, "c211", H),
+    (ELBOW, "c112", f"-{H}"),
+    (ELBOW, "Cqd", column(f"{H}*(2*q1_dot*q2_dot + q2_dot^2)", f"-{H}*q1_dot^2")),
+    (RP, "v1", "0"),
+    (RP, "rc2", column("cos(theta1)*L2", "sin(theta1)*L2", "L1")),
+    (RP, "rc2", column("cos(theta1)*L2", "sin(theta1)*L2", "L1", "1")),
+    (RP, "f2", "m2*L2_ddot - m2*L2*theta1_dot^2*(sin(theta1)^2 + cos(theta1)^2)"),
+    (RP, "J", [["-sin(theta1)*L2", "cos(theta1)"], ["cos(theta1)*L2", "sin(theta1)"], ["0", "0"],
+               ["0", "0"], ["0", "0"], ["1", "0"]]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("stem", "name", "text"), RIGHT, ids=lambda x: str(x)[:40])
+def test_what_is_right_is_correct_in_any_dress(stem: str, name: str, text: Text) -> None:
+    answer = judged(stem, name, text)
+    assert (answer.verdict, answer.fault) == ("correct", "")
+
+
+@pytest.mark.parametrize(
+    ("stem", "name", "text"),
+    [
+        (ELBOW, "g2", "m2*lc2*g*cos(q1*q2)"),
+        (ELBOW, "g2", "m2*lc2*g*cos(q1_dot)"),
+        (ELBOW, "g2", "m2*lc2*g*cos(q1 + q2) + 1e-9"),
+        (ELBOW, "g2", "m2*lc2*g*cos(90)"),
+        (ELBOW, "g2", "m3*lc2*g*cos(q1 + q2)"),
+        (ELBOW, "g2", "m2*lc2*g*cos(q1 + q2)/l1"),
+        (ELBOW, "g2", "m2*lc2*g*sqrt(cos(q1 + q2)^2)"),
+        (ELBOW, "c121", f"2*{H}"),
+    ],
+)
+def test_what_is_not_is_wrong_and_never_unreadable(stem: str, name: str, text: str) -> None:
+    assert judged(stem, name, text).verdict == "wrong"
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("m1/(sin(q1)^2 + cos(q1)^2 - 1)", "denominator is zero"),
+        ("m1*tan(90deg)", "denominator is zero"),
+        ("sqrt(-2)*m1", "root of a negative number"),
+        ("cos(20*q1)^8*cos(20*q2)^8", "large"),
+        ("cos(q1/20)", "finely"),
+        ("+".join(f"x{i}" for i in range(80)), "too many names"),
+    ],
+)
+def test_what_cannot_be_worked_out_is_unreadable(text: str, says: str) -> None:
+    answer = judged(ELBOW, "P", text)
+    assert answer.verdict == "unreadable"
+    assert says in answer.fault
+
+
+def test_one_answer_over_a_bound_leaves_the_others_alone() -> None:
+    report = judge(ELBOW, {"P1": "cos(q1/20)", "g1": G1, "P2": "m1/(q1 - q1)", "g2": G2})
+    assert verdicts(report) | {"D": "", "C": "", "tau": "", "g": ""} == {
+        "P1": "unreadable", "P2": "unreadable", "g1": "correct", "g2": "correct",
+        "D": "", "C": "", "tau": "", "g": "",
+    }  # fmt: skip
+
+
+# -- what is free ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("height", ["h0", "L1", "-L1/2", "(L1 + 3*h0)"])
+def test_the_zero_level_is_free(height: str) -> None:
+    P1, P2 = f"m1*g*(L1/2 + {height})", f"m2*g*(L1 + {height})"
+    report = judge(RP, {"P1": P1, "P2": P2, "P": f"{P1} + {P2}"})
+    assert [verdicts(report)[name] for name in ("P1", "P2", "P")] == ["correct"] * 3
+
+
+@pytest.mark.parametrize("height", ["m1", "g", "L2", "cos(theta1)", "2", "L1^2"])
+def test_a_zero_level_is_a_length_and_nothing_else(height: str) -> None:
+    answer = judged(RP, "P", f"m1*g*(L1/2 + {height}) + m2*g*(L1 + {height})")
+    assert answer.verdict == "wrong"
+
+
+def test_each_body_has_the_same_zero_level() -> None:
+    report = judge(RP, {"P1": "0", "P2": "m2*g*L1", "P": "m2*g*L1"})
+    found = {a.name: a for a in report.answers}
+    assert (found["P1"].verdict, found["P2"].verdict) == ("wrong", "correct")
+    assert "constant_term" in codes(found["P1"])
+    assert (found["P"].verdict, found["P"].follows_from) == ("follows", ("P1",))
+
+
+def test_another_constant_is_wrong_and_the_forces_are_unaffected() -> None:
+    report = judge(RP, {"P": "m1*g*L1 + m2*g*L1", "tau": column(
+        "(I1zz + m2*L2^2)*theta1_ddot + 2*m2*L2*L2_dot*theta1_dot", "m2*L2_ddot - m2*L2*theta1_dot^2")})  # fmt: skip
+    found = {a.name: a for a in report.answers}
+    assert codes(found["P"])[0] == "constant_term"
+    assert (found["tau"].verdict, found["tau"].notes) == ("correct", ())
+
+
+def test_the_level_of_P_holds_for_L() -> None:
+    kinetic = "I1zz*theta1_dot^2/2 + m2*(L2^2*theta1_dot^2 + L2_dot^2)/2"
+    shifted = {"P": "-m1*g*L1/2", "L": f"{kinetic} + m1*g*L1/2"}
+    assert set(verdicts(judge(RP, shifted)).values()) - {"missing"} == {"correct"}
+    mixed = {"P": "-m1*g*L1/2", "L": f"{kinetic} - m1*g*L1/2 - m2*g*L1"}
+    assert verdicts(judge(RP, mixed))["L"] == "wrong"
+
+
+def test_any_C_with_the_same_product_is_correct() -> None:
+    other = [["0", f"{H}*(2*q1_dot + q2_dot)"], [f"-{H}*q1_dot", "0"]]
+    answer = judged(ELBOW, "C", other)
+    assert answer.verdict == "correct"
+    assert answer.notes == (NOT_CHRISTOFFEL,)
+    assert [e.index for e in answer.entries] == [(1,), (2,)]
+
+
+def test_C_is_judged_by_row() -> None:
+    answer = judged(ELBOW, "C", [["0", f"{H}*(2*q1_dot + q2_dot)"], [f"{H}*q1_dot", "0"]])
+    assert [str(e.verdict) for e in answer.entries] == ["correct", "wrong"]
+
+
+def test_a_C_with_accelerations_is_none() -> None:
+    answer = judged(ELBOW, "C", [["q2_ddot*q2_dot", f"{H}*(2*q1_dot + q2_dot) - q2_ddot*q1_dot"],
+                                 [f"-{H}*q1_dot", "0"]])  # fmt: skip
+    assert answer.verdict == "wrong"
+    assert codes(answer) == ["acceleration_in_C"]
+
+
+# -- follow-through --------------------------------------------------------------------------------
+
+WRONG_TAU = column(f"{TAU1} + m1*q2_ddot + m2*l1*q1_dot^3 + m1*g", f"2*({TAU2})")
+
+
+def test_D_C_and_g_follow_from_a_wrong_tau() -> None:
+    report = judge(ELBOW, {
+        "tau": WRONG_TAU,
+        "D": [[D11, f"{D12} + m1"], [f"2*({D12})", f"2*({D22})"]],
+        "C": [[f"{H}*q2_dot + m2*l1*q1_dot^2", f"{H}*(q1_dot + q2_dot)"], [f"-2*{H}*q1_dot", "0"]],
+        "g": column(f"{G1} + m1*g", f"2*{G2}"),
+    })  # fmt: skip
+    assert verdicts(report) == {"tau": "wrong", "D": "follows", "C": "follows", "g": "follows"}
+    assert report.first_wrong == "tau"
+    assert {a.name: a.follows_from for a in report.answers if a.follows_from} == {
+        "D": ("tau",), "C": ("tau",), "g": ("tau",),
+    }  # fmt: skip
+
+
+def test_nothing_follows_from_a_tau_that_is_not_linear() -> None:
+    report = judge(ELBOW, {
+        "tau": column(f"{TAU1} + m1*q2_ddot^2", TAU2), "D": [[D11, f"{D12} + 2*m1*q2_ddot"], [D12, D22]],
+    })  # fmt: skip
+    assert verdicts(report)["D"] == "wrong"
+
+
+def test_D_follows_from_K_and_C_from_D() -> None:
+    report = judge(ELBOW, {
+        "K": f"{K} + m1*l1^2*cos(q2)*q1_dot^2/2",
+        "D": [[f"{D11} + m1*l1^2*cos(q2)", D12], [D12, D22]],
+        "C": [[f"{H}*q2_dot - m1*l1^2*sin(q2)*q2_dot/2", f"{H}*(q1_dot + q2_dot) - m1*l1^2*sin(q2)*q1_dot/2"],
+              [f"-{H}*q1_dot + m1*l1^2*sin(q2)*q1_dot/2", "0"]],
+    })  # fmt: skip
+    found = {a.name: a for a in report.answers}
+    assert (found["D"].verdict, found["D"].follows_from) == ("follows", ("K",))
+    assert (found["C"].verdict, found["C"].follows_from) == ("follows", ("D",))
+
+
+def test_g_follows_from_P() -> None:
+    wrong = "m1*g*l1*sin(q1) + m2*g*(l1*sin(q1) + lc2*sin(q1 + q2))"
+    report = judge(ELBOW, {"P": wrong, "g": column(G1.replace("lc1", "l1"), G2)})
+    found = {a.name: a for a in report.answers}
+    assert (found["g"].verdict, found["g"].follows_from) == ("follows", ("P",))
+
+
+def test_a_slip_is_followed_through_answers_that_were_not_handed_in() -> None:
+    """From r_c1 at the end of the link to g, with neither P nor tau in between."""
+    report = judge(ELBOW, {"rc1": column("l1*cos(q1)", "l1*sin(q1)", "0"),
+                           "g": column(G1.replace("lc1", "l1"), G2)})  # fmt: skip
+    found = {a.name: a for a in report.answers}
+    assert (found["g"].verdict, found["g"].follows_from) == ("follows", ("rc1",))
+
+
+def test_what_is_correct_against_the_students_own_slip_is_noted() -> None:
+    report = judge(ELBOW, {"P": "m1*g*l1*sin(q1) + m2*g*(l1*sin(q1) + lc2*sin(q1 + q2))",
+                           "g": column(G1, G2)})  # fmt: skip
+    found = {a.name: a for a in report.answers}
+    assert (found["g"].verdict, found["g"].notes) == ("correct", (NOT_FROM_OWN,))
+
+
+def test_a_slip_that_changes_nothing_is_not_noted() -> None:
+    report = judge(RP, {"P": "m2*g*L1", "g": column("0", "0")})
+    assert next(a for a in report.answers if a.name == "g").notes == ()
+
+
+# -- parts and wholes ------------------------------------------------------------------------------
+
+
+def test_a_whole_is_judged_by_its_parts() -> None:
+    report = judge(ELBOW, {"d11": D11, "d12": D12, "d21": D12, "d22": f"2*({D22})",
+                           "tau1": TAU1, "tau2": TAU2, "g1": G1})  # fmt: skip
+    found = verdicts(report)
+    assert (found["D"], found["tau"], found["g"], found["C"]) == ("wrong", "correct", "missing", "missing")
+
+
+def test_one_half_of_a_symmetric_matrix_is_enough() -> None:
+    assert verdicts(judge(ELBOW, {"d11": D11, "d12": D12, "d22": D22}))["D"] == "correct"
+
+
+def test_C_follows_from_a_D_given_by_its_entries() -> None:
+    report = judge(ELBOW, {
+        "d11": f"{D11} + m1*l1^2*cos(q2)", "d12": D12, "d22": D22,
+        "C": [[f"{H}*q2_dot - m1*l1^2*sin(q2)*q2_dot/2", f"{H}*(q1_dot + q2_dot) - m1*l1^2*sin(q2)*q1_dot/2"],
+              [f"-{H}*q1_dot + m1*l1^2*sin(q2)*q1_dot/2", "0"]],
+    })  # fmt: skip
+    found = {a.name: a for a in report.answers}
+    assert (found["C"].verdict, found["C"].follows_from) == ("follows", ("d11",))
+
+
+def test_a_matrix_of_the_wrong_size_is_wrong() -> None:
+    assert codes(judged(ELBOW, "D", [[D11, D12]])) == ["shape"]
+
+
+# -- given more than once --------------------------------------------------------------------------
+
+
+def _several(*answers: object) -> Submission:
+    return Submission("", "", "", tuple(answers))  # type: ignore[arg-type]
+
+
+def test_of_several_the_last_counts_and_each_is_judged() -> None:
+    hand = _several(answer("g2", "0", 0), answer("g2", G2, 1))
+    found = next(a for a in check(problem(ELBOW), hand, key(ELBOW)).answers if a.name == "g2")
+    assert found.verdict == "correct"
+    assert [str(o.verdict) for o in found.occurrences] == ["wrong", "correct"]
+
+
+def test_in_a_chain_the_slip_is_where_it_first_differs() -> None:
+    hand = _several(
+        answer("g2", G2, 4, 1), answer("g2", "m2*lc2*g*cos(q1)", 4, 2), answer("g2", "m2*g*lc2*cos(q1)", 4, 3)
+    )
+    found = next(a for a in check(problem(ELBOW), hand, key(ELBOW)).answers if a.name == "g2")
+    assert found.verdict == "wrong"
+    assert any(G2 in note for note in found.notes)
+
+
+# -- numbers ---------------------------------------------------------------------------------------
+
+ROD = """
+dh: [{theta: q1*, a: l1}]
+gravity: [0, -g, 0]
+masses: [{mass: m1, link: 1, center: midpoint, shape: {rod: {length: l1}}}]
+values: {g: 9.81, m1: 2}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "verdict", "notes"),
+    [
+        ("m1*l1^2/3", "correct", ()),
+        ("0.333*m1*l1^2", "correct", ("rounded",)),
+        ("0.33*m1*l1^2", "correct", ("rounded",)),
+        ("0.34*m1*l1^2", "wrong", ()),
+        ("2*l1^2/3", "correct", ()),
+        ("0.667*l1^2", "correct", ("rounded",)),
+        ("0.66*l1^2", "wrong", ()),
+        ("2*m1*l1^2/3", "wrong", ()),
+    ],
+)
+def test_decimals_round_and_symbols_have_values(text: str, verdict: str, notes: tuple[str, ...]) -> None:
+    answer = judged(ROD, "d11", text)
+    assert (str(answer.verdict), answer.notes) == (verdict, notes)
+
+
+def test_a_number_for_g() -> None:
+    assert judged(ROD, "g1", "9.81*m1*l1*cos(q1)/2").verdict == "correct"
+    assert judged(ROD, "g1", "9.82*m1*l1*cos(q1)/2").verdict == "wrong"
