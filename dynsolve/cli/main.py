@@ -12,7 +12,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from dynsolve.cli import check, lint, new, problems, schema, solve
+from dynsolve.cli import check, draw, lint, new, problems, schema, solve
 from dynsolve.errors import DynsolveError, ExitCode, InputError
 
 TRACEBACK = "--traceback"
@@ -83,7 +83,15 @@ def app() -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     program.callback()(_globals)
-    for command in (solve.solve, check.check, lint.lint, new.new, schema.schema, problems.problems):
+    for command in (
+        solve.solve,
+        draw.draw,
+        check.check,
+        lint.lint,
+        new.new,
+        schema.schema,
+        problems.problems,
+    ):
         program.command()(command)
     return program
 

@@ -12,14 +12,15 @@ from dataclasses import dataclass, field
 from dynsolve.draw import ink
 from dynsolve.draw.ink import Path
 from dynsolve.draw.labels import Wanted
-from dynsolve.draw.parts import RADIUS, Part
+from dynsolve.draw.parts import RADIUS, TUBE, Part
 from dynsolve.draw.pose import AXIS, Pose
 from dynsolve.draw.space import Taken
 from dynsolve.draw.typography import typeset
-from dynsolve.draw.vectors import Point, Vector, along, cross, dot, length, scale, subtract, unit
+from dynsolve.draw.vectors import Point, Vector, along, cross, distance, dot, length, scale, subtract, unit
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Row, Symbol, Words
 from dynsolve.robot.model import JointType
+import itertools
 
 _END_ON = 0.06
 """The foreshortening below which an axis is drawn as a point or a cross in a circle."""
@@ -43,9 +44,7 @@ class Notes:
         self.paths += paths
         self.taken.add(paths)
 
-    def label(
-        self, node: Node, anchors: Sequence[Point], toward: Point, colour: str, kind: str
-    ) -> None:
+    def label(self, node: Node, anchors: Sequence[Point], toward: Point, colour: str, kind: str) -> None:
         """Ask for a label."""
         self.wanted.append(Wanted(node, typeset(node, self.style), tuple(anchors), toward, colour, kind))
 
@@ -62,15 +61,16 @@ def frames(pose: Pose, notes: Notes) -> None:
         for letter, axis in (("x", frame.x), ("z", frame.z)):
             name = Symbol(f"{letter}{i}")
             tip = _axis(origin, axis, pose, notes)
-            known = next((g for g in groups if math.dist(g[1], tip) < _SAME and math.dist(g[0], origin) < _SAME), None)
+            known = next(
+                (g for g in groups if math.dist(g[1], tip) < _SAME and math.dist(g[0], origin) < _SAME), None
+            )
             if known:
                 known[2].append(name)
             else:
                 groups.append((origin, tip, [name]))
     for origin, tip, names in groups:
         toward = (tip[0] - origin[0], tip[1] - origin[1])
-        anchors = [tip] if toward != (0.0, 0.0) else [origin]
-        notes.label(_listed(names), anchors, toward or (1.0, 1.0), ink.FRAME, "axis")
+        notes.label(_listed(names), [tip], toward, ink.FRAME, "axis")
 
 
 def _listed(names: Sequence[Node]) -> Node:
@@ -222,8 +222,25 @@ def masses(pose: Pose, notes: Notes) -> None:
     """Mass centres: the quartered disk of mechanics, a ball for a point mass."""
     for mass in pose.skeleton.masses:
         center = pose.view.point(mass.center)
+        if not _is_on_link(mass.center, pose):
+            origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
+            notes.draw(Path(ink.line(origin, center), ink.BLACK, 0.9, dashed=True))
         notes.draw(*(_ball(center) if mass.is_point else _quartered(center)))
         notes.label(Symbol(f"rc{mass.name}"), [center], (0.0, 0.0), ink.BLACK, "mass")
+
+
+def _is_on_link(center: Vector, pose: Pose) -> bool:
+    """Whether a mass centre lies on the chain of links."""
+    near = pose.view.space(TUBE)
+    ways = [pose.skeleton.path, *pose.parts.links]
+    return any(_gap(center, a, b) < near for way in ways for a, b in itertools.pairwise(way))
+
+
+def _gap(point: Vector, a: Vector, b: Vector) -> float:
+    """How far a point is from a straight way."""
+    way = subtract(b, a)
+    part = min(1.0, max(0.0, dot(subtract(point, a), way) / dot(way, way)))
+    return distance(point, along(a, way, part))
 
 
 def _ball(center: Point) -> tuple[Path, ...]:
@@ -234,7 +251,11 @@ def _quartered(center: Point) -> tuple[Path, ...]:
     r = 6.0
     quarters = tuple(
         Path(
-            (("M", (center,)), *ink.arc(center, (r, 0.0), (0.0, r), start, start + math.pi / 2, move=False), ("Z", ())),
+            (
+                ("M", (center,)),
+                *ink.arc(center, (r, 0.0), (0.0, r), start, start + math.pi / 2, move=False),
+                ("Z", ()),
+            ),
             None,
             fill=ink.BLACK,
         )
@@ -260,8 +281,3 @@ def gravity(place: Point, direction: Point | None, notes: Notes) -> None:
         Path(ink.head(tip, (x, y), 11.0), None, fill=ink.BLACK),
     )
     notes.label(node, [_moved(place, (x, y), 22.0)], (1.0, 0.0), ink.BLACK, "gravity")
-
-
-def along_axis(start: Vector, direction: Vector, amount: float) -> Vector:
-    """start + amount·direction"""
-    return along(start, direction, amount)

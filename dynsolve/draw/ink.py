@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.draw.vectors import Point
+import itertools
 
 Command = tuple[str, tuple[Point, ...]]
 """A letter and its points: M and L with one, C (a Bézier curve) with three, Z with none."""
@@ -97,9 +98,7 @@ def head(tip: Point, direction: Point, size: float = 9.0) -> Commands:
     x, y = direction[0] / reach, direction[1] / reach
     back = (tip[0] - x * size, tip[1] - y * size)
     half = size * 0.34
-    return polygon(
-        [tip, (back[0] - y * half, back[1] + x * half), (back[0] + y * half, back[1] - x * half)]
-    )
+    return polygon([tip, (back[0] - y * half, back[1] + x * half), (back[0] + y * half, back[1] - x * half)])
 
 
 def flattened(commands: Commands) -> Iterator[tuple[Point, Point]]:
@@ -116,7 +115,7 @@ def flattened(commands: Commands) -> Iterator[tuple[Point, Point]]:
             here = points[0]
         else:
             curve = [_bezier(here, points, k / 6) for k in range(7)]
-            yield from zip(curve, curve[1:], strict=False)
+            yield from itertools.pairwise(curve)
             here = points[2]
 
 

@@ -21,7 +21,8 @@ _DISTANCES = (4.0, 8.0, 13.0, 19.0, 27.0, 36.0, 46.0, 60.0, 76.0, 95.0)
 _FAR = 22.0
 """The distance from which a thin line leads from a label to what it names."""
 
-_MARGIN = 2.0
+_BESIDE, _ABOVE = 7.0, 2.0
+"""The least room between two labels."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +78,7 @@ def place(wanted: Sequence[Wanted], taken: Taken) -> tuple[Label, ...]:
 def _best(places: Sequence[_Place], others: Sequence[Box]) -> _Place:
     """The cheapest place that is free of other labels; places come cheapest first."""
     for option in places:
-        if not any(option.box.overlaps(other, _MARGIN) for other in others):
+        if not any(option.box.overlaps(other, _BESIDE, _ABOVE) for other in others):
             return option
     return places[-1]
 

@@ -67,9 +67,7 @@ def _is_clear(place: Vector, joints: Sequence[Part], view: View) -> bool:
     return all(distance(place, part.center) * view.size >= _CLEAR * 0.98 for part in joints)
 
 
-def _places(
-    pose: Skeleton, row: int, leg: Leg, view: View, up: Vector, first: bool
-) -> list[Vector]:
+def _places(pose: Skeleton, row: int, leg: Leg, view: View, up: Vector, first: bool) -> list[Vector]:
     """Where a joint's part may stand, best first."""
     span = dot(subtract(leg.head, leg.foot), leg.axis)
     gap = view.space(_CLEAR)
@@ -116,6 +114,10 @@ def _ground(pose: Skeleton, joints: Sequence[Part], view: View, up: Vector) -> t
     span = dot(subtract(leg.head, leg.foot), leg.axis)
     normal = scale(leg.axis, 1.0 if span > NEAR or (abs(span) <= NEAR and dot(leg.axis, up) > 0) else -1.0)
     low = min(dot(subtract(first.center, start), normal) - view.space(HALF_HEIGHT + 8.0), 0.0)
+    if low < 0.0:
+        low = min(
+            low, *(dot(subtract(point, start), normal) - view.space(_PEDESTAL) for point in pose.path[1:])
+        )
     return along(start, normal, low), normal
 
 
@@ -128,16 +130,11 @@ def _links(pose: Skeleton, joints: Sequence[Part], ground: Vector) -> tuple[tupl
         way.append(leg.foot)
         if row in centers:
             way.append(centers[row])
-            links.append(straightened(way if links else _grounded(way)))
+            links.append(straightened(way))
             way = [centers[row]]
         way += [leg.head, leg.end]
     links.append(straightened(way))
     return tuple(links)
-
-
-def _grounded(way: list[Vector]) -> list[Vector]:
-    """The first link: straight up from the ground where the part stands over it."""
-    return way
 
 
 def straightened(way: Sequence[Vector]) -> tuple[Vector, ...]:

@@ -11,14 +11,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import combinations, pairwise
 from random import Random
 
 from dynsolve.draw.numbers import Numbers
 from dynsolve.draw.parts import Parts, arrange
 from dynsolve.draw.setting import Setting
 from dynsolve.draw.skeleton import NEAR, Skeleton, skeleton, with_masses
-from dynsolve.draw.vectors import Point, Vector, along, distance, dot, subtract
+from dynsolve.draw.vectors import Point, along, distance, dot, subtract
 from dynsolve.draw.view import View, facing, oblique
 from dynsolve.robot.model import JointType, Robot
 
@@ -143,15 +143,16 @@ def _crowding(points: Sequence[Point], wanted: float) -> float:
 def _tips(pose: Pose) -> list[tuple[Point, Point]]:
     """(origin, tip) of the axes of frames on paper."""
     view, size = pose.view, pose.view.space(AXIS)
-    found = []
-    for frame in pose.skeleton.frames:
-        for axis in (frame.x,) if view.flat and abs(dot(frame.z, view.toward)) > 0.9 else (frame.x, frame.z):
-            found.append((view.point(frame.origin), view.point(along(frame.origin, axis, size))))
-    return found
+    return [
+        (view.point(frame.origin), view.point(along(frame.origin, axis, size)))
+        for frame in pose.skeleton.frames
+        for axis in (frame.x, frame.z)
+        if not (view.flat and abs(dot(axis, view.toward)) > 0.9)
+    ]
 
 
 def _tips_on_links(path: Sequence[Point], tips: Sequence[tuple[Point, Point]]) -> float:
-    segments = list(zip(path, path[1:], strict=False))
+    segments = list(pairwise(path))
     return sum(_shortfall(point_to_segment(tip, *segment), 13.0) for _, tip in tips for segment in segments)
 
 
@@ -159,7 +160,7 @@ def _crossings(pose: Pose, wanted: float) -> float:
     """How near links come to each other that do not meet."""
     view = pose.view
     path = [view.point(point) for point in pose.skeleton.path]
-    segments = list(zip(path, path[1:], strict=False))
+    segments = list(pairwise(path))
     total = 0.0
     for (i, first), (j, second) in combinations(enumerate(segments), 2):
         if j == i + 1:

@@ -11,12 +11,12 @@ from dynsolve.draw.labels import Label, place
 from dynsolve.draw.numbers import Numbers, numbers
 from dynsolve.draw.pose import Pose, best_pose
 from dynsolve.draw.setting import Setting, setting
-from dynsolve.draw.skeleton import NEAR, Mass, free_symbols, near_and_far
+from dynsolve.draw.skeleton import NEAR, free_symbols
 from dynsolve.draw.solids import solids
 from dynsolve.draw.space import Box, Taken
-from dynsolve.draw.vectors import Point, Vector, distance, dot, subtract
+from dynsolve.draw.vectors import Point, distance, dot
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Negative, Node, Number, Quotient, Symbol
+from dynsolve.notation.tree import Negative, Node, Number, Symbol
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType, Robot
 
@@ -87,15 +87,11 @@ def unsigned(node: Node) -> Node:
 def _center_lengths(robot: Robot, values: Numbers, pose: Pose, notes: annotate.Notes) -> None:
     """The distances of mass centres that are given by one symbol."""
     for body, mass in zip(robot.bodies, pose.skeleton.masses, strict=True):
-        if mass.from_ is None or _is_end(robot, pose, mass):
+        if mass.from_ is None:
             continue
         symbols = free_symbols(robot, body)
         if len(symbols) == 1:
             annotate.dimension(mass.from_, mass.center, Symbol(symbols[0]), pose, notes)
-
-
-def _is_end(robot: Robot, pose: Pose, mass: Mass) -> bool:
-    return False
 
 
 def _gravity(world: Setting, pose: Pose, body: Iterable[Path], notes: annotate.Notes) -> None:

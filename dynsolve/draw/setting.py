@@ -15,7 +15,11 @@ _PROBES = (0.3, 1.1, -0.7)
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """`gravity` is a unit vector, None without gravity; `normal` that of the plane of motion, if there is one."""
+    """Which way is up, and what the robot moves in.
+
+    `gravity` is a unit vector, None without gravity; `ahead` a level direction of the
+    base; `normal` that of the plane of motion, where there is one.
+    """
 
     up: Vector
     ahead: Vector

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 
 from dynsolve.draw.numbers import Numbers, evaluate
 from dynsolve.draw.vectors import (
-    IDENTITY,
     ORIGIN,
     Rotation,
     Vector,
@@ -25,7 +24,6 @@ from dynsolve.draw.vectors import (
     distance,
     into,
     length,
-    scale,
     subtract,
     turned,
 )
@@ -120,9 +118,7 @@ def base_frame(robot: Robot, numbers: Numbers) -> Frame:
     return Frame(ORIGIN, (x, y, z))
 
 
-def _leg(
-    robot: Robot, numbers: Numbers, joint: Joint, q: Sequence[float], frame: Frame
-) -> tuple[Leg, Frame]:
+def _leg(robot: Robot, numbers: Numbers, joint: Joint, q: Sequence[float], frame: Frame) -> tuple[Leg, Frame]:
     row = numbers.rows[joint.index - 1]
     moved = sum(float(rate) * q[k] for k, rate in joint.rates)
     theta = row.theta + (moved if joint.variable == "theta" else 0.0)
@@ -143,14 +139,24 @@ def _leg(
 
 # -- mass centres ----------------------------------------------------------------------------------
 
+_SHARES = (1.0, 0.7, 1.3)
+"""What part of the way to the middle of a link a free symbol stands for, best first."""
+
+_APART = 0.12
 _OFF_AXIS = 0.2
 """How far a mass centre lies off its frame where the table gives its link no length."""
 
 
 def with_masses(robot: Robot, numbers: Numbers, bare: Skeleton) -> Skeleton:
     """The skeleton with its mass centres."""
-    masses = tuple(_mass(robot, numbers, bare, body) for body in robot.bodies)
-    return Skeleton(bare.frames, bare.legs, masses)
+    masses: list[Mass] = []
+    for body in robot.bodies:
+        tried = [_mass(robot, numbers, bare, body, share) for share in _SHARES]
+        apart = (
+            mass for mass in tried if all(distance(mass.center, other.center) > _APART for other in masses)
+        )
+        masses.append(next(apart, tried[0]))
+    return Skeleton(bare.frames, bare.legs, tuple(masses))
 
 
 def near_and_far(robot: Robot, bare: Skeleton, link: int) -> tuple[Vector, Vector]:
@@ -161,22 +167,22 @@ def near_and_far(robot: Robot, bare: Skeleton, link: int) -> tuple[Vector, Vecto
     return bare.frames[link].origin, bare.frames[min(link + 1, last)].origin
 
 
-def _mass(robot: Robot, numbers: Numbers, bare: Skeleton, body: Body) -> Mass:
+def _mass(robot: Robot, numbers: Numbers, bare: Skeleton, body: Body, share: float) -> Mass:
     frame = bare.frames[body.link]
     near, far = near_and_far(robot, bare, body.link)
     written = body.center_written
     exact = {"tip": far, "origin": frame.origin, "midpoint": between(near, far, 0.5)}
     if written in exact:
         return Mass(body.name, exact[written], body.is_point, body.link)
-    center, from_ = _local_center(robot, numbers, body, into(frame.axes, subtract(near, frame.origin)),
-                                  into(frame.axes, subtract(far, frame.origin)))
+    ends = (into(frame.axes, subtract(end, frame.origin)) for end in (near, far))
+    center, from_ = _local_center(robot, numbers, body, share, *ends)
     place = add(frame.origin, applied(frame.axes, center))
     start = None if from_ is None else add(frame.origin, applied(frame.axes, from_))
     return Mass(body.name, place, body.is_point, body.link, start)
 
 
 def _local_center(
-    robot: Robot, numbers: Numbers, body: Body, near: Vector, far: Vector
+    robot: Robot, numbers: Numbers, body: Body, share: float, near: Vector, far: Vector
 ) -> tuple[Vector, Vector | None]:
     """The centre in its frame, and where its only free symbol is measured from."""
     free = free_symbols(robot, body)
@@ -192,7 +198,7 @@ def _local_center(
         for name in free:
             values[name] = 1.0
             step = subtract(center(), start)
-            values[name] = _best(step, subtract(middle, start), distance(near, far), len(free))
+            values[name] = share * _best(step, subtract(middle, start), distance(near, far), len(free))
         found = center()
     except (ValueError, ZeroDivisionError, OverflowError):
         return between(near, far, 0.5), None
@@ -209,7 +215,7 @@ def _best(direction: Vector, wanted: Vector, size: float, symbols: int) -> float
         return amount
     if symbols > 1:
         return (_OFF_AXIS if size < NEAR else _OFF_AXIS / 2) / length(direction)
-    return (0.5 if size < NEAR else _OFF_AXIS) / length(direction)
+    return (0.3 if size < NEAR else _OFF_AXIS) / length(direction)
 
 
 def free_symbols(robot: Robot, body: Body) -> list[str]:

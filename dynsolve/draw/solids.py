@@ -136,9 +136,9 @@ def _face(
 
 def _link_pieces(parts: Parts, view: View) -> Iterator[Solid]:
     sink = 0.5 if view.flat else 0.0
-    for way in parts.links:
+    for number, way in enumerate(parts.links):
         for k, point in enumerate(way):
-            if not _inside(point, parts, view):
+            if (number or k) and not _inside(point, parts, view):
                 elbow = Path(ink.circle(view.point(point), TUBE), fill=ink.LINK)
                 yield Solid(view.depth(point) - 1e-3 - sink, (elbow,))
             if k:
@@ -199,7 +199,9 @@ def ground(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
     ]
     plate = Path(ink.polygon([view.point(corner) for corner in corners]), fill="#f4f1ea")
     middle = [between(corners[k], corners[(k + 1) % 4], 0.5) for k in range(4)]
-    front = sorted(range(4), key=lambda k: round(view.depth(middle[k]) * view.size + view.point(middle[k])[1], 4))
+    front = sorted(
+        range(4), key=lambda k: round(view.depth(middle[k]) * view.size + view.point(middle[k])[1], 4)
+    )
     hatches = []
     for k in front[2:]:
         a, b = corners[k], corners[(k + 1) % 4]
@@ -228,6 +230,4 @@ def _hatches(a: Point, b: Point, down: Point) -> list[Path]:
     slant = (down[0] / drop * 8.0 - x * 6.0, down[1] / drop * 8.0 - y * 6.0)
     count = max(2, round(reach / 7.5))
     starts = [(a[0] + x * reach * k / count, a[1] + y * reach * k / count) for k in range(1, count + 1)]
-    return [
-        Path(ink.line(start, (start[0] + slant[0], start[1] + slant[1])), width=0.8) for start in starts
-    ]
+    return [Path(ink.line(start, (start[0] + slant[0], start[1] + slant[1])), width=0.8) for start in starts]

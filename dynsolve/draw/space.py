@@ -33,13 +33,13 @@ class Box:
         """Its middle."""
         return (self.left + self.right) / 2, (self.top + self.bottom) / 2
 
-    def overlaps(self, other: Box, margin: float = 0.0) -> bool:
-        """Whether two boxes have anything in common."""
+    def overlaps(self, other: Box, beside: float = 0.0, above: float = 0.0) -> bool:
+        """Whether two boxes come nearer to each other than this, beside or above one another."""
         return (
-            self.left < other.right + margin
-            and other.left < self.right + margin
-            and self.top < other.bottom + margin
-            and other.top < self.bottom + margin
+            self.left < other.right + beside
+            and other.left < self.right + beside
+            and self.top < other.bottom + above
+            and other.top < self.bottom + above
         )
 
     def nearest(self, point: Point) -> Point:
@@ -75,7 +75,9 @@ class Taken:
         for row in range(math.floor(min(heights) / CELL), math.floor(max(heights) / CELL) + 1):
             y = (row + 0.5) * CELL
             crossings = sorted(
-                a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]) for a, b in pieces if (a[1] > y) != (b[1] > y)
+                a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+                for a, b in pieces
+                if (a[1] > y) != (b[1] > y)
             )
             for left, right in zip(crossings[::2], crossings[1::2], strict=False):
                 for column in range(math.floor(left / CELL), math.floor(right / CELL) + 1):

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from html import escape
 
-from dynsolve.draw.ink import Commands, Path
+from dynsolve.draw.ink import WHITE, Commands, Path
 from dynsolve.draw.labels import Label
 from dynsolve.draw.scene import Scene
 from dynsolve.draw.typography import SIZE, Run
 from dynsolve.notation.unicode import printable
 
 FACES = (
-    "'Libertinus Serif', 'STIX Two Text', 'Cambria', 'Times New Roman', 'Liberation Serif', 'DejaVu Serif', serif"
+    "'Libertinus Serif', 'STIX Two Text', STIX, STIXGeneral, Cambria, 'Times New Roman',"
+    " 'Liberation Serif', 'DejaVu Serif', serif"
 )
 
 
@@ -25,7 +26,8 @@ def to_svg(scene: Scene) -> str:
         f' font-family="{FACES}" font-size="{number(SIZE)}">',
         f"<title>{text(scene.title)}</title>",
         f"<desc>{text(scene.description)}</desc>",
-        f'<rect x="{number(box.left)}" y="{number(box.top)}" width="{width}" height="{height}" fill="#ffffff"/>',
+        f'<rect x="{number(box.left)}" y="{number(box.top)}" width="{width}" height="{height}"'
+        f' fill="{WHITE}"/>',
         '<g stroke-linecap="round" stroke-linejoin="round">',
         *map(_path, scene.paths),
         "</g>",

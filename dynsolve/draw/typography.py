@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
+from dynsolve.notation.characters import GREEK
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import Rules, Style
-from dynsolve.notation.characters import GREEK
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
 
@@ -24,8 +25,9 @@ INDEX = 0.7
 _DROP, _RISE = 0.24, 0.36
 _DOWN, _UP, _BACK = "\ue000", "\ue001", "\ue002"
 _STAR = "∗"
+_PRINTED = {"-": "−", " ": "\u00a0"}
 
-_NARROW = "fijlrtι.,:;'| ()/°"
+_NARROW = "fijlrtι.,:;'|()/°\u00a0"
 _WIDE = "mwMWGHKNOQDUAωφψΦΨΩΘ"
 
 
@@ -51,7 +53,7 @@ class Line:
 class _MarkedPrinter(UnicodePrinter):
     """Unicode with marks where indices begin and end."""
 
-    rules: Rules = {**UnicodePrinter.rules}
+    rules: ClassVar[Rules] = UnicodePrinter.rules
 
     def _symbol(self, node: Symbol) -> str:
         base, groups = split(node.name)
@@ -89,7 +91,7 @@ def _runs(marked: str) -> Iterator[Run]:
         elif character == _BACK:
             size, shift = SIZE, 0.0
         else:
-            text += "−" if character == "-" else character
+            text += _PRINTED.get(character, character)
 
 
 def _width(run: Run) -> float:

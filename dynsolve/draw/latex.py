@@ -1,0 +1,85 @@
+r"""A scene as LaTeX that needs no package: paths as PDF operators, labels set by LaTeX itself.
+
+The paths go into the page as they are (`\pdfliteral` and what other engines call it),
+in a `picture` environment that gives them and the labels their places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dynsolve.draw.ink import Commands, Path
+from dynsolve.draw.labels import Label
+from dynsolve.draw.scene import Scene
+from dynsolve.draw.svg import number
+from dynsolve.notation.latex import to_latex
+
+WIDEST = 345.0
+"""The width of a page's text, in big points."""
+
+_UNIT = 0.6
+_OPERATORS = {"M": "m", "L": "l", "C": "c", "Z": "h"}
+_SIZES = ((0.57, r"\normalsize"), (0.5, r"\small"), (0.43, r"\footnotesize"), (0.0, r"\scriptsize"))
+
+_INK = r"""\ifx\dynsolveink\undefined
+\def\dynsolveink#1{\special{pdf:content #1}}
+\ifx\pdfextension\undefined\else\def\dynsolveink#1{\pdfextension literal{#1}}\fi
+\ifx\pdfliteral\undefined\else\ifnum\pdfoutput>0 \def\dynsolveink#1{\pdfliteral{#1}}\fi\fi
+\fi"""
+"""pdfTeX, LuaTeX, and engines with a separate driver."""
+
+
+def to_latex_picture(scene: Scene) -> str:
+    """The picture as a group of LaTeX."""
+    box = scene.frame
+    wide, high = box.right - box.left, box.bottom - box.top
+    unit = min(_UNIT, WIDEST / wide)
+    size = next(command for least, command in _SIZES if unit >= least)
+    lines = [
+        "{" + size,
+        _INK,
+        rf"\setlength{{\unitlength}}{{{unit:.3f}bp}}%",
+        rf"\begin{{picture}}({number(wide)},{number(high)})%",
+        rf"\put(0,0){{\dynsolveink{{q {unit:.3f} 0 0 {unit:.3f} 0 0 cm 1 j 1 J",
+        *(operators for path in scene.paths for operators in _path(path, box.left, box.bottom)),
+        "Q}}%",
+        *(_label(label, scene) for label in scene.labels),
+        r"\end{picture}}",
+    ]
+    return "\n".join(lines)
+
+
+def _path(path: Path, left: float, bottom: float) -> Iterator[str]:
+    """The operators of a path; y grows upwards on a page of PDF."""
+    state = []
+    if path.stroke:
+        state.append(f"{_colour(path.stroke)} RG {number(path.width)} w")
+    if path.fill:
+        state.append(f"{_colour(path.fill)} rg")
+    state.append("[4 3] 0 d" if path.dashed else "[] 0 d")
+    yield " ".join(state)
+    yield from _commands(path.commands, left, bottom)
+    yield {(True, True): "B", (True, False): "S", (False, True): "f"}.get(
+        (path.stroke is not None, path.fill is not None), "n"
+    )
+
+
+def _commands(commands: Commands, left: float, bottom: float) -> Iterator[str]:
+    for letter, points in commands:
+        places = " ".join(f"{number(x - left)} {number(bottom - y)}" for x, y in points)
+        yield f"{places} {_OPERATORS[letter]}".strip()
+
+
+def _colour(colour: str) -> str:
+    """`#ff0000` as 1 0 0."""
+    return " ".join(f"{int(colour[k : k + 2], 16) / 255:.3f}" for k in (1, 3, 5))
+
+
+def _label(label: Label, scene: Scene) -> str:
+    x, y = label.box.center
+    place = f"{number(x - scene.frame.left)},{number(scene.frame.bottom - y)}"
+    formula = to_latex(label.node, scene.style)
+    return (
+        rf"\put({place}){{\makebox(0,0){{\dynsolveink{{{_colour(label.colour)} rg}}"
+        rf"${formula}$\dynsolveink{{0 g}}}}}}%"
+    )
