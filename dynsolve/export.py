@@ -6,13 +6,14 @@ the symbols have values.  A matrix is a list of rows, a vector a list of entries
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.document import Prose
 from dynsolve.explain.step import Step
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
-from dynsolve.notation.tree import Matrix
+from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.unicode import UnicodePrinter
 
 if TYPE_CHECKING:
@@ -51,23 +52,34 @@ def to_json(solution: Solution) -> dict[str, Any]:
             "states": verification.states,
             "max_relative_error": verification.max_relative_error,
         },
+        **_numbers(solution),
     }
+
+
+def _numbers(solution: Solution) -> dict[str, Any]:
+    """The sections `values`, `at` and `units`, where numbers are asked for."""
+    if solution.numbers is None:
+        return {}
+    from dynsolve.numbers.export import sections
+
+    return sections(solution.numbers, lambda tree: _Exporter(solution, tree).results())
 
 
 class _Exporter:
     """Keeps one printer of each notation, so that what trees share is printed once."""
 
-    def __init__(self, solution: Solution) -> None:
+    def __init__(self, solution: Solution, forms: Callable[[str], Node] | None = None) -> None:
         self.solution = solution
+        self.forms = forms or solution.forms
         self.python = PythonPrinter()
         self.latex = LatexPrinter(solution.style)
         self.unicode = UnicodePrinter(solution.style)
 
     def scalar(self, name: str) -> str:
-        return self.python.text(self.solution.forms(name))
+        return self.python.text(self.forms(name))
 
     def matrix(self, name: str) -> list[list[str]]:
-        form = self.solution.forms(name)
+        form = self.forms(name)
         assert isinstance(form, Matrix)
         return [[self.python.text(entry) for entry in row] for row in form.rows]
 

@@ -14,6 +14,7 @@ from dynsolve.explain.step import Step
 from dynsolve.explain.style import style_of
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node
+from dynsolve.numbers.given import Given
 from dynsolve.pipeline import Agreement, Derivation, agreement, course_rules, derive, given_axes_agree
 from dynsolve.problem import Problem, read_problem
 from dynsolve.problem import load as load_file
@@ -24,6 +25,11 @@ from dynsolve.verify import Verification, verify
 if TYPE_CHECKING:
     import sympy
 
+    from dynsolve.document import Block
+    from dynsolve.explain.step import Detail
+    from dynsolve.numbers.beside import Numbers
+    from dynsolve.numbers.given import Assignment, Plain
+    from dynsolve.numbers.state import State
     from dynsolve.numeric import NumericFunction
 
 CHECKED = ("J", "D", "C", "g", "tau", "K", "P")
@@ -145,6 +151,8 @@ class Solution:
     verification: Verification
     agreement: Agreement | None = None
     warnings: tuple[Finding, ...] = field(default=())
+    given: Given = field(default_factory=Given)
+    numbers: Numbers | None = None
 
     @property
     def robot(self) -> Robot:
@@ -203,6 +211,67 @@ class Solution:
         if name not in self.values.rules or name == "christoffel":
             raise UsageError(f"{name} is no quantity of this robot")
         return NumericFunction.of(name, self.forms(name), self.problem)
+
+    # -- numbers -----------------------------------------------------------------------------------
+
+    def with_values(self, /, **values: Plain) -> Solution:
+        """The solution of the same robot with numbers for parameters, exact and verified again.
+
+        Values are numbers or texts (`"1/3"`, `"sqrt(2)/2"`, `"30deg"`); a float stands for
+        the decimal it is printed as.  The `values:` of the problem file count too, unless
+        given here.  Raises InputError for a name that the robot does not have, or an angle
+        without `deg`; UsageError where a formula has no meaning with them.
+
+        >>> solution = solve("planar-2r").with_values(m2=2, lc2=0.25, I2="1/10")
+        >>> solution.D[1, 1]
+        9/40
+        """
+        from dynsolve.numbered import with_values
+        from dynsolve.numbers.given import of_call, parameters
+
+        return with_values(self, parameters(self.problem, of_call(values)))
+
+    def at(self, /, **state: Plain) -> State:
+        """What holds at a state: every result with numbers for coordinates, velocities, accelerations.
+
+        Every coordinate must be given (an angle as `"30deg"` or `"0.5rad"`); velocities
+        (`theta1_dot`) and accelerations (`theta1_ddot`) that are not given are 0.
+        Results are exact.  Raises InputError for a coordinate that is missing or unknown.
+
+        >>> state = solve("planar-2r").at(q1="30deg", q2="90deg", q1_dot=2)
+        >>> state.symbolic("v1").T
+        Matrix([[-lc1, sqrt(3)*lc1, 0]])
+        >>> solve("planar-2r").with_values(l1=1, lc1=0.5).at(q1="17deg", q2=0).number("rc1")[0][0]
+        0.4781523779815178
+        """
+        from dynsolve.numbered import at_state
+        from dynsolve.numbers.given import of_call
+        from dynsolve.numbers.given import state as read_state
+
+        return at_state(self, read_state(self.problem, of_call(state)))
+
+    def beside(
+        self,
+        values: Iterable[Assignment] = (),
+        state: Iterable[Assignment] | None = None,
+        digits: int | None = None,
+    ) -> Solution:
+        """The same solution with numeric results beside the symbolic ones in its documents and JSON.
+
+        With `values`, or where the problem file has one for every parameter, come the
+        results with these values; with `state` every result at that state, too.  Results
+        are exact where no decimal goes in, else, or with `digits`, decimals.
+        """
+        from dynsolve.numbered import beside
+
+        return beside(self, values, state, digits)
+
+    def number_blocks(self, detail: Detail, stages: Iterable[str] | None = None) -> Iterator[Block]:
+        """What a document says in numbers: nothing unless `beside` gave them."""
+        if self.numbers is not None:
+            from dynsolve.numbers.documents import blocks
+
+            yield from blocks(self.numbers, detail, stages)
 
     # -- the results by name -----------------------------------------------------------------------
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from dynsolve.cli.common import Problems, Quiet, read, say
+from dynsolve.cli.numbers import AtOption, DigitsOption, SetOption, with_numbers
 from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer
 from dynsolve.cli.output import chosen as chosen_output
 from dynsolve.errors import ExitCode, ProblemError
@@ -63,6 +64,9 @@ def solve(
     star: Annotated[
         bool, typer.Option("--star", help="Mark joint variables with a star everywhere.")
     ] = False,
+    set_: SetOption = None,
+    at: AtOption = None,
+    digits: DigitsOption = None,
     quiet: Quiet = False,
 ) -> int:
     """Derive a robot's dynamics step by step, verified.
@@ -84,7 +88,7 @@ def solve(
     code = ExitCode.DONE
     for place, name in enumerate(problem):
         try:
-            solution = _solved(name, quiet)
+            solution = with_numbers(_solved(name, quiet), set_, at, digits)
         except ProblemError as error:
             if len(problem) == 1:
                 raise
@@ -93,6 +97,7 @@ def solve(
             continue
         if not quiet:
             say(solution.warnings, "warning")
+            say(solution.numbers.warnings if solution.numbers else (), "warning")
         if place_and_form == Output(Format.TEXT, None):
             _print_document(solution, detail, stages, star, place > 0)
         elif place_and_form == Output(Format.JSON, None):

@@ -24,7 +24,13 @@ def solution_document(
     solution: Solution, detail: Detail = Detail.NORMAL, stages: Iterable[str] | None = None
 ) -> Document:
     """A solution with the steps of some stages, in the depth of `detail`."""
-    return Document((*_opening(solution), *_stages(solution, detail, stages), *_closing(solution)))
+    stages = None if stages is None else tuple(stages)
+    return Document((
+        *_opening(solution),
+        *_stages(solution, detail, stages),
+        *solution.number_blocks(detail, stages),
+        *_closing(solution),
+    ))  # fmt: skip
 
 
 def _opening(solution: Solution) -> Iterator[Block]:

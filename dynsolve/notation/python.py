@@ -54,7 +54,7 @@ class PythonPrinter(Printer):
     def _number(self, node: Number) -> str:
         if node.q == 1:
             return str(node.p)
-        decimal = decimal_text(node.p, node.q) if self.style.decimal else None
+        decimal = decimal_text(node.p, node.q) if self.style.decimal or node.decimal else None
         return decimal or f"{node.p}/{node.q}"
 
     def _degrees(self, node: Degrees) -> str:

@@ -138,3 +138,8 @@ def _value(g: Generator) -> arb | None:
                 angle += arb(rational(radians))
             return angle.sin() if g.kind == "sin" else angle.cos()
     return None
+
+
+def has_constants(ring: Ring) -> bool:
+    """Whether roots of numbers, cosines of constant angles or π are generators of a ring."""
+    return bool(_constants(ring))

@@ -67,11 +67,11 @@ class State:
             return self._compactor.matrix(value)
         return self._compactor.form(value)
 
-    def shown(self, name: str) -> Node:
-        """A result as it is shown: exact where no decimal goes in, else to `digits` digits."""
+    def shown(self, name: str, digits: int = 0) -> Node:
+        """A result as it is shown: exact where no decimal goes in, else to so many digits."""
         if not self.shows_decimals:
             return self(name)
-        return rounded(self.plain(name), self.digits)
+        return rounded(self.plain(name), digits or self.digits)
 
     def plain(self, name: str) -> Node:
         """A result with roots, cosines of numbers and π in it as decimals of 40 digits."""

@@ -1,0 +1,71 @@
+"""Solutions in numbers: values put in and solved again, states, and both beside the symbolic results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from dynsolve.errors import AlgebraError, UsageError
+from dynsolve.explain.forms import is_numeric
+from dynsolve.numbers import quantities
+from dynsolve.numbers.beside import Numbers
+from dynsolve.numbers.given import Assignment, Given, missing, parameters
+from dynsolve.numbers.given import state as read_state
+from dynsolve.numbers.robot import put_in
+from dynsolve.numbers.rounding import DIGITS
+from dynsolve.numbers.state import State
+from dynsolve.numbers.valued import Valued
+from dynsolve.solution import Solution, solve
+
+
+def with_values(solution: Solution, given: Given) -> Solution:
+    """The solution of the robot with these values in it.
+
+    Raises UsageError where a formula has no meaning with them.
+    """
+    try:
+        robot = put_in(solution.robot, given.values)
+        valued = solve(replace(solution.problem, robot=robot))
+    except AlgebraError as error:
+        raise UsageError(f"with these values the robot has no solution: {error.message}") from error
+    entries = {**solution.given.entries, **given.entries}
+    return replace(valued, given=Given(entries, given.warnings))
+
+
+def at_state(solution: Solution, state: Given, digits: int | None = None) -> State:
+    """What holds at a state."""
+    decimal = solution.given.decimal or digits is not None
+    return State(solution.robot, solution.values, state, decimal, digits or DIGITS)
+
+
+def beside(
+    solution: Solution,
+    values: Iterable[Assignment] = (),
+    state: Iterable[Assignment] | None = None,
+    digits: int | None = None,
+) -> Solution:
+    """The solution with numeric results beside the symbolic ones; see `Solution.beside`."""
+    values = tuple(values)
+    problem, robot = solution.problem, solution.robot
+    given = parameters(problem, values)
+    place = None if state is None else read_state(problem, state)
+    whole = given.entries and not missing(robot, given)
+    if not (values or whole or place):
+        return solution
+    numeric = with_values(solution, given) if given.entries else solution
+    shown = Valued(
+        robot=numeric.robot,
+        values=numeric.values,
+        forms=numeric.forms,
+        given=given,
+        decimal=given.decimal or digits is not None or is_numeric(robot),
+        digits=digits or DIGITS,
+    )
+    numbers = Numbers(
+        robot=robot,
+        given=given,
+        valued=shown if given.entries and (values or whole) else None,
+        state=None if place is None else at_state(numeric, place, digits),
+        units={name: quantities.units.si(dim) for name, dim in quantities.of_parameters(robot).items()},
+    )
+    return replace(solution, numbers=numbers)

@@ -1,0 +1,147 @@
+"""Numbers as a part of a solution's document."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
+from dynsolve.explain.course import children
+from dynsolve.explain.step import STAGES, Detail
+from dynsolve.notation.tree import Letter, Matrix, Node, Row, Sum, Symbol, Words, equation
+from dynsolve.numbers import quantities, units
+from dynsolve.numbers.beside import Numbers
+from dynsolve.numbers.given import Entry
+from dynsolve.numbers.names import Shown, all_results, main_results
+from dynsolve.numbers.state import State
+from dynsolve.robot.model import JointType, Robot
+
+
+def blocks(numbers: Numbers, detail: Detail, stages: Iterable[str] | None = None) -> Iterator[Block]:
+    """The values, the results with them, and what holds at a state."""
+    chosen = None if stages is None else set(stages)
+    if numbers.given.entries:
+        yield from _values(numbers)
+    if numbers.valued is not None:
+        yield from _results(numbers.robot, main_results(numbers.robot), numbers.valued.shown, chosen)
+    if numbers.state is not None:
+        yield from _state(numbers, numbers.state, detail, chosen)
+
+
+# -- values ----------------------------------------------------------------------------------------
+
+
+def _values(numbers: Numbers) -> Iterator[Block]:
+    yield Heading("With numbers", 2)
+    yield Text((
+        "Lengths in m, masses in kg, times in s and angles in rad: torques are then in N m, forces in N "
+        "and energies in J.",
+    ))  # fmt: skip
+    yield _table(
+        (Symbol(name), entry, entry.unit)
+        for name in numbers.robot.parameters
+        if (entry := numbers.given.entries.get((name, 0))) is not None
+    )
+    if numbers.lacking:
+        yield Text((*_names("Without a value, and so still a symbol: ", numbers.lacking), "."))
+
+
+def _table(rows: Iterable[tuple[Node, Entry, str]]) -> Table:
+    cells: list[tuple[Inline, ...]] = [
+        (symbol, _written(entry), units.pretty(unit)) for symbol, entry, unit in rows
+    ]
+    return Table(("symbol", "value", "unit"), tuple(cells))
+
+
+def _written(entry: Entry) -> str:
+    """A value as it was given: 30° for 30deg."""
+    return entry.text.replace(" deg", "°").replace("deg", "°").replace("-", "−")
+
+
+def _names(words: str, names: Iterable[str]) -> Iterator[Inline]:
+    yield words
+    for i, name in enumerate(names):
+        if i:
+            yield ", "
+        yield Symbol(name)
+
+
+# -- results ---------------------------------------------------------------------------------------
+
+
+def _results(
+    robot: Robot, shown: dict[str, list[Shown]], tree: Callable[[str], Node], stages: set[str] | None
+) -> Iterator[Block]:
+    """The results of each stage with their units."""
+    for stage, results in shown.items():
+        if results and (stages is None or stage in stages):
+            formulas = tuple(
+                Formula(_with_unit(letter, tree(name), quantities.of_result(robot, name)))
+                for name, letter in results
+            )
+            yield Fold(STAGES[stage], (*_remark(robot, stage), *formulas), Detail.BRIEF)
+
+
+def _remark(robot: Robot, stage: str) -> Iterator[Block]:
+    """Where the entries of one matrix are measured in several units."""
+    kinds = {q.type for q in robot.coordinates}
+    if stage == "kinematics":
+        yield Text(("The fourth column of H is a position, in m.",))
+    if stage == "jacobian":
+        mixed = " of an angle" if len(kinds) > 1 else ""
+        rest = "; those of a length are pure numbers" if len(kinds) > 1 else ""
+        if JointType.REVOLUTE in kinds:
+            yield Text((f"The columns of the linear part{mixed} are in m (per rad){rest}.",))
+
+
+def _with_unit(letter: Node, result: Node, unit: str | quantities.Units) -> Node:
+    """letter = result, in its unit: after a number, after `in` where a symbol is left."""
+    if isinstance(result, Matrix) and not isinstance(unit, str):
+        several = {entry for row in unit for entry in row}
+        if len(several) == 1:
+            (unit,) = several
+        elif isinstance(letter, Letter) and letter.base in ("D", "C", "g", "tau"):
+            return Row((equation(letter, result), Words(" in "), _unit_matrix(unit)))
+        elif len(unit[0]) == 1:
+            return Row((equation(letter, result), Words(" in "), _unit_matrix(unit)))
+    if not unit or not isinstance(unit, str):
+        return equation(letter, result)
+    lead = " in " if any(isinstance(part, Symbol | Sum) for part in _walk(result)) else " "
+    return Row((equation(letter, result), Words(lead + units.pretty(unit))))
+
+
+def _walk(node: Node) -> Iterator[Node]:
+    yield node
+    for part in children(node):
+        yield from _walk(part)
+
+
+def _unit_matrix(unit: quantities.Units) -> Matrix:
+    return Matrix(tuple(tuple(Words(units.pretty(entry) or "1") for entry in row) for row in unit))
+
+
+# -- a state ---------------------------------------------------------------------------------------
+
+
+def _state(numbers: Numbers, state: State, detail: Detail, stages: set[str] | None) -> Iterator[Block]:
+    robot = numbers.robot
+    yield Heading("At a state", 2)
+    rows: list[tuple[Node, Entry, str]] = []
+    still = []
+    for dots in (0, 1, 2):
+        for q in robot.coordinates:
+            entry = state.given.entries[q.name, dots]
+            if dots and entry.text == "0":
+                still.append(Symbol(q.name, dots))
+            else:
+                unit = entry.unit or ("" if "deg" in entry.text or "°" in entry.text else "rad")
+                rows.append((Symbol(q.name, dots), entry, unit))
+    yield _table(rows)
+    if still:
+        words: list[Inline] = []
+        for i, symbol in enumerate(still):
+            words += [", " if i else "", symbol]
+        yield Text((*words, " is 0." if len(still) == 1 else " are 0."))
+    if state.free:
+        yield Text((*_names("Parameters without a value stay symbols: ", state.free), "."))
+    shown = main_results(robot) if detail is Detail.BRIEF else all_results(robot)
+    yield from _results(robot, shown, state.shown, stages)
