@@ -1,0 +1,103 @@
+"""Hand-ins whose truth is known: a slip is made in one answer and carried through all that come after it."""
+
+from __future__ import annotations
+
+import random
+from functools import lru_cache
+
+import pytest
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.field import Field, Plan
+from dynsolve.answers.graph import Graph
+from dynsolve.answers.judge import check
+from dynsolve.answers.slips.derivation import Replaced
+from dynsolve.answers.slips.waves import part_expr, parts
+from dynsolve.answers.submission import Answer, Place, Submission
+from dynsolve.explain.forms import Forms
+from tests.unit.answers.hands import key, problem
+
+STEMS = ["in3140-rp", "planar-2r", "spherical-rrp", "rp-vertical", "elbow-3r", "planar-2r-remote"]
+START = ("rc", "v", "Kv", "Kw", "K", "P", "L", "dLdqd", "ddt", "dLdq", "tau")
+
+
+@lru_cache
+def graph(stem: str) -> Graph:
+    robot = problem(stem).robot
+    return Graph(Field(robot, key(stem), Plan(robot.ring)))
+
+
+@lru_cache
+def nodes(stem: str) -> tuple[str, ...]:
+    """What a complete hand-in holds, C as its vector."""
+    skipped = ("H0", "christoffel", "g_direct", "C")
+    return tuple(n for n in graph(stem).field.rules if n not in skipped and not n.startswith("R"))
+
+
+def spoilt(value: Expr | Matrix, draw: random.Random) -> Expr | Matrix | None:
+    """The value with one term changed: its sign, a factor, or gone."""
+    entries = list(value.entries) if isinstance(value, Matrix) else [value]
+    places = [i for i, e in enumerate(entries) if not e.is_zero]
+    if not places:
+        return None
+    place = draw.choice(places)
+    part = part_expr(entries[place].ring, draw.choice(list(parts(entries[place]).values())))
+    entries[place] = entries[place] - part * draw.choice([2, 1, -1, 3])
+    if not isinstance(value, Matrix):
+        return entries[0]
+    width = value.shape[1]
+    return Matrix.of(value.ring, (entries[i : i + width] for i in range(0, len(entries), width)))
+
+
+@lru_cache
+def forms(stem: str) -> Forms:
+    return Forms(problem(stem).robot, key(stem))
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_a_slip_is_found_and_what_comes_after_it_follows(seed: int) -> None:
+    draw = random.Random(seed)
+    stem = draw.choice(STEMS)
+    g = graph(stem)
+    start = draw.choice([n for n in nodes(stem) if n.rstrip("0123456789") in START])
+    wrong = spoilt(g.key(start), draw)
+    if wrong is None:
+        return
+    carried = Replaced(g, {start: wrong})
+    handed = [n for n in nodes(stem) if n == start or draw.random() < 0.7]
+    answers = tuple(
+        Answer(g.answer(n), "", forms(stem).of(carried(n)), Place(i + 1, 1), "", occurrence=(i, 0))
+        for i, n in enumerate(handed)
+    )
+    report = check(problem(stem), Submission("", "", "", answers), key(stem))
+    found = {g.node(a.name): a for a in report.answers if a.given}
+    constant = start == "P" or (start[0] == "P" and start[1:].isdigit())
+    for n in handed:
+        same = _same(carried(n), g.key(n))
+        if n == start:
+            if not constant:
+                assert (found[n].verdict, n) == ("wrong", n)
+                assert found[n].diagnosis, n
+        elif same:
+            assert (str(found[n].verdict), n) == ("correct", n)
+        elif not constant:
+            assert (str(found[n].verdict), n) == ("follows", n)
+            assert found[n].follows_from
+
+
+def _same(a: Expr | Matrix, b: Expr | Matrix) -> bool:
+    if isinstance(a, Matrix) and isinstance(b, Matrix):
+        return a.entries == b.entries
+    return bool(a == b)
+
+
+@pytest.mark.parametrize("stem", STEMS)
+def test_the_key_is_correct_in_every_name(stem: str) -> None:
+    g = graph(stem)
+    answers = tuple(
+        Answer(g.answer(n), "", forms(stem).of(g.key(n)), Place(i + 1, 1), "", occurrence=(i, 0))
+        for i, n in enumerate(nodes(stem))
+    )
+    report = check(problem(stem), Submission("", "", "", answers), key(stem))
+    assert [a.name for a in report.answers if a.given and (a.verdict != "correct" or a.notes)] == []
