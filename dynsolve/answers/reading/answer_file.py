@@ -1,6 +1,6 @@
-"""The answer file: YAML as people write it, its values taken from the source text.
+r"""The answer file: YAML as people write it, its values taken from the source text.
 
-A value is whatever stands between one key and the next, so that `\\frac{a}{b}` in a
+A value is whatever stands between one key and the next, so that `\frac{a}{b}` in a
 list, a tag, an alias or a bracket that never closes spoils that value alone.
 Nothing is expanded, converted or constructed.
 """

@@ -117,8 +117,6 @@ def environment(reader: Reader) -> Value:
         raise ReadError(
             message, opening.start, opening.end - opening.start, "matrices are written in bmatrix"
         )
-    if name == "array":
-        _skip_columns(reader)
     rows: list[list[Value]] = [[]]
     count = 0
     while reader.token.kind not in ("close", "end"):
@@ -152,14 +150,6 @@ def environment(reader: Reader) -> Value:
             "this matrix is empty", opening.start, opening.end - opening.start, "write its entries"
         )
     return finished(reader, rows, opening)
-
-
-def _skip_columns(reader: Reader) -> None:
-    r"""The `{cc}` of an array, which may have been unwrapped to a name."""
-    if reader.token.kind == "{":
-        reader.until("}", reader.take())
-    elif reader.token.kind == "name" and not reader.token.text.strip("lcr"):
-        reader.take()
 
 
 def finished(reader: Reader, rows: list[list[Value]], opening: Token) -> Value:

@@ -215,7 +215,7 @@ def _depth(tokens: list[Token]) -> int:
 
 
 def _variable(reader: Reader) -> list[Token]:
-    """The tokens of the variable: `dtheta1'`, `d(theta1_dot)`, `∂\\dot q_1`."""
+    r"""The tokens of the variable: `dtheta1'`, `d(theta1_dot)`, `∂\dot q_1`."""
     first = reader.take()
     start = reader.position
     if _is_d(first):

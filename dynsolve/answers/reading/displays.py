@@ -118,7 +118,7 @@ _PENDING = frozenset({"+", "-", "*", "/", "=", "cdot", "times", "command"})
 
 
 def _pieces(row: list[Token]) -> list[list[Token]]:
-    """The equations that stand beside one another in a row: `P_1 = 0, \\quad P_2 = 0`."""
+    r"""The equations that stand beside one another in a row: `P_1 = 0, \quad P_2 = 0`."""
     pieces: list[list[Token]] = [[]]
     level = 0
     for token in row:

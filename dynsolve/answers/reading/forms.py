@@ -1,4 +1,4 @@
-"""A name as it is written, with what stands over, under and beside it: `\\dot{L}_2^{\\star 2}`."""
+r"""A name as it is written, with what stands over, under and beside it: `\dot{L}_2^{\star 2}`."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class Scripts:
 
 @dataclass(slots=True)
 class Form:
-    """A name before it is looked up.
+    r"""A name before it is looked up.
 
     `base` with `index` is the name; `script` says that it is set in calligraphic type;
     `dots` are those over it.  `angle` are the tokens of an index that is an angle
-    (`C_{\\theta_1}`).  `repaired` says that a power stood under the dot.
+    (`C_{\theta_1}`).  `repaired` says that a power stood under the dot.
     """
 
     base: str
@@ -56,11 +56,11 @@ class Form:
 
 
 def index_text(tokens: list[Token]) -> str:
-    """The index that tokens spell: `{\\omega_1}` is omega1, `{1,zz}` is 1zz."""
+    r"""The index that tokens spell: `{\omega_1}` is omega1, `{1,zz}` is 1zz."""
     kept = [t.text for t in tokens if t.kind in ("name", "letter", "number") or t.kind in ("+", "-")]
     return key("".join(kept))
 
 
 def is_angle(tokens: list[Token]) -> bool:
-    """Whether an index is an angle rather than digits: `\\theta_1`, `q_1+q_2`, `1+2`."""
+    r"""Whether an index is an angle rather than digits: `\theta_1`, `q_1+q_2`, `1+2`."""
     return any(t.kind in ("name", "letter", "+", "-", "command") for t in tokens)

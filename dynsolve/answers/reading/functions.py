@@ -1,4 +1,4 @@
-"""Sines, cosines and roots as people write them: `\\sin 2\\theta_1 L_2`, `cos^2(q1)`, `sin q_1`."""
+r"""Sines, cosines and roots as people write them: `\sin 2\theta_1 L_2`, `cos^2(q1)`, `sin q_1`."""
 
 from __future__ import annotations
 
@@ -81,6 +81,8 @@ def _argument(reader: Reader, name: Token) -> tuple[Value, list[Fraction]]:
     sign = False
     while reader.token.kind in ("-", "+"):
         sign = (reader.take().kind == "-") != sign
+    if name.text.lower() == "sqrt":
+        return reader.atom(), []
     value, powers = _open(reader)
     if sign:
         value = Negative(value) if isinstance(value, Node) else value

@@ -108,6 +108,8 @@ def simplified(tokens: list[Token]) -> list[Token]:
                 _skip_columns(tokens, position) if token.text.startswith(("aligned", "alignat")) else position
             )
             continue
+        elif kind == "begin" and token.text.startswith("array"):
+            position = _skip_group(tokens, position)
         elif kind == "text":
             word = _word(token, out)
             if word is None:
@@ -147,6 +149,15 @@ def _skip_columns(tokens: list[Token], position: int) -> int:
     if [t.kind for t in tokens[position : position + 3]] == ["{", "number", "}"]:
         return position + 3
     return position
+
+
+def _skip_group(tokens: list[Token], position: int) -> int:
+    r"""The `{cc}` of `\begin{array}{cc}`."""
+    if tokens[position].kind != "{":
+        return position
+    while position < len(tokens) - 1 and tokens[position].kind != "}":
+        position += 1
+    return min(position + 1, len(tokens) - 1)
 
 
 def _word(token: Token, out: list[Token]) -> Token | None:

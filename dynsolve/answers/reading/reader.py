@@ -278,7 +278,7 @@ class Reader:
             return self.number()
         if kind == "fraction":
             p, _, q = self.take().text.partition("/")
-            return self.scripted(Number(int(p), int(q)))
+            return self.scripted(Quotient(Number(int(p)), Number(int(q))))
         if kind == "command":
             return self.command(token)
         if kind in ("(", "[", "{", "begin"):
@@ -302,7 +302,8 @@ class Reader:
             return Degrees(value.numerator, value.denominator)
         if self.token.kind == "^" and self.circle():
             return Degrees(value.numerator, value.denominator)
-        return self.scripted(Number(value.numerator, value.denominator))
+        written_out = value.denominator != 1
+        return self.scripted(Number(value.numerator, value.denominator, written_out))
 
     def circle(self) -> bool:
         r"""Take `^\circ`, if that is what stands here."""

@@ -1,4 +1,4 @@
-"""Text of an answer, plain or LaTeX, cut into tokens that know their place.
+r"""Text of an answer, plain or LaTeX, cut into tokens that know their place.
 
 One scan serves both notations, since people mix them: `\frac{1}{2}*m2*\dot\theta_1^2`.
 What only moves ink about (`\left`, `\,`, `\displaystyle`) yields no token.
@@ -135,12 +135,12 @@ _DIMENSION = re.compile(r"\s*\[\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm|in|mu)\s*\]")
 
 
 def scan(text: str) -> list[Token]:
-    """The tokens of a text, an `end` token last.
+    r"""The tokens of a text, an `end` token last.
 
     Raises ReadError for a character of no formula, and for a text over the bounds.
 
-    >>> [token.text for token in scan(r"m_2 \\dot{θ}₁")][:3]
-    ['m_2', '\\\\', 'dot']
+    >>> [token.text for token in scan(r"m_2 \dot{θ}₁")][:3]
+    ['m_2', '\\', 'dot']
     """
     if len(text) > MAX_LENGTH:
         message = f"an equation of {len(text)} characters; at most {MAX_LENGTH} are read"
