@@ -46,7 +46,7 @@ class Comparison:
     values: Mapping[str, Fraction]
 
     def __call__(self, expected: Expr, written: Written) -> str | None:
-        """"" where they are equal, `rounded` where a decimal rounds, None where they differ."""
+        """ "" where they are equal, `rounded` where a decimal rounds, None where they differ."""
         if equal(Frac(expected), written.value):
             return ""
         mine = written.value
@@ -88,9 +88,7 @@ def substituted(expr: Expr, put: Mapping[int, Fraction]) -> Expr:
     ring = expr.ring
     if not expr.poly or not put:
         return expr
-    point = [
-        ring.ctx.constant(rational(put[i])) if i in put else g for i, g in enumerate(ring.ctx.gens())
-    ]
+    point = [ring.ctx.constant(rational(put[i])) if i in put else g for i, g in enumerate(ring.ctx.gens())]
     inverses = {
         i: f for i, f in ring.inverses.items() if any(f.degrees()[k] > 0 for k in put)
     }  # 1/p with numbers in p: a number where p has no other symbol

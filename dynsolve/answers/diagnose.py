@@ -41,7 +41,7 @@ from dynsolve.answers.slips.stage import variants
 from dynsolve.answers.slips.substitution import substitutions
 from dynsolve.answers.slips.table import slip
 from dynsolve.answers.slips.terms import LIGHT, Found, TermSlips
-from dynsolve.answers.slips.waves import monomial_expr, parts
+from dynsolve.answers.slips.waves import is_small, monomial_expr, parts
 from dynsolve.answers.slips.words import Words
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
@@ -102,7 +102,7 @@ class Diagnoser:
     def __call__(self, question: Question) -> tuple[Diagnosis, ...]:
         """The slips in one scalar."""
         mine = question.mine
-        if mine is None:
+        if mine is None or not is_small(mine):
             return ()
         found = tuple(dict.fromkeys(self._named(question, mine)))
         return (*found, *(d for d in self._misfits(question, mine) if d not in found))
@@ -154,10 +154,20 @@ class Diagnoser:
         return one
 
     def _told(self, found: list[Found]) -> Iterator[Diagnosis]:
-        if len(found) > MOST_NAMED:
-            found = sorted(found, key=lambda f: f.weight)[:MOST_NAMED]
-        for one in found:
-            yield one.diagnosis
+        """The slips where they are few; of many, which terms are written that should not be."""
+        light = [one.diagnosis for one in found if one.weight < LIGHT]
+        if len(found) <= MOST_NAMED:
+            yield from (one.diagnosis for one in sorted(found, key=lambda f: f.weight))
+            return
+        yield from light[:MOST_NAMED]
+        if len(light) < len(found):
+            extra = [f.term for f in found if f.diagnosis.code == "extra_term"]
+            count = sum(f.diagnosis.code == "missing_term" for f in found)
+            yours = f"{count} {'is' if count == 1 else 'are'} missing. " if count else ""
+            if extra:
+                more = f", and {len(extra) - MOST_NAMED} more" if len(extra) > MOST_NAMED else ""
+                yours += f"These do not belong: {', '.join(extra[:MOST_NAMED])}{more}."
+            yield slip("terms_differ", yours=yours.strip())
 
     # -- the step, the derivation ------------------------------------------------------------------
 
@@ -207,7 +217,7 @@ class Diagnoser:
         wanted = self._dimension(question)
         if wanted is None or not self.dimensions.known or self.problem.values:
             return
-        for monomial in parts(mine) if len(mine) < 2_000 else ():
+        for monomial in parts(mine) if is_small(mine) else ():
             term = monomial_expr(self.ring, monomial)
             found = self.dimensions.of(term)
             if found is not None and found != wanted:
@@ -228,7 +238,25 @@ class Diagnoser:
                 break
         return self._of_head(head, node[len(head) :], row, column)
 
-    _heads = ("P", "K", "L", "Kv", "Kw", "tau", "dLdqd", "ddt", "dLdq", "D", "Cqd", "g", "I_body", "I", "rc", "v", "w")
+    _heads = (
+        "P",
+        "K",
+        "L",
+        "Kv",
+        "Kw",
+        "tau",
+        "dLdqd",
+        "ddt",
+        "dLdq",
+        "D",
+        "Cqd",
+        "g",
+        "I_body",
+        "I",
+        "rc",
+        "v",
+        "w",
+    )
 
     def _of_head(self, head: str, index: str, row: int, column: int) -> Dimension | None:
         match head:
@@ -287,7 +315,8 @@ class Diagnoser:
         mine = question.mine
         if mine is None:
             return None
-        return self.words.form(mine - self.expected(question))
+        difference = mine - self.expected(question)
+        return self.words.form(difference) if is_small(difference) else None
 
 
 def _same(a: Any, b: Matrix) -> bool:

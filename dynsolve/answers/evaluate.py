@@ -354,7 +354,9 @@ class Evaluator:
         cost = len(a) * len(b)
         self.work += cost
         if self.work > MOST_WORK or cost > 8 * MOST_TERMS:
-            raise AlgebraError("multiplied out this is too large", "name a part of it with a symbol of its own")
+            raise AlgebraError(
+                "multiplied out this is too large", "name a part of it with a symbol of its own"
+            )
         product = a * b
         if len(product) > MOST_TERMS:
             raise AlgebraError("multiplied out this has too many terms")
@@ -462,4 +464,3 @@ def as_expr(value: Frac) -> Expr | None:
         return value.above * value.ring.inverse(value.below)
     except Exception:  # noqa: BLE001  no room for another inverse, or a joint variable below
         return None
-

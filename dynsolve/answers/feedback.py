@@ -10,8 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from dynsolve.answers.submission import Place
 from dynsolve.answers.verdict import Diagnosis, EntryVerdict, Judged, Report, Verdict
 from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Note, Prose, Table, Text
+from dynsolve.errors import Finding
 from dynsolve.notation.tree import Node
 
 _SAID = {
@@ -48,8 +50,7 @@ def _blocks(report: Report, title: str, view: View) -> Iterator[Block]:
         yield Fold(f"{_named(answer)}: could not be read", tuple(_unreadable(answer)))
     yield Heading("All answers")
     yield Table(("answer", "verdict", "note"), tuple(_row(a, view) for a in report.answers))
-    if view.readings:
-        yield from _readings(report)
+    yield from _readings(report, view)
     if report.not_recognized:
         yield Heading("Not recognized")
         yield List(tuple((f"line {n.place.line}: {_short(n.text)}",) for n in report.not_recognized))
@@ -131,13 +132,24 @@ def _unreadable(answer: Judged) -> Iterator[Block]:
     yield Text((f"{answer.fault}{_where(answer)}.",))
     place = answer.place
     if place is not None and place.excerpt:
-        start = max(place.column - 1, 0)
-        cut = max(0, start - 60)
-        excerpt = place.excerpt[cut : cut + 100]
-        yield Text((excerpt,))
-        yield Text((" " * 0 + f"at column {place.column}",))
+        start = place.column - 1
+        end = start + max(place.length, 1)
+        before, here, after = place.excerpt[max(start - 60, 0) : start], place.excerpt[start:end], ""
+        after = place.excerpt[end : end + 30]
+        yield Text((f"{before} ▸{here}◂ {after}".strip(),))
     if answer.expected:
         yield Note((answer.expected,))
+
+
+def findings(report: Report) -> Iterator[Finding]:
+    """What could not be read, with its place and a caret."""
+    for answer in report.answers:
+        if answer.verdict is Verdict.UNREADABLE:
+            place = answer.place or Place(0, 0)
+            yield Finding(
+                f"{answer.name}: {answer.fault}", answer.expected, report.file,
+                place.line, place.column, place.length, place.excerpt,
+            )  # fmt: skip
 
 
 def _row(answer: Judged, view: View) -> tuple[str | Node, ...]:
@@ -156,10 +168,19 @@ def _remarks(answer: Judged, view: View) -> Iterator[str]:
         )
 
 
-def _readings(report: Report) -> Iterator[Block]:
-    yield Heading("How the answers were read")
-    items = [(f"{_named(a)}: {_short(a.read_as)}",) for a in report.answers if a.read_as]
-    yield List(tuple(items))
+def _readings(report: Report, view: View) -> Iterator[Block]:
+    """How answers were read: those that are not correct, or all; wrong ones have it beside them already."""
+    silent = {Verdict.WRONG} if not view.readings else set()
+    if not view.readings:
+        silent.add(Verdict.CORRECT)
+    items = [
+        (f"{_named(a)}: {_short(a.read_as)}",)
+        for a in report.answers
+        if a.read_as and a.verdict not in silent
+    ]
+    if items:
+        yield Heading("How the answers were read")
+        yield List(tuple(items))
 
 
 def _short(text: str, most: int = 2000) -> str:

@@ -325,9 +325,7 @@ def _joined(first: tuple[_T, ...], second: Iterable[_T]) -> tuple[_T, ...]:
     return tuple(dict.fromkeys((*first, *second)))
 
 
-def _split_all(
-    angles: Iterable[Angle], plan: Survey
-) -> tuple[list[Vector], dict[Atom, list[Fraction]]]:
+def _split_all(angles: Iterable[Angle], plan: Survey) -> tuple[list[Vector], dict[Atom, list[Fraction]]]:
     """The coordinate parts of angles as vectors, and the rates of their other atoms."""
     vectors: list[Vector] = []
     others: dict[Atom, list[Fraction]] = {}

@@ -132,7 +132,7 @@ class Follow:
     def _value(self, way: Way, chosen: Sequence[Candidate]) -> Any:
         if any(c.value is None for c in chosen):
             return None
-        cost = _estimate([c.value for c in chosen])
+        cost = _estimate([c.value for c in chosen], way.linear)
         if self.work + cost > MOST_WORK:
             return None
         self.work += cost
@@ -169,11 +169,11 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def _estimate(values: Sequence[Any]) -> int:
+def _estimate(values: Sequence[Any], linear: bool) -> int:
+    """The products of terms that a way forms, at most about so many."""
     sizes = [
         sum(map(len, value.entries)) if isinstance(value, Matrix) else len(value)
         for value in values
         if isinstance(value, (Matrix, Expr))
     ]
-    total = sum(sizes)
-    return total * (max(sizes, default=1) + 8)
+    return 16 * sum(sizes) if linear else sum(sizes) * (max(sizes, default=1) + 8)

@@ -29,10 +29,14 @@ _SYMBOL = re.compile(r"c([1-9])([1-9])([1-9])")
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """value = compute(*inputs); compute gives None where these inputs lead nowhere."""
+    """value = compute(*inputs); compute gives None where these inputs lead nowhere.
+
+    `linear`: sums and derivatives alone, whose work grows with the inputs and not with their products.
+    """
 
     inputs: tuple[str, ...]
     compute: Callable[..., Any]
+    linear: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,8 +171,13 @@ class Graph:
         if self.shift is not None and any(node == f"P{b.name}" for b in self.robot.bodies):
             mass = next(b.mass for b in self.robot.bodies if node == f"P{b.name}")
             lift = self.shift * mass
-            return (Way(rule.inputs, lambda rc: rule.compute(rc) + lift),)
-        return (Way(rule.inputs, rule.compute),) if rule.inputs else ()
+            return (Way(rule.inputs, lambda rc: rule.compute(rc) + lift, linear=False),)
+        linear = node in self._sums or node.startswith(("dLdq", "ddt", "tau"))
+        return (Way(rule.inputs, rule.compute, linear),) if rule.inputs else ()
+
+    @cached_property
+    def _sums(self) -> frozenset[str]:
+        return frozenset({"K", "P", "L", "J", *(f"K{body.name}" for body in self.robot.bodies)})
 
     # -- the vectorized form, from what students have ----------------------------------------------
 

@@ -83,11 +83,7 @@ class Held:
     @property
     def correct(self) -> bool:
         """Whether every entry is right."""
-        return (
-            bool(self.rows)
-            and not self.spoilt
-            and all(r is not None for row in self.right for r in row)
-        )
+        return bool(self.rows) and not self.spoilt and all(r is not None for row in self.right for r in row)
 
     @property
     def rounded(self) -> bool:
@@ -212,9 +208,7 @@ class Judge:
             "Count rows and columns.",
         )
 
-    def _coriolis(
-        self, given: Given
-    ) -> tuple[tuple[tuple[Written, ...], ...] | None, tuple[Diagnosis, ...]]:
+    def _coriolis(self, given: Given) -> tuple[tuple[tuple[Written, ...], ...] | None, tuple[Diagnosis, ...]]:
         """C as its C q̇, n×1; a C with accelerations in it is none."""
         assert given.rows is not None
         n, ring = self.problem.robot.n, self.field.ring
@@ -390,7 +384,9 @@ class Judge:
         if not held.rows or held.spoilt:
             return replace(base, diagnosis=held.spoilt)
         whole = self._whole_follows(held)
-        entries = tuple(self._entry(name, held, index, i, j, whole) for index, i, j in self._entries(name, held))
+        entries = tuple(
+            self._entry(name, held, index, i, j, whole) for index, i, j in self._entries(name, held)
+        )
         if not entries:
             one = self._entry(name, held, (1, 1), 0, 0, whole)
             return replace(
@@ -534,8 +530,14 @@ class Judge:
         used = [n for part in parts for n in part.follows_from] if verdict is Verdict.FOLLOWS else []
         return self._scored(
             Judged(
-                name, verdict, parts[0].label, parts[0].place, of=of, given=False,
-                notes=(BY_PARTS,), follows_from=self._sorted(used),
+                name,
+                verdict,
+                parts[0].label,
+                parts[0].place,
+                of=of,
+                given=False,
+                notes=(BY_PARTS,),
+                follows_from=self._sorted(used),
             )  # fmt: skip
         )
 

@@ -114,6 +114,4 @@ class Report:
     @property
     def none_read(self) -> bool:
         """Whether no answer could be read at all."""
-        return not any(
-            a.given and a.verdict is not Verdict.UNREADABLE for a in self.answers
-        )
+        return not any(a.given and a.verdict is not Verdict.UNREADABLE for a in self.answers)

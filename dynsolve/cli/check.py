@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 
 def check(
-    problem: Annotated[str, typer.Argument(metavar="PROBLEM", help="A problem file, or the stem of a bundled one.")],
+    problem: Annotated[
+        str, typer.Argument(metavar="PROBLEM", help="A problem file, or the stem of a bundled one.")
+    ],
     answer: Annotated[
         str,
         typer.Argument(
@@ -59,6 +61,10 @@ def check(
         from dynsolve.answers.feedback import View
 
         _print_report(report, stated, View(hints, teacher, show_reading), html, markdown)
+    if not quiet:
+        from dynsolve.answers.feedback import findings
+
+        say(findings(report))
     if report.none_read:
         return ExitCode.USAGE
     return ExitCode.DONE if report.all_correct else ExitCode.FALLS_SHORT
@@ -74,7 +80,9 @@ def _source(answer: str) -> tuple[bytes, str]:
         return Path(answer).read_bytes(), answer
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise InputError([Finding(f"the file cannot be read: {reason.lower()}", "check the path", answer)]) from None
+        raise InputError(
+            [Finding(f"the file cannot be read: {reason.lower()}", "check the path", answer)]
+        ) from None
 
 
 def _print_json(report: Report, hints: int, teacher: bool) -> None:
@@ -87,9 +95,7 @@ def _print_json(report: Report, hints: int, teacher: bool) -> None:
     sys.stdout.write("\n")
 
 
-def _print_report(
-    report: Report, problem: Problem, view: View, html: bool, markdown: bool
-) -> None:
+def _print_report(report: Report, problem: Problem, view: View, html: bool, markdown: bool) -> None:
     from dynsolve.answers.feedback import feedback
     from dynsolve.explain.style import style_of
 

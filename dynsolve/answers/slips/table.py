@@ -110,6 +110,8 @@ _SLIPS = (
     Slip("trig_part", "a trigonometric factor",
          "The factor of {term} in sines and cosines is {yours}, which is not what it should be.",
          "Derive or multiply out this factor once more."),
+    Slip("terms_differ", "several terms", "Several terms differ. {yours}",
+         "Derive it again from the answers before it; a slip this early changes many terms."),
     Slip("dimensions", "dimensions",
          "{term} is {part}, but it is added to what is {other}.",
          "Terms that are added must have the same units.",

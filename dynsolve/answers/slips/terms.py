@@ -18,11 +18,11 @@ from dynsolve.answers.dimensions import INERTIA, MASS, Dimensions
 from dynsolve.answers.field import is_opaque
 from dynsolve.answers.slips.table import slip
 from dynsolve.answers.slips.waves import (
-    MOST_TERMS,
     Monomial,
     Part,
     Wave,
     angle_of,
+    is_small,
     monomial_expr,
     part_expr,
     parts,
@@ -41,6 +41,7 @@ class Found:
 
     weight: int
     diagnosis: Diagnosis
+    term: str = ""
 
 
 class TermSlips:
@@ -66,7 +67,7 @@ class TermSlips:
 
     def __call__(self, mine: Expr, expected: Expr) -> list[Found] | None:
         """The slips that lead from what was expected to the answer; None where there are too many terms."""
-        if max(len(mine), len(expected)) > MOST_TERMS:
+        if not (is_small(mine) and is_small(expected)):
             return None
         ours, theirs = parts(mine), parts(expected)
         for monomial in [m for m in ours if theirs.get(m) == ours[m]]:
@@ -133,8 +134,8 @@ class TermSlips:
         other = [w for w in ours if w in theirs and ours[w] != theirs[w]]
         found: list[Found] = []
         for wave in other:
-            yours, wanted = ours[wave], theirs[wave]
-            found.append(self._factor(Part(expected.monomial, ((wave, wanted),)), yours / wanted, yours, wanted))
+            have, want = ours[wave], theirs[wave]
+            found.append(self._factor(Part(expected.monomial, ((wave, want),)), have / want, have, want))
         for wave, value in list(extra.items()):
             for wanted, number in list(missing.items()):
                 one = self._waves(
@@ -150,8 +151,8 @@ class TermSlips:
             found.append(self._extra(Part(mine.monomial, ((wave, value),))))
         if len(found) > 2:
             term = self.words.of(monomial_expr(self.ring, mine.monomial))
-            yours = self.words.of(part_expr(self.ring, Part((), mine.waves)))
-            return [Found(5, slip("trig_part", term=term, yours=yours))]
+            factor = self.words.of(part_expr(self.ring, Part((), mine.waves)))
+            return [Found(5, slip("trig_part", term=term, yours=factor))]
         return found
 
     # -- other monomials ---------------------------------------------------------------------------
@@ -159,7 +160,7 @@ class TermSlips:
     def _matched(self, mine: list[Part], expected: list[Part]) -> list[Found]:
         """Pairs of parts with the slip between them, the lightest first; what is left is missing or extra."""
         if len(mine) * len(expected) > 2_500:
-            return [Found(9, slip("missing_term", term="…"))]
+            return [*map(self._missing, expected), *map(self._extra, mine)]
         pairs = sorted(
             (
                 (found.weight, i, j, found)
@@ -191,7 +192,8 @@ class TermSlips:
         ]  # fmt: skip
         if unknown:
             return Found(4, slip("unknown_symbol", part=self.words.generator(unknown[0])))
-        return Found(4, slip("extra_term", term=self.words.of(part_expr(self.ring, part))))
+        term = self.words.of(part_expr(self.ring, part))
+        return Found(4, slip("extra_term", term=term), term)
 
     def _between(self, mine: Part, expected: Part) -> Found | None:
         """The slip that turns an expected part into the one that was written."""
@@ -211,7 +213,7 @@ class TermSlips:
         generators = self.ring.generators
         has = dict(mine.monomial)
         if len(change) == 1:
-            (index, power), = change.items()
+            ((index, power),) = change.items()
             g, name = generators[index], self.words.generator(generators[index])
             if power > 0:
                 code = self._dropped(g, power, has.get(index, 0))
@@ -225,7 +227,9 @@ class TermSlips:
         if len(change) == 2:
             (plus, p), (minus, q) = sorted(change.items(), key=lambda item: -item[1])
             if p > 0 > q:
-                yield from self._exchanged(generators[plus], p, generators[minus], -q, has.get(minus, 0), yours)
+                yield from self._exchanged(
+                    generators[plus], p, generators[minus], -q, has.get(minus, 0), yours
+                )
                 return
         if all(power > 0 for power in change.values()) and sum(change.values()) <= 3:
             lost = self.words.of(monomial_expr(self.ring, change.items()))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 from typing import Any
 
 from dynsolve.algebra.angles import Angle
@@ -23,7 +24,9 @@ Wave = tuple[str, tuple[int, ...]]
 
 ONE: Monomial = ()
 
-MOST_TERMS = 2_000
+MOST_TERMS = 600
+MOST_WAVES = 8_000
+HIGHEST = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +40,28 @@ class Part:
     def single(self) -> tuple[Wave, Fraction] | None:
         """The one wave, where it is one."""
         return self.waves[0] if len(self.waves) == 1 else None
+
+
+def is_small(expr: Expr) -> bool:
+    """Whether an expression is small enough to be taken apart, which answers of people are."""
+    if len(expr) > MOST_TERMS:
+        return False
+    if not expr.poly or not expr.ring.pairs:
+        return True
+    degrees = expr.poly.degrees()
+    if (
+        sum(max(int(degrees[p.sine]), 0) + max(int(degrees[p.cosine]), 0) for p in expr.ring.pairs)
+        > 4 * HIGHEST
+    ):
+        return False
+    places = [i for pair in expr.ring.pairs for i in (pair.sine, pair.cosine)]
+    total = 0
+    for exponents in expr.poly.monoms():
+        powers = [int(exponents[i]) for i in places]
+        if sum(powers) > HIGHEST:
+            return False
+        total += prod(power + 1 for power in powers)
+    return total <= MOST_WAVES
 
 
 def parts(expr: Expr) -> dict[Monomial, Part]:
@@ -96,7 +121,7 @@ def _shift(product: _Laurent, k: int, *, sine: bool) -> _Laurent:
             x, y = (im * half * step, -re * half * step) if sine else (re * half, im * half)
             a, b = result.get(to, (Fraction(0), Fraction(0)))
             result[to] = (a + x, b + y)
-    return {v: c for v, c in result.items() if c != (0, 0)}
+    return {v: c for v, c in result.items() if c[0] or c[1]}
 
 
 def angle_of(ring: Ring, wave: Wave) -> Angle:

@@ -27,13 +27,18 @@ def node(text: Text) -> Node:
 
 def answer(name: str, text: Text, chain: int = 0, member: int = 0) -> Answer:
     """One answer, as if it stood on line chain + 1."""
-    return Answer(name, f"({chain + 1})", node(text), Place(chain + 1, 1), str(text), occurrence=(chain, member))
+    return Answer(
+        name, f"({chain + 1})", node(text), Place(chain + 1, 1), str(text), occurrence=(chain, member)
+    )
 
 
 def submission(answers: Mapping[str, Text]) -> Submission:
     """A hand-in with these answers, in this order."""
     return Submission(
-        "", "s1", "answers.yaml", tuple(answer(name, text, i) for i, (name, text) in enumerate(answers.items()))
+        "",
+        "s1",
+        "answers.yaml",
+        tuple(answer(name, text, i) for i, (name, text) in enumerate(answers.items())),
     )
 
 
