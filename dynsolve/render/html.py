@@ -26,13 +26,14 @@ from dynsolve.document import (
     Text,
     Uses,
 )
-from dynsolve.notation.extent import RELATION, Ruler
+from dynsolve.notation.extent import Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Matrix, Node, Number, Relation
+from dynsolve.notation.tree import Matrix, Node, Number, Relation, Row
+from dynsolve.render.boxes import holds_matrix
 from dynsolve.render.flow import Flow, Notation
 from dynsolve.render.references import numbered
-from dynsolve.render.setting import entry_name
+from dynsolve.render.setting import entry_name, listed
 from dynsolve.render.words import spoken, visible
 
 PHONE = 18.0
@@ -41,8 +42,8 @@ PHONE = 18.0
 PAGE = 44.0
 """What fits the widest page."""
 
-_STEP = 3
-_FINE = 8.0
+_AROUND = 4.0
+_FINE = 6.0
 _LEVELS = ("brief", "normal", "full")
 _TALL = ("<mfrac>", "<mtable>", "<munderover>")
 
@@ -213,15 +214,22 @@ class _Page:
     def lines(self, node: Node, formula: Formula) -> Iterator[str]:
         """A formula on the page: whole, or in pieces, its matrices whole or entry by entry."""
         width = self.ruler.width(node)
-        matrix = _lone_matrix(node)
         if width <= PHONE:
             yield f'<div class="line">{math(self.printer.text(node), display=True)}</div>'
-        elif matrix is None or self.ruler.width(matrix) <= PHONE:
+            return
+        matrix = _lone_matrix(node)
+        widest = max(piece.width for piece in self.flow.pieces(node))
+        if widest > PHONE and isinstance(node, Row) and not formula.optional:
+            for part in listed(node):
+                yield from self.lines(part, formula)
+        elif widest <= PHONE or (matrix is None and not formula.optional):
             yield self.broken(node)
+        elif matrix is None or formula.optional:
+            yield f'<div class="wide w{self.needed(widest)}">{self.broken(node)}</div>'
         elif self.ruler.width(matrix) > PAGE:
             yield from self.entry_by_entry(node, matrix, formula)
         else:
-            needed = self.needed(self.ruler.width(matrix) + RELATION)
+            needed = self.needed(widest)
             yield f'<div class="wide w{needed}">{self.broken(node)}</div>'
             yield f'<div class="narrow n{needed}">'
             yield from self.entry_by_entry(node, matrix, formula)
@@ -232,14 +240,14 @@ class _Page:
         return f'<div class="line">{pieces}</div>'
 
     def needed(self, width: float) -> int:
-        """The width of a page, in whole steps, on which so much fits."""
-        needed = int(width * 1.1 / _STEP + 1) * _STEP
+        """The width of the page on which so much fits, beside what stands around a formula."""
+        needed = int(width * 1.1 + _AROUND) + 1
         self.widths.add(needed)
         return needed
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:
         left = node.parts[0] if isinstance(node, Relation) else None
-        if isinstance(node, Relation) and len(node.parts) > 2:
+        if isinstance(node, Relation) and len(node.parts) > 2 and not any(map(holds_matrix, node.parts[:-1])):
             yield self.broken(Relation(node.parts[:-1], node.signs[:-1]))
         chains: dict[Node, list[Node]] = {}
         for i, entries in enumerate(matrix.rows):

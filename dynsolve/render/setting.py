@@ -56,7 +56,7 @@ class Setter:
     def _parts(self, node: Node, formula: Formula) -> Iterator[Line]:
         """Formulas that stand side by side with commas get their own lines."""
         if isinstance(node, Row):
-            for part in _listed(node):
+            for part in listed(node):
                 yield from self._parts(part, formula)
         elif isinstance(node, Relation) and self.ruler.width(node) > self.room:
             yield from self._chain(node, formula)
@@ -106,7 +106,7 @@ class Setter:
                 yield Line("" if i else self.notation.text(names[0]), self._text(line), i > 0)
 
 
-def _listed(row: Row) -> Iterator[Node]:
+def listed(row: Row) -> Iterator[Node]:
     """The parts of a row between its commas."""
     part: list[Node] = []
     for node in row.parts:
@@ -123,7 +123,9 @@ def entry_name(i: int, j: int, matrix: Matrix, left: Node | None, formula: Formu
     """The name of an entry: given, or the letter on the left with the entry's place."""
     if len(formula.entries) == len(matrix.rows) and len(formula.entries[i]) == len(matrix.rows[i]):
         return formula.entries[i][j]
-    place: list[Node] = [Number(i + 1)] if len(matrix.rows[0]) == 1 else [Number(i + 1), Number(j + 1)]
+    place: list[Node] = [Number(i + 1), Number(j + 1)]
+    if len(matrix.rows[0]) == 1 or len(matrix.rows) == 1:
+        place = [Number(max(i, j) + 1)]
     if isinstance(left, Letter):
         index = [left.sub, Words(","), *place] if left.sub else place
         return Letter(left.base, Row(tuple(index)), left.sup, dots=left.dots)

@@ -1,0 +1,136 @@
+"""HTML reports in a real browser: everything has a size, nothing overflows, nothing is fetched."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from dynsolve.reports import Format
+from tests.reports.browser import Page, chromium
+from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made
+from tests.support import LIBRARY
+
+LONGEST = 5_000_000
+WIDTHS = (400, 1200)
+
+# Elements without width or height, those in hidden parts apart.
+EMPTY = """
+[...document.querySelectorAll('math, mtable, mtd, mfrac, mover, msub, msup, msubsup, munderover')]
+  .filter(e => e.checkVisibility())
+  .filter(e => { const r = e.getBoundingClientRect(); return !(r.width > 0.5 && r.height > 0.5) })
+  .map(e => e.outerHTML.slice(0, 120))
+"""
+
+OVERFLOWING = """
+[document.documentElement, ...document.querySelectorAll('body, main, p, .box, .scroll, figure, nav, summary')]
+  .filter(e => e.checkVisibility() && e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0)
+  .map(e => [e.scrollWidth, e.clientWidth, e.className, e.textContent.slice(0, 80)])
+"""
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    with chromium(tmp_path_factory.mktemp("profile")) as opened:
+        yield opened
+
+
+def saved(problem: Path | str, folder: Path) -> Path:
+    path = folder / "report.html"
+    path.write_bytes(made(problem, Format.HTML))
+    return path
+
+
+@pytest.mark.parametrize("problem", LIBRARY, ids=lambda path: path.stem)
+def test_everything_is_seen_and_nothing_overflows(problem: Path, page: Page, tmp_path: Path) -> None:
+    path = saved(problem, tmp_path)
+    if path.stat().st_size > LONGEST:
+        pytest.skip("longer than a page that anyone opens on a phone")
+    for width in WIDTHS:
+        page.open(path, width)
+        assert page.ask("document.querySelectorAll('math').length") > 50
+        assert page.ask(EMPTY) == []
+        assert page.ask(OVERFLOWING) == []
+        assert page.requests == [path.as_uri()]
+        assert page.complaints == []
+
+
+def test_matrices_accents_and_fractions_are_set(page: Page, tmp_path: Path) -> None:
+    page.open(saved(next(p for p in LIBRARY if p.stem == "in3140-rp"), tmp_path), 1200)
+    # a matrix is as high as its rows, a dot stands over its letter, a fraction is higher than a digit
+    heights = page.ask(
+        "['#eq-A1 mtable', '#eq-A1 mtr', '#eq-K mfrac', '#eq-K mn'].map("
+        "s => document.querySelector(s).getBoundingClientRect().height)"
+    )
+    table, row, fraction, digit = heights
+    assert table > 3.5 * row > 0
+    assert fraction > 1.6 * digit > 0
+    letter, dot = page.ask(
+        "[...document.querySelector('#eq-K mover').children].map(e => e.getBoundingClientRect()).map("
+        "r => ({top: r.top, left: r.left, right: r.right}))"
+    )
+    assert dot["top"] < letter["top"] + 3
+    assert letter["left"] - 3 < (dot["left"] + dot["right"]) / 2 < letter["right"] + 3
+
+
+def test_light_and_dark_differ_and_can_be_read(page: Page, tmp_path: Path) -> None:
+    path = saved(LIBRARY[0], tmp_path)
+    looks = {}
+    for scheme in ("light", "dark"):
+        page.open(path, 1200, scheme)
+        looks[scheme] = page.ask(
+            "(s => [s.color, s.backgroundColor].map(c => c.match(/[\\d.]+/g).slice(0, 3).map(Number)))"
+            "(getComputedStyle(document.body))"
+        )
+    brightness = {scheme: [sum(colour) / 3 for colour in both] for scheme, both in looks.items()}
+    assert brightness["light"][1] - brightness["light"][0] > 150
+    assert brightness["dark"][0] - brightness["dark"][1] > 150
+
+
+def test_levels_of_detail_and_folds_work_without_a_script(page: Page, tmp_path: Path) -> None:
+    page.open(saved(next(p for p in LIBRARY if p.stem == "in3140-rp"), tmp_path), 1200)
+    shown = "[...document.querySelectorAll('details.step')].filter(e => e.checkVisibility()).length"
+    reasons = "[...document.querySelectorAll('.why')].filter(e => e.checkVisibility()).length"
+    normal = page.ask(shown)
+    page.ask("document.querySelector('label[for=brief]').click()")
+    assert 0 < page.ask(shown) < normal
+    assert page.ask(reasons) < 5
+    page.ask("document.querySelector('label[for=full]').click()")
+    assert page.ask(shown) >= normal
+    page.ask("document.querySelector('details.step summary').click()")
+    assert page.ask("document.querySelector('details.step').open") is False
+    assert page.ask("document.querySelectorAll('script').length") == 0
+
+
+def test_every_link_leads_somewhere_on_the_page(page: Page, tmp_path: Path) -> None:
+    page.open(saved(next(p for p in LIBRARY if p.stem == "elbow-3r"), tmp_path), 1200)
+    lost = "[...document.querySelectorAll('a')].filter(a => !document.querySelector(a.getAttribute('href')))"
+    assert page.ask("document.querySelectorAll('nav a').length") > 20
+    assert page.ask(f"{lost}.map(a => a.outerHTML)") == []
+    ids = "[...document.querySelectorAll('[id]')].map(e => e.id)"
+    assert page.ask(f"{ids}.length - new Set({ids}).size") == 0
+
+
+def test_printed_pages_show_every_step(page: Page, tmp_path: Path) -> None:
+    page.open(saved(LIBRARY[0], tmp_path), 1200)
+    page.ask("document.querySelectorAll('details.step').forEach(e => e.open = false)")
+    page.call("Emulation.setEmulatedMedia", media="print", features=[])
+    assert (
+        page.ask("[...document.querySelectorAll('nav, label')].filter(e => e.checkVisibility()).length") == 0
+    )
+    assert page.ask("document.querySelector('details.step math').getBoundingClientRect().height") > 5
+    assert len(page.call("Page.printToPDF")["data"]) > 10_000
+
+
+def test_a_hostile_title_is_text(page: Page, tmp_path: Path) -> None:
+    page.open(saved(HOSTILE_PROBLEM, tmp_path), 400)
+    title = page.ask("document.querySelector('h1').textContent")
+    for part in SEEN:
+        assert part in title
+        assert part in page.ask("document.title")
+    assert page.ask("document.querySelectorAll('script, img').length") == 0
+    assert not set("\u202e\u202c\u200f") & set(page.ask("document.documentElement.outerHTML"))
+    assert "<img src=x" in page.ask("document.body.textContent")
+    assert len(page.requests) == 1
+    assert page.ask(OVERFLOWING) == []

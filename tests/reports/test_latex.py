@@ -1,0 +1,94 @@
+"""LaTeX reports through a real pdflatex."""
+
+from __future__ import annotations
+
+import re
+import time
+from pathlib import Path
+
+import pytest
+
+import dynsolve
+from dynsolve.reports import Format, report
+from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, text_of, typeset
+from tests.support import LIBRARY, TEXTBOOKS, solve_json
+
+RP = next(path for path in LIBRARY if path.stem == "in3140-rp")
+
+
+@pytest.mark.parametrize("problem", LIBRARY, ids=lambda path: path.stem)
+def test_every_problem_of_the_library_compiles_without_complaint(problem: Path, tmp_path: Path) -> None:
+    done = typeset(made(problem, Format.LATEX).decode(), tmp_path)
+    assert done.complaints == []
+    assert done.code == 0
+
+
+@pytest.mark.parametrize("problem", TEXTBOOKS, ids=lambda path: path.stem)
+def test_with_stars_too(problem: Path, tmp_path: Path) -> None:
+    done = typeset(made(problem, Format.LATEX, star=True).decode(), tmp_path)
+    assert (done.code, done.complaints) == (0, [])
+
+
+@pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r", "puma560-first3"])
+@pytest.mark.parametrize("size", ["10pt", "11pt", "12pt"])
+def test_a_fragment_fits_the_standard_classes(name: str, size: str, tmp_path: Path) -> None:
+    problem = next(path for path in LIBRARY if path.stem == name)
+    (tmp_path / "part.tex").write_bytes(made(problem, Format.LATEX, fragment=True))
+    source = (
+        f"\\documentclass[{size}]{{article}}\\usepackage{{amsmath}}\\begin{{document}}\n"
+        "Before.\\input{part}\nAfter.\\end{document}\n"
+    )
+    done = typeset(source, tmp_path)
+    assert (done.code, done.complaints) == (0, [])
+    assert text_of(done.pdf).count("After.") == 1
+
+
+def test_nothing_but_amsmath_is_used() -> None:
+    source = made(RP, Format.LATEX).decode()
+    assert re.findall(r"\\usepackage(?:\[.*?\])?\{(.*?)\}", source) == ["amsmath"]
+    assert re.findall(r"\\documentclass\[.*?\]\{(.*?)\}", source) == ["article"]
+    assert "\\documentclass" not in made(RP, Format.LATEX, fragment=True).decode()
+
+
+def test_textbook_notation() -> None:
+    plain, starred = (made(RP, Format.LATEX, star=star).decode() for star in (False, True))
+    for sign in (r"\mathbf{H}_{2}^{0}", r"\dot{\theta}_{1}", r"\tau_{1} =", "f_{2} ="):
+        assert sign in plain
+    assert r"L_{2}^{\star 2}" in starred
+    assert r"L_{2}^{\star 2}" not in plain
+    assert r"\theta_{1}^{\star}" in plain, "the table marks joint variables, as the course's do"
+    elbow = made(next(path for path in LIBRARY if path.stem == "planar-2r"), Format.LATEX).decode()
+    assert "c_{12}" in elbow
+
+
+def test_equations_are_numbered_and_the_text_refers_to_them() -> None:
+    source = made(RP, Format.LATEX).decode()
+    labels = re.findall(r"\\label\{(.*?)\}", source)
+    references = re.findall(r"\\eqref\{(.*?)\}", source)
+    assert len(labels) == len(set(labels)) > 30
+    assert len(references) > 30
+    places = {label: source.index(f"\\label{{{label}}}") for label in labels}
+    for reference in set(references):
+        assert places[reference] < source.index(f"\\eqref{{{reference}}}"), "only what stands before is used"
+
+
+def test_a_hostile_title_is_text(tmp_path: Path) -> None:
+    done = typeset(made(HOSTILE_PROBLEM, Format.LATEX).decode(), tmp_path)
+    assert (done.code, done.complaints) == (0, [])
+    shown = text_of(done.pdf).replace("\u02c6", "^")
+    for part in SEEN:
+        assert part.replace("_", " ") in shown, "the fonts draw _ as a line"
+    assert "root:" not in shown
+    assert "[U+05D0][U+4E2D]" in shown
+
+
+def test_puma_in_at_most_twice_the_time_of_its_json() -> None:
+    puma = next(path for path in LIBRARY if path.stem == "puma560")
+    solve_json(puma)  # what is loaded once is loaded for both
+
+    def seconds(format: Format) -> float:
+        start = time.process_time()
+        report(dynsolve.solve(puma), format)
+        return time.process_time() - start
+
+    assert seconds(Format.LATEX) <= 2 * seconds(Format.JSON)

@@ -1,0 +1,57 @@
+"""PDF reports: made without TeX, the same bytes each time."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from dynsolve.reports import Format
+from tests.cli.running import dynsolve
+from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, text_of
+from tests.support import LIBRARY, ROOT
+
+SMALL = [path for path in LIBRARY if path.stem not in ("puma560", "panda-7r")]
+
+
+@pytest.mark.parametrize("problem", SMALL, ids=lambda path: path.stem)
+def test_every_problem_gives_a_pdf(problem: Path, tmp_path: Path) -> None:
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(problem, Format.PDF))
+    shown = text_of(pdf)
+    assert "Forward kinematics" in shown
+    assert "(10)" in shown
+
+
+def test_the_same_bytes_in_every_process_and_at_every_time(tmp_path: Path) -> None:
+    reports = []
+    for seed in ("1", "2"):
+        done = dynsolve("solve", "in3140-rp", "-o", str(tmp_path / f"{seed}.pdf"), PYTHONHASHSEED=seed)
+        assert (done.code, done.out) == (0, "")
+        reports.append((tmp_path / f"{seed}.pdf").read_bytes())
+        time.sleep(1.1)
+    assert reports[0] == reports[1]
+    assert reports[0].startswith(b"%PDF-")
+
+
+def test_a_hostile_title_is_text(tmp_path: Path) -> None:
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(HOSTILE_PROBLEM, Format.PDF))
+    shown = text_of(pdf)
+    for part in SEEN:
+        assert part.replace(" ", "") in shown.replace(" ", "")
+    assert "root:" not in shown
+
+
+def test_without_the_extra_the_message_says_what_to_install() -> None:
+    script = (
+        "import sys; sys.modules['typst'] = None; from dynsolve.cli.main import main; "
+        "main(['solve', 'in3140-rp', '--pdf', '-o', 'never.pdf'])"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, cwd=ROOT, check=False)
+    assert done.returncode == 2
+    assert "pip install 'dynsolve[pdf]'" in done.stderr.decode()
+    assert not (ROOT / "never.pdf").exists()

@@ -1,0 +1,89 @@
+"""The programs that look at reports: pdflatex, pdftotext, Chromium.
+
+CI installs them, and there a test without its program fails; elsewhere it is skipped, and says so.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import dynsolve
+from dynsolve.reports import Format, report
+
+HOSTILE = (
+    r"50% of a_1 & b #2 $x^2$ ~ <script>document.title='taken'</script> \input{/etc/passwd} {x} "
+    "\u202egnirts\u202c \u200fend-- `q` |r| [s](t) *u* \"v\" 'w' ?!`y"
+)
+"""A title that every notation would take for its own, were it not text."""
+
+SEEN = ("50% of a_1 & b #2 $x^2$", "<script>", r"\input{/etc/passwd} {x}", "gnirts", "[s](t)")
+"""What a reader must see of it."""
+
+HOSTILE_PROBLEM = f"""
+title: {json.dumps(HOSTILE)}
+source: "100% <img src=x onerror=alert(1)> \\\\end{{document}} \\u05d0\\u4e2d"
+dh:
+  - {{theta: theta1*, d: 0, a: l1, alpha: 0}}
+masses:
+  - {{mass: m1, link: 1, shape: point, center: tip}}
+"""
+
+
+def needed(tool: str) -> str:
+    """The path of a program."""
+    found = shutil.which(tool)
+    if found is None:
+        if os.environ.get("CI"):
+            pytest.fail(f"{tool} is not installed, and CI must have it")
+        pytest.skip(f"{tool} is not installed: apt-get install texlive-latex-extra chromium poppler-utils")
+    return found
+
+
+@cache
+def made(problem: Path | str, format: Format, star: bool = False, fragment: bool = False) -> bytes:
+    """A report; `problem` is a path, or the text of a problem file."""
+    return report(dynsolve.solve(problem), format, star=star, fragment=fragment)
+
+
+@dataclass(frozen=True)
+class Typeset:
+    """What pdflatex made of a source."""
+
+    code: int
+    log: str
+    pdf: Path
+
+    @property
+    def complaints(self) -> list[str]:
+        """Errors and warnings of substance."""
+        marks = ("!", "Overfull", "LaTeX Warning", "Package amsmath Warning", "Missing character", "Runaway")
+        found = [line for line in self.log.splitlines() if line.startswith(marks)]
+        return [line for line in found if "Label(s) may have changed" not in line]
+
+
+def typeset(source: str, folder: Path) -> Typeset:
+    """Run pdflatex twice, as references need."""
+    program = needed("pdflatex")
+    (folder / "report.tex").write_text(source, encoding="utf-8")
+    options = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
+    command = [program, *options, "-draftmode", "report.tex"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
+    if done.returncode == 0:
+        done = subprocess.run([program, *options, "report.tex"], cwd=folder, capture_output=True, check=False)
+    log = (folder / "report.log").read_text(encoding="utf-8", errors="replace")
+    return Typeset(done.returncode, log, folder / "report.pdf")
+
+
+def text_of(pdf: Path) -> str:
+    """What a PDF says, its white space evened."""
+    done = subprocess.run([needed("pdftotext"), str(pdf), "-"], capture_output=True, check=True)
+    return re.sub(r"\s+", " ", done.stdout.decode())
