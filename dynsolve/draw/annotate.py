@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 from dynsolve.draw import ink
 from dynsolve.draw.ink import Path
@@ -16,11 +17,23 @@ from dynsolve.draw.parts import RADIUS, TUBE, Part
 from dynsolve.draw.pose import AXIS, Pose
 from dynsolve.draw.space import Taken
 from dynsolve.draw.typography import typeset
-from dynsolve.draw.vectors import Point, Vector, along, cross, distance, dot, length, scale, subtract, unit
+from dynsolve.draw.vectors import (
+    Point,
+    Vector,
+    along,
+    cross,
+    distance,
+    dot,
+    length,
+    moved,
+    scale,
+    scaled,
+    subtract,
+    unit,
+)
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Row, Symbol, Words
 from dynsolve.robot.model import JointType
-import itertools
 
 _END_ON = 0.06
 """The foreshortening below which an axis is drawn as a point or a cross in a circle."""
@@ -152,7 +165,7 @@ def _ring(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
     front = subtract(view.toward, scale(part.axis, lean))
     front = unit(front) if length(front) > 0.05 else unit(cross(part.axis, view.up))
     side = cross(part.axis, front)
-    p, q = _scaled(view.direction(front), _RING), _scaled(view.direction(side), _RING)
+    p, q = scaled(view.direction(front), _RING), scaled(view.direction(side), _RING)
     half = math.radians(105)
     tip, before = ink.on_ellipse(center, p, q, half), ink.on_ellipse(center, p, q, half - 0.22)
     notes.draw(
@@ -162,57 +175,6 @@ def _ring(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
     )
     anchors = [ink.on_ellipse(center, p, q, t) for t in (half, -half, half / 2, -half / 2, 0.0)]
     notes.label(node, anchors, (tip[0] - center[0], tip[1] - center[1]), ink.VARIABLE, "variable")
-
-
-def _scaled(a: Point, factor: float) -> Point:
-    return a[0] * factor, a[1] * factor
-
-
-# -- lengths ---------------------------------------------------------------------------------------
-
-_OFFSETS = (24.0, -24.0, 34.0, -34.0, 46.0, -46.0, 60.0, -60.0)
-_SHORT = 20.0
-
-
-def dimension(
-    start: Vector, end: Vector, node: Node, pose: Pose, notes: Notes, colour: str = ink.BLACK
-) -> None:
-    """A length: a thin line with two heads beside what it measures, where there is room for it."""
-    a, b = pose.view.point(start), pose.view.point(end)
-    reach = math.dist(a, b)
-    kind = "variable" if colour == ink.VARIABLE else "length"
-    if reach < _SHORT:
-        notes.label(node, [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)], (0.0, 0.0), colour, kind)
-        return
-    x, y = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
-    normal = (y, -x) if -x < 0 or (x == 0 and y > 0) else (-y, x)
-
-    def cost(offset: float) -> tuple[float, float]:
-        p, q = _moved(a, normal, offset), _moved(b, normal, offset)
-        crossed = notes.taken.on_line(_moved(p, (x, y), 3.0), _moved(q, (x, y), -3.0))
-        return round(crossed * 100.0 + abs(offset) * 0.35 + (offset < 0) * 2.0, 6), offset
-
-    offset = min(_OFFSETS, key=cost)
-    p, q = _moved(a, normal, offset), _moved(b, normal, offset)
-    sign = math.copysign(1.0, offset)
-    ticks = [
-        Path(ink.line(_moved(at, normal, sign * 8.0), _moved(at, normal, offset + sign * 4.0)), ink.GREY, 0.7)
-        for at in (a, b)
-    ]
-    shaft = ink.line(_moved(p, (x, y), 5.0), _moved(q, (x, y), -5.0))
-    notes.draw(
-        *ticks,
-        Path(shaft, ink.WHITE, 3.4),
-        Path(shaft, colour, 1.0),
-        Path(ink.head(p, (-x, -y), 7.5), None, fill=colour),
-        Path(ink.head(q, (x, y), 7.5), None, fill=colour),
-    )
-    anchors = [_moved(p, (x, y), reach * part) for part in (0.5, 0.35, 0.65, 0.2, 0.8)]
-    notes.label(node, anchors, _scaled(normal, sign), colour, kind)
-
-
-def _moved(point: Point, direction: Point, amount: float) -> Point:
-    return point[0] + direction[0] * amount, point[1] + direction[1] * amount
 
 
 # -- mass centres and gravity ----------------------------------------------------------------------
@@ -231,9 +193,9 @@ def masses(pose: Pose, notes: Notes) -> None:
 
 def _is_on_link(center: Vector, pose: Pose) -> bool:
     """Whether a mass centre lies on the chain of links."""
-    near = pose.view.space(TUBE)
+    near = pose.view.space(3 * TUBE)
     ways = [pose.skeleton.path, *pose.parts.links]
-    return any(_gap(center, a, b) < near for way in ways for a, b in itertools.pairwise(way))
+    return any(_gap(center, a, b) < near for way in ways for a, b in pairwise(way))
 
 
 def _gap(point: Vector, a: Vector, b: Vector) -> float:
@@ -275,9 +237,9 @@ def gravity(place: Point, direction: Point | None, notes: Notes) -> None:
         notes.label(node, [(x + 8.0, y)], (1.0, 0.0), ink.BLACK, "gravity")
         return
     x, y = direction
-    tip = _moved(place, (x, y), 46.0)
+    tip = moved(place, (x, y), 46.0)
     notes.draw(
-        Path(ink.line(place, _moved(place, (x, y), 38.0)), ink.BLACK, 2.0),
+        Path(ink.line(place, moved(place, (x, y), 38.0)), ink.BLACK, 2.0),
         Path(ink.head(tip, (x, y), 11.0), None, fill=ink.BLACK),
     )
-    notes.label(node, [_moved(place, (x, y), 22.0)], (1.0, 0.0), ink.BLACK, "gravity")
+    notes.label(node, [moved(place, (x, y), 22.0)], (1.0, 0.0), ink.BLACK, "gravity")

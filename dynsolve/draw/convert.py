@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from dynsolve.errors import UsageError
 from dynsolve.notation.typst import quoted
 
@@ -27,7 +29,7 @@ def to_png(svg: str) -> bytes:
     return _compiled(svg, "", "", "png")
 
 
-def _compiled(svg: str, title: str, alt: str, format: str) -> bytes:
+def _compiled(svg: str, title: str, alt: str, format: Literal["pdf", "png"]) -> bytes:
     try:
         import typst
     except ImportError:

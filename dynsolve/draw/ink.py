@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from dynsolve.draw.vectors import Point
-import itertools
 
 Command = tuple[str, tuple[Point, ...]]
 """A letter and its points: M and L with one, C (a Bézier curve) with three, Z with none."""
@@ -115,7 +115,7 @@ def flattened(commands: Commands) -> Iterator[tuple[Point, Point]]:
             here = points[0]
         else:
             curve = [_bezier(here, points, k / 6) for k in range(7)]
-            yield from itertools.pairwise(curve)
+            yield from pairwise(curve)
             here = points[2]
 
 

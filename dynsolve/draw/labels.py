@@ -21,6 +21,9 @@ _DISTANCES = (4.0, 8.0, 13.0, 19.0, 27.0, 36.0, 46.0, 60.0, 76.0, 95.0)
 _FAR = 22.0
 """The distance from which a thin line leads from a label to what it names."""
 
+_CLOSE, _BARRED = 5.0, 16.0
+"""A label that is not close costs this much where lines bar the way to what it names."""
+
 _BESIDE, _ABOVE = 7.0, 2.0
 """The least room between two labels."""
 
@@ -52,9 +55,16 @@ class Label:
 @dataclass(frozen=True, slots=True)
 class _Place:
     box: Box
-    anchor: Point
-    distance: float
+    lead: tuple[Point, Point] | None
     cost: float
+
+    def is_clear_of(self, other: _Place) -> bool:
+        """Whether two labels and their lines keep off each other."""
+        return not (
+            self.box.overlaps(other.box, _BESIDE, _ABOVE)
+            or (other.lead and self.box.meets(*other.lead))
+            or (self.lead and other.box.meets(*self.lead))
+        )
 
 
 def place(wanted: Sequence[Wanted], taken: Taken) -> tuple[Label, ...]:
@@ -64,23 +74,23 @@ def place(wanted: Sequence[Wanted], taken: Taken) -> tuple[Label, ...]:
     for _ in range(_ROUNDS):
         before = list(chosen)
         for k, places in enumerate(options):
-            others = [other.box for j, other in enumerate(chosen) if other is not None and j != k]
+            others = [other for j, other in enumerate(chosen) if other is not None and j != k]
             chosen[k] = _best(places, others)
         if chosen == before:
             break
     return tuple(
-        Label(label.node, label.line, found.box, label.colour, label.kind, _lead(found))
+        Label(label.node, label.line, found.box, label.colour, label.kind, found.lead)
         for label, found in zip(wanted, chosen, strict=True)
         if found is not None
     )
 
 
-def _best(places: Sequence[_Place], others: Sequence[Box]) -> _Place:
-    """The cheapest place that is free of other labels; places come cheapest first."""
+def _best(places: Sequence[_Place], others: Sequence[_Place]) -> _Place:
+    """The cheapest place that is clear of other labels, else of the most; places come cheapest first."""
     for option in places:
-        if not any(option.box.overlaps(other, _BESIDE, _ABOVE) for other in others):
+        if all(option.is_clear_of(other) for other in others):
             return option
-    return places[-1]
+    return min(places, key=lambda option: sum(not option.is_clear_of(other) for other in others))
 
 
 def _options(label: Wanted, taken: Taken) -> list[_Place]:
@@ -93,11 +103,10 @@ def _options(label: Wanted, taken: Taken) -> list[_Place]:
                 box = _beside(anchor, away, angle, wide, high)
                 turn = 0.0 if preferred is None else abs(math.remainder(angle - preferred, 2 * math.pi))
                 hits = taken.inside(box)
-                lead = 0.0
-                if away >= _FAR:
-                    lead = 14.0 * taken.on_line(anchor, box.nearest(anchor))
-                cost = 9.0 * hits + 0.45 * away + 2.2 * turn + 1.5 * rank + lead
-                places.append(_Place(box, anchor, away, round(cost, 6)))
+                lead = _lead(anchor, away, box)
+                crossed = _BARRED * taken.on_line(*_way(anchor, box)) if away > _CLOSE else 0.0
+                cost = 9.0 * hits + 0.45 * away + 2.2 * turn + 1.5 * rank + crossed
+                places.append(_Place(box, lead, round(cost, 6)))
     places.sort(key=lambda option: option.cost)
     return places
 
@@ -108,11 +117,16 @@ def _beside(anchor: Point, away: float, angle: float, wide: float, high: float) 
     return Box.around((anchor[0] + c * (away + wide / 2), anchor[1] + s * (away + high / 2)), wide, high)
 
 
-def _lead(place: _Place) -> tuple[Point, Point] | None:
-    if place.distance < _FAR:
+def _lead(anchor: Point, away: float, box: Box) -> tuple[Point, Point] | None:
+    """The line from what a label names to the label, where that is far."""
+    if away < _FAR:
         return None
-    x, y = place.anchor
-    end = place.box.nearest(place.anchor)
-    reach = math.dist(end, place.anchor) or 1.0
-    start = (x + (end[0] - x) * 3.0 / reach, y + (end[1] - y) * 3.0 / reach)
-    return start, end
+    return _way(anchor, box)
+
+
+def _way(anchor: Point, box: Box) -> tuple[Point, Point]:
+    """The straight way from an anchor to a box, without its ends."""
+    end = box.nearest(anchor)
+    reach = math.dist(end, anchor) or 1.0
+    x, y = (end[0] - anchor[0]) / reach, (end[1] - anchor[1]) / reach
+    return (anchor[0] + 3.0 * x, anchor[1] + 3.0 * y), (end[0] - 2.0 * x, end[1] - 2.0 * y)

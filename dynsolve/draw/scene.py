@@ -8,15 +8,16 @@ from dataclasses import dataclass
 from dynsolve.draw import annotate, ink
 from dynsolve.draw.ink import Path, flattened
 from dynsolve.draw.labels import Label, place
-from dynsolve.draw.numbers import Numbers, numbers
+from dynsolve.draw.lengths import Length, dimension, row_lengths
+from dynsolve.draw.numbers import numbers
 from dynsolve.draw.pose import Pose, best_pose
 from dynsolve.draw.setting import Setting, setting
-from dynsolve.draw.skeleton import NEAR, free_symbols
+from dynsolve.draw.skeleton import free_symbols
 from dynsolve.draw.solids import solids
 from dynsolve.draw.space import Box, Taken
-from dynsolve.draw.vectors import Point, distance, dot
+from dynsolve.draw.vectors import Point, dot
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Negative, Node, Number, Symbol
+from dynsolve.notation.tree import Number, Symbol
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType, Robot
 
@@ -51,8 +52,8 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     annotate.frames(pose, notes)
     annotate.turns(pose, [joint.written[0] for joint in robot.joints], notes)
     annotate.masses(pose, notes)
-    _lengths(robot, pose, notes)
-    _center_lengths(robot, values, pose, notes)
+    for length in (*row_lengths(robot, pose), *_center_lengths(robot, pose)):
+        dimension(length, pose, notes)
     _gravity(world, pose, body, notes)
     labels = place(notes.wanted, notes.taken)
     paths = (*body, *notes.paths, *_leads(labels))
@@ -66,32 +67,14 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     )
 
 
-def _lengths(robot: Robot, pose: Pose, notes: annotate.Notes) -> None:
-    """d and a of every row that has them."""
-    for joint, leg in zip(robot.joints, pose.skeleton.legs, strict=True):
-        _, d, a, _ = joint.written
-        if distance(leg.foot, leg.head) > NEAR:
-            slides = joint.type is JointType.PRISMATIC
-            colour = ink.VARIABLE if slides else ink.BLACK
-            annotate.dimension(leg.foot, leg.head, d if slides else unsigned(d), pose, notes, colour)
-        start, end = (leg.start, leg.foot) if distance(leg.start, leg.foot) > NEAR else (leg.head, leg.end)
-        if distance(start, end) > NEAR:
-            annotate.dimension(start, end, unsigned(a), pose, notes)
-
-
-def unsigned(node: Node) -> Node:
-    """A length without the sign that says only which way it is measured."""
-    return node.argument if isinstance(node, Negative) else node
-
-
-def _center_lengths(robot: Robot, values: Numbers, pose: Pose, notes: annotate.Notes) -> None:
+def _center_lengths(robot: Robot, pose: Pose) -> list[Length]:
     """The distances of mass centres that are given by one symbol."""
+    found = []
     for body, mass in zip(robot.bodies, pose.skeleton.masses, strict=True):
-        if mass.from_ is None:
-            continue
         symbols = free_symbols(robot, body)
-        if len(symbols) == 1:
-            annotate.dimension(mass.from_, mass.center, Symbol(symbols[0]), pose, notes)
+        if mass.from_ is not None and len(symbols) == 1:
+            found.append(Length(mass.from_, mass.center, Symbol(symbols[0]), optional=True))
+    return found
 
 
 def _gravity(world: Setting, pose: Pose, body: Iterable[Path], notes: annotate.Notes) -> None:

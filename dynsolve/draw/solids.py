@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 from dynsolve.draw import ink
 from dynsolve.draw.ink import Path
-from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, TUBE, Part, Parts
+from dynsolve.draw.links import Solid, joined, link_pieces
+from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, Part, Parts
 from dynsolve.draw.vectors import (
     Point,
     Vector,
@@ -16,7 +16,6 @@ from dynsolve.draw.vectors import (
     any_normal,
     between,
     cross,
-    distance,
     dot,
     length,
     scale,
@@ -26,29 +25,18 @@ from dynsolve.draw.vectors import (
 from dynsolve.draw.view import View
 from dynsolve.robot.model import JointType
 
-_PIECE = 5.0
-"""How long the pieces are that a link is cut into, so that each can be sorted."""
-
 _END_ON = 0.999
 _GROUND = 30.0
 
 
-@dataclass(frozen=True, slots=True)
-class Solid:
-    """Paths that belong together; what is nearer the viewer is drawn later."""
-
-    depth: float
-    paths: tuple[Path, ...]
-
-
 def solids(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
     """All of a robot's body, from back to front."""
-    found = [*_link_pieces(parts, view)]
+    found = [*link_pieces(parts, view)]
     for part in parts.joints:
         shape = cylinder if part.type is JointType.REVOLUTE else box
         found.append(shape(part, view, up))
     found.sort(key=lambda solid: round(solid.depth, 6))
-    return (*ground(parts, view, up), *(path for solid in found for path in solid.paths))
+    return (*ground(parts, view, up), *(path for solid in joined(found) for path in solid.paths))
 
 
 # -- joints ----------------------------------------------------------------------------------------
@@ -129,57 +117,6 @@ def _face(
     lit = dot(normal, up)
     fill = ink.CAP if view.flat or lit > 0.4 else ink.SIDE if dot(normal, view.right) < 0.4 else ink.DARK_SIDE
     return Path(ink.polygon([view.point(corner) for corner in corners]), fill=fill)
-
-
-# -- links -----------------------------------------------------------------------------------------
-
-
-def _link_pieces(parts: Parts, view: View) -> Iterator[Solid]:
-    sink = 0.5 if view.flat else 0.0
-    for number, way in enumerate(parts.links):
-        for k, point in enumerate(way):
-            if (number or k) and not _inside(point, parts, view):
-                elbow = Path(ink.circle(view.point(point), TUBE), fill=ink.LINK)
-                yield Solid(view.depth(point) - 1e-3 - sink, (elbow,))
-            if k:
-                yield from _segment(way[k - 1], point, parts, view, sink)
-
-
-def _segment(a: Vector, b: Vector, parts: Parts, view: View, sink: float) -> Iterator[Solid]:
-    """A straight part of a link in short pieces; what lies inside a joint is left out."""
-    ends = view.point(a), view.point(b)
-    reach = math.dist(*ends)
-    if reach < 0.5:
-        return
-    normal = ((ends[0][1] - ends[1][1]) / reach * TUBE, (ends[1][0] - ends[0][0]) / reach * TUBE)
-    pieces = max(1, math.ceil(distance(a, b) * view.size / _PIECE))
-    overlap = 0.15 / pieces
-    for k in range(pieces):
-        middle = between(a, b, (k + 0.5) / pieces)
-        if _inside(middle, parts, view):
-            continue
-        p = view.point(between(a, b, max(0.0, k / pieces - overlap)))
-        q = view.point(between(a, b, min(1.0, (k + 1) / pieces + overlap)))
-        edges = [
-            (p[0] + normal[0], p[1] + normal[1]),
-            (q[0] + normal[0], q[1] + normal[1]),
-            (q[0] - normal[0], q[1] - normal[1]),
-            (p[0] - normal[0], p[1] - normal[1]),
-        ]
-        fill = Path(ink.polygon(edges), None, fill=ink.LINK)
-        sides = (Path(ink.line(edges[0], edges[1])), Path(ink.line(edges[2], edges[3])))
-        yield Solid(view.depth(middle) - sink, (fill, *sides))
-
-
-def _inside(point: Vector, parts: Parts, view: View) -> bool:
-    for part in parts.joints:
-        offset = scale(subtract(point, part.center), view.size)
-        height = dot(offset, part.axis)
-        across = length(subtract(offset, scale(part.axis, height)))
-        wide = RADIUS if part.type is JointType.REVOLUTE else BOX - 1.0
-        if abs(height) < HALF_HEIGHT - 1.0 and across < wide - 1.0:
-            return True
-    return False
 
 
 # -- the ground ------------------------------------------------------------------------------------

@@ -42,6 +42,21 @@ class Box:
             and other.top < self.bottom + above
         )
 
+    def meets(self, a: Point, b: Point) -> bool:
+        """Whether a line has a point in it."""
+        low, high = 0.0, 1.0
+        for start, end, least, most in (
+            (a[0], b[0], self.left, self.right),
+            (a[1], b[1], self.top, self.bottom),
+        ):
+            if start == end:
+                if not least <= start <= most:
+                    return False
+                continue
+            near, far = sorted(((least - start) / (end - start), (most - start) / (end - start)))
+            low, high = max(low, near), min(high, far)
+        return low <= high
+
     def nearest(self, point: Point) -> Point:
         """Its point that is nearest to another."""
         return min(max(point[0], self.left), self.right), min(max(point[1], self.top), self.bottom)

@@ -38,8 +38,8 @@ def to_svg(scene: Scene) -> str:
 
 
 def text(words: str) -> str:
-    """Any words as text of XML; characters that cannot be printed are left out."""
-    return escape(printable(words), quote=True)
+    """Any words as text of XML; characters that cannot be printed are replaced."""
+    return "\u00a0".join(escape(printable(part), quote=True) for part in words.split("\u00a0"))
 
 
 def number(value: float) -> str:
@@ -84,6 +84,8 @@ def _run(run: Run, drop: float) -> str:
     attributes = ' font-style="italic"' if run.italic else ""
     if run.size != SIZE:
         attributes += f' font-size="{number(run.size)}"'
+    if run.gap:
+        attributes += f' dx="{number(run.gap)}"'
     if abs(drop) > 1e-6:
         attributes += f' dy="{number(drop)}"'
     return f"<tspan{attributes}>{text(run.text)}</tspan>"

@@ -25,7 +25,9 @@ INDEX = 0.7
 _DROP, _RISE = 0.24, 0.36
 _DOWN, _UP, _BACK = "\ue000", "\ue001", "\ue002"
 _STAR = "∗"
-_PRINTED = {"-": "−", " ": "\u00a0"}
+_BLANK = "\u00a0"
+_SPACE = 0.25
+_PRINTED = {"-": "−", " ": _BLANK}
 
 _NARROW = "fijlrtι.,:;'|()/°\u00a0"
 _WIDE = "mwMWGHKNOQDUAωφψΦΨΩΘ"
@@ -33,12 +35,17 @@ _WIDE = "mwMWGHKNOQDUAωφψΦΨΩΘ"
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Letters of one look; `shift` is how far below the line they stand, in picture units."""
+    """Letters of one look, in picture units.
+
+    `shift` is how far below the line they stand, `gap` the space before them: programs
+    disagree about a blank at the beginning of a piece of text.
+    """
 
     text: str
     italic: bool
     size: float
     shift: float
+    gap: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +89,7 @@ def _runs(marked: str) -> Iterator[Run]:
         slanted = character.isalpha()
         if character in (_DOWN, _UP, _BACK) or slanted != italic:
             if text:
-                yield Run(text, italic, round(size, 2), round(shift, 2))
+                yield _run(text, italic, size, shift)
             text, italic = "", slanted
         if character == _DOWN:
             size, shift = SIZE * INDEX, SIZE * _DROP
@@ -94,8 +101,14 @@ def _runs(marked: str) -> Iterator[Run]:
             text += _PRINTED.get(character, character)
 
 
+def _run(text: str, italic: bool, size: float, shift: float) -> Run:
+    letters = text.lstrip(_BLANK)
+    gap = (len(text) - len(letters)) * _SPACE * size
+    return Run(letters, italic, round(size, 2), round(shift, 2), round(gap, 2))
+
+
 def _width(run: Run) -> float:
-    return run.size * sum(map(_letter_width, run.text))
+    return run.gap + run.size * sum(map(_letter_width, run.text))
 
 
 def _letter_width(character: str) -> float:

@@ -91,3 +91,13 @@ def applied(R: Rotation, a: Vector) -> Vector:
 def into(R: Rotation, a: Vector) -> Vector:
     """Rᵀ a"""
     return dot(R[0], a), dot(R[1], a), dot(R[2], a)
+
+
+def scaled(a: Point, factor: float) -> Point:
+    """factor·a, on paper."""
+    return a[0] * factor, a[1] * factor
+
+
+def moved(point: Point, direction: Point, amount: float) -> Point:
+    """point + amount·direction, on paper."""
+    return point[0] + direction[0] * amount, point[1] + direction[1] * amount

@@ -1,0 +1,124 @@
+"""Links: tubes cut into short pieces, so that each can be sorted by depth, and put together again."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from dynsolve.draw import ink
+from dynsolve.draw.ink import Path, flattened
+from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, TUBE, Parts
+from dynsolve.draw.space import Box
+from dynsolve.draw.vectors import Point, Vector, between, distance, dot, length, scale, subtract
+from dynsolve.draw.view import View
+from dynsolve.robot.model import JointType
+
+_PIECE = 5.0
+"""How long the pieces are that a link is cut into."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """Paths that belong together; what is nearer the viewer is drawn later.
+
+    A piece of a straight tube says which tube it is of, and from where to where it
+    goes on paper, `first` and `last` counting pieces.
+    """
+
+    depth: float
+    paths: tuple[Path, ...]
+    tube: int = -1
+    first: int = 0
+    last: int = 0
+    ends: tuple[Point, Point] = ((0.0, 0.0), (0.0, 0.0))
+
+    @property
+    def box(self) -> Box:
+        """What it takes of the paper."""
+        points = [point for path in self.paths for piece in flattened(path.commands) for point in piece]
+        xs, ys = [x for x, _ in points], [y for _, y in points]
+        return Box(min(xs), min(ys), max(xs), max(ys))
+
+
+def link_pieces(parts: Parts, view: View) -> Iterator[Solid]:
+    """The tubes between the parts in pieces, and the elbows between the tubes."""
+    sink = 0.5 if view.flat else 0.0
+    tube = 0
+    for number, way in enumerate(parts.links):
+        for k, point in enumerate(way):
+            if (number or k) and not _inside(point, parts, view):
+                elbow = Path(ink.circle(view.point(point), TUBE), fill=ink.LINK)
+                yield Solid(view.depth(point) - 1e-3 - sink, (elbow,))
+            if k:
+                tube += 1
+                yield from _tube(way[k - 1], point, parts, view, sink, tube)
+
+
+def _tube(a: Vector, b: Vector, parts: Parts, view: View, sink: float, tube: int) -> Iterator[Solid]:
+    """A straight tube in short pieces; what lies inside a joint is left out."""
+    if math.dist(view.point(a), view.point(b)) < 0.5:
+        return
+    pieces = max(1, math.ceil(distance(a, b) * view.size / _PIECE))
+    for k in range(pieces):
+        middle = between(a, b, (k + 0.5) / pieces)
+        if not _inside(middle, parts, view):
+            ends = view.point(between(a, b, k / pieces)), view.point(between(a, b, (k + 1) / pieces))
+            yield Solid(view.depth(middle) - sink, _drawn(*ends), tube, k, k, ends)
+
+
+def _drawn(a: Point, b: Point) -> tuple[Path, ...]:
+    """A straight tube on paper: its area and its two sides."""
+    reach = math.dist(a, b)
+    x, y = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
+    sides = [
+        ((a[0] - s * y * TUBE, a[1] + s * x * TUBE), (b[0] - s * y * TUBE, b[1] + s * x * TUBE))
+        for s in (1.0, -1.0)
+    ]
+    area = ink.polygon([*sides[0], *reversed(sides[1])])
+    return (Path(area, None, fill=ink.LINK), *(Path(ink.line(*side)) for side in sides))
+
+
+def joined(solids: Sequence[Solid]) -> list[Solid]:
+    """Solids in order, with the pieces of a tube put together where nothing comes between them."""
+    done: list[Solid] = []
+    for solid in solids:
+        place = _before(done, solid)
+        if place is None:
+            done.append(solid)
+        else:
+            done[place] = _merged(done[place], solid)
+    return done
+
+
+def _before(done: Sequence[Solid], solid: Solid) -> int | None:
+    """Where the neighbouring piece of a tube stands, if what was drawn since leaves this one free."""
+    if solid.tube < 0:
+        return None
+    box = solid.box
+    for place in range(len(done) - 1, -1, -1):
+        other = done[place]
+        if other.tube == solid.tube and solid.first in (other.first - 1, other.last + 1):
+            return place
+        if other.tube != solid.tube and box.overlaps(other.box):
+            return None
+    return None
+
+
+def _merged(a: Solid, b: Solid) -> Solid:
+    if b.first < a.first:
+        a, b = b, a
+    ends = a.ends[0], b.ends[1]
+    return replace(a, paths=_drawn(*ends), last=b.last, ends=ends)
+
+
+def _inside(point: Vector, parts: Parts, view: View) -> bool:
+    """Whether a point lies in a cylinder or a box."""
+    for part in parts.joints:
+        offset = scale(subtract(point, part.center), view.size)
+        height = dot(offset, part.axis)
+        across = length(subtract(offset, scale(part.axis, height)))
+        wide = RADIUS if part.type is JointType.REVOLUTE else BOX - 1.0
+        if abs(height) < HALF_HEIGHT - 1.0 and across < wide - 1.0:
+            return True
+    return False
