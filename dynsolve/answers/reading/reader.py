@@ -289,10 +289,27 @@ class Reader:
             argument = self.atom()
             self.nesting -= 1
             return functions.applied(self, "sqrt", argument, token)
+        if kind == "^":
+            return self.framed()
         if kind == "'" and self.peek().text == "diff":
             self.take()
             return self.word(self.token)
         raise self.unexpected()
+
+    def framed(self) -> Value:
+        """A name with the frame before it: `{}^0T_2`."""
+        sign = self.take()
+        frame = self.group()
+        if (
+            len(frame) != 1
+            or frame[0].kind != "number"
+            or len(frame[0].text) > 2
+            or self.token.kind not in ("name", "letter")
+        ):
+            raise ReadError("nothing stands before this `^`", sign.start, 1, "a power follows its base")
+        form = self.form()
+        form.scripts.powers.insert(0, Fraction(int(frame[0].text)))
+        return self.named(form)
 
     def number(self) -> Value:
         token = self.take()

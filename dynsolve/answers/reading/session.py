@@ -129,11 +129,11 @@ class Session:
         members = equation.members
         sides = self._sides(members)
         names = list(dict.fromkeys(side.candidates for side in sides if isinstance(side, Name)))
-        owner = names[0][0] if names else ""
+        owners = tuple(name for candidates in names for name in candidates)
         read: list[tuple[int, Read | ReadError]] = []
         for index, member in enumerate(members):
             if not isinstance(sides[index], (Name, Unknown)):
-                read.append((index, self.member(member, owner)))
+                read.append((index, self.member(member, owners)))
         if names:
             self._judged(names, read, equation, display)
         else:
@@ -184,7 +184,7 @@ class Session:
                 error = ReadError("nothing stands on one side of this `=`", 0, 1, "write the value alone")
                 self._unreadable(candidates, display, error, label, where)
                 continue
-            found = self.member(member, candidates[0])
+            found = self.member(member, candidates)
             if isinstance(found, Read) and isinstance(found.value, Abstract):
                 found = ReadError(
                     found.value.why, member[0].start, 1, "write it in the symbols of the problem"
@@ -210,13 +210,17 @@ class Session:
                     side = None
                 elif last and self._is_symbol(member):
                     side = None
+            elif member[0].kind in ("begin", "["):
+                side = self._side(member)
+                side = side if isinstance(side, Name) else None
             found.append(side)
         return found
 
     def _is_symbol(self, member: list[Token]) -> bool:
         """Whether a member alone is a symbol of the problem, which wins on a right-hand side."""
         text = key("".join(t.text for t in member if t.kind in ("name", "letter", "number")))
-        return len(member) < 6 and text in self.vocabulary.symbols
+        script = any(t.kind == "command" and t.text == "script" for t in member)
+        return len(member) < 6 and not script and text in self.vocabulary.symbols
 
     def _side(self, member: list[Token]) -> Name | Unknown | None:
         """The name that a side is, None where it is something else."""
@@ -276,15 +280,18 @@ class Session:
 
     # Members
 
-    def member(self, member: list[Token], owner: str = "") -> Read | ReadError:
-        """A member's value, or why it has none; readings that take a bolder guess come last."""
+    def member(self, member: list[Token], owners: tuple[str, ...] = ()) -> Read | ReadError:
+        """A member's value, or why it has none; readings that take a bolder guess come last.
+
+        `owners` are the answers it may be a value of.
+        """
         tokens = cut_names(member, self.vocabulary)
         first: Read | ReadError | None = None
         for options in _WAYS:
             if options and not _may_help(options, tokens):
                 continue
-            found = self._read(tokens, owner, options)
-            if isinstance(found, Read) and self._has_shape(found, owner):
+            found = self._read(tokens, owners, options)
+            if isinstance(found, Read) and self._has_shape(found, owners):
                 return found
             if first is None or (isinstance(first, ReadError) and isinstance(found, Read)):
                 first = found
@@ -293,13 +300,16 @@ class Session:
             return first
         return ReadError(first.message, max(first.offset, member[0].start), max(first.length, 1), first.help)
 
-    def _read(self, tokens: list[Token], owner: str, options: frozenset[str]) -> Read | ReadError:
+    def _read(
+        self, tokens: list[Token], owners: tuple[str, ...], options: frozenset[str]
+    ) -> Read | ReadError:
+        owner = owners[0] if owners else ""
         reader = Reader(tokens, self.vocabulary, owner=owner, options=options)
         try:
             value = reader.value()
             definition = isinstance(value, Abstract) or is_names_only(reader, self.vocabulary)
-            if not definition and owner:
-                self._fits((owner,), value)
+            if not definition:
+                self._check_shape(value, owners)
             if not isinstance(value, Abstract):
                 measure.check(value.node if isinstance(value, Grid) else value)
         except ReadError as error:
@@ -308,21 +318,21 @@ class Session:
             return ReadError("this is nested too deeply", 0, 1, "write it in fewer levels")
         return Read(value, tuple(reader.references), tuple(reader.notes), tuple(reader.free), definition)
 
-    def _has_shape(self, found: Read, owner: str) -> bool:
-        """Whether a value has the shape of what it is given for."""
-        shape = self.vocabulary.shapes.get(owner)
-        if isinstance(found.value, Abstract) or not owner:
+    def _has_shape(self, found: Read, owners: tuple[str, ...]) -> bool:
+        """Whether a value has the shape of one of the answers it is given for."""
+        value = found.value
+        if isinstance(value, Abstract) or not owners:
             return True
-        if isinstance(found.value, Grid):
-            return found.value.shape in (shape, shape and shape[::-1])
-        return shape is None or shape == (1, 1) or found.value == ZERO
+        shapes = [self.vocabulary.shapes.get(owner) for owner in owners]
+        if isinstance(value, Grid):
+            return any(shape and value.shape in (shape, shape[::-1]) for shape in shapes)
+        return value == ZERO or None in shapes or (1, 1) in shapes
 
-    def _fits(self, candidates: tuple[str, ...], value: Value) -> None:
-        """Raise ReadError for a value that is a matrix where a scalar belongs, or the other way."""
-        shape = self.vocabulary.shapes.get(candidates[0])
-        if shape is None and isinstance(value, Grid):
+    def _check_shape(self, value: Value, owners: tuple[str, ...]) -> None:
+        """Raise ReadError for a matrix where only a scalar belongs."""
+        if isinstance(value, Grid) and owners and not any(self.vocabulary.shapes.get(o) for o in owners):
             rows, columns = value.shape
-            message = f"{candidates[0]} is one expression; this is a {rows}×{columns} matrix"
+            message = f"{owners[0]} is one expression; this is a {rows}×{columns} matrix"
             raise ReadError(message, help="check what is transposed, and what is a vector")
 
     # Chains with a name

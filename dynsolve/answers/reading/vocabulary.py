@@ -51,7 +51,7 @@ class Vocabulary:
     `quantities` are canonical names by key, several where the notation allows several;
     `derived` are derivatives that were defined on their own, `broken` definitions that
     could not be read, `angles` the student's own by subscript.
-    `shapes` are those of every canonical name; `masses` are the masses and g;
+    `shapes` are those of every canonical name; `masses` are the masses, the moments of inertia and g;
     `defined` is what the student defined.
     """
 
@@ -179,7 +179,7 @@ def vocabulary(problem: Problem) -> Vocabulary:
     _add_derivatives(others, symbols, subscripts)
     bodies = tuple(body.name for body in robot.bodies)
     quantities, shapes, families = _quantities(robot.n, len(robot.joints), coordinates, bodies, subscripts)
-    masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g"))
+    masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
     return Vocabulary(
         coordinates, symbols, others, quantities, shapes, families, bodies, masses, subscripts=subscripts
     )
@@ -311,9 +311,18 @@ def _add_torques(
 ) -> None:
     spoken = {q.name: index for index, q in subscripts.items()}
     for q in coordinates:
-        i, name = q.index, key(q.name)
-        force = (f"tau{i}", f"f{i}", f"F{i}", f"tau{name}", f"f{name}", f"F{name}", f"T{name}", f"Q{i}")
-        table.add(q.force, None, "tau", force)
+        i = q.index
+        letter = "theta" if q.type is JointType.REVOLUTE else "d"
+        names = dict.fromkeys((key(q.name), f"q{i}", f"{letter}{spoken[q.name]}"))
+        force = [
+            f"tau{i}",
+            f"f{i}",
+            f"F{i}",
+            f"Q{i}",
+            *(mark + n for n in names for mark in ("tau", "f", "F")),
+        ]
+        table.add(q.force, None, "tau", tuple(force))
+        name = key(q.name)
         table.add(f"dLdqd{i}", None, "dLdqd", (f"dLdqd{i}", f"dLdqdot{i}", f"dLd{name}dot"))
         table.add(f"ddt{i}", None, "ddt", (f"ddt{i}", f"ddtdLdqd{i}"))
         table.add(f"dLdq{i}", None, "dLdq", (f"dLdq{i}", f"dLd{name}"))
