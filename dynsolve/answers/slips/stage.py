@@ -135,12 +135,28 @@ def _all_turn(robot: Robot, frames: list[Matrix], link: int) -> Matrix:
 
 def _body_inertia(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
     body = _body(robot, name)
-    if body is None or body.inertia is None or body.about_point is None:
+    if body is None or body.inertia is None:
         return
     right = value(f"I_body{name}")
+    if body.about_point is None:
+        yield from _about_joint(robot, body, right)
+        return
     yield body.inertia, slip("parallel_axis_missing", part=name)
     yield right + right - body.inertia, slip("parallel_axis_twice", part=name)
     yield body.inertia + body.inertia - right, slip("parallel_axis_twice", part=name)
+
+
+def _about_joint(robot: Robot, body: Body, right: Matrix) -> Iterator[Variant]:
+    """The tensor about the near end, where the one about the mass centre belongs."""
+    if body.link == 0 or body.axes.kind is not AxesKind.LINK:
+        return
+    step = kinematics.dh_matrix(robot, robot.joints[body.link - 1])
+    near = -(kinematics.rotation(step).T @ kinematics.origin(step))
+    if robot.convention is Convention.MODIFIED:
+        near = Matrix.zero(robot.ring, 3, 1)
+    if not any(map(robot.ring.depends_on_coordinates, near.entries)):
+        offset = body.axes.rotation.T @ (body.center - near)
+        yield right + inertia.steiner(body.mass, offset), slip("parallel_axis_twice", part=body.name)
 
 
 def _base_inertia(robot: Robot, name: str, value: Value) -> Iterator[Variant]:

@@ -1,13 +1,24 @@
-"""Every slip of the table that has an example is recognized in it."""
+"""Every slip of the table is recognized: in its example, and wherever its step is taken."""
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import pytest
 
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.field import Field, Plan
+from dynsolve.answers.graph import Graph
+from dynsolve.answers.judge import check
+from dynsolve.answers.slips.stage import variants
 from dynsolve.answers.slips.table import SLIPS, Slip
-from tests.unit.answers.hands import codes, judged
+from dynsolve.answers.submission import Answer, Place, Submission
+from dynsolve.explain.forms import Forms
+from tests.unit.answers.hands import codes, judged, key, problem
 
 WITH_EXAMPLES = [slip for slip in SLIPS.values() if slip.example]
+STEMS = ["in3140-rp", "planar-2r", "elbow-3r", "scara-rrpr", "rp-vertical"]
 
 
 @pytest.mark.parametrize("slip", WITH_EXAMPLES, ids=lambda slip: slip.code)
@@ -17,3 +28,40 @@ def test_the_example_of_a_slip_shows_it(slip: Slip) -> None:
     answer = judged(example.problem, example.name, example.value, **example.beside)
     assert answer.verdict == "wrong"
     assert slip.code in codes(answer)
+
+
+@lru_cache
+def graph(stem: str) -> Graph:
+    robot = problem(stem).robot
+    return Graph(Field(robot, key(stem), Plan(robot.ring)))
+
+
+def _equal(a: Expr | Matrix, b: Expr | Matrix) -> bool:
+    if isinstance(a, Matrix) and isinstance(b, Matrix):
+        return a.shape == b.shape and a.entries == b.entries
+    return bool(a == b)
+
+
+@pytest.mark.parametrize("stem", STEMS)
+def test_a_step_that_went_wrong_is_named(stem: str) -> None:
+    """Of two slips with the same outcome either may be named."""
+    g, forms = graph(stem), Forms(problem(stem).robot, key(stem))
+    seen: set[str] = set()
+    for node in g.field.rules:
+        wrong = [(v, t) for v, t in variants(g.robot, node, g.key) if not _equal(v, g.key(node))]
+        for value, told in wrong:
+            answer = Answer(g.answer(node), "", forms.of(value), Place(1, 1), "")
+            report = check(problem(stem), Submission("", "", "", (answer,)), key(stem))
+            found = next(a for a in report.answers if a.given)
+            alike = {t.code for v, t in wrong if _equal(v, value)}
+            if found.verdict == "wrong":
+                assert alike & set(codes(found)), (node, told.message, codes(found))
+                seen.add(told.code)
+    assert seen
+
+
+def test_every_slip_has_an_example_or_a_step() -> None:
+    steps = {told.code for stem in STEMS for node in graph(stem).field.rules
+             for _, told in variants(graph(stem).robot, node, graph(stem).key)}  # fmt: skip
+    told_elsewhere = {"trig_part", "terms_differ"}
+    assert set(SLIPS) - {s.code for s in WITH_EXAMPLES} - steps == told_elsewhere
