@@ -25,7 +25,7 @@ from dynsolve.verify import Verification, verify
 if TYPE_CHECKING:
     import sympy
 
-    from dynsolve.document import Block
+    from dynsolve.document import Block, Document
     from dynsolve.explain.step import Detail
     from dynsolve.numbers.beside import Numbers
     from dynsolve.numbers.given import Assignment, Plain
@@ -175,6 +175,19 @@ class Solution:
         from dynsolve.explain.course import Course
 
         return explain(Course(self.robot, self.values, self.forms, self.agreement), stages)
+
+    def hint(self, stage: str) -> Document:
+        """What to do in a stage, as a document that holds no result of it or of a later one.
+
+        Raises UsageError for a stage that this robot does not have.
+
+        >>> solve("planar-2r").hint("lagrangian").blocks[1].text
+        'Hint: the Lagrangian'
+        """
+        from dynsolve.explain.course import Course
+        from dynsolve.explain.hint import hint_document
+
+        return hint_document(self.problem.title, Course(self.robot, self.values, self.forms), stage)
 
     def to_json(self) -> dict[str, Any]:
         """The solution as JSON, `dynsolve-solution/1`."""

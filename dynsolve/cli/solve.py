@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from dynsolve.cli.common import Problems, Quiet, read, say
+from dynsolve.cli.hint import print_hint
 from dynsolve.cli.numbers import AtOption, DigitsOption, SetOption, with_numbers
 from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer
 from dynsolve.cli.output import chosen as chosen_output
@@ -67,6 +68,10 @@ def solve(
     set_: SetOption = None,
     at: AtOption = None,
     digits: DigitsOption = None,
+    hint: Annotated[
+        StageName | None,
+        typer.Option(metavar="STAGE", help="What to do in this stage, without its result or a later one."),
+    ] = None,
     quiet: Quiet = False,
 ) -> int:
     """Derive a robot's dynamics step by step, verified.
@@ -98,7 +103,9 @@ def solve(
         if not quiet:
             say(solution.warnings, "warning")
             say(solution.numbers.warnings if solution.numbers else (), "warning")
-        if place_and_form == Output(Format.TEXT, None):
+        if hint:
+            print_hint(solution, hint.value)
+        elif place_and_form == Output(Format.TEXT, None):
             _print_document(solution, detail, stages, star, place > 0)
         elif place_and_form == Output(Format.JSON, None):
             _print_json(solution)

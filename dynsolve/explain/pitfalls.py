@@ -1,0 +1,163 @@
+"""What goes wrong most often in a stage, as far as this robot can go wrong there.
+
+To add a pitfall, yield it in the function of its stage, under the condition on the
+robot that makes it one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from dynsolve.document import Prose
+from dynsolve.explain import letters
+from dynsolve.explain.course import listed
+from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Sum, Symbol, equation
+from dynsolve.robot.model import AxesKind, Body, Convention, Coordinate, JointType, Robot
+
+
+def pitfalls(robot: Robot, stage: str) -> Iterator[Prose]:
+    """The pitfalls of a stage that this robot has."""
+    yield from _PITFALLS[stage](robot)
+
+
+def _kinematics(robot: Robot) -> Iterator[Prose]:
+    for joint in robot.joints:
+        if joint.variable == "theta" and joint.theta.degrees % 360:
+            yield (
+                f"The angle of row {joint.index} is ", joint.written[0],
+                ": its sine and cosine are those of the whole angle, not of the variable alone.",
+            )  # fmt: skip
+            break
+    if robot.convention is Convention.MODIFIED:
+        yield ("The table is in Craig's convention: α and a of a row come first, then θ and d. Do not take the "
+               "general matrix of the standard convention.",)  # fmt: skip
+    fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
+    if fixed:
+        rows = "Row " if len(fixed) == 1 else "Rows "
+        yield (f"{rows}{', '.join(fixed)}: a frame without a variable still is a matrix in the product.",)
+    if len(robot.joints) > 1:
+        yield ("The matrices do not commute: A₁ stands on the left.",)
+
+
+def _jacobian(robot: Robot) -> Iterator[Prose]:
+    if robot.convention is Convention.STANDARD:
+        yield ("Joint i moves about the axis of the frame before it, ", letters.z(0),
+               " for the first one: take the third column of H with index i-1, not i.")  # fmt: skip
+    else:
+        yield ("In Craig's convention joint i moves about the axis of its own frame: take the third column "
+               "of H with index i.",)  # fmt: skip
+    sliding = _of_type(robot, JointType.PRISMATIC)
+    if sliding:
+        what = " is a length: its column" if len(sliding) == 1 else " are lengths: their columns"
+        yield (*listed(sliding), f"{what} has no cross product, and a zero in the angular part."
+               if len(sliding) == 1 else f"{what} have no cross product, and zeros in the angular part.")  # fmt: skip
+    if _of_type(robot, JointType.REVOLUTE):
+        yield ("The cross product is not symmetric: the axis stands first, the lever second.",)
+    if any(len(joint.rates) > 1 or any(rate != 1 for _, rate in joint.rates) for joint in robot.joints):
+        yield ("A joint variable here is a combination of coordinates: its column counts for each of them, times "
+               "the factor with which it stands in the table.",)  # fmt: skip
+    fixed = [joint for joint in robot.joints if joint.type is None]
+    if fixed:
+        yield ("A fixed row has no column of its own.",)
+
+
+def _inertia(robot: Robot) -> Iterator[Prose]:
+    off = [body for body in robot.bodies if not body.center.is_zero]
+    if off:
+        yield ("The mass centre is not the origin of the frame: that holds for ", *_bodies(off), ".")
+    points = [body for body in robot.bodies if body.is_point]
+    if points:
+        yield ("No tensor and no R are needed of ", *_bodies(points), ": a point has no extent.")
+    extended = [body for body in robot.bodies if not body.is_point]
+    moved = [b for b in extended if b.about_point is not None and b.about_point != b.center]
+    if moved:
+        yield ("The tensor of ", *_bodies(moved), " is not given about the mass centre. Going to the mass centre "
+               "the parallel-axis term is subtracted.")  # fmt: skip
+    if any(body.axes.kind is AxesKind.LINK for body in extended):
+        yield (
+            "The frame of a body is the one after it, which is fixed in the same link, not the one before.",
+        )
+    if extended:
+        yield ("In R I Rᵀ the transpose stands on the right: R turns the body's axes into the base's.",)
+
+
+def _energy(robot: Robot) -> Iterator[Prose]:
+    if robot.gravity.is_zero:
+        yield ("There is no gravity in this problem.",)
+    else:
+        yield ("Heights are those of the mass centres, from the origin of the ",
+               "world." if letters.has_base(robot) else "base, against gravity.")  # fmt: skip
+    last = max(joint.index for joint in robot.joints)
+    inner = [body for body in robot.bodies if body.link < last]
+    if inner:
+        yield ("Joints after its link do not move a body: their columns are zero, for ", *_bodies(inner), ".")
+    if any(not body.center.is_zero for body in robot.bodies):
+        yield ("The Jacobian of a body is taken at its mass centre, not at the origin of its frame.",)
+    turning = _of_type(robot, JointType.REVOLUTE)
+    if turning:
+        squares = tuple(Power(Function(name, turning[0]), Number(2)) for name in ("sin", "cos"))
+        yield ("Sum of squares: ", equation(Sum(squares), Number(1)), ". The difference, ",
+               Sum((squares[1], Negative(squares[0]))), ", is the cosine of twice the angle, another thing.")  # fmt: skip
+    points = [body for body in robot.bodies if body.is_point]
+    if points:
+        yield ("A point has no tensor, and so no rotational energy: that holds for ", *_bodies(points), ".")
+    if len(points) < len(robot.bodies):
+        yield ("ω and the tensor must be in the same frame.",)
+
+
+def _lagrangian(robot: Robot) -> Iterator[Prose]:
+    yield (
+        "It is the difference of the energies, not their sum: every term of the potential energy turns its sign.",
+    )
+
+
+def _torque(robot: Robot) -> Iterator[Prose]:
+    yield ("One equation for each coordinate, not for each mass.",)
+    yield ("By time, everything that moves is differentiated: ",
+           *listed([Symbol(q.name) for q in robot.coordinates]), " and their rates.",
+           " Masses and lengths that do not move stay as they are.")  # fmt: skip
+    yield ("In the partial derivatives a coordinate and its rate are different variables.",)
+    turning, sliding = _of_type(robot, JointType.REVOLUTE), _of_type(robot, JointType.PRISMATIC)
+    if turning and sliding:
+        yield ("What drives ", *listed(turning), " is a torque; what drives ", *listed(sliding), " a force.")
+    if turning:
+        yield ("The derivative of a sine or cosine of an angle that moves brings its rate: the chain rule.",)
+
+
+def _vectorized(robot: Robot) -> Iterator[Prose]:
+    if robot.n > 1:
+        yield ("D is symmetric. If yours is not, look for the slip in the forces.",)
+        yield ("The rates stay inside C: each of its terms holds one rate, each term of ",
+               Product((letters.C, letters.QD)), " two.")  # fmt: skip
+        yield (
+            "A product of two different rates comes from two entries of C: half of its factor goes to each.",
+        )
+    yield ("Do not forget the ½ of the Christoffel symbols.",)
+    if not robot.gravity.is_zero:
+        yield ("g holds no rates and no accelerations, and its sign is that of the slope of ", letters.P, ".")
+
+
+def _of_type(robot: Robot, kind: JointType) -> list[Node]:
+    return [Symbol(q.name) for q in robot.coordinates if q.type is kind]
+
+
+def _bodies(bodies: Sequence[Body]) -> Prose:
+    names = [body.name for body in bodies]
+    return (("body " if len(names) == 1 else "bodies ") + "".join(listed_words(names)),)
+
+
+def listed_words(names: Sequence[str]) -> Iterator[str]:
+    """a, b and c"""
+    for i, name in enumerate(names):
+        yield (" and " if i == len(names) - 1 else ", ") * bool(i) + name
+
+
+_PITFALLS: Mapping[str, Callable[[Robot], Iterator[Prose]]] = {
+    "kinematics": _kinematics,
+    "jacobian": _jacobian,
+    "inertia": _inertia,
+    "energy": _energy,
+    "lagrangian": _lagrangian,
+    "torque": _torque,
+    "vectorized": _vectorized,
+}
