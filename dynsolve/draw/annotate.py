@@ -193,7 +193,7 @@ def masses(pose: Pose, notes: Notes) -> None:
 
 def _is_on_link(center: Vector, pose: Pose) -> bool:
     """Whether a mass centre lies on the chain of links."""
-    near = pose.view.space(3 * TUBE)
+    near = pose.view.space(5 * TUBE)
     ways = [pose.skeleton.path, *pose.parts.links]
     return any(_gap(center, a, b) < near for way in ways for a, b in pairwise(way))
 

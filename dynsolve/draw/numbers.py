@@ -68,6 +68,9 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
         values |= {name: unit * drawn_length(values[name] / unit) for name in named}
         unit, shortest = _range(robot, values)
 
+    if (factor, spread) != _RETRIES[-1] and _has_vanished(robot, values):
+        raise ValueError("a length came out as 0")
+
     def drawn(expr: Expr) -> float:
         ratio = evaluate(robot, expr, values) / unit
         return drawn_length(ratio) if shortest < 0.8 * SHORTEST * unit else ratio
@@ -77,6 +80,14 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
         for joint in robot.joints
     )
     return Numbers(rows, values, unit)
+
+
+def _has_vanished(robot: Robot, values: Mapping[str, float]) -> bool:
+    """Whether a length that is not 0 in general is 0 for these values."""
+    constant = [
+        x for joint in robot.joints for x in (joint.a, *(() if joint.variable == "d" else (joint.d,)))
+    ]
+    return any(not x.is_zero and abs(evaluate(robot, x, values)) < _TINY for x in constant)
 
 
 def _range(robot: Robot, values: Mapping[str, float]) -> tuple[float, float]:

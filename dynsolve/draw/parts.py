@@ -56,7 +56,9 @@ def arrange(pose: Skeleton, view: View, up: Vector) -> Parts:
     for row, leg in enumerate(pose.legs, 1):
         if leg.type is None:
             continue
-        places = _places(pose, row, leg, view, up, first=not joints)
+        places = _places(
+            pose, row, leg, view, up, first=not joints and distance(leg.foot, pose.frames[0].origin) < NEAR
+        )
         center = next((p for p in places if _is_clear(p, joints, view)), places[0])
         joints.append(Part(row, leg.type, center, leg.axis))
     ground, normal = _ground(pose, joints, view, up)
@@ -108,16 +110,16 @@ def _ground(pose: Skeleton, joints: Sequence[Part], view: View, up: Vector) -> t
     first = joints[0]
     if view.flat and first.type is JointType.REVOLUTE:
         return along(first.center, up, -view.space(RADIUS + 14.0)), up
-    if first.type is JointType.REVOLUTE and abs(dot(first.axis, up)) < 0.5:
+    stands_at_start = distance(first.center, start) < NEAR
+    if first.type is JointType.REVOLUTE and abs(dot(first.axis, up)) < 0.5 and stands_at_start:
         return along(first.center, up, -view.space(RADIUS + 34.0)), up
     leg = pose.legs[first.row - 1]
     span = dot(subtract(leg.head, leg.foot), leg.axis)
     normal = scale(leg.axis, 1.0 if span > NEAR or (abs(span) <= NEAR and dot(leg.axis, up) > 0) else -1.0)
     low = min(dot(subtract(first.center, start), normal) - view.space(HALF_HEIGHT + 8.0), 0.0)
     if low < 0.0:
-        low = min(
-            low, *(dot(subtract(point, start), normal) - view.space(_PEDESTAL) for point in pose.path[1:])
-        )
+        heights = [dot(subtract(point, start), normal) for point in pose.path]
+        low = min(low, min(heights[1:], default=0.0) - view.space(_PEDESTAL))
     return along(start, normal, low), normal
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 
 from dynsolve.draw import annotate, ink
 from dynsolve.draw.ink import Path, flattened
@@ -12,12 +13,12 @@ from dynsolve.draw.lengths import Length, dimension, row_lengths
 from dynsolve.draw.numbers import numbers
 from dynsolve.draw.pose import Pose, best_pose
 from dynsolve.draw.setting import Setting, setting
-from dynsolve.draw.skeleton import free_symbols
+from dynsolve.draw.skeleton import NEAR, free_symbols
 from dynsolve.draw.solids import solids
 from dynsolve.draw.space import Box, Taken
 from dynsolve.draw.vectors import Point, dot
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Number, Symbol
+from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType, Robot
 
@@ -25,7 +26,6 @@ MARGIN = 14.0
 
 _STAR = Style(star=True, decimal=True)
 _PLAIN = Style(decimal=True)
-_ZERO = Number(0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,13 +68,22 @@ def scene(problem: Problem, star: bool = True) -> Scene:
 
 
 def _center_lengths(robot: Robot, pose: Pose) -> list[Length]:
-    """The distances of mass centres that are given by one symbol."""
+    """The distances of mass centres that are given by one symbol, or a simple part of one."""
     found = []
     for body, mass in zip(robot.bodies, pose.skeleton.masses, strict=True):
-        symbols = free_symbols(robot, body)
-        if mass.from_ is not None and len(symbols) == 1:
-            found.append(Length(mass.from_, mass.center, Symbol(symbols[0]), optional=True))
+        if mass.from_ is None:
+            continue
+        rate = Fraction(mass.rate).limit_denominator(12)
+        if abs(rate - mass.rate) < NEAR:
+            node = _part(Symbol(free_symbols(robot, body)[0]), rate)
+            found.append(Length(mass.from_, mass.center, node, optional=True))
     return found
+
+
+def _part(symbol: Symbol, rate: Fraction) -> Node:
+    """rate·symbol as it is written: l_2, l_2/2, 2l_2/3."""
+    times = symbol if rate.numerator == 1 else Product((Number(rate.numerator), symbol))
+    return times if rate.denominator == 1 else Quotient(times, Number(rate.denominator))
 
 
 def _gravity(world: Setting, pose: Pose, body: Iterable[Path], notes: annotate.Notes) -> None:

@@ -24,6 +24,7 @@ from dynsolve.draw.vectors import (
     distance,
     into,
     length,
+    scale,
     subtract,
     turned,
 )
@@ -72,13 +73,18 @@ class Leg:
 
 @dataclass(frozen=True, slots=True)
 class Mass:
-    """A mass centre; `from_` is where its one symbolic coordinate is measured from, if it has one."""
+    """A mass centre.
+
+    `from_` is where its one symbolic coordinate is measured from, if it has one;
+    `rate` is how far the centre moves as that grows by 1.
+    """
 
     name: str
     center: Vector
     is_point: bool
     link: int
     from_: Vector | None = None
+    rate: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,34 +181,39 @@ def _mass(robot: Robot, numbers: Numbers, bare: Skeleton, body: Body, share: flo
     if written in exact:
         return Mass(body.name, exact[written], body.is_point, body.link)
     ends = (into(frame.axes, subtract(end, frame.origin)) for end in (near, far))
-    center, from_ = _local_center(robot, numbers, body, share, *ends)
+    center, from_, rate = _local_center(robot, numbers, body, share, *ends)
     place = add(frame.origin, applied(frame.axes, center))
     start = None if from_ is None else add(frame.origin, applied(frame.axes, from_))
-    return Mass(body.name, place, body.is_point, body.link, start)
+    return Mass(body.name, place, body.is_point, body.link, start, rate)
 
 
 def _local_center(
     robot: Robot, numbers: Numbers, body: Body, share: float, near: Vector, far: Vector
-) -> tuple[Vector, Vector | None]:
-    """The centre in its frame, and where its only free symbol is measured from."""
+) -> tuple[Vector, Vector | None, float]:
+    """The centre in its frame; where its only free symbol is measured from, and the rate of that."""
     free = free_symbols(robot, body)
     values = dict(numbers.values) | dict.fromkeys(free, 0.0)
+    rate = 0.0
 
-    def center() -> Vector:
-        x, y, z = (evaluate(robot, entry, values) / numbers.unit for entry in body.center.entries)
+    def center(**changed: float) -> Vector:
+        state = values | changed
+        x, y, z = (evaluate(robot, entry, state) / numbers.unit for entry in body.center.entries)
         return x, y, z
 
+    middle = between(near, far, 0.5)
     try:
         start = center()
-        middle = between(near, far, 0.5)
         for name in free:
-            values[name] = 1.0
-            step = subtract(center(), start)
+            step = subtract(center(**{name: 1.0}), start)
+            twice = subtract(center(**{name: 2.0}), start)
+            straight = distance(twice, scale(step, 2.0)) < NEAR
+            rate = length(step) * numbers.unit if straight else 0.0
             values[name] = share * _best(step, subtract(middle, start), distance(near, far), len(free))
         found = center()
     except (ValueError, ZeroDivisionError, OverflowError):
-        return between(near, far, 0.5), None
-    return found, start if len(free) == 1 and distance(start, found) > NEAR else None
+        return middle, None, 0.0
+    measured = len(free) == 1 and rate > NEAR and distance(start, found) > NEAR
+    return found, start if measured else None, rate
 
 
 def _best(direction: Vector, wanted: Vector, size: float, symbols: int) -> float:

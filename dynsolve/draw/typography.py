@@ -6,8 +6,8 @@ the picture, a label stays within its box.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK
@@ -25,9 +25,8 @@ INDEX = 0.7
 _DROP, _RISE = 0.24, 0.36
 _DOWN, _UP, _BACK = "\ue000", "\ue001", "\ue002"
 _STAR = "∗"
-_BLANK = "\u00a0"
 _SPACE = 0.25
-_PRINTED = {"-": "−", " ": _BLANK}
+_PRINTED = {"-": "−", " ": "\u00a0"}
 
 _NARROW = "fijlrtι.,:;'|()/°\u00a0"
 _WIDE = "mwMWGHKNOQDUAωφψΦΨΩΘ"
@@ -79,17 +78,18 @@ def _index(group: str) -> str:
 
 def typeset(node: Node, style: Style) -> Line:
     """A formula on one line."""
-    runs = tuple(_runs(_MarkedPrinter(style).text(node)))
+    runs = tuple(_spaced(_runs(_MarkedPrinter(style).text(node))))
     return Line(runs, sum(map(_width, runs)))
 
 
 def _runs(marked: str) -> Iterator[Run]:
+    """The pieces between marks, upright and slanted ones apart."""
     size, shift, text, italic = SIZE, 0.0, "", False
     for character in marked + _BACK:
         slanted = character.isalpha()
         if character in (_DOWN, _UP, _BACK) or slanted != italic:
             if text:
-                yield _run(text, italic, size, shift)
+                yield Run(text, italic, round(size, 2), round(shift, 2))
             text, italic = "", slanted
         if character == _DOWN:
             size, shift = SIZE * INDEX, SIZE * _DROP
@@ -101,10 +101,18 @@ def _runs(marked: str) -> Iterator[Run]:
             text += _PRINTED.get(character, character)
 
 
-def _run(text: str, italic: bool, size: float, shift: float) -> Run:
-    letters = text.lstrip(_BLANK)
-    gap = (len(text) - len(letters)) * _SPACE * size
-    return Run(letters, italic, round(size, 2), round(shift, 2), round(gap, 2))
+def _spaced(runs: Iterable[Run]) -> Iterator[Run]:
+    """The runs with the blanks at their ends turned into gaps."""
+    owed = 0.0
+    for run in runs:
+        letters = run.text.strip()
+        before = len(run.text) - len(run.text.lstrip())
+        gap = owed + before * _SPACE * run.size
+        owed = (len(run.text) - before - len(letters)) * _SPACE * run.size
+        if letters:
+            yield replace(run, text=letters, gap=round(gap, 2))
+        else:
+            owed += gap
 
 
 def _width(run: Run) -> float:
