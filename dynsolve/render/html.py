@@ -61,7 +61,8 @@ def render(document: Document, style: Style = PLAIN, level: str = "normal") -> s
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
         f"<title>{escape(title)}</title>\n<style>\n{css}{page.widths_css()}</style>\n</head>\n<body>\n"
-        f"{_switch(level) if page.has_levels() else ''}{page.contents()}<main>\n{body}</main>\n</body>\n</html>\n"
+        f"{_switch(level) if page.has_levels() else ''}{page.contents()}"
+        f"<main>\n{body}</main>\n</body>\n</html>\n"
     )
 
 
