@@ -49,7 +49,25 @@ def report(
     style = style_of(solution, star)
     shown = Detail.FULL if format is Format.HTML else detail
     document = solution_document(solution, shown, stages)
+    if format in PICTURED and (stages is None or "kinematics" in stages):
+        document = _with_picture(document, solution, star)
     return _rendered(document, style, format, detail, fragment)
+
+
+PICTURED = (Format.LATEX, Format.PDF, Format.HTML)
+"""The forms that can show the manipulator."""
+
+
+def _with_picture(document: Document, solution: Solution, star: bool) -> Document:
+    """The document with the manipulator drawn before its first section."""
+    from dynsolve.document import Heading
+    from dynsolve.draw import picture
+
+    blocks = document.blocks
+    sections = (k for k, block in enumerate(blocks) if isinstance(block, Heading) and block.level > 1)
+    place = next(sections, len(blocks))
+    drawn = picture(solution.problem, star=star)
+    return replace(document, blocks=(*blocks[:place], drawn, *blocks[place:]))
 
 
 def style_of(solution: Solution, star: bool = False) -> Style:
