@@ -41,6 +41,9 @@ MOST_WORK = 400_000
 MOST_TERMS = 30_000
 """The most terms of a value."""
 
+SHORT = 64
+"""Products of up to so many terms are added up before they are reduced."""
+
 MOST_POWER = 20
 MOST_BITS = 6_000
 MOST_TURNS = 24
@@ -138,7 +141,7 @@ class Evaluator:
         self.lookup = lookup
         self.work = 0
         self._width = len(ring.generators)
-        self._basic: dict[tuple[str, Angle], tuple[int, int] | None] = {}
+        self._functions: dict[Function, Frac | tuple[int, int]] = {}
 
     def value(self, node: Node) -> Frac:
         """The exact value of a scalar tree.
@@ -171,6 +174,7 @@ class Evaluator:
         flat: dict[tuple[int, ...], Any] = {}
         polys: list[Expr] = []
         fractions: list[Frac] = []
+        unreduced: Any = None
         for node in terms:
             inner = _unwrapped(node)
             if isinstance(inner, Sum):
@@ -179,15 +183,38 @@ class Evaluator:
             term = _Term(Fraction(1), {}, [])
             self._gather(node, term, 1)
             if term.others:
-                self._put(self._finish(term), polys, fractions)
+                raw = self._raw(term)
+                if raw is None:
+                    self._put(self._finish(term), polys, fractions)
+                else:
+                    unreduced = raw if unreduced is None else unreduced + raw
             elif term.coefficient:
                 key = self._key(term)
                 flat[key] = flat.get(key, 0) + rational(term.coefficient)
-        total = self.ring.reduce(self.ring.ctx.from_dict(flat)) if flat else self.ring.zero.poly
+        if unreduced is not None:
+            flat_poly = self.ring.ctx.from_dict(flat) + unreduced
+        else:
+            flat_poly = self.ring.ctx.from_dict(flat)
+        total = self.ring.reduce(flat_poly) if flat_poly else self.ring.zero.poly
         for poly in polys:
             total = total + poly.poly
         result = Frac(Expr(self.ring, total))
         return self._add_fractions(result, fractions)
+
+    def _raw(self, term: _Term) -> Any:
+        """A term multiplied out and not yet reduced; None where it is no short product of polynomials."""
+        size = 1
+        for other in term.others:
+            size *= len(other.above)
+            if other.below is not None or size > SHORT:
+                return None
+        if not term.coefficient or not size:
+            return self.ring.zero.poly
+        self.work += size
+        poly = self.ring.ctx.from_dict({self._key(term): rational(term.coefficient)})
+        for other in term.others:
+            poly = poly * other.above.poly
+        return poly
 
     def _put(self, value: Frac, polys: list[Expr], fractions: list[Frac]) -> None:
         if value.below is None:
@@ -275,41 +302,41 @@ class Evaluator:
     # -- functions ---------------------------------------------------------------------------------
 
     def _function(self, node: Function, term: _Term, power: int) -> None:
-        if node.name == "sqrt":
-            term.others.append(self._power_of(self._root(node), power))
+        found = self._functions.get(node)
+        if found is None:
+            found = self._functions[node] = self._function_value(node)
+        if isinstance(found, Frac):
+            term.others.append(self._power_of(found, power))
             return
+        index, sign = found
+        term.exponents[index] = term.exponents.get(index, 0) + power
+        if sign < 0 and power % 2:
+            term.coefficient = -term.coefficient
+
+    def _function_value(self, node: Function) -> Frac | tuple[int, int]:
+        """The value of a function, or (generator, ±1) where it is one."""
+        if node.name == "sqrt":
+            return self._root(node)
         angle = expected_angle(node, self.ring.names)
         if angle is None:
-            index = self._unknown(opaque(node))
-            term.exponents[index] = term.exponents.get(index, 0) + power
-            return
+            return self._unknown(opaque(node)), 1
         if node.name == "tan":
             c, s = self._turned("cos", angle), self._turned("sin", angle)
-            term.others.append(self._power_of(self._product(Frac(s), self._inverse(Frac(c))), power))
-            return
+            return self._product(Frac(s), self._inverse(Frac(c)))
         if node.name not in ("sin", "cos"):
             raise AlgebraError(f"{node.name} is not a function that occurs here")
-        found = self._generator(node.name, angle)
-        if found is not None:
-            index, sign = found
-            term.exponents[index] = term.exponents.get(index, 0) + power
-            if sign < 0 and power % 2:
-                term.coefficient = -term.coefficient
-            return
-        term.others.append(self._power_of(Frac(self._turned(node.name, angle)), power))
+        value = self._turned(node.name, angle)
+        return self._generator(value) or Frac(value)
 
-    def _generator(self, name: str, angle: Angle) -> tuple[int, int] | None:
-        """(generator, ±1) where the function is one."""
-        key = (name, angle)
-        if key not in self._basic:
-            self._basic[key] = None
-            poly = self._turned(name, angle).poly
-            if len(poly) == 1:
-                exponents, coefficient = next(iter(poly.to_dict().items()))
-                used = [i for i, e in enumerate(exponents) if e]
-                if len(used) == 1 and exponents[used[0]] == 1 and abs(coefficient) == 1:
-                    self._basic[key] = used[0], 1 if coefficient > 0 else -1
-        return self._basic[key]
+    def _generator(self, value: Expr) -> tuple[int, int] | None:
+        """(generator, ±1) where a value is one."""
+        if len(value) != 1:
+            return None
+        exponents, coefficient = next(iter(value.poly.to_dict().items()))
+        used = [i for i, e in enumerate(exponents) if e]
+        if len(used) != 1 or exponents[used[0]] != 1 or abs(coefficient) != 1:
+            return None
+        return used[0], 1 if coefficient > 0 else -1
 
     def _turned(self, name: str, angle: Angle) -> Expr:
         counts = self.ring.multiples(angle.linear) if angle.terms else ()

@@ -123,6 +123,7 @@ class _Collector:
         self.radicands: dict[Fraction, None] = {}
         self.roots: dict[Node, None] = {}
         self.denominators = 0
+        self.seen: set[Function] = set()
 
     def walk(self, node: Node) -> None:
         waiting = [node]
@@ -147,6 +148,9 @@ class _Collector:
 
     def function(self, node: Function) -> list[Node]:
         """Note a function; the nodes inside it that are still to be walked."""
+        if node in self.seen:
+            return []
+        self.seen.add(node)
         if node.name == "sqrt":
             return self.root(node)
         angle = expected_angle(node, self.known.names)
