@@ -18,6 +18,7 @@ and halves where half an angle occurs.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -89,6 +90,10 @@ class Ring:
         """
         trees = tuple(trees)
         plan = survey([name for name, _ in coordinates], trees, tuple(preferred), tuple(angles))
+        return Ring._of(coordinates, plan)
+
+    @staticmethod
+    def _of(coordinates: Sequence[tuple[str, str]], plan: Survey) -> Ring:
         while True:
             try:
                 ring = Ring(coordinates, plan)
@@ -97,6 +102,11 @@ class Ring:
                 return ring
             except _NoRoom:
                 plan = plan.with_more_inverses()
+
+    def with_symbols(self, names: Iterable[str]) -> Ring:
+        """This ring with further parameters; its own generators keep their places."""
+        plan = replace(self._plan, symbols=(*self._plan.symbols, *names))
+        return Ring._of(self.coordinates, plan)
 
     # -- the layout: reducible generators first, so that the lexicographic order reduces them ------
 

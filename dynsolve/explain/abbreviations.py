@@ -1,232 +1,212 @@
-"""Long results with names: constants first, then what recurs.
+"""Long results with names: constants first, then what recurs, then D, the Christoffel symbols, C and g.
 
 An explicit model of a six-joint arm is read as Armstrong, Khatib and Burdick wrote
 theirs (The explicit dynamic model and inertial parameters of the PUMA 560 arm, ICRA
-1986): inertial constants J₁, J₂, ... are defined once, and every entry of D, C and g
-is a short sum of products of sines, cosines and these.
+1986): inertial constants are defined once, and every entry is a short sum of products
+of sines, cosines and these.
 
-1. Angles are collected outside; what is left at each product of sines and cosines is
-   a combination of masses, moments and lengths.  Each becomes a constant, unless it
-   is a multiple of one that has a name or a sum of two.
-2. Sums that then stand in several places are named h₁, h₂, ..., the longest first.
+1. The inertial constants are the base parameters (`explain.base_parameters`), named
+   κ₁, κ₂, ...: J, I and K, letters that books use for them, mean the Jacobian, a tensor
+   and the energy here.
+2. What then recurs is named σ₁, σ₂, ... (`explain.recurring`): h₁, h₂, ... are heights.
+
+A short model needs no constants.  What recurs in it gets a name alone; if that is one
+term, it is the books' h: h = m₂ l₁ l_c2 s₂ of the planar elbow.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from itertools import combinations
+from enum import StrEnum
+from itertools import count
 
-from dynsolve.algebra.build import cost
-from dynsolve.algebra.collect import Poly
+from dynsolve.algebra.build import cost, negated, times, total
 from dynsolve.algebra.compact import Compactor
-from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.terms import Exponents, Factor, Frame, Terms, exact, primitive
-from dynsolve.explain.forms import Forms
+from dynsolve.algebra.expr import Expr
+from dynsolve.explain.base_parameters import BaseParameters
+from dynsolve.explain.forms import Forms, is_numeric
+from dynsolve.explain.recurring import Definition, name_recurring
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Negative, Node, Power, Product, Quotient, Sum, Symbol
+from dynsolve.notation.tree import ZERO, Node, Symbol
+from dynsolve.stages.vectorized import christoffel_symbols
 
-SHORTEST = 2
-"""The operations from which on a constant is worth a name."""
+__all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "expanded", "is_long"]
 
-SHORTEST_SUM = 5
-"""The operations from which on a recurring sum is worth a name."""
+LONG = 1500
+"""The operations in D, C and g together from which on names make them readable: some five pages."""
 
-NEIGHBOURS = 60
-"""How many of the latest constants are tried for a sum of two."""
+CONSTANT, RECURRING, SINGLE = "kappa", "sigma", "h"
+
+Index = tuple[int, int, int]
 
 
-@dataclass(frozen=True, slots=True)
-class Definition:
-    """name = meaning"""
+class Abbreviate(StrEnum):
+    """Whether long results are written with names."""
 
-    name: Symbol
-    meaning: Node
+    AUTO = "auto"
+    NEVER = "never"
+    ALWAYS = "always"
 
 
 @dataclass(frozen=True, slots=True)
 class Abbreviated:
     """Definitions in the order in which they build on each other, and the forms that use them.
 
-    `D` and `g` are matrices, `christoffel` holds c_ijk at (i, j, k) with i ≤ j and from 0.
+    `D`, `C` and `g` are matrices, `christoffel` holds c_ijk at (i, j, k) with i ≤ j and from 0.
     """
 
     constants: tuple[Definition, ...]
     sums: tuple[Definition, ...]
     D: tree.Matrix
+    C: tree.Matrix
     g: tree.Matrix
-    christoffel: Mapping[tuple[int, int, int], Node]
+    christoffel: Mapping[Index, Node]
+
+    @property
+    def definitions(self) -> tuple[Definition, ...]:
+        """All definitions in order."""
+        return (*self.constants, *self.sums)
 
     @property
     def cost(self) -> int:
-        """The operations of everything, definitions included."""
-        definitions = sum(cost(d.meaning) for d in (*self.constants, *self.sums))
+        """The operations of everything that is printed but C: definitions, D, g and the c_ijk."""
         entries = [e for matrix in (self.D, self.g) for row in matrix.rows for e in row]
-        return definitions + sum(map(cost, (*entries, *self.christoffel.values())))
+        meanings = [d.meaning for d in self.definitions]
+        return sum(map(cost, (*meanings, *entries, *self.christoffel.values())))
 
 
-def abbreviate(forms: Forms) -> Abbreviated:
-    """The explicit model of a robot, with its constants and recurring sums named."""
-    values, robot = forms.values, forms.robot
-    taken = {*robot.ring.parameters, *robot.ring.names}
-    compactor = _Naming(forms, _names("J", taken))
-    D, g = (_matrix(compactor, values[name]) for name in ("D", "g"))
-    symbols = {key: compactor.form(value) for key, value in values["christoffel"].items()}
-    entries = [e for matrix in (D, g) for row in matrix.rows for e in row] + list(symbols.values())
-    sums = _recurring(entries, _names("h", taken))
-    replace = _Replacement({d.meaning: d.name for d in sums})
-    return Abbreviated(
-        constants=tuple(compactor.constants),
-        sums=tuple(Definition(d.name, replace.inside(d.meaning)) for d in sums),
-        D=tree.Matrix(tuple(tuple(map(replace, row)) for row in D.rows)),
-        g=tree.Matrix(tuple(tuple(map(replace, row)) for row in g.rows)),
-        christoffel={key: replace(node) for key, node in symbols.items()},
+def is_long(forms: Forms) -> bool:
+    """Whether D, C and g written out are too long to be read."""
+    known: dict[int, tuple[Node, int]] = {}
+    size = 0
+    for name in ("D", "C", "g"):
+        matrix = forms(name)
+        assert isinstance(matrix, tree.Matrix)
+        size += sum(cost(entry, known) for row in matrix.rows for entry in row)
+    return size > LONG
+
+
+def abbreviate(forms: Forms, constants: bool | None = None) -> Abbreviated:
+    """The explicit model of a robot, its constants and what recurs in it named.
+
+    `constants` says whether the inertial constants get names; where it is not given,
+    they do in a long model.
+    """
+    if constants is None:
+        constants = is_long(forms)
+    return _with_constants(forms) if constants else _without_constants(forms)
+
+
+def _with_constants(forms: Forms) -> Abbreviated:
+    robot, values = forms.robot, forms.values
+    base = BaseParameters.of(robot, values["D"], values["g"], CONSTANT)
+    leading, parallel = forms.collecting
+    names = list(base.meanings)
+    compactor = Compactor(base.ring, [*names, *leading], parallel, decimal=is_numeric(robot))
+    D, g = base.matrix(values["D"]), base.matrix(values["g"])
+    symbols = christoffel_symbols(robot, D)
+    meanings = tuple(Definition(Symbol(name), forms.of(value)) for name, value in base.meanings.items())
+    return _assembled(
+        forms,
+        meanings,
+        compactor.matrix(D),
+        compactor.matrix(g),
+        _forms_of(symbols, compactor),
     )
 
 
-def _matrix(compactor: Compactor, matrix: Matrix) -> tree.Matrix:
-    return compactor.matrix(matrix)
+def _forms_of(symbols: Mapping[Index, Expr], compactor: Compactor) -> dict[Index, Node]:
+    """The trees of the symbols, half of which are others' or their opposites."""
+    made: dict[Expr, Node] = {}
+    for value in symbols.values():
+        if value not in made:
+            made[value] = negated(made[-value]) if -value in made else compactor.form(value)
+    return {key: made[value] for key, value in symbols.items()}
+
+
+def _without_constants(forms: Forms) -> Abbreviated:
+    D, g = forms("D"), forms("g")
+    assert isinstance(D, tree.Matrix) and isinstance(g, tree.Matrix)
+    symbols = {(i, j, k): forms.christoffel(i, j, k) for i, j, k in forms.values["christoffel"]}
+    return _assembled(forms, (), D, g, symbols)
+
+
+def _assembled(
+    forms: Forms,
+    constants: tuple[Definition, ...],
+    D: tree.Matrix,
+    g: tree.Matrix,
+    symbols: Mapping[Index, Node],
+) -> Abbreviated:
+    n = forms.robot.n
+    upper = [(i, j) for i in range(n) for j in range(i, n)]
+    entries = [*(D.rows[i][j] for i, j in upper), *(row[0] for row in g.rows), *symbols.values()]
+    taken = {*forms.robot.ring.parameters, *forms.robot.ring.names}
+    sums, used = name_recurring(entries, _names(RECURRING, taken), whole=bool(constants))
+    if len(sums) == 1 and SINGLE not in taken:
+        sums, used = name_recurring(entries, iter([Symbol(SINGLE)]), whole=bool(constants))
+    d = dict(zip(upper, used, strict=False))
+    short = dict(zip(symbols, used[len(upper) + n :], strict=True))
+    return Abbreviated(
+        constants=constants,
+        sums=sums,
+        D=tree.Matrix(tuple(tuple(d[min(i, j), max(i, j)] for j in range(n)) for i in range(n))),
+        C=_coriolis(short, forms.robot.ring.names),
+        g=tree.column(*used[len(upper) : len(upper) + n]),
+        christoffel=short,
+    )
 
 
 def _names(letter: str, taken: set[str]) -> Iterator[Symbol]:
     """letter1, letter2, ..., past those that the problem uses."""
-    number = 0
-    while True:
-        number += 1
-        if f"{letter}{number}" not in taken:
-            yield Symbol(f"{letter}{number}")
+    return (Symbol(f"{letter}{k}") for k in count(1) if f"{letter}{k}" not in taken)
 
 
-class _Naming(Compactor):
-    """Collects angles outside, and names what is left of masses, moments and lengths."""
+def _coriolis(symbols: Mapping[Index, Node], coordinates: Sequence[str]) -> tree.Matrix:
+    """c_kj = Σ_i c_ijk q̇_i, the rates of equal symbols drawn together."""
 
-    def __init__(self, forms: Forms, names: Iterator[Symbol]) -> None:
-        super().__init__(forms.robot.ring, *forms.collecting)
-        self.constants: list[Definition] = []
-        self._names = names
-        self._plain = forms.compactor
-        self._symbols: dict[object, Symbol] = {}
-        self._vectors: dict[Symbol, Poly] = {}
+    def entry(k: int, j: int) -> Node:
+        shared: dict[Node, list[Node]] = {}
+        for i, name in enumerate(coordinates):
+            symbol = symbols[min(i, j), max(i, j), k]
+            if symbol != ZERO:
+                shared.setdefault(symbol, []).append(Symbol(name, 1))
+        return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])
 
-    def _scalar(self, frame: Frame, terms: Terms) -> Node:
-        return self._by_angles(frame, terms)
+    n = len(coordinates)
+    return tree.Matrix(tuple(tuple(entry(k, j) for j in range(n)) for k in range(n)))
 
-    def _without_angles(self, frame: Frame, terms: Terms) -> Node:
-        """Σ coordinate monomial · named constant"""
-        names = [self.ring.generators[i].name for i in frame.symbols]
-        moving = [k for k, name in enumerate(names) if name in self.ring.names]
-        parts: dict[Exponents, Terms] = {}
-        for e, f in terms.items():
-            key = tuple(e[k] if k in moving else 0 for k in range(len(e)))
-            parts.setdefault(key, {})[tuple(0 if k in moving else x for k, x in enumerate(e))] = f
-        return self.collector.sum_of(
-            (1, self._mono(frame.symbols, key), self._constant(frame, part)) for key, part in parts.items()
-        )
 
-    def _constant(self, frame: Frame, terms: Terms) -> Node:
-        """The named constant, or the little that is not worth a name."""
-        poly: Poly = {self._mono(frame.symbols, e): f for e, f in terms.items()}
-        plain = self.collector.form(poly)
-        if cost(plain) < SHORTEST:
-            return plain
-        key, scale = primitive(poly)
-        found = self._symbols.get(key)
+def expanded(definitions: Sequence[Definition], nodes: Sequence[Node]) -> list[Node]:
+    """Trees with the meanings put back for the names; what recurs is shared and not repeated."""
+    meanings: dict[Node, Node] = {}
+    done: dict[Node, Node] = {}
+
+    def put(node: Node) -> Node:
+        found = done.get(node)
         if found is None:
-            combined = self._combined(poly)
-            if combined is not None:
-                return combined
-            found = self._symbols[key] = next(self._names)
-            whole = {mono: exact(f, scale) for mono, f in poly.items()}
-            self._vectors[found] = whole
-            self.constants.append(Definition(found, self.collector.form(whole)))
-        return self.collector.product(scale, (), (found,))
-
-    def _combined(self, poly: Poly) -> Node | None:
-        """The sum or difference of two named constants, where it is one."""
-        near = list(self._vectors.items())[-NEIGHBOURS:]
-        candidates = [(name, vector) for name, vector in near if not vector.keys().isdisjoint(poly)]
-        for (first, a), (second, b) in combinations(candidates, 2):
-            for sign in (1, -1):
-                total = dict(a)
-                for mono, f in b.items():
-                    total[mono] = total.get(mono, 0) + sign * f
-                total = {mono: f for mono, f in total.items() if f}
-                if total.keys() == poly.keys() and (scale := _ratio(poly, total)) is not None:
-                    inner = self.collector.sum_of([(1, (), first), (sign, (), second)])
-                    return self.collector.product(scale, (), (inner,))
-        return None
-
-
-def _ratio(poly: Poly, other: Poly) -> Factor | None:
-    """The number r with poly = r·other, or None."""
-    ratios = {Fraction(f) / other[mono] for mono, f in poly.items()}
-    return exact(ratios.pop(), 1) if len(ratios) == 1 else None
-
-
-def _parts(node: Node) -> tuple[Node, ...]:
-    match node:
-        case Sum(parts) | Product(parts):
-            return parts
-        case Negative(part):
-            return (part,)
-        case Power(base):
-            return (base,)
-        case Quotient(numerator, _):
-            return (numerator,)
-    return ()
-
-
-def _recurring(entries: Iterable[Node], names: Iterator[Symbol]) -> list[Definition]:
-    """The sums that stand in several places, inner ones first."""
-    counts: Counter[Node] = Counter()
-    order: dict[Node, None] = {}
-
-    def visit(node: Node) -> None:
-        counts[node] += isinstance(node, Sum)
-        if node in order:
-            return
-        for part in _parts(node):
-            visit(part)
-        order[node] = None
-
-    for entry in entries:
-        visit(entry)
-    known: dict[int, tuple[Node, int]] = {}
-    return [
-        Definition(next(names), node)
-        for node in order
-        if counts[node] > 1 and cost(node, known) >= SHORTEST_SUM
-    ]
-
-
-class _Replacement:
-    """Puts names for the sums that have one."""
-
-    def __init__(self, names: Mapping[Node, Symbol]) -> None:
-        self.names = names
-        self._done: dict[Node, Node] = {}
-
-    def __call__(self, node: Node) -> Node:
-        if node in self.names:
-            return self.names[node]
-        found = self._done.get(node)
-        if found is None:
-            found = self._done[node] = self.inside(node)
+            found = done[node] = inside(node)
         return found
 
-    def inside(self, node: Node) -> Node:
-        """The node with its parts replaced, itself not."""
+    def inside(node: Node) -> Node:
         match node:
-            case Sum(parts):
-                return Sum(tuple(map(self, parts)))
-            case Product(parts):
-                return Product(tuple(map(self, parts)))
-            case Negative(part):
-                return Negative(self(part))
-            case Power(base, exponent):
-                return Power(self(base), exponent)
-            case Quotient(numerator, denominator):
-                return Quotient(self(numerator), denominator)
+            case Symbol():
+                return meanings.get(node, node)
+            case tree.Matrix(rows):
+                return tree.Matrix(tuple(tuple(map(put, row)) for row in rows))
+            case tree.Sum(parts):
+                return tree.Sum(tuple(map(put, parts)))
+            case tree.Product(parts):
+                return tree.Product(tuple(map(put, parts)))
+            case tree.Negative(part):
+                return tree.Negative(put(part))
+            case tree.Power(base, exponent):
+                return tree.Power(put(base), exponent)
+            case tree.Quotient(numerator, denominator):
+                return tree.Quotient(put(numerator), denominator)
         return node
+
+    for definition in definitions:
+        meanings[definition.name] = put(definition.meaning)
+    return [put(node) for node in nodes]

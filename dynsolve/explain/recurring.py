@@ -1,0 +1,261 @@
+"""What recurs in long formulas gets a name: h = m₂ l₁ l_c2 s₂.
+
+A sum that stands in several places is named once, whichever its sign; so is a part
+of several sums; so is a product.  Names build on each other, the inner ones first.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from dynsolve.algebra.build import cost, negated, split_sign, times, total
+from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
+
+SHORTEST_SUM = 5
+"""The operations from which on a recurring sum is worth a name."""
+
+SHORTEST_PRODUCT = 4
+"""The operations from which on a recurring product is worth a name: m₂ l₁ l_c2 s₂."""
+
+ROUNDS = 8
+"""How often parts that sums share are looked for; each round finds those that do not overlap."""
+
+_Key = frozenset[Node]
+
+
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """name = meaning"""
+
+    name: Symbol
+    meaning: Node
+
+
+def name_recurring(
+    entries: Sequence[Node], names: Iterator[Symbol], *, whole: bool = True
+) -> tuple[tuple[Definition, ...], list[Node]]:
+    """(definitions in order of dependence, the entries in which they are used).
+
+    Entries that are equal but for sign count once; with `whole` false they count each,
+    so that what several entries consist of gets a name.
+
+    >>> a, b, c, d, x, y = map(Symbol, "abcdxy")
+    >>> whole = Product((a, b, c, Function("sin", x)))
+    >>> definitions, used = name_recurring([Negative(whole), Product((d, whole))], iter([Symbol("h")]))
+    >>> definitions[0].name, used
+    (Symbol(name='h', dots=0), [Negative(argument=Symbol(name='h', dots=0)), ...])
+    """
+    sharing = _Sharing()
+    roots = [sharing.intern(entry) for entry in entries]
+    sharing.share_parts()
+    uses = sharing.uses(dict.fromkeys(split_sign(r)[1] for r in roots) if whole else roots)
+    writer = _Writer(sharing.terms, uses, names)
+    used = [writer.write(root) for root in roots]
+    return tuple(writer.definitions), used
+
+
+class _Sharing:
+    """Sums and products as nodes of a graph in which equal ones, but for sign, are one."""
+
+    def __init__(self) -> None:
+        self.sums: dict[_Key, Symbol] = {}
+        self.terms: dict[Symbol, tuple[Node, ...]] = {}
+        self._seen: dict[Node, Node] = {}
+        self._costs: dict[int, tuple[Node, int]] = {}
+
+    # -- reading -----------------------------------------------------------------------------------
+
+    def intern(self, node: Node) -> Node:
+        """The node with a placeholder for every sum in it."""
+        found = self._seen.get(node)
+        if found is None:
+            found = self._seen[node] = self._interned(node)
+        return found
+
+    def _interned(self, node: Node) -> Node:
+        match node:
+            case Sum(parts):
+                return self.placeholder([self.intern(part) for part in parts])
+            case Product(parts):
+                return times(1, [(self.intern(part), 1) for part in parts])
+            case Negative(part):
+                return negated(self.intern(part))
+            case Power(base, exponent):
+                sign, inner = split_sign(self.intern(base))
+                odd = isinstance(exponent, Number) and exponent.p % 2
+                return Negative(Power(inner, exponent)) if sign < 0 and odd else Power(inner, exponent)
+            case Quotient(numerator, denominator):
+                sign, inner = split_sign(self.intern(numerator))
+                quotient = Quotient(inner, denominator)
+                return Negative(quotient) if sign < 0 else quotient
+        return node
+
+    def placeholder(self, terms: Sequence[Node]) -> Node:
+        """± the placeholder of a sum."""
+        key = frozenset(terms)
+        opposite = frozenset(map(negated, terms))
+        if key in self.sums:
+            return self.sums[key]
+        if opposite in self.sums:
+            return Negative(self.sums[opposite])
+        flip = sum(isinstance(t, Negative) for t in terms) * 2 > len(terms)
+        name = Symbol(f" {len(self.terms)}")
+        self.sums[opposite if flip else key] = name
+        self.terms[name] = tuple(map(negated, terms)) if flip else tuple(terms)
+        return Negative(name) if flip else name
+
+    # -- parts that sums share ---------------------------------------------------------------------
+
+    def share_parts(self) -> None:
+        """Give a placeholder to every part of two terms or more that stands in several sums."""
+        for _ in range(ROUNDS):
+            if not self._share_round():
+                return
+
+    def _share_round(self) -> bool:
+        holders: dict[_Key, set[Symbol]] = {}
+        for shared, both in self._common_parts():
+            holders.setdefault(shared, set()).update(both)
+        gains = {part: self._gain(part, len(held)) for part, held in holders.items()}
+        changed = False
+        for part in sorted(gains, key=lambda p: -gains[p]):
+            if gains[part] <= 0:
+                break
+            users = [name for name in holders[part] if self._holds(name, part)]
+            if self._gain(part, len(users)) > 0:
+                self._put(part, sorted(users, key=_number))
+                changed = True
+        return changed
+
+    def _common_parts(self) -> Iterator[tuple[_Key, tuple[Symbol, Symbol]]]:
+        """What two sums have in common, whichever the sign, with the two."""
+        by_term: dict[Node, list[Symbol]] = {}
+        for name, terms in self.terms.items():
+            for term in terms:
+                by_term.setdefault(split_sign(term)[1], []).append(name)
+        meeting: Counter[tuple[Symbol, Symbol]] = Counter()
+        for names in by_term.values():
+            meeting.update(combinations(names, 2))
+        for (a, b), count in meeting.items():
+            if count < 2:
+                continue
+            left, right = frozenset(self.terms[a]), frozenset(self.terms[b])
+            for other in (right, frozenset(map(negated, right))):
+                shared = left & other
+                if len(shared) > 1:
+                    yield _canonical(shared), (a, b)
+
+    def _gain(self, part: _Key, users: int) -> int:
+        """The operations that a name saves."""
+        size = sum(cost(split_sign(term)[1], self._costs) for term in part) + len(part) - 1
+        return (users - 1) * size - 2 if size >= SHORTEST_SUM else 0
+
+    def _holds(self, name: Symbol, part: _Key) -> bool:
+        terms = frozenset(self.terms[name])
+        return len(part) < len(terms) and (part <= terms or frozenset(map(negated, part)) <= terms)
+
+    def _put(self, part: _Key, users: Iterable[Symbol]) -> None:
+        whole = self.placeholder(_ordered(part, self.terms, users := list(users)))
+        for name in users:
+            terms = self.terms[name]
+            mine = part if part <= frozenset(terms) else frozenset(map(negated, part))
+            one = whole if mine == part else negated(whole)
+            place = next(i for i, t in enumerate(terms) if t in mine)
+            rest = [t for t in terms if t not in mine]
+            before = sum(t not in mine for t in terms[:place])
+            self.terms[name] = (*rest[:before], one, *rest[before:])
+
+    def uses(self, roots: Iterable[Node]) -> Counter[Node]:
+        """How often each sum and product stands in the entries and in the distinct sums."""
+        uses: Counter[Node] = Counter()
+        pending = list(roots)
+        met: set[Node] = set()
+        while pending:
+            node = split_sign(pending.pop())[1]
+            if isinstance(node, Symbol) and node not in self.terms:
+                continue
+            uses[node] += 1
+            if node in met:
+                continue
+            met.add(node)
+            pending.extend(self.terms[node] if isinstance(node, Symbol) else _parts(node))
+        return uses
+
+
+class _Writer:
+    """Puts sums back, or names for them."""
+
+    def __init__(
+        self,
+        terms: Mapping[Symbol, tuple[Node, ...]],
+        uses: Mapping[Node, int],
+        names: Iterator[Symbol],
+    ) -> None:
+        self.terms, self.uses, self.names = terms, uses, names
+        self.definitions: list[Definition] = []
+        self._done: dict[Node, Node] = {}
+
+    def write(self, node: Node) -> Node:
+        found = self._done.get(node)
+        if found is None:
+            found = self._done[node] = self._written(node)
+        return found
+
+    def _written(self, node: Node) -> Node:
+        match node:
+            case Symbol():
+                if node not in self.terms:
+                    return node
+                return self._named(node, total([self.write(t) for t in self.terms[node]]), SHORTEST_SUM)
+            case Negative(part):
+                return times(-1, [(self.write(part), 1)])
+            case Product(parts):
+                whole = times(1, [(self.write(part), 1) for part in parts])
+                return self._named(node, whole, SHORTEST_PRODUCT)
+            case Power(base, exponent):
+                return Power(self.write(base), exponent)
+            case Quotient(numerator, denominator):
+                return Quotient(self.write(numerator), denominator)
+        return node
+
+    def _named(self, node: Node, meaning: Node, shortest: int) -> Node:
+        if self.uses.get(node, 0) < 2 or cost(meaning) < shortest:
+            return meaning
+        name = next(self.names)
+        self.definitions.append(Definition(name, meaning))
+        return name
+
+
+def _canonical(part: _Key) -> _Key:
+    """The part or its opposite, the same for both."""
+    opposite = frozenset(map(negated, part))
+    minus = sum(isinstance(t, Negative) for t in part)
+    if 2 * minus != len(part):
+        return opposite if 2 * minus > len(part) else part
+    return min(part, opposite, key=lambda p: sorted(map(repr, p)))
+
+
+def _ordered(part: _Key, terms: Mapping[Symbol, tuple[Node, ...]], users: Sequence[Symbol]) -> list[Node]:
+    """The terms of a part in the order of the first sum that holds it."""
+    order = [split_sign(t)[1] for t in terms[users[0]]]
+    return sorted(part, key=lambda t: order.index(split_sign(t)[1]))
+
+
+def _number(name: Symbol) -> int:
+    return int(name.name)
+
+
+def _parts(node: Node) -> tuple[Node, ...]:
+    match node:
+        case Sum(parts) | Product(parts):
+            return parts
+        case Negative(part) | Power(part):
+            return (part,)
+        case Quotient(numerator, _):
+            return (numerator,)
+        case Function():
+            return ()
+    return ()
