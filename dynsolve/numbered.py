@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from dynsolve.errors import AlgebraError, UsageError
 from dynsolve.explain.forms import is_numeric
-from dynsolve.numbers import quantities
+from dynsolve.numbers import quantities, units
 from dynsolve.numbers.beside import Numbers
 from dynsolve.numbers.given import Assignment, Given, missing, parameters
 from dynsolve.numbers.given import state as read_state
@@ -66,6 +66,6 @@ def beside(
         given=given,
         valued=shown if given.entries and (values or whole) else None,
         state=None if place is None else at_state(numeric, place, digits),
-        units={name: quantities.units.si(dim) for name, dim in quantities.of_parameters(robot).items()},
+        units={name: units.si(dim) for name, dim in quantities.of_parameters(robot).items()},
     )
     return replace(solution, numbers=numbers)

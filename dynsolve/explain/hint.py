@@ -21,22 +21,39 @@ from dynsolve.notation.tree import Node, Product, equation
 from dynsolve.robot.model import Robot
 
 _INSTEAD: Mapping[str, str] = {
-    r"Kv\w+": "Half the mass times the square of the speed of the mass centre: add up the squares of the "
-    "components of v.",
-    r"Kw\w+": "ω and the tensor, both in base coordinates.",
-    r"ddt\d+": "Differentiate the momentum with respect to time. Each rate in it becomes an acceleration, and "
-    "each coordinate in it brings its own rate (product and chain rule).",
-    r"dLdq\d+": "Differentiate L with respect to the coordinate alone: the rates are held fixed, and a term in "
-    "which the coordinate does not stand drops out.",
-    r"Cqd": "What is left of the forces without the accelerations: the terms with rates belong to C, the others, "
-    "which remain when the arm is at rest, are g.",
-    r"D_direct": "Another way to D, without the Lagrangian: a sum over the bodies. Use it to check what you read "
-    "off from the forces.",
-    r"christoffel": "They say how D changes as the arm moves: three partial derivatives of entries of D each. The "
-    "first two indices may be swapped, so that half of the work is enough.",
-    r"C": "Row k, column j: a sum over i. Multiplied by the rates it must give what you read off from the forces.",
-    r"g": "Directly, without τ: the partial derivatives of the potential energy.",
-    r"skew": "A check at the end: with C from the Christoffel symbols, N plus its transpose must come out as zero.",
+    r"Kv\w+": (
+        "Half the mass times the square of the speed of the mass centre: add up the squares of the "
+        "components of v."
+    ),
+    r"Kw\w+": ("ω and the tensor, both in base coordinates."),
+    r"ddt\d+": (
+        "Differentiate the momentum with respect to time. Each rate in it becomes an acceleration, "
+        "and each coordinate in it brings its own rate (product and chain rule)."
+    ),
+    r"dLdq\d+": (
+        "Differentiate L with respect to the coordinate alone: the rates are held fixed, and a term "
+        "in which the coordinate does not stand drops out."
+    ),
+    r"Cqd": (
+        "What is left of the forces without the accelerations: the terms with rates belong to C, the "
+        "others, which remain when the arm is at rest, are g."
+    ),
+    r"D_direct": (
+        "Another way to D, without the Lagrangian: a sum over the bodies. Use it to check what you "
+        "read off from the forces."
+    ),
+    r"christoffel": (
+        "They say how D changes as the arm moves: three partial derivatives of entries of D each. The "
+        "first two indices may be swapped, so that half of the work is enough."
+    ),
+    r"C": (
+        "Row k, column j: a sum over i. Multiplied by the rates it must give what you read off from "
+        "the forces."
+    ),
+    r"g": ("Directly, without τ: the partial derivatives of the potential energy."),
+    r"skew": (
+        "A check at the end: with C from the Christoffel symbols, N plus its transpose must come out as zero."
+    ),
 }
 """What is said in place of a reason that depends on the result, by the id of its step."""
 

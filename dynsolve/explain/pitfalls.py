@@ -12,7 +12,7 @@ from dynsolve.document import Prose
 from dynsolve.explain import letters
 from dynsolve.explain.course import listed
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Sum, Symbol, equation
-from dynsolve.robot.model import AxesKind, Body, Convention, Coordinate, JointType, Robot
+from dynsolve.robot.model import AxesKind, Body, Convention, JointType, Robot
 
 
 def pitfalls(robot: Robot, stage: str) -> Iterator[Prose]:
@@ -29,8 +29,10 @@ def _kinematics(robot: Robot) -> Iterator[Prose]:
             )  # fmt: skip
             break
     if robot.convention is Convention.MODIFIED:
-        yield ("The table is in Craig's convention: α and a of a row come first, then θ and d. Do not take the "
-               "general matrix of the standard convention.",)  # fmt: skip
+        yield (
+            "The table is in Craig's convention: α and a of a row come first, then θ and d. Do not take the "
+            "general matrix of the standard convention.",
+        )
     fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
     if fixed:
         rows = "Row " if len(fixed) == 1 else "Rows "
@@ -48,14 +50,15 @@ def _jacobian(robot: Robot) -> Iterator[Prose]:
                "of H with index i.",)  # fmt: skip
     sliding = _of_type(robot, JointType.PRISMATIC)
     if sliding:
-        what = " is a length: its column" if len(sliding) == 1 else " are lengths: their columns"
-        yield (*listed(sliding), f"{what} has no cross product, and a zero in the angular part."
-               if len(sliding) == 1 else f"{what} have no cross product, and zeros in the angular part.")  # fmt: skip
+        what = " is a length: its column has" if len(sliding) == 1 else " are lengths: their columns have"
+        yield (*listed(sliding), f"{what} no cross product, and zero in the angular part.")
     if _of_type(robot, JointType.REVOLUTE):
         yield ("The cross product is not symmetric: the axis stands first, the lever second.",)
     if any(len(joint.rates) > 1 or any(rate != 1 for _, rate in joint.rates) for joint in robot.joints):
-        yield ("A joint variable here is a combination of coordinates: its column counts for each of them, times "
-               "the factor with which it stands in the table.",)  # fmt: skip
+        yield (
+            "A joint variable here is a combination of coordinates: its column counts for each of them, "
+            "times the factor with which it stands in the table.",
+        )
     fixed = [joint for joint in robot.joints if joint.type is None]
     if fixed:
         yield ("A fixed row has no column of its own.",)
@@ -71,8 +74,11 @@ def _inertia(robot: Robot) -> Iterator[Prose]:
     extended = [body for body in robot.bodies if not body.is_point]
     moved = [b for b in extended if b.about_point is not None and b.about_point != b.center]
     if moved:
-        yield ("The tensor of ", *_bodies(moved), " is not given about the mass centre. Going to the mass centre "
-               "the parallel-axis term is subtracted.")  # fmt: skip
+        yield (
+            "The tensor of ",
+            *_bodies(moved),
+            " is not given about the mass centre. Going there, the parallel-axis term is subtracted.",
+        )
     if any(body.axes.kind is AxesKind.LINK for body in extended):
         yield (
             "The frame of a body is the one after it, which is fixed in the same link, not the one before.",
@@ -96,8 +102,13 @@ def _energy(robot: Robot) -> Iterator[Prose]:
     turning = _of_type(robot, JointType.REVOLUTE)
     if turning:
         squares = tuple(Power(Function(name, turning[0]), Number(2)) for name in ("sin", "cos"))
-        yield ("Sum of squares: ", equation(Sum(squares), Number(1)), ". The difference, ",
-               Sum((squares[1], Negative(squares[0]))), ", is the cosine of twice the angle, another thing.")  # fmt: skip
+        yield (
+            "Sum of squares: ",
+            equation(Sum(squares), Number(1)),
+            ". The difference, ",
+            Sum((squares[1], Negative(squares[0]))),
+            ", is another thing: the cosine of twice the angle.",
+        )
     points = [body for body in robot.bodies if body.is_point]
     if points:
         yield ("A point has no tensor, and so no rotational energy: that holds for ", *_bodies(points), ".")
@@ -107,7 +118,7 @@ def _energy(robot: Robot) -> Iterator[Prose]:
 
 def _lagrangian(robot: Robot) -> Iterator[Prose]:
     yield (
-        "It is the difference of the energies, not their sum: every term of the potential energy turns its sign.",
+        "The difference of the energies, not their sum: every term of the potential energy turns its sign.",
     )
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
+from dynsolve.explain import letters
 from dynsolve.explain.course import children
 from dynsolve.explain.step import STAGES, Detail
-from dynsolve.notation.tree import Letter, Matrix, Node, Row, Sum, Symbol, Words, equation
+from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equation
 from dynsolve.numbers import quantities, units
 from dynsolve.numbers.beside import Numbers
 from dynsolve.numbers.given import Entry
@@ -47,7 +48,7 @@ def _values(numbers: Numbers) -> Iterator[Block]:
 
 def _table(rows: Iterable[tuple[Node, Entry, str]]) -> Table:
     cells: list[tuple[Inline, ...]] = [
-        (symbol, _written(entry), units.pretty(unit)) for symbol, entry, unit in rows
+        (symbol, _written(entry), Words(units.pretty(unit)) if unit else "") for symbol, entry, unit in rows
     ]
     return Table(("symbol", "value", "unit"), tuple(cells))
 
@@ -99,9 +100,7 @@ def _with_unit(letter: Node, result: Node, unit: str | quantities.Units) -> Node
         several = {entry for row in unit for entry in row}
         if len(several) == 1:
             (unit,) = several
-        elif isinstance(letter, Letter) and letter.base in ("D", "C", "g", "tau"):
-            return Row((equation(letter, result), Words(" in "), _unit_matrix(unit)))
-        elif len(unit[0]) == 1:
+        elif len(unit[0]) == 1 or letter in (letters.D, letters.C):
             return Row((equation(letter, result), Words(" in "), _unit_matrix(unit)))
     if not unit or not isinstance(unit, str):
         return equation(letter, result)

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from dynsolve.notation.tree import Node
 from dynsolve.numbers import quantities
 from dynsolve.numbers.beside import Numbers
 from dynsolve.numbers.given import Entry
 from dynsolve.numbers.rounding import DIGITS
-from dynsolve.notation.tree import Node
 from dynsolve.robot.model import Robot
 
 _DIGITS = 15

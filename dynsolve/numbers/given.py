@@ -122,9 +122,7 @@ def of_file(problem: Problem) -> Iterator[Assignment]:
     for name, text in problem.written.items():
         if name not in coordinates and name in problem.robot.parameters:
             place = problem.finding(("values", name), "")
-            yield Assignment(
-                name, text, place.file, place.excerpt, place.line, place.column, place.column
-            )
+            yield Assignment(name, text, place.file, place.excerpt, place.line, place.column, place.column)
 
 
 # -- parameters ------------------------------------------------------------------------------------
@@ -351,7 +349,7 @@ class _Reader:
             return entry
         wanted = self.dimensions.get(name)
         if wanted is not None and wanted != unit.dimension:
-            message = f"the unit of {name} is {given}, but where it stands it is measured in {units.si(wanted)}"
+            message = f"the unit of {name} is {given}; where it stands it is measured in {units.si(wanted)}"
             self.warn(place, message, "results are in SI units only where the units of the values fit")
         if unit.size == 1:
             return entry

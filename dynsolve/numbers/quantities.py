@@ -54,8 +54,8 @@ def of_result(robot: Robot, name: str) -> str | Units:
         return [[_force(q)] for q in robot.coordinates]
     if name in ("D", "D_direct", "C"):
         rate = PER_SECOND if name == "C" else NONE
-        pairs = [[times(_generalized(p), _generalized(q)) for q in robot.coordinates] for p in robot.coordinates]
-        return [[units.si(times(times(MASS, pair), rate)) for pair in row] for row in pairs]
+        sizes = [_generalized(q) for q in robot.coordinates]
+        return [[units.si(times(times(MASS, times(p, q)), rate)) for q in sizes] for p in sizes]
     return _of_geometry(robot, name)
 
 

@@ -51,9 +51,9 @@ class State:
     @cached_property
     def shows_decimals(self) -> bool:
         """Whether results are shown as decimals: where a decimal goes in, or an angle such as 17°."""
-        odd = any(g.kind in ("sin", "cos", "constant") and not g.angle.terms for g in self._put.ring.generators)
-        radians = any(atom == () for pair in self._put.ring.pairs for atom, _ in pair.angle.terms)
-        return self.decimal or self.given.decimal or is_numeric(self.robot) or odd or radians
+        turned = [g.angle for g in self._put.ring.generators if g.kind in ("sin", "cos", "constant")]
+        odd = any(all(atom == () for atom, _ in angle.terms) for angle in turned)
+        return self.decimal or self.given.decimal or is_numeric(self.robot) or odd
 
     def exact(self, name: str) -> Expr | Matrix:
         """A result in the exact ring of this state."""

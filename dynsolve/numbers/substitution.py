@@ -12,9 +12,9 @@ from dynsolve.algebra.compact import Compactor
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
+from dynsolve.notation import tree
 from dynsolve.notation.tree import (
     Function,
-    Matrix as MatrixTree,
     Negative,
     Node,
     Number,
@@ -53,8 +53,8 @@ def replaced(node: Node, values: Values) -> Node:
             return Parenthesized(replaced(argument, values))
         case Function(name, argument):
             return Function(name, replaced(argument, values))
-        case MatrixTree(rows):
-            return MatrixTree(tuple(tuple(replaced(entry, values) for entry in row) for row in rows))
+        case tree.Matrix(rows):
+            return tree.Matrix(tuple(tuple(replaced(entry, values) for entry in row) for row in rows))
     return node
 
 
