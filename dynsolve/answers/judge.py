@@ -517,7 +517,7 @@ class Judge:
             tuple(ordered),
             self.submission.not_recognized,
             first,
-            tuple(map(str, self.submission.faults)),
+            self.submission.faults,
         )
 
     def _unwritten(self, name: str, answers: dict[str, Judged]) -> Judged:

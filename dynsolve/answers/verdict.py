@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 
 from dynsolve.answers.submission import NotRecognized, Place
+from dynsolve.errors import Finding
 from dynsolve.notation.tree import Node
 
 
@@ -94,7 +95,7 @@ class Report:
     answers: tuple[Judged, ...]
     not_recognized: tuple[NotRecognized, ...] = ()
     first_wrong: str = ""
-    faults: tuple[str, ...] = field(default=())
+    faults: tuple[Finding, ...] = ()
 
     @property
     def marks(self) -> Fraction:

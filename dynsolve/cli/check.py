@@ -44,17 +44,15 @@ def check(
     Ends with 0 where every answer is correct, with 1 otherwise, with 2 where nothing
     could be read.
     """
-    from dynsolve.answers.judge import check as judge
-    from dynsolve.answers.submission import read_submission
+    from dynsolve.answers.guard import check_file
 
     stated = read(problem)
     if not quiet:
         say(stated.warnings, "warning")
     source, file = _source(answer)
-    submission = read_submission(stated, source, file)
-    report = judge(stated, submission)
+    report = check_file(stated, source, file)
     if not quiet:
-        say(submission.faults)
+        say(report.faults)
     if json:
         _print_json(report, hints, teacher)
     else:

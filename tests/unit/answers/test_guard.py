@@ -1,0 +1,68 @@
+"""The net beneath: what goes over the limits is unreadable, and the others are judged."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+import pytest
+
+from dynsolve.answers import guard
+from dynsolve.answers.submission import Submission
+from dynsolve.answers.verdict import Report
+from tests.unit.answers.hands import answer, key, problem
+
+G2 = "m2*lc2*g*cos(q1 + q2)"
+
+
+def test_the_work_of_a_child_comes_back() -> None:
+    assert guard.limited(lambda: [1, "two"], 2) == [1, "two"]
+
+
+def test_an_error_of_a_child_is_raised() -> None:
+    def fail() -> None:
+        raise ValueError("of the child")
+
+    with pytest.raises(ValueError, match="of the child"):
+        guard.limited(fail, 2)
+
+
+def test_memory_has_a_limit() -> None:
+    with pytest.raises(guard.Stopped):
+        guard.limited(lambda: bytearray(3 << 30), 2)
+
+
+def test_time_has_a_limit() -> None:
+    def spin() -> None:
+        while True:
+            pass
+
+    start = time.process_time()
+    with pytest.raises(guard.Stopped):
+        guard.limited(spin, 1)
+    assert time.process_time() - start < 1
+
+
+def test_the_answer_that_goes_over_is_unreadable_and_the_others_are_judged(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    real = guard.check
+
+    def heavy(stated: object, submission: Submission, derived: object) -> Report:
+        if any(a.name == "P1" and a.node is not None for a in submission.answers):
+            bytearray(3 << 30)
+        return real(stated, submission, derived)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(guard, "check", heavy)
+    hand = Submission("", "", "", (answer("P1", "0", 0), answer("g2", G2, 1)))
+    report = guard.check_within(problem("planar-2r"), hand, key("planar-2r"))
+    found = {a.name: a for a in report.answers}
+    assert (found["P1"].verdict, found["P1"].fault) == ("unreadable", guard.TOO_MUCH)
+    assert found["g2"].verdict == "correct"
+
+
+def test_a_report_comes_back_as_it_was_made() -> None:
+    hand = Submission("", "", "", (answer("g2", "0", 0), answer("K", "m1*q1_dot", 1)))
+    report = guard.check_within(problem("planar-2r"), hand, key("planar-2r"))
+    direct = guard.check(problem("planar-2r"), hand, key("planar-2r"))
+    assert replace(report) == direct
