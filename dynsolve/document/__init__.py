@@ -54,6 +54,13 @@ class Formula:
 
 
 @dataclass(frozen=True, slots=True)
+class Equations:
+    """Short equations in one display, one under another and level at their equals signs."""
+
+    nodes: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Uses:
     """What goes into the next formula: labels of formulas that stand before it."""
 
@@ -103,7 +110,7 @@ class Fold:
     level: int = 2
 
 
-Block = Heading | Text | Formula | Uses | List | Note | Table | Picture | Fold
+Block = Heading | Text | Formula | Equations | Uses | List | Note | Table | Picture | Fold
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from importlib.resources import files
 from dynsolve.document import (
     Block,
     Document,
+    Equations,
     Fold,
     Formula,
     Heading,
@@ -140,6 +141,9 @@ class _Page:
                 yield f'<p class="why" dir="auto">{self.prose(parts)}</p>\n'
             case Formula():
                 yield from self.formula(block)
+            case Equations(nodes):
+                lines = "".join(map(self.broken, nodes))
+                yield f'<div class="formula work"><div class="box">{lines}</div></div>\n'
             case Uses(labels):
                 yield from self.uses(labels)
             case List(items):

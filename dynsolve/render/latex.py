@@ -10,6 +10,7 @@ from typing import ClassVar
 from dynsolve.document import (
     Block,
     Document,
+    Equations,
     Fold,
     Formula,
     Heading,
@@ -163,6 +164,8 @@ class _Page:
             case Text(parts, source):
                 beside = f"\\formulasource{{{self.words(source)}}}" if source else ""
                 yield f"{self.prose(parts)}{beside}"
+            case Equations(nodes):
+                yield from _aligned(self.plain.equations(nodes), "")
             case Uses(labels):
                 yield from self.uses(labels)
             case List(items):

@@ -13,6 +13,7 @@ from typing import ClassVar
 from dynsolve.document import (
     Block,
     Document,
+    Equations,
     Fold,
     Formula,
     Heading,
@@ -85,6 +86,8 @@ class _Page:
                 yield _begun(self.prose(parts)) + (f" *({self.words(source)})*" if source else "") + "\n"
             case Formula():
                 yield from self.formula(block)
+            case Equations(nodes):
+                yield from self.display(self.plain.equations(nodes))
             case Uses(labels):
                 known = [f"({self.labels[label]})" for label in labels if label in self.labels]
                 if known:
@@ -113,9 +116,12 @@ class _Page:
     def formula(self, formula: Formula) -> Iterator[str]:
         number = self.labels.get(formula.label)
         lines = (self.with_number if number else self.plain).set(formula)
+        yield from self.display(lines, rf" \tag{{{number}}}" if number else "")
+
+    def display(self, lines: Sequence[Line], number: str = "") -> Iterator[str]:
         for start in range(0, len(lines), _MOST_LINES):
             is_last = start + _MOST_LINES >= len(lines)
-            tag = rf" \tag{{{number}}}" if number and is_last else ""
+            tag = number if is_last else ""
             yield f"$$\n{_rows(lines[start : start + _MOST_LINES])}{tag}\n$$\n"
 
     def table(self, table: Table) -> str:

@@ -100,10 +100,22 @@ class Setter:
                 chains.setdefault(entry, []).append(entry_name(i, j, matrix, left, formula))
         zeros = chains.pop(Number(0), [])
         for value, names in [*chains.items(), *([(Number(0), zeros)] if zeros else [])]:
-            room = self.room - self.ruler.width(names[0])
-            pieces = self.flow.chain([*names[1:], value])
-            for i, line in enumerate(lines(pieces, room, room - INDENT)):
-                yield Line("" if i else self.notation.text(names[0]), self._text(line), i > 0)
+            yield from self._level([*names, value])
+
+    def equations(self, nodes: Sequence[Node]) -> list[Line]:
+        """The lines of equations without matrices, level at their first equals sign."""
+        return [
+            line
+            for node in nodes
+            for line in self._level(node.parts if isinstance(node, Relation) else [node])
+        ]
+
+    def _level(self, members: Sequence[Node]) -> Iterator[Line]:
+        """The lines of a = b = ..., level after a."""
+        name, *rest = members
+        room = self.room - self.ruler.width(name)
+        for i, line in enumerate(lines(self.flow.chain(rest), room, room - INDENT)):
+            yield Line("" if i else self.notation.text(name), self._text(line), i > 0)
 
 
 def listed(row: Row) -> Iterator[Node]:

@@ -9,8 +9,21 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Note, Prose, Table, Text
+from dynsolve.document import (
+    Block,
+    Document,
+    Equations,
+    Fold,
+    Formula,
+    Heading,
+    List,
+    Note,
+    Prose,
+    Table,
+    Text,
+)
 from dynsolve.notation.printing import PLAIN, Style
+from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import UnicodePrinter, printable, width
 from dynsolve.render.breaking import HARD_SPACE, wrap
 from dynsolve.render.formulas import set_formula
@@ -58,6 +71,8 @@ class _Page:
                 yield from self.paragraph(parts)
             case Formula():
                 yield from self.formula(block)
+            case Equations(nodes):
+                yield from self.equations(nodes)
             case List(items):
                 for item in items:
                     yield from self.hanging(item, "• ", "")
@@ -114,6 +129,12 @@ class _Page:
             yield Line(text, "formula")
         if source and not beside:
             yield Line(" " * max(min(self.columns, _PROSE) - len(source), 0) + source, "source")
+        yield Line("")
+
+    def equations(self, nodes: Sequence[Node]) -> Iterator[Line]:
+        for node in nodes:
+            for line in set_formula(Formula(node), self.printer, self.columns - _INDENT):
+                yield Line(" " * _INDENT + line.rstrip(), "formula")
         yield Line("")
 
     def table(self, table: Table) -> Iterator[Line]:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dynsolve.document import (
     Block,
     Document,
+    Equations,
     Fold,
     Formula,
     Heading,
@@ -124,6 +125,8 @@ class _Page:
                 yield f"{self.prose(parts)}{beside}\n"
             case Formula():
                 yield from self.formula(block)
+            case Equations(nodes):
+                yield f"$ {_rows(self.plain.equations(nodes))} $"
             case Uses(labels):
                 yield from self.uses(labels)
             case List(items):
