@@ -86,7 +86,8 @@ def render_fragment(document: Document, style: Style = PLAIN) -> str:
     r"""What a document of the reader's own takes in with \input; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
     body = "\n".join(page.blocks(document.blocks))
-    return f"{_NEEDS}{_MACROS}\\begingroup\\allowdisplaybreaks[3]\\emergencystretch=4em\n{body}\n\\par\\endgroup\n"
+    begin = "\\begingroup\\allowdisplaybreaks[3]\\emergencystretch=4em"
+    return f"{_NEEDS}{_MACROS}{begin}\n{body}\n\\par\\endgroup\n"
 
 
 def _is_title(block: Block) -> bool:

@@ -12,7 +12,7 @@ from tests.reports.browser import Page, chromium
 from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made
 from tests.support import LIBRARY
 
-LONGEST = 20_000_000
+LONGEST = 5_000_000
 WIDTHS = (400, 1200)
 
 # Elements without width or height, those in hidden parts apart.
