@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.draw.vectors import IDENTITY, Rotation
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import Robot
 
@@ -39,12 +40,13 @@ class Row:
 class Numbers:
     """A robot in numbers: its rows in picture lengths, and the value of every parameter.
 
-    `unit` is the value that is drawn with length 1.
+    `unit` is the value that is drawn with length 1; `base` turns frame 0 in the world.
     """
 
     rows: tuple[Row, ...]
     values: Mapping[str, float]
     unit: float
+    base: Rotation = IDENTITY
 
 
 def numbers(problem: Problem) -> Numbers:
@@ -79,7 +81,9 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
         Row(angle(joint.theta, values), drawn(joint.d), drawn(joint.a), angle(joint.alpha, values))
         for joint in robot.joints
     )
-    return Numbers(rows, values, unit)
+    x, y, z = ([evaluate(robot, entry, values) for entry in row] for row in robot.base_rotation.rows)
+    base = tuple(zip(x, y, z, strict=True))
+    return Numbers(rows, values, unit, (base[0], base[1], base[2]))
 
 
 def _has_vanished(robot: Robot, values: Mapping[str, float]) -> bool:

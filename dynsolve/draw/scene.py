@@ -13,14 +13,14 @@ from dynsolve.draw.lengths import Length, dimension, row_lengths
 from dynsolve.draw.numbers import numbers
 from dynsolve.draw.pose import Pose, best_pose
 from dynsolve.draw.setting import Setting, setting
-from dynsolve.draw.skeleton import NEAR, free_symbols
+from dynsolve.draw.skeleton import NEAR
 from dynsolve.draw.solids import solids
 from dynsolve.draw.space import Box, Taken
 from dynsolve.draw.vectors import Point, dot
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
 from dynsolve.problem.model import Problem
-from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.model import JointType
 
 MARGIN = 14.0
 
@@ -52,7 +52,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     annotate.frames(pose, notes)
     annotate.turns(pose, [joint.written[0] for joint in robot.joints], notes)
     annotate.masses(pose, notes)
-    for length in (*row_lengths(robot, pose), *_center_lengths(robot, pose)):
+    for length in (*row_lengths(robot, pose), *_center_lengths(pose)):
         dimension(length, pose, notes)
     _gravity(world, pose, body, notes)
     labels = place(notes.wanted, notes.taken)
@@ -67,15 +67,15 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     )
 
 
-def _center_lengths(robot: Robot, pose: Pose) -> list[Length]:
+def _center_lengths(pose: Pose) -> list[Length]:
     """The distances of mass centres that are given by one symbol, or a simple part of one."""
     found = []
-    for body, mass in zip(robot.bodies, pose.skeleton.masses, strict=True):
+    for mass in pose.skeleton.masses:
         if mass.from_ is None:
             continue
         rate = Fraction(mass.rate).limit_denominator(12)
         if abs(rate - mass.rate) < NEAR:
-            node = _part(Symbol(free_symbols(robot, body)[0]), rate)
+            node = _part(Symbol(mass.symbol), rate)
             found.append(Length(mass.from_, mass.center, node, optional=True))
     return found
 

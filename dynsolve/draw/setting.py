@@ -29,7 +29,7 @@ class Setting:
 
 def setting(robot: Robot, numbers: Numbers) -> Setting:
     """How a robot stands in the world."""
-    base = base_frame(robot, numbers)
+    base = base_frame(numbers)
     gravity = _gravity(robot, numbers)
     normal = _normal(robot, numbers, base)
     if normal is not None:

@@ -10,7 +10,7 @@ its joint, of length d_i from its foot to its head, and a leg of length a_i acro
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dynsolve.draw.numbers import Numbers, evaluate
 from dynsolve.draw.vectors import (
@@ -75,7 +75,7 @@ class Leg:
 class Mass:
     """A mass centre.
 
-    `from_` is where its one symbolic coordinate is measured from, if it has one;
+    `from_` is where its one free `symbol` is measured from, if it has just one;
     `rate` is how far the centre moves as that grows by 1.
     """
 
@@ -84,44 +84,46 @@ class Mass:
     is_point: bool
     link: int
     from_: Vector | None = None
+    symbol: str = ""
     rate: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class Skeleton:
-    """A robot at a pose: frames 0..m, legs 1..m, and the mass centres."""
+    """A robot at a pose: frames 0..m, legs 1..m, and the mass centres.
+
+    `path` are the points of the chain from frame 0 to the last, each once.
+    """
 
     frames: tuple[Frame, ...]
     legs: tuple[Leg, ...]
+    path: tuple[Vector, ...]
     masses: tuple[Mass, ...] = ()
-
-    @property
-    def path(self) -> tuple[Vector, ...]:
-        """The points of the chain from frame 0 to the last, each once."""
-        points = [self.frames[0].origin]
-        for leg in self.legs:
-            for point in (leg.foot, leg.head, leg.end):
-                if distance(points[-1], point) > NEAR:
-                    points.append(point)
-        return tuple(points)
 
 
 def skeleton(robot: Robot, numbers: Numbers, q: Sequence[float]) -> Skeleton:
     """The robot with these values of its coordinates, in radians and picture lengths; without masses."""
-    frame = base_frame(robot, numbers)
+    frame = base_frame(numbers)
     frames, legs = [frame], []
     for joint in robot.joints:
         leg, frame = _leg(robot, numbers, joint, q, frame)
         legs.append(leg)
         frames.append(frame)
-    return Skeleton(tuple(frames), tuple(legs))
+    return Skeleton(tuple(frames), tuple(legs), _path(legs))
 
 
-def base_frame(robot: Robot, numbers: Numbers) -> Frame:
+def _path(legs: Sequence[Leg]) -> tuple[Vector, ...]:
+    points = [ORIGIN]
+    for leg in legs:
+        for point in (leg.foot, leg.head, leg.end):
+            if distance(points[-1], point) > NEAR:
+                points.append(point)
+    return tuple(points)
+
+
+def base_frame(numbers: Numbers) -> Frame:
     """Frame 0, turned as the file says; where it is moved to does not matter to a picture."""
-    rows = [[evaluate(robot, entry, numbers.values) for entry in row] for row in robot.base_rotation.rows]
-    x, y, z = ((rows[0][j], rows[1][j], rows[2][j]) for j in range(3))
-    return Frame(ORIGIN, (x, y, z))
+    return Frame(ORIGIN, numbers.base)
 
 
 def _leg(robot: Robot, numbers: Numbers, joint: Joint, q: Sequence[float], frame: Frame) -> tuple[Leg, Frame]:
@@ -157,12 +159,15 @@ def with_masses(robot: Robot, numbers: Numbers, bare: Skeleton) -> Skeleton:
     """The skeleton with its mass centres."""
     masses: list[Mass] = []
     for body in robot.bodies:
-        tried = [_mass(robot, numbers, bare, body, share) for share in _SHARES]
-        apart = (
-            mass for mass in tried if all(distance(mass.center, other.center) > _APART for other in masses)
-        )
-        masses.append(next(apart, tried[0]))
-    return Skeleton(bare.frames, bare.legs, tuple(masses))
+        free = free_symbols(robot, body)
+        tried = (_mass(robot, numbers, bare, body, free, share) for share in _SHARES)
+        apart = (mass for mass in tried if _is_apart(mass, masses))
+        masses.append(next(apart, None) or _mass(robot, numbers, bare, body, free, _SHARES[0]))
+    return replace(bare, masses=tuple(masses))
+
+
+def _is_apart(mass: Mass, others: Sequence[Mass]) -> bool:
+    return all(distance(mass.center, other.center) > _APART for other in others)
 
 
 def near_and_far(robot: Robot, bare: Skeleton, link: int) -> tuple[Vector, Vector]:
@@ -173,7 +178,9 @@ def near_and_far(robot: Robot, bare: Skeleton, link: int) -> tuple[Vector, Vecto
     return bare.frames[link].origin, bare.frames[min(link + 1, last)].origin
 
 
-def _mass(robot: Robot, numbers: Numbers, bare: Skeleton, body: Body, share: float) -> Mass:
+def _mass(
+    robot: Robot, numbers: Numbers, bare: Skeleton, body: Body, free: Sequence[str], share: float
+) -> Mass:
     frame = bare.frames[body.link]
     near, far = near_and_far(robot, bare, body.link)
     written = body.center_written
@@ -181,17 +188,16 @@ def _mass(robot: Robot, numbers: Numbers, bare: Skeleton, body: Body, share: flo
     if written in exact:
         return Mass(body.name, exact[written], body.is_point, body.link)
     ends = (into(frame.axes, subtract(end, frame.origin)) for end in (near, far))
-    center, from_, rate = _local_center(robot, numbers, body, share, *ends)
+    center, from_, rate = _local_center(robot, numbers, body, free, share, *ends)
     place = add(frame.origin, applied(frame.axes, center))
     start = None if from_ is None else add(frame.origin, applied(frame.axes, from_))
-    return Mass(body.name, place, body.is_point, body.link, start, rate)
+    return Mass(body.name, place, body.is_point, body.link, start, free[0] if start else "", rate)
 
 
 def _local_center(
-    robot: Robot, numbers: Numbers, body: Body, share: float, near: Vector, far: Vector
+    robot: Robot, numbers: Numbers, body: Body, free: Sequence[str], share: float, near: Vector, far: Vector
 ) -> tuple[Vector, Vector | None, float]:
     """The centre in its frame; where its only free symbol is measured from, and the rate of that."""
-    free = free_symbols(robot, body)
     values = dict(numbers.values) | dict.fromkeys(free, 0.0)
     rate = 0.0
 
