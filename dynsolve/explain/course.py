@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
+from dynsolve.explain import letters
 from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node, Row, Words
+from dynsolve.notation.tree import Node, Row, Symbol, Words
 from dynsolve.pipeline import Agreement, Derivation
-from dynsolve.robot.model import Convention, Coordinate, Joint, JointType, Robot
+from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
 
 SHV = "Spong, Hutchinson, Vidyasagar"
 """M. W. Spong, S. Hutchinson, M. Vidyasagar, Robot Modeling and Control, Wiley, 2006."""
@@ -48,6 +49,18 @@ class Course:
     def show(self, value: Expr | Matrix) -> Node:
         """The tree of any exact value."""
         return self.forms.of(value)
+
+    def mass(self, body: Body) -> Node:
+        """The mass of a body in a formula: the problem's symbol, else m_i unless that is another thing."""
+        shown = self.show(body.mass)
+        if isinstance(shown, Symbol) or letters.is_taken(self.robot, "m", body):
+            return shown
+        return letters.of_body("m", body)
+
+    @property
+    def ground(self) -> str:
+        """What everything is seen from: frame 0, or the world in which the problem turns it."""
+        return "world" if letters.has_base(self.robot) else "base"
 
 
 def shv(section: str) -> str:

@@ -46,15 +46,20 @@ def _stages(solution: Solution, detail: Detail, stages: Iterable[str] | None) ->
     """Stages and their steps, numbered as in the whole derivation."""
     numbers = {stage: number for number, stage in enumerate(STAGES, start=1)}
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
-    stage, place = "", 0
+    stage, place, extra = "", 0, 0
     for step in solution.explain(stages):
         if step.stage != stage:
-            stage, place = step.stage, 0
+            stage, place, extra = step.stage, 0, 0
             yield Heading(f"{numbers[stage]}. {STAGES[stage]}", 2)
-        place += 1
+        if step.detail is Detail.FULL:  # 7.3.1, so that the others have the same number in every detail
+            extra += 1
+            number = f"{numbers[stage]}.{place}.{extra}"
+        else:
+            place, extra = place + 1, 0
+            number = f"{numbers[stage]}.{place}"
         if step.detail <= detail:
             blocks = tuple(step_blocks(step, detail, tuple(_used(step.id, inputs))))
-            yield Fold(f"{numbers[stage]}.{place} {step.title}", blocks, step.detail)
+            yield Fold(f"{number} {step.title}", blocks, step.detail)
 
 
 def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Iterator[Block]:
@@ -84,6 +89,9 @@ def _used(name: str, inputs: Mapping[str, tuple[str, ...]]) -> Iterator[str]:
     """The results of earlier steps that one is computed from, by their labels."""
     if name.startswith(("I_", "R", "axes")):
         return  # often given by the problem
+    if name == "g":
+        yield "P"
+        return
     columns = [column for column in inputs if re.fullmatch(r"ddt\d+", column)]
     if name == "J":
         yield from (column.replace("ddt", "J") for column in columns)
@@ -95,7 +103,9 @@ def _used(name: str, inputs: Mapping[str, tuple[str, ...]]) -> Iterator[str]:
     if frames:
         yield "axes"
     for label in inputs.get(name, ()):
-        if label == "tau":
+        if name == "Cqd" and label == "g":
+            yield "D"
+        elif label == "tau":
             yield from (column.replace("ddt", "tau") for column in columns)
         elif not (frames and label.startswith("H")):
             yield label
@@ -115,10 +125,12 @@ def _labels(step: Step) -> Iterator[str]:
 
 def _closing(solution: Solution) -> Iterator[Block]:
     verification = solution.verification
-    yield Heading("Verification", 2)
+    how = verification.method
     if not solution.robot.bodies:
         yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
+        how = f"the last frame and the Jacobian by the outward half of {how}"
+    yield Heading("Verification", 2)
     yield Text((
-        f"Verified: {verification.method} at {verification.states} random states, "
+        f"Verified: {how} at {verification.states} random states, "
         f"relative error {verification.max_relative_error:.1e}.",
     ))  # fmt: skip

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain import letters
-from dynsolve.explain.course import Course, is_small, shv, side_by_side
+from dynsolve.explain.course import Course, is_small, listed, shv, side_by_side
 from dynsolve.explain.inertia import name_of
-from dynsolve.explain.jacobian import coordinate_column
+from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import (
     Letter,
@@ -29,6 +29,9 @@ from dynsolve.notation.tree import (
 from dynsolve.robot.model import Body
 
 STAGE = "energy"
+
+_BESIDE = 2
+"""Up to this number of columns J_v and J_ω in letters stand on one line."""
 
 
 def steps(course: Course) -> Iterator[Step]:
@@ -53,52 +56,49 @@ def steps(course: Course) -> Iterator[Step]:
 
 
 def _potential(course: Course, body: Body) -> Step:
-    robot, b = course.robot, body.name
-    P, r, mass = letters.of_body("P", body), letters.rc(body), course.show(body.mass)
-    gravity, center = course.show(robot.gravity), course.form(f"rc{b}")
-    vector = letters.bold("g")
-    general = equation(P, Negative(Product((_mass(body), Transpose(vector), r))))
-    result = (equation(P, course.form(f"P{b}")),)
-    if robot.gravity.is_zero:
-        title = f"Potential energy of {name_of(body)}"
-        return Step(f"P{b}", STAGE, title, ("There is no gravity.",), general, shv("7.2.3"), result=result)
-    row = Matrix((tuple(entry for (entry,) in _rows(gravity)),))
-    working: list[Node] = []
-    if is_small(center):
-        working.append(equation(P, Negative(Product((mass, row, center)))))
-    product = Product((Transpose(vector), letters.bold("r", Words("c"))))
-    why: Prose = (
-        "Minus the mass times ",
-        product,
-        ", g being the acceleration of gravity, which points down.",
+    P = letters.of_body("P", body)
+    general = equation(
+        P, Negative(Product((course.mass(body), Transpose(letters.bold("g")), letters.rc(body))))
     )
     formula: Node = general
-    height = _height(course, body)
-    if height is not None:
-        h = letters.of_body("h", body)
-        ground = "the world" if letters.has_base(robot) else "the base"
-        formula = side_by_side([equation(P, Product((_mass(body), Symbol("g"), h))), general])
-        working.insert(0, equation(h, height))
-        why = (
-            f"The mass times g times the height h above the origin of {ground}. The same with vectors: minus "
-            "the mass times ",
-            product,
-            ", g being the acceleration of gravity, which points down.",
-        )
+    working: tuple[Node, ...] = ()
+    if course.robot.gravity.is_zero:
+        why: Prose = ("There is no gravity.",)
+    elif body.mass.is_zero:
+        why = (f"{name_of(body).capitalize()} has inertia but no mass, so gravity does not act on it.",)
+    else:
+        why, formula, working = _weight(course, body, general)
     return Step(
-        id=f"P{b}",
+        id=f"P{body.name}",
         stage=STAGE,
         title=f"Potential energy of {name_of(body)}",
         why=why,
         formula=formula,
         source=shv("7.2.3"),
-        working=tuple(working),
-        result=result,
+        working=working,
+        result=(equation(P, course.form(f"P{body.name}")),),
     )
 
 
-def _mass(body: Body) -> Letter:
-    return letters.of_body("m", body)
+def _weight(course: Course, body: Body, general: Node) -> tuple[Prose, Node, tuple[Node, ...]]:
+    """By the height, where gravity lies along an axis, and by the vectors: why, the formula, the working."""
+    P = letters.of_body("P", body)
+    gravity, center = course.show(course.robot.gravity), course.form(f"rc{body.name}")
+    row = Matrix((tuple(entry for (entry,) in _rows(gravity)),))
+    vectors = equation(P, Negative(Product((course.show(body.mass), row, center))))
+    working: tuple[Node, ...] = (vectors,) if is_small(center) else ()
+    product: Prose = (
+        Product((Transpose(letters.bold("g")), letters.bold("r", Words("c")))),
+        ", g being the acceleration of gravity, which points down.",
+    )
+    height = _height(course, body)
+    if height is None:
+        return ("Minus the mass times ", *product), general, working
+    h, g = letters.height(course.robot, body), _acceleration(course)
+    where = f" above the origin of the {course.ground}. The same with vectors: minus the mass times "
+    why: Prose = ("The mass times ", g, " times the height ", h, where, *product)
+    formula = side_by_side([equation(P, Product((course.mass(body), g, h))), general])
+    return why, formula, (equation(h, height), *working)
 
 
 def _rows(node: Node) -> tuple[tuple[Node, ...], ...]:
@@ -114,6 +114,14 @@ def _height(course: Course, body: Body) -> Node | None:
     i, entry = along[0]
     center: Expr = course.values[f"rc{body.name}"][i, 0]
     return course.show(center if _leads_with_minus(entry) else -center)
+
+
+def _acceleration(course: Course) -> Node:
+    """The size of gravity along its axis: the problem's symbol, g for a number."""
+    (entry,) = (entry for entry in course.robot.gravity.entries if not entry.is_zero)
+    size = course.show(-entry if _leads_with_minus(entry) else entry)
+    named = "g" in course.robot.parameters
+    return size if named or not entry.is_number else Symbol("g")
 
 
 def _leads_with_minus(expr: Expr) -> bool:
@@ -147,37 +155,34 @@ def _total(course: Course, name: str, kind: str, letter: Letter, parts: list[Let
 
 def _jacobians(course: Course, body: Body) -> Step:
     b, robot = body.name, course.robot
-    zero = Letter("0", style="bold")
     columns = [
-        coordinate_column(course, k, body.link, letters.rc(body)) or (zero, zero) for k in range(robot.n)
+        coordinate_column(course, k, body.link, letters.rc(body)) or (ZERO, ZERO) for k in range(robot.n)
     ]
-    late = [q for q, both in zip(robot.coordinates, columns, strict=True) if both[0] == zero]
+    late = [Symbol(q.name) for q, both in zip(robot.coordinates, columns, strict=True) if both[0] == ZERO]
     why: Prose = (
         "Like the Jacobian of the arm, but of the mass centre: only the joints up to the body's link move it",
     )
     if late:
-        names: list[Node | str] = []
-        for q in late:
-            names += [", " if names else "", Symbol(q.name)]
-        why += (", so the column of " if len(late) == 1 else ", so the columns of ", *names)
+        why += (", so the column of " if len(late) == 1 else ", so the columns of ", *listed(late))
         why += (" is zero." if len(late) == 1 else " are zero.",)
     else:
         why += (".",)
+    linear = equation(letters.jv(body), Matrix((tuple(v for v, _ in columns),)))
+    angular = equation(letters.jw(body), Matrix((tuple(w for _, w in columns),)))
+    beside = robot.n <= _BESIDE and not any(isinstance(v, Sum) for v, _ in columns)
     return Step(
         id=f"Jv{b}",
         stage=STAGE,
         title=f"Jacobians of the mass centre of {name_of(body)}",
         why=why,
-        formula=side_by_side([
-            equation(letters.jv(body), Matrix((tuple(v for v, _ in columns),))),
-            equation(letters.jw(body), Matrix((tuple(w for _, w in columns),))),
-        ]),
+        formula=side_by_side([linear, angular]) if beside else linear,
         source=shv("7.2.2"),
+        working=() if beside else (angular,),
         result=(
             equation(letters.jv(body), course.form(f"Jv{b}")),
             equation(letters.jw(body), course.form(f"Jw{b}")),
         ),
-    )  # fmt: skip
+    )
 
 
 def _velocities(course: Course, body: Body) -> Step:
@@ -210,8 +215,11 @@ def _linear(course: Course, body: Body, tells: bool) -> Step:
     form = course.form(f"Kv{b}")
     mass = course.show(body.mass)
     working: tuple[Node, ...] = ()
-    if velocity_is_zero := all(row[0] == Number(0) for row in velocity.rows):
+    still = all(row[0] == Number(0) for row in velocity.rows)
+    if still:
         why: Prose = ("The mass centre does not move.",)
+    elif body.mass.is_zero:
+        why = ("The body has no mass, only inertia.",)
     else:
         why = ("Half the mass times the square of the speed of the mass centre.",)
         squares = tuple(Power(row[0], Number(2)) for row in velocity.rows if row[0] != Number(0))
@@ -223,11 +231,11 @@ def _linear(course: Course, body: Body, tells: bool) -> Step:
         stage=STAGE,
         title=f"Linear kinetic energy of {name_of(body)}",
         why=why,
-        formula=equation(Kv, Product((letters.HALF, _mass(body), letters.transposed_product(v)))),
+        formula=equation(Kv, Product((letters.HALF, course.mass(body), letters.transposed_product(v)))),
         source=shv("7.2"),
         working=working,
         result=(equation(Kv, form),),
-        notes=() if velocity_is_zero or not tells else tuple(_cancelling(course, body)),
+        notes=tuple(_cancelling(course, body)) if working and tells else (),
     )
 
 
@@ -287,7 +295,9 @@ def _rotational(course: Course, body: Body) -> Step:
         id=f"Kw{b}",
         stage=STAGE,
         title=f"Rotational kinetic energy of {name_of(body)}",
-        why=("The body does not turn.",) if still else ("ω and the tensor, both in base coordinates.",),
+        why=("The body does not turn.",)
+        if still
+        else (f"ω and the tensor, both in {course.ground} coordinates.",),
         formula=equation(Kw, Product((letters.HALF, letters.transposed_product(w, tensor)))),
         source=shv("7.2"),
         working=working,

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Prose
+from dynsolve.errors import ReadError
 from dynsolve.explain import letters
 from dynsolve.explain.course import Course, block_of, is_small, shv, side_by_side
 from dynsolve.explain.step import Step
+from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     Letter,
     Matrix,
@@ -38,6 +41,14 @@ _SHAPES = {
     "sphere": "solid sphere",
     "shell": "thin spherical shell",
 }
+
+
+_SOURCES = {
+    "box": shv("7.2.1"),
+    **dict.fromkeys(("cylinder", "sphere"), "Lynch and Park 8.2.1"),
+    **dict.fromkeys(("hollow_cylinder", "rod", "disk", "shell"), f"by the integrals of {shv('7.2.1')}"),
+}
+"""Where the moments of a shape stand; Lynch and Park is Modern Robotics, Cambridge, 2017."""
 
 
 def steps(course: Course) -> Iterator[Step]:
@@ -72,18 +83,17 @@ def _center(course: Course, body: Body, tells: bool) -> Step:
     frame = Letter("r", letters.rc(body).sub, Number(link), "bold")
     at_origin = body.center.is_zero
     why: Prose = (f"The mass centre of {name_of(body)} ", *_where(course, body), ".")
+    if not any(joint.type for joint in course.robot.joints[:link]):
+        why += (" No joint comes before that link, so the body belongs to the ground and does not move.",)
     formula: Node = equation(r, Sum((Product((letters.R(course.robot, link), frame)), letters.o(link))))
     working: tuple[Node, ...] = ()
     if at_origin:
         formula = equation(r, letters.o(link))
-    elif is_small(local, block_of(course.matrix(f"H{link}"), 3, 0, 4)):
-        rotation, origin = _parts(course, link)
-        working = (
-            equation(frame, local),
-            equation(r, Sum((Product((rotation, local)), origin))),
-        )
     else:
-        working = (equation(frame, local),)
+        working = (equation(frame, *_measured(course, body), local),)
+        if is_small(local, block_of(course.matrix(f"H{link}"), 3, 0, 4)):
+            rotation, origin = _parts(course, link)
+            working += (equation(r, Sum((Product((rotation, local)), origin))),)
     return Step(
         id=f"rc{body.name}",
         stage=STAGE,
@@ -110,10 +120,63 @@ def _where(course: Course, body: Body) -> Prose:
     if written == "origin":
         return ("is at the origin ", letters.o(link), f" of frame {link}")
     if written == "midpoint":
-        return (f"is half-way along link {link}, between ", letters.o(near), " and ", letters.o(far))
+        direction = "back" if course.standard else "on"
+        return (
+            f"is half-way along link {link}, between ",
+            letters.o(near),
+            " and ",
+            letters.o(far),
+            ": from ",
+            letters.o(link),
+            f", half the way {direction}",
+        )
     if body.center.is_zero:
         return ("falls on the origin ", letters.o(link), f" of frame {link}")
-    return (f"has fixed coordinates in frame {link}",)
+    if _given(body, "near") and course.standard:
+        return (
+            f"is given from the near end of link {link}, ",
+            letters.o(near),
+            f", along the axes of frame {link}. The origin of that frame is at the far end, ",
+            letters.o(far),
+            ", so the way back from there is added",
+        )
+    if _given(body, "along"):
+        ends: Prose = ("from ", letters.o(near), " to ", letters.o(far))
+        fraction = _fraction(body)
+        if fraction is None:
+            return (f"is on link {link}, at the given part of the way ", *ends)
+        return ("is ", fraction, f" of the way along link {link}, ", *ends)
+    return (f"is given by its coordinates in frame {link}, which are constant",)
+
+
+def _given(body: Body, key: str) -> bool:
+    """Whether the problem gives the centre as `{near: ...}` or `{along: ...}`."""
+    return re.match(rf"\W*{key}\b", body.center_written) is not None
+
+
+def _fraction(body: Body) -> Node | None:
+    """The part of the way, as the problem writes it; None where it cannot be read."""
+    try:
+        return read(re.sub(r"^\W*along\W*:|[{}'\"]", "", body.center_written).strip()).tree
+    except ReadError:
+        return None
+
+
+def _measured(course: Course, body: Body) -> tuple[Node, ...]:
+    """A centre in its frame, from the ends of the link between which the problem gives it."""
+    robot, link = course.robot, body.link
+    if not (course.standard or link < len(robot.joints)):
+        return ()
+    row = robot.joints[link - 1 if course.standard else link]
+    ring = robot.ring
+    sine, cosine = ring.sin(row.alpha), ring.cos(row.alpha)
+    across = row.d * sine if course.standard else -(row.d * sine)
+    length = algebra.Matrix.column(ring, (row.a, across, row.d * cosine))  # from the near to the far end
+    if _given(body, "near") and course.standard and not length.is_zero:
+        return (Sum((course.show(-length), course.show(body.center + length))),)
+    if body.center_written == "midpoint":
+        return (Product((letters.HALF, course.show(-length if course.standard else length))),)
+    return ()
 
 
 def _not_the_origin(body: Body, H: Letter) -> Prose:
@@ -167,7 +230,7 @@ def _tensor(course: Course, body: Body) -> Step:
         title=f"Inertia tensor of {name_of(body)} in its own frame",
         why=why,
         formula=formula,
-        source=shv("7.2.1"),
+        source=shv("7.2.1") if formula is None or body.shape is None else _SOURCES[body.shape.kind],
         working=working,
         result=(equation(tensor, course.show(body.inertia)),),
     )
@@ -196,7 +259,7 @@ def _parallel_axis(course: Course, body: Body) -> Step:
     tensor = letters.tensor(course.robot, body)
     given = Letter("I", Row((letters.index_of(b), Words(","), Words("given"))), None, "bold")
     r = Letter("r", style="bold")
-    mass = course.show(body.mass)
+    mass = course.mass(body)
     square = Product((Transpose(r), r, letters.bold("E")))
     shift = Product((mass, Sum((square, Negative(Product((r, Transpose(r))))))))
     H = course.values[f"H{body.link}"]
@@ -213,7 +276,10 @@ def _parallel_axis(course: Course, body: Body) -> Step:
         ),
         formula=equation(tensor, Sum((given, Negative(shift)))),
         source="parallel-axis theorem; Craig 6.3",
-        working=(equation(r, course.show(offset)),),
+        working=(
+            equation(r, course.show(offset)),
+            equation(shift, course.show(inertia.steiner(body.mass, offset))),
+        ),
         result=(equation(tensor, course.form(f"I_body{b}")),),
     )
 
@@ -247,7 +313,10 @@ def _rotation(course: Course, body: Body, tells: bool) -> Step:
             why = (f"The body's axes are turned in frame {link}, as the problem gives them.",)
             formula = equation(rotation, Product((frame, turned)))
         case AxesKind.REST:
-            why = ("The body's axes are parallel to frame 0 at q = 0 and turn with the link.",)
+            why = (
+                "The body's axes are parallel to frame 0 at q = 0 and turn with the link: first back by how "
+                "the link is turned at q = 0, then on as it is turned.",
+            )
             at_rest = Row((frame, Words("(0)")))
             factors: list[Node] = [frame, Transpose(Parenthesized(at_rest))]
             if letters.has_base(robot):
@@ -255,6 +324,8 @@ def _rotation(course: Course, body: Body, tells: bool) -> Step:
             formula = equation(rotation, Product(tuple(factors)))
         case AxesKind.BASE:
             why = (f"The rotation from the base to the frame of {name_of(body)} is given by the problem.",)
+            if letters.has_base(robot):
+                formula = equation(rotation, Product((letters.R(robot, 0), turned)))
             if not inertia.turns_with_link(robot, body, course.values[f"H{link}"]):
                 notes = (
                     (
@@ -293,10 +364,10 @@ def _base_tensor(course: Course, body: Body) -> Step:
     return Step(
         id=f"I{b}",
         stage=STAGE,
-        title=f"Inertia tensor of {name_of(body)} in base coordinates",
+        title=f"Inertia tensor of {name_of(body)} in {course.ground} coordinates",
         why=(
-            "ω is found in base coordinates, so the tensor must be too: R turns the body's axes into the "
-            "base's.",
+            f"ω is found in {course.ground} coordinates, so the tensor must be too: R turns the body's axes "
+            f"into the {course.ground}'s.",
         ),
         formula=equation(*members[:2]),
         source=shv("7.2.1"),

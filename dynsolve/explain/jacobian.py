@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from dynsolve.algebra import matrix as algebra
@@ -43,6 +43,9 @@ from dynsolve.stages.kinematics import origin
 
 STAGE = "jacobian"
 
+ZERO = Letter("0", style="bold")
+"""The zero vector."""
+
 
 def steps(course: Course) -> Iterator[Step]:
     """Axes and origins, a column a coordinate, and J."""
@@ -79,10 +82,26 @@ def _axes(course: Course) -> Step:
             Letter("o", style="bold"),
             f" the fourth. In the {robot.convention.value} convention joint i turns about or slides along ",
             Letter("z", Words(which), style="bold"),
-            ", the axis of the frame before it." if course.standard else ", the axis of its own frame.",
+            *_whose(course),
         ),
         source=shv("4.6") if course.standard else craig("5.6"),
         result=tuple(pairs),
+    )
+
+
+def _whose(course: Course) -> Prose:
+    if course.standard:
+        return (", the axis of the frame before it.",)
+    return (
+        ", the axis of its own frame: where the textbook, in the standard convention, has ",
+        Letter("z", Words("i-1"), style="bold"),
+        " and ",
+        Letter("o", Words("i-1"), style="bold"),
+        ", here stand ",
+        Letter("z", Words("i"), style="bold"),
+        " and ",
+        Letter("o", Words("i"), style="bold"),
+        ".",
     )
 
 
@@ -92,7 +111,7 @@ def column_letters(course: Course, joint: Joint, point: Node) -> tuple[Node, Nod
     if joint.type is JointType.REVOLUTE:
         arm = Parenthesized(Sum((point, Negative(letters.o(i)))))
         return Cross(letters.z(i), arm), letters.z(i)
-    return letters.z(i), Letter("0", style="bold")
+    return letters.z(i), ZERO
 
 
 def coordinate_column(course: Course, k: int, link: int, point: Node) -> tuple[Node, Node] | None:
@@ -105,12 +124,18 @@ def coordinate_column(course: Course, k: int, link: int, point: Node) -> tuple[N
     ]
     if not terms:
         return None
-    if len(terms) == 1 and terms[0][0] == 1:
-        return terms[0][1]
     return (
-        Sum(tuple(_rated(rate, linear) for rate, (linear, _) in terms)),
-        Sum(tuple(_rated(rate, angular) for rate, (_, angular) in terms)),
+        _total([(rate, linear) for rate, (linear, _) in terms]),
+        _total([(rate, angular) for rate, (_, angular) in terms if angular != ZERO]),
     )
+
+
+def _total(terms: Sequence[tuple[Fraction, Node]]) -> Node:
+    """Σ rate·part"""
+    if not terms:
+        return ZERO
+    rated = tuple(_rated(rate, part) for rate, part in terms)
+    return rated[0] if len(rated) == 1 else Sum(rated)
 
 
 def _rated(rate: Fraction, node: Node) -> Node:
@@ -129,11 +154,6 @@ def _column(course: Course, q: Coordinate) -> Step:
     linear, angular = (column_of(course.matrix(name), k) for name in ("Jv", "Jw"))
     name = Letter("J", Number(q.index), style="bold")
     joint = plain_joint(robot, k)
-    working: tuple[Node, ...] = ()
-    if joint is not None and joint.type is JointType.REVOLUTE:
-        z, arm = frame_parts(course, joint_frame(robot, joint))[0], course.show(_lever(course, joint))
-        if is_small(z, arm):
-            working = (equation(in_letters[0], Cross(z, arm), linear),)
     return Step(
         id=f"J{q.index}",
         stage=STAGE,
@@ -141,9 +161,29 @@ def _column(course: Course, q: Coordinate) -> Step:
         why=(Symbol(q.name), *_column_why(q, robot, joint)),
         formula=equation(name, column(*in_letters)),
         source=shv("4.6.3"),
-        working=working,
+        working=_working(course, k, in_letters[0], linear),
         result=(equation(name, Matrix(linear.rows + angular.rows)),),
     )
+
+
+def _working(course: Course, k: int, in_letters: Node, linear: Matrix) -> tuple[Node, ...]:
+    """The linear part with this robot's axes and levers put in, where there is anything to work out."""
+    robot = course.robot
+    moved = [(rate, joint) for joint in robot.joints for i, rate in joint.rates if i == k]
+    if all(joint.type is JointType.PRISMATIC for _, joint in moved):
+        return ()
+    parts: list[tuple[Fraction, Node]] = []
+    small: list[Node] = []
+    for rate, joint in moved:
+        z = frame_parts(course, joint_frame(robot, joint))[0]
+        if joint.type is JointType.REVOLUTE:
+            lever = course.show(_lever(course, joint))
+            small += [z, lever]
+            parts.append((rate, Cross(z, lever)))
+        else:
+            small.append(z)
+            parts.append((rate, z))
+    return (equation(in_letters, _total(parts), linear),) if is_small(*small) else ()
 
 
 def _lever(course: Course, joint: Joint) -> algebra.Matrix:
@@ -161,7 +201,9 @@ def _column_why(q: Coordinate, robot: Robot, joint: Joint | None) -> Prose:
             return (
                 " moves the joints of rows ",
                 *where,
-                "; its column is the sum of theirs, each times the rate at which that joint moves.",
+                "; its column is the sum of theirs, each times the rate at which that joint moves with ",
+                Symbol(q.name),
+                ".",
             )
         (rate,) = (rate for joint in joints for i, rate in joint.rates if i == q.index - 1)
         return (

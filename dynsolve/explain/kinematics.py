@@ -22,6 +22,7 @@ from dynsolve.notation.tree import (
     Words,
     column,
     equation,
+    number,
 )
 from dynsolve.notation.unicode import lowered
 from dynsolve.robot.model import Joint, JointType
@@ -107,17 +108,38 @@ def _kinds(course: Course) -> Prose:
 def _table_notes(course: Course) -> Iterator[Prose]:
     robot = course.robot
     fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
-    if fixed:
+    if len(fixed) == 1:
+        yield (f"Row {fixed[0]} has no star: a fixed frame, which keeps its place in the frame before it.",)
+    elif fixed:
+        rows = listed(fixed)
         yield (
-            f"Row {fixed[0]} has" if len(fixed) == 1 else f"Rows {' and '.join(fixed)} have",
-            " no star: a fixed frame, which moves with the frame before it.",
+            "Rows ",
+            *rows,
+            " have no star: fixed frames, each of which keeps its place in the one before it.",
         )
-    coupled = [joint for joint in robot.joints if len(joint.rates) > 1 or any(r != 1 for _, r in joint.rates)]
-    for joint in coupled:
+    shared = [str(joint.index) for joint in robot.joints if len(joint.rates) > 1]
+    if len(shared) == 1:
         yield (
-            f"The joint variable of row {joint.index} is not a coordinate itself but a combination of "
+            f"The joint variable of row {shared[0]} is not a coordinate itself but a combination of "
             "coordinates: its column of the Jacobian is shared out among them.",
         )
+    elif shared:
+        yield (
+            "The joint variables of rows ",
+            *listed(shared),
+            " are not coordinates themselves but combinations of coordinates: their columns of the Jacobian "
+            "are shared out among these.",
+        )
+    for joint in robot.joints:
+        if len(joint.rates) == 1 and joint.rates[0][1] != 1:
+            ((k, rate),) = joint.rates
+            yield (
+                f"The joint of row {joint.index} moves at ",
+                number(rate),
+                " times the rate of ",
+                Symbol(robot.coordinates[k].name),
+                ".",
+            )
 
 
 def _base(course: Course) -> Step:
@@ -129,7 +151,7 @@ def _base(course: Course) -> Step:
             "Gravity is given in the world w, in which frame 0 is turned or moved. The heights, and every "
             "vector below, are in world coordinates.",
         ),
-        source=shv("2.3"),
+        source=shv("2.7"),
         result=(equation(letters.H(course.robot, 0), course.form("H0")),),
     )
 
@@ -179,7 +201,7 @@ def _general(course: Course) -> Step:
             "The product of the four motions, the same for every row; the rows of the table are put into it.",
         ),
         formula=equation(Letter("A", i, style="bold"), product, matrix),
-        source=shv("3.2") if course.standard else craig("3.4"),
+        source=shv("3.2") if course.standard else craig("3.5"),
     )
 
 
@@ -241,7 +263,7 @@ def _frame(course: Course, i: int) -> Step:
             stage=STAGE,
             title="Frame 1 seen from the base",
             why=("The first frame is seen from frame 0 itself, so no product is needed.",),
-            source=shv("3.1"),
+            source=_products(course),
             result=(equation(name, letters.A(1), H),),
             detail=detail,
         )
@@ -255,14 +277,19 @@ def _frame(course: Course, i: int) -> Step:
     return Step(
         id=f"H{i}",
         stage=STAGE,
-        title=f"Frame {i} seen from the {'world' if letters.has_base(robot) else 'base'}",
+        title=f"Frame {i} seen from the {course.ground}",
         why=_frame_why(last),
         formula=equation(name, Product(tuple(chain))) if len(chain) > 2 else None,
-        source=shv("3.1"),
+        source=_products(course),
         working=(equation(*members),),
         result=(equation(name, H),),
         detail=detail,
     )
+
+
+def _products(course: Course) -> str:
+    """Where the textbook of the convention multiplies the rows' matrices."""
+    return shv("3.1") if course.standard else craig("3.5")
 
 
 def _frame_why(last: bool) -> Prose:

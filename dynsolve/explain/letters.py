@@ -88,10 +88,21 @@ def of_body(base: str, body: Body, style: str = "italic") -> Letter:
     return Letter(base, index_of(body.name), None, style)
 
 
+def is_taken(robot: Robot, base: str, body: Body) -> bool:
+    """Whether the problem calls something else by a body's letter: h_1 a length of the table."""
+    names = {*robot.parameters, *(q.name for q in robot.coordinates)}
+    return not names.isdisjoint((f"{base}{body.name}", f"{base}_{body.name}"))
+
+
+def height(robot: Robot, body: Body) -> Letter:
+    """h_1, the height of a mass centre; h_{c1} where h_1 is something else."""
+    index = index_of(body.name)
+    return Letter("h", Row((Words("c"), index)) if is_taken(robot, "h", body) else index)
+
+
 def tensor(robot: Robot, body: Body) -> Letter:
     """I_1, the tensor in the body's own frame; I_1^b where a parameter has that name."""
-    taken = f"I{body.name}" in robot.parameters
-    return bold("I", index_of(body.name), Words("b") if taken else None)
+    return bold("I", index_of(body.name), Words("b") if is_taken(robot, "I", body) else None)
 
 
 def energy_part(part: str, body: Body) -> Letter:

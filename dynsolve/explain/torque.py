@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dynsolve.document import Prose
 from dynsolve.explain import letters
-from dynsolve.explain.course import Course, shv, turns
+from dynsolve.explain.course import Course, listed, shv, turns
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Negative, Node, Number, Sum, Symbol, equation
 from dynsolve.robot.model import Coordinate
@@ -28,12 +28,18 @@ def _momentum(course: Course, q: Coordinate) -> Step:
     return Step(
         id=f"dLdqd{q.index}",
         stage=STAGE,
-        title=f"Coordinate {q.index}: the momentum",
-        why=("Differentiate L by ", rate, " alone: the coordinates and the other rates are held fixed."),
+        title=f"Coordinate {q.index}: generalized momentum",
+        why=_partial(course, rate, "coordinate", "rate"),
         formula=None,
         source=shv("7.1"),
         result=(equation(letters.slope(letters.L, rate), course.form(f"dLdqd{q.index}")),),
     )
+
+
+def _partial(course: Course, by: Node, held: str, like: str) -> Prose:
+    """What is differentiated by what, and what is held fixed meanwhile."""
+    fixed = f"the {held} is" if course.robot.n == 1 else f"the {held}s and the other {like}s are"
+    return ("Differentiate L with respect to ", by, f" alone: {fixed} held fixed.")
 
 
 def _rate(course: Course, q: Coordinate) -> Step:
@@ -41,7 +47,7 @@ def _rate(course: Course, q: Coordinate) -> Step:
     return Step(
         id=f"ddt{q.index}",
         stage=STAGE,
-        title=f"Coordinate {q.index}: the rate of the momentum",
+        title=f"Coordinate {q.index}: time derivative of the momentum",
         why=_rate_why(course, q),
         source=shv("7.1"),
         result=(equation(letters.time_rate(momentum), course.form(f"ddt{q.index}")),),
@@ -54,23 +60,23 @@ def _rate_why(course: Course, q: Coordinate) -> Prose:
     moving = [c for k, c in enumerate(course.robot.coordinates) if not ring.diff(momentum, k).is_zero]
     if not moving:
         return ("No coordinate stands in it: each rate becomes an acceleration, and nothing else changes.",)
-    why: list[str | Node] = [
-        "Everything that moves with time is differentiated (product and chain rule): the rates, and "
-    ]
-    for i, c in enumerate(moving):
-        why += [" and " if i and i == len(moving) - 1 else ", " if i else "", Symbol(c.name)]
-    return (*why, " too.")
+    rates = "the rate" if course.robot.n == 1 else "the rates"
+    return (
+        f"Everything that changes with time is differentiated (product and chain rule): {rates}, and also ",
+        *listed([Symbol(c.name) for c in moving]),
+        ".",
+    )
 
 
 def _slope(course: Course, q: Coordinate) -> Step:
     form = course.form(f"dLdq{q.index}")
-    why: Prose = ("Differentiate L by ", Symbol(q.name), " alone: the rates are held fixed.")
+    why: Prose = _partial(course, Symbol(q.name), "rate", "coordinate")
     if form == Number(0):
         why = (Symbol(q.name), " itself does not stand in L.")
     return Step(
         id=f"dLdq{q.index}",
         stage=STAGE,
-        title=f"Coordinate {q.index}: the slope of L",
+        title=f"Coordinate {q.index}: partial derivative of L",
         why=why,
         source=shv("7.1"),
         result=(equation(letters.slope(letters.L, Symbol(q.name)), form),),

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Prose
 from dynsolve.explain import letters
-from dynsolve.explain.course import Course, is_small, shv
+from dynsolve.explain.course import Course, is_small, listed, shv
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import (
     BigSum,
@@ -39,6 +39,7 @@ _SKEW = Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C))
 def steps(course: Course) -> Iterator[Step]:
     """D, c_ijk, C and g; then the comparisons, and the whole model."""
     yield _inertia(course)
+    yield _rest(course)
     yield _inertia_direct(course)
     if _is_short(course):
         for body in course.robot.bodies:
@@ -62,13 +63,36 @@ def _inertia(course: Course) -> Step:
         title="D, read off from the forces",
         why=(
             "Entry (i, j) is the factor of the j-th acceleration in the i-th force. D is symmetric, "
-            "and depends on the coordinates and on no rate.",
+            "and may depend on the coordinates, but on no rate.",
         ),
         formula=equation(_d(_I, _J), letters.slope(Letter("tau", _I), Letter("q", _J, dots=2))),
         source=shv("7.3"),
         result=(equation(letters.D, course.form("D")),),
         entries=_names(course, "d"),
         detail=Detail.BRIEF,
+    )
+
+
+def _rest(course: Course) -> Step:
+    """What is left of the forces without accelerations: C q̇ and g."""
+    values = course.values
+    Cqd = Product((letters.C, letters.QD))
+    why: Prose = ("What is left of the forces without the accelerations: the terms with rates are ",)
+    why += (Cqd, "; the others, which remain when the arm is at rest, are ", letters.G, ".")
+    if values["Cqd"].is_zero:
+        why += (" No term has rates here.",)
+    if values["g"].is_zero:
+        why += (" Nothing remains at rest here.",)
+    return Step(
+        id="Cqd",
+        stage=STAGE,
+        title="C q̇ and g, read off from the forces",
+        why=why,
+        formula=equation(
+            Sum((Cqd, letters.G)), Sum((letters.TAU, Negative(Product((letters.D, letters.QDD)))))
+        ),
+        source=shv("7.3"),
+        result=(equation(Cqd, course.form("Cqd")), equation(letters.G, course.form("g"))),
     )
 
 
@@ -87,7 +111,7 @@ def _inertia_direct(course: Course) -> Step:
     terms: list[Node] = []
     for body in robot.bodies:
         Jv, Jw = letters.jv(body), letters.jw(body)
-        terms.append(Product((letters.of_body("m", body), letters.transposed_product(Jv))))
+        terms.append(Product((course.mass(body), letters.transposed_product(Jv))))
         if not body.is_point:
             terms.append(letters.transposed_product(Jw, letters.of_body("I", body, "script")))
     working = equation(letters.D, terms[0] if len(terms) == 1 else Sum(tuple(terms)))
@@ -118,7 +142,7 @@ def _part(course: Course, body: Body) -> Step:
     """What one body adds to D."""
     b = body.name
     Jv, Jw = letters.jv(body), letters.jw(body)
-    linear = Product((letters.of_body("m", body), letters.transposed_product(Jv)))
+    linear = Product((course.mass(body), letters.transposed_product(Jv)))
     angular = letters.transposed_product(Jw, letters.of_body("I", body, "script"))
     results = [equation(linear, course.form(f"Dv{b}"))]
     if not body.is_point:
@@ -162,7 +186,7 @@ def _christoffel(course: Course) -> Step:
         formula=general,
         source=shv("7.3"),
         result=results or (),
-        notes=tuple(_zero_note(zero)),
+        notes=tuple(_zero_note(zero)) if nonzero else (),
     )
 
 
@@ -170,7 +194,10 @@ def _christoffel_why(n: int, count: int) -> Prose:
     if not count:
         return ("D is constant, so every Christoffel symbol is zero.",)
     swapped = equation(Letter("c", Row((_I, _J, _K))), Letter("c", Row((_J, _I, _K))))
-    return ("They say how D changes as the arm moves. The first two indices may be swapped: ", swapped, ".")
+    why: Prose = ("They say how D changes as the arm moves. ",)
+    if n > 1:
+        why += ("The first two indices may be swapped: ", swapped, ". ")
+    return (*why, "Partial derivatives that are zero are left out.")
 
 
 def _sorted_symbols(course: Course) -> tuple[list[tuple[int, int, int]], list[tuple[int, int, int]]]:
@@ -220,10 +247,10 @@ def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
 def _zero_note(zero: Sequence[tuple[int, int, int]]) -> Iterator[Prose]:
     if not zero:
         return
-    names: list[str | Node] = []
-    for i, j, k in zero:
-        names += [", " if names else "", letters.entry("c", i + 1, j + 1, k + 1)]
-    yield ("Zero: " if len(zero) > 1 else "Zero is ", *names, ".")
+    yield (
+        *listed([letters.entry("c", i + 1, j + 1, k + 1) for i, j, k in zero]),
+        " are zero." if len(zero) > 1 else " is zero.",
+    )
 
 
 # -- C and g ---------------------------------------------------------------------------------------
@@ -232,27 +259,26 @@ def _zero_note(zero: Sequence[tuple[int, int, int]]) -> Iterator[Prose]:
 def _coriolis(course: Course) -> Step:
     entry = Letter("c", Row((_K, _J)))
     body = Product((Letter("c", Row((_I, _J, _K))), Letter("q", _I, dots=1)))
-    Cqd = course.form("Cqd")
+    Cqd = Product((letters.C, letters.QD))
+    none = course.values["C"].is_zero
+    why: Prose = ("Row k, column j. ", Cqd, " holds the centrifugal terms (a rate squared)")
+    why += (" and the Coriolis terms (a product of two rates)",) if course.robot.n > 1 else ()
+    why += (". There are none here.",) if none else (". Multiplied out, it is the one read off above.",)
     return Step(
         id="C",
         stage=STAGE,
         title="C, from the Christoffel symbols",
-        why=(
-            "Row k, column j. ",
-            Product((letters.C, letters.QD)),
-            " holds the centrifugal terms (a rate squared) and the Coriolis terms (a product of two rates).",
-        ),
+        why=why,
         formula=equation(entry, BigSum(body, _I, Number(1), _N)),
         source=shv("7.3"),
-        result=(
-            equation(letters.C, course.form("C")),
-            equation(Product((letters.C, letters.QD)), Cqd),
-        ),
+        result=(equation(letters.C, course.form("C")),),
         entries=_names(course, "c"),
-        notes=(
+        notes=()
+        if none or course.robot.n == 1
+        else (
             (
                 "Other matrices C give the same ",
-                Product((letters.C, letters.QD)),
+                Cqd,
                 ", which is all that the equations of motion fix. This choice makes ",
                 _SKEW,
                 " skew-symmetric.",
@@ -264,9 +290,9 @@ def _coriolis(course: Course) -> Step:
 
 def _gravity(course: Course) -> Step:
     still = course.values["g"].is_zero
-    why: Prose = ("What is left of the forces at rest; and, directly, the slope of the potential energy.",)
+    why: Prose = ("Directly, without τ: the partial derivatives of the potential energy.",)
     if still:
-        why += (" The potential energy does not depend on any coordinate, so g is zero.",)
+        why += (" It does not depend on any coordinate, so g is zero.",)
     return Step(
         id="g",
         stage=STAGE,
@@ -316,8 +342,9 @@ def _skew(course: Course) -> Step:
         stage=STAGE,
         title="Check: Ḋ - 2C is skew-symmetric",
         why=(
-            "With C from the Christoffel symbols, N plus its transpose is zero, compared exactly: N does "
-            "no work, whatever the rates. Passivity rests on that.",
+            "With C from the Christoffel symbols, N plus its transpose is zero, compared exactly, so that ",
+            equation(letters.transposed_product(letters.QD, name), Number(0)),
+            " whatever the rates. Passivity rests on that.",
         ),
         formula=equation(name, _SKEW),
         source=shv("7.5.1"),

@@ -122,7 +122,7 @@ def test_the_convention_in_play_is_the_one_explained() -> None:
     assert "the axis of its own frame" in everything_said("rp-vertical")
     assert "the axis of the frame before it" not in everything_said("rp-vertical")
     assert "the axis of the frame before it" in everything_said("planar-2r")
-    assert step("rp-vertical", "A").source == "Craig 3.4"
+    assert step("rp-vertical", "A").source == "Craig 3.5"
 
 
 def test_a_point_mass_is_said_to_have_no_rotational_energy() -> None:
