@@ -12,7 +12,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from dynsolve.cli import check, draw, lint, new, problems, schema, solve
+from dynsolve.cli import check, draw, grade, lint, new, problems, schema, solve
 from dynsolve.errors import DynsolveError, ExitCode, InputError
 
 TRACEBACK = "--traceback"
@@ -87,6 +87,7 @@ def app() -> typer.Typer:
         solve.solve,
         draw.draw,
         check.check,
+        grade.grade,
         lint.lint,
         new.new,
         schema.schema,

@@ -1,0 +1,252 @@
+"""From files to hand-ins: a student, a problem, and the files that count.
+
+The platform's student wins over the one in the file.  The problem comes from the
+file's front matter, then its name, then its heading.  What no program can judge, and
+what names no problem, waits for a human with its reason.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+
+from dynsolve.answers.reading.files import ENDINGS
+from dynsolve.errors import InputError
+from dynsolve.grading.platforms import Owner, Owners, is_metadata, read_metadata
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.uploads import Upload, Uploads, digest, printable
+
+_HEAD = 20_000
+_FIELD = r"(?m)^[ \t]{{0,3}}[\"']?{}[\"']?[ \t]*:[ \t]*(.+?)[ \t]*(?:#.*)?$"
+_STUDENT, _PROBLEM = (re.compile(_FIELD.format(key)) for key in ("student", "problem"))
+_HEADING = re.compile(
+    r"(?m)^#{1,3}[ \t]+(.+)$|\\(?:title|section|chapter)\*?\{([^}\n]+)\}|<h[1-3][^>]*>([^<\n]+)<"
+)
+_FRONT = re.compile(r"\A\s*(?:---|<!--)\s*\n(.*?)\n\s*(?:---|\.\.\.|-->)", re.DOTALL)
+_KINDS = {
+    ".pdf": "a PDF", ".doc": "a Word file", ".docx": "a Word file", ".odt": "a word processor's file",
+    ".rtf": "a word processor's file", ".pages": "a word processor's file", ".png": "a picture",
+    ".jpg": "a picture", ".jpeg": "a picture", ".heic": "a picture", ".gif": "a picture",
+    ".webp": "a picture", ".tif": "a picture", ".tiff": "a picture", ".bmp": "a picture", ".svg": "a picture",
+    ".zip": "an archive", ".rar": "an archive", ".7z": "an archive", ".gz": "an archive", ".tar": "an archive",
+    ".xlsx": "a spreadsheet", ".pptx": "slides", ".mp4": "a film", ".mov": "a film",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class File:
+    """A file that counts: where it lies, the name it was handed in under, and what identifies it."""
+
+    upload: Upload
+    name: str
+    digest: str
+
+
+@dataclass(frozen=True, slots=True)
+class HandIn:
+    """What one student handed in for one problem; `left` are the copies that do not count."""
+
+    student: str
+    problem: str
+    files: tuple[File, ...]
+    late: bool = False
+    left: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Waiting:
+    """Something for a human to look at; `student` and `problem` as far as they are known."""
+
+    student: str
+    problem: str
+    file: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Intake:
+    """All that was handed in; `students` are the rows, with the platform's id of each."""
+
+    students: dict[str, str]
+    hand_ins: tuple[HandIn, ...]
+    waiting: tuple[Waiting, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """A file with its owner and the problem it is for."""
+
+    owner: Owner
+    student: str
+    problem: str
+    file: File
+
+    @property
+    def copy(self) -> tuple[bool, str]:
+        """What it was handed in with."""
+        return self.owner.late, self.owner.delivery
+
+    @property
+    def age(self) -> tuple[int, tuple[int, ...], str]:
+        """The newest has the greatest."""
+        return self.owner.order, self.file.upload.order, str(self.file.upload.path)
+
+
+def take_in(problems: ProblemSet, uploads: Uploads) -> Intake:
+    """Sort what was handed in by student and problem."""
+    owners = Owners([upload.path for upload in uploads.files], _metadata(uploads))
+    students: dict[str, str] = {}
+    waiting: set[Waiting] = set()
+    pieces: dict[tuple[str, str], list[_Piece]] = {}
+    for upload in uploads.files:
+        if is_metadata(upload.path):
+            continue
+        for piece in _sorted(problems, uploads, owners, upload):
+            student = piece.student
+            students[student] = students.get(student) or piece.owner.id
+            if isinstance(piece, _Piece):
+                pieces.setdefault((student, piece.problem), []).append(piece)
+            else:
+                waiting.add(Waiting(student, piece.problem, piece.file, piece.reason))
+    for refused in uploads.refused:
+        path = PurePosixPath(refused.name)
+        student = _owner_of_refused(owners, path)
+        if student:
+            students.setdefault(student, "")
+        waiting.add(Waiting(student, "", refused.name, refused.reason))
+    hand_ins = tuple(
+        _counting(student, problem, found) for (student, problem), found in sorted(pieces.items())
+    )
+    return Intake(dict(sorted(students.items())), hand_ins, tuple(sorted(waiting)))
+
+
+def _metadata(uploads: Uploads) -> dict[str, object]:
+    for upload in uploads.files:
+        if is_metadata(upload.path):
+            try:
+                return read_metadata(uploads.read(upload))
+            except InputError:
+                return {}
+    return {}
+
+
+def _owner_of_refused(owners: Owners, path: PurePosixPath) -> str:
+    """The student that a refused file belongs to, where its name says so without a doubt."""
+    if path.is_absolute() or ".." in path.parts or "\\" in str(path) or ":" in path.parts[0]:
+        return ""
+    return owners.of(path)[0].student
+
+
+@dataclass(frozen=True, slots=True)
+class _Left:
+    """A file that nobody judges here."""
+
+    owner: Owner
+    student: str
+    problem: str
+    file: str
+    reason: str
+
+
+def _sorted(
+    problems: ProblemSet, uploads: Uploads, owners: Owners, upload: Upload
+) -> Iterator[_Piece | _Left]:
+    """A file for each of its owners."""
+    for owner in owners.of(upload.path):
+        shown = printable(str(upload.path))
+        named = _by_name(problems, owner.name)
+        ending = PurePosixPath(owner.name).suffix.lower()
+        if ending not in ENDINGS:
+            kind = _KINDS.get(ending, f"a file of an unknown kind ({ending or 'without an ending'})")
+            yield _Left(owner, owner.student, named, shown, f"{kind}: a human reads it")
+            continue
+        try:
+            content = uploads.read(upload)
+        except InputError as error:
+            yield _Left(owner, owner.student, named, shown, error.findings[0].message)
+            continue
+        text = content[:_HEAD].decode("utf-8", errors="replace")
+        student = owner.student if owner.id else _said_student(text, ending) or owner.student
+        problem, reason = _problem(problems, text, owner.name, ending)
+        if reason:
+            yield _Left(owner, student, problem, shown, reason)
+        else:
+            yield _Piece(owner, student, problem, File(upload, owner.name, digest(content)))
+
+
+def _front(text: str, ending: str) -> str:
+    """Where a file may say whose it is: an answer file's own keys, a report's front matter."""
+    if ending in (".yaml", ".yml", ".json"):
+        return text
+    found = _FRONT.match(text.removeprefix("\ufeff"))
+    return found[1] if found else ""
+
+
+def _said(pattern: re.Pattern[str], text: str, ending: str) -> str:
+    found = pattern.search(_front(text, ending).replace("\r", "\n"))
+    return printable(found[1].strip("\"', ")[:200]) if found else ""
+
+
+def _said_student(text: str, ending: str) -> str:
+    return _said(_STUDENT, text, ending)
+
+
+def _problem(problems: ProblemSet, text: str, name: str, ending: str) -> tuple[str, str]:
+    """The problem that a file is for, or why none can be named."""
+    said = _said(_PROBLEM, text, ending)
+    if said:
+        found = _folded(said, problems)
+        if found:
+            return found, ""
+        return "", f"it says that it is for `{said[:60]}`, which is no problem of this set"
+    named = _by_name(problems, name)
+    if named:
+        return named, ""
+    for heading in _HEADING.finditer(text):
+        found = _within(next(filter(None, heading.groups())), problems)
+        if found:
+            return found, ""
+    if len(problems.items) == 1:
+        return problems.items[0].stem, ""
+    return "", "neither its front matter, its name nor its heading says which problem it is for"
+
+
+def _by_name(problems: ProblemSet, name: str) -> str:
+    return _within(name, problems) or (problems.items[0].stem if len(problems.items) == 1 else "")
+
+
+def _fold(text: str) -> str:
+    return re.sub(r"[\W_]+", " ", text.casefold()).strip()
+
+
+def _folded(said: str, problems: ProblemSet) -> str:
+    """The problem of exactly this name, however it is spelled."""
+    said = PurePosixPath(said).stem if said.endswith((".yaml", ".yml")) else said
+    names = {_fold(name): item.stem for item in problems.items for name in (item.problem.title, item.stem)}
+    return names.get(_fold(said), "")
+
+
+def _within(text: str, problems: ProblemSet) -> str:
+    """The problem whose name or title occurs in a text, the longest where several do."""
+    folded = f" {_fold(text)} "
+    names = [(_fold(n), item.stem) for item in problems.items for n in (item.stem, item.problem.title)]
+    hits = sorted((name for name in names if f" {name[0]} " in folded), key=lambda n: -len(n[0]))
+    return hits[0][1] if hits else ""
+
+
+def _counting(student: str, problem: str, pieces: Iterable[_Piece]) -> HandIn:
+    """Of several copies the newest counts; the files that came with it belong to it."""
+    pieces = list(pieces)
+    copies: dict[tuple[bool, str], list[_Piece]] = {}
+    for piece in pieces:
+        copies.setdefault(piece.copy, []).append(piece)
+    newest = max(copies, key=lambda key: max(piece.age for piece in copies[key]))
+    files = sorted(
+        copies[newest], key=lambda piece: piece.age if piece.owner.order else (0, (), piece.file.name)
+    )
+    left = sorted(
+        printable(str(piece.file.upload.path)) for key in copies if key != newest for piece in copies[key]
+    )
+    return HandIn(student, problem, tuple(piece.file for piece in files), newest[0], tuple(left))

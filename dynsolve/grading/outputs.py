@@ -1,0 +1,140 @@
+"""The files of OUT, written from the record alone: the same record gives the same bytes."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from hashlib import sha256
+from html import escape
+from itertools import groupby
+from pathlib import Path
+
+from dynsolve.grading.ledger import most, standings
+from dynsolve.grading.policy import shown
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Graded, Record, Row
+from dynsolve.grading.tables import decimal, table
+from dynsolve.grading.work import MARKS_HERE, unpack
+
+_ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "diagnosis")
+
+
+def write_outputs(folder: Path, problems: ProblemSet, record: Record) -> None:
+    """Write everything but the record itself; files that are the same already are left alone."""
+    from dynsolve.grading.teacher import teachers_page
+
+    write(folder / "grades.csv", table(_grades(problems, record)))
+    write(folder / "answers.csv", table(_answers(problems, record)))
+    _feedback(folder / "feedback", record)
+    write(folder / "report.html", teachers_page(problems, record))
+
+
+def write(path: Path, text: str) -> None:
+    """A file whole or not at all, and only where something changes."""
+    data = text.encode("utf-8", errors="replace")
+    try:
+        if path.read_bytes() == data:
+            return
+    except OSError:
+        pass
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.new")
+    temporary.write_bytes(data)
+    os.replace(temporary, path)
+
+
+def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
+    of = decimal(sum(most(problems).values()))
+    yield ("student", *problems.stems, "total", "of")
+    for standing in standings(record):
+        cells = (decimal(standing.marks[stem]) if stem in standing.marks else "" for stem in problems.stems)
+        yield (standing.student, *cells, decimal(standing.total), of)
+
+
+def _answers(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
+    from fractions import Fraction
+
+    yield _ANSWERS
+    waiting = {student: list(found) for student, found in groupby(record.waiting(), key=lambda w: w.student)}
+    for standing in standings(record):
+        for a in standing.answers:
+            marks, of = decimal(Fraction(a.marks)), decimal(Fraction(a.of))
+            line = str(a.line) if a.line else ""
+            yield (a.student, a.problem, a.answer, a.verdict, marks, of, line, ";".join(a.diagnosis))
+        for item in problems.items:
+            left = [w for w in waiting.get(standing.student, ()) if w.problem in (item.stem, "")]
+            if item.stem not in standing.marks:
+                for name, points in item.problem.marks.items():
+                    verdict = "unreadable" if left else "missing"
+                    code = "for_a_human" if left else ""
+                    yield (standing.student, item.stem, name, verdict, "0", decimal(points), "", code)
+    for entry in waiting.get("", ()):
+        yield ("", entry.problem, entry.file, "unreadable", "0", "0", "", "for_a_human")
+
+
+# -- feedback ----------------------------------------------------------------------------------------
+
+
+def folder_name(student: str) -> str:
+    """The name of a student's folder: safe on every system, and of no two students the same.
+
+    >>> folder_name("s123456"), folder_name("Ada Lovelace_12")
+    ('s123456', 'Ada Lovelace_12')
+    """
+    plain = re.sub(r"[^\w .@+-]|^\.+|[. ]+$", "_", student)[:80]
+    reserved = re.fullmatch(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?", plain)
+    if plain == student and plain and not reserved:
+        return plain
+    return f"{plain or '_'}-{sha256(student.encode('utf-8', errors='replace')).hexdigest()[:8]}"
+
+
+def _feedback(folder: Path, record: Record) -> None:
+    expected: set[Path] = set()
+    for row in record.rows():
+        answers = [a for a in record.answers(row.student) if a.problem == row.problem]
+        place = folder / folder_name(row.student)
+        for ending, packed, marks in (
+            (".html", row.html, _marks_html(row, answers)),
+            (".md", row.markdown, _marks_markdown(row, answers)),
+        ):
+            path = place / f"{row.problem}{ending}"
+            expected.add(path)
+            page = unpack(packed)
+            before = f"<p>{MARKS_HERE}</p>" if ending == ".html" else f"{MARKS_HERE}\n"
+            write(path, page.replace(before, marks, 1))
+    for path in sorted(folder.glob("*/*")) if folder.is_dir() else ():
+        if path not in expected and path.suffix in (".html", ".md"):
+            path.unlink()
+
+
+def _total(answers: list[Graded]) -> str:
+    from fractions import Fraction
+
+    marks = sum((Fraction(a.marks) for a in answers), Fraction(0))
+    of = sum((Fraction(a.of) for a in answers), Fraction(0))
+    return f"Marks: {shown(marks)} of {shown(of)}"
+
+
+def _told(row: Row) -> Iterator[str]:
+    if row.late:
+        yield "It was handed in late."
+    if len(row.files) > 1:
+        yield f"It was read from {', '.join(row.files)}, in this order."
+    if row.left:
+        yield f"The newest copy counts; left aside: {', '.join(row.left)}."
+
+
+def _marks_html(row: Row, answers: list[Graded]) -> str:
+    counted = [a for a in answers if a.of != "0"]
+    rows = "".join(f"<tr><th>{escape(a.answer)}</th><td>{escape(a.why)}</td></tr>\n" for a in counted)
+    told = "".join(f"<p>{escape(sentence)}</p>\n" for sentence in _told(row))
+    return f"<p><strong>{escape(_total(answers))}</strong></p>\n{told}<table>\n{rows}</table>"
+
+
+def _marks_markdown(row: Row, answers: list[Graded]) -> str:
+    from dynsolve.render.markdown import escaped
+
+    lines = [f"**{_total(answers)}**", "", *(escaped(sentence) + "\n" for sentence in _told(row))]
+    lines += [f"- {escaped(a.answer)}: {escaped(a.why)}" for a in answers if a.of != "0"]
+    return "\n".join(lines) + "\n"

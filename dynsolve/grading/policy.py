@@ -1,0 +1,92 @@
+"""How verdicts become marks: the shares, the caps and the rounding that a course decides on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+STAGES = ("kinematics", "jacobian", "inertia", "energy", "lagrangian", "torque", "vectorized")
+"""The stages of a derivation, for `caps`."""
+
+_OF_LETTERS = {
+    "kinematics": ("A", "H", "rc"),
+    "jacobian": ("J", "Jv", "Jw", "v", "w"),
+    "inertia": ("I", "I_body"),
+    "energy": ("P", "K", "Kv", "Kw"),
+    "lagrangian": ("L", "dLdqd", "ddt", "dLdq"),
+    "torque": ("tau", "f"),
+}
+_STAGE = {letters: stage for stage, names in _OF_LETTERS.items() for letters in names}
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """`follow` is the share that what follows earns, `late` the share that a late hand-in keeps.
+
+    `caps` are the most marks that the answers of a stage earn together, `rounding` is the
+    step that the marks of an answer are rounded to (halves up), `hints` how much a student
+    is told: 1 where, 2 what kind of slip, 3 how.
+    """
+
+    follow: Fraction = Fraction(1)
+    caps: Mapping[str, Fraction] = field(default_factory=dict)
+    rounding: Fraction = Fraction(1, 100)
+    late: Fraction = Fraction(1)
+    hints: int = 3
+
+
+def stage_of(answer: str) -> str:
+    """The stage that an answer belongs to.
+
+    >>> stage_of("K2"), stage_of("I_body1"), stage_of("d12"), stage_of("tau")
+    ('energy', 'inertia', 'vectorized', 'torque')
+    """
+    return _STAGE.get(answer) or _STAGE.get(answer.rstrip("0123456789"), "vectorized")
+
+
+def rounded(marks: Fraction, step: Fraction) -> Fraction:
+    """The nearest multiple of `step`, halves up.
+
+    >>> rounded(Fraction(5, 4), Fraction(1, 2)), rounded(Fraction(1, 3), Fraction(1, 100))
+    (Fraction(3, 2), Fraction(33, 100))
+    """
+    return (marks / step + Fraction(1, 2)).__floor__() * step if step else marks
+
+
+def shown(marks: Fraction) -> str:
+    """Marks as people write them: exact, as a decimal where there is a short one.
+
+    >>> shown(Fraction(5, 2)), shown(Fraction(4)), shown(Fraction(1, 3)), shown(Fraction(-1, 20))
+    ('2.5', '4', '1/3', '-0.05')
+    """
+    places = next((n for n in range(7) if (marks * 10**n).denominator == 1), None)
+    if places is None:
+        return str(marks)
+    digits = str(abs(int(marks * 10**places))).rjust(places + 1, "0")
+    sign = "-" if marks < 0 else ""
+    return sign + (f"{digits[:-places]}.{digits[-places:]}" if places else digits)
+
+
+def to_data(policy: Policy) -> dict[str, Any]:
+    """The policy as JSON carries it to a worker."""
+    return {
+        "follow": str(policy.follow),
+        "caps": {stage: str(cap) for stage, cap in sorted(policy.caps.items())},
+        "rounding": str(policy.rounding),
+        "late": str(policy.late),
+        "hints": policy.hints,
+    }
+
+
+def from_data(data: Mapping[str, Any]) -> Policy:
+    """The policy that `to_data` wrote.
+
+    >>> from_data(to_data(Policy(late=Fraction(4, 5)))).late
+    Fraction(4, 5)
+    """
+    caps = {stage: Fraction(cap) for stage, cap in data["caps"].items()}
+    return Policy(
+        Fraction(data["follow"]), caps, Fraction(data["rounding"]), Fraction(data["late"]), data["hints"]
+    )

@@ -1,0 +1,257 @@
+"""The record of a run: SQLite in OUT, written a hand-in at a time.
+
+Every hand-in is one transaction of a write-ahead log, so that whatever ends the
+process leaves the record as it was after some hand-in.  The connection holds the file
+alone: a second run on the same OUT is told so.  Nothing in it depends on time.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import sqlite3
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from dynsolve.errors import UsageError
+from dynsolve.grading.hand_ins import Waiting
+
+FILE = "grades.sqlite"
+FORMAT = "dynsolve-grades/1"
+
+_TABLES = """
+CREATE TABLE IF NOT EXISTS run (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS students (student TEXT PRIMARY KEY, id TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS hand_ins (
+  student TEXT, problem TEXT, fingerprint TEXT NOT NULL, causes TEXT NOT NULL, files TEXT NOT NULL,
+  left_aside TEXT NOT NULL, late INTEGER NOT NULL, reason TEXT NOT NULL, notes TEXT NOT NULL,
+  html BLOB NOT NULL, markdown BLOB NOT NULL, PRIMARY KEY (student, problem)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS answers (
+  student TEXT, problem TEXT, place INTEGER, answer TEXT NOT NULL, label TEXT NOT NULL,
+  verdict TEXT NOT NULL, marks TEXT NOT NULL, of TEXT NOT NULL, why TEXT NOT NULL, line INTEGER NOT NULL,
+  diagnosis TEXT NOT NULL, message TEXT NOT NULL, read_as TEXT NOT NULL, note TEXT NOT NULL,
+  fault TEXT NOT NULL, loss TEXT NOT NULL, form TEXT NOT NULL,
+  PRIMARY KEY (student, problem, place)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS waiting (
+  student TEXT, problem TEXT, file TEXT, reason TEXT,
+  PRIMARY KEY (student, problem, file, reason)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS overrides (
+  student TEXT, problem TEXT, answer TEXT, marks TEXT NOT NULL, why TEXT NOT NULL,
+  PRIMARY KEY (student, problem, answer)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS finished (
+  student TEXT, problem TEXT, causes TEXT NOT NULL, answers TEXT NOT NULL,
+  PRIMARY KEY (student, problem)) WITHOUT ROWID;
+"""
+_ANSWER = "name label verdict marks of why line diagnosis message read_as note fault loss form".split()
+
+
+@dataclass(frozen=True, slots=True)
+class Graded:
+    """One answer as it stands in the record; `override` is the teacher's word, where there is one."""
+
+    student: str
+    problem: str
+    answer: str
+    label: str
+    verdict: str
+    marks: str
+    of: str
+    why: str
+    line: int
+    diagnosis: tuple[str, ...]
+    message: str
+    read_as: str
+    note: str
+    fault: str
+    loss: str
+    form: str
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One hand-in as it stands in the record."""
+
+    student: str
+    problem: str
+    files: tuple[str, ...]
+    left: tuple[str, ...]
+    late: bool
+    reason: str
+    html: bytes
+    markdown: bytes
+
+
+class Record:
+    """The record in a folder; raises UsageError where another run holds it, or it is none."""
+
+    def __init__(self, folder: Path) -> None:
+        self.path = folder / FILE
+        try:
+            self.db = sqlite3.connect(self.path, timeout=0.2, isolation_level=None)
+            self.db.execute("PRAGMA locking_mode=EXCLUSIVE")
+            self.db.execute("PRAGMA journal_mode=WAL")
+            self.db.execute("PRAGMA synchronous=NORMAL")
+            self.db.executescript("BEGIN EXCLUSIVE;" + _TABLES + "COMMIT;")
+            found = dict(self.db.execute("SELECT name, value FROM run"))
+            if found.setdefault("format", FORMAT) != FORMAT:
+                message = f"{self.path} was written by another version of dynsolve ({found['format']})"
+                raise UsageError(f"{message}; give another folder with -o")
+            self.set_run("format", FORMAT)
+        except sqlite3.OperationalError as error:
+            if "locked" in str(error):
+                message = f"another run is at work on {folder}: wait for it, or give another folder with -o"
+                raise UsageError(message) from None
+            raise UsageError(f"{self.path} cannot be written: {error}") from None
+        except sqlite3.DatabaseError as error:
+            raise UsageError(f"{self.path} is no record of grades: {error}") from None
+
+    def close(self) -> None:
+        """Close the file; what was written stays."""
+        self.db.close()
+
+    # -- writing -----------------------------------------------------------------------------------
+
+    def set_run(self, name: str, value: str) -> None:
+        """Keep something about the whole run."""
+        if self.run(name) != value:
+            self.db.execute("INSERT OR REPLACE INTO run VALUES (?, ?)", (name, value))
+
+    def run(self, name: str) -> str:
+        """What is kept about the whole run, or nothing."""
+        found = self.db.execute("SELECT value FROM run WHERE name = ?", (name,)).fetchone()
+        return found[0] if found else ""
+
+    def write(self, key: tuple[str, str], fingerprint: str, causes: str, row: Mapping[str, Any]) -> None:
+        """Write one hand-in with its answers: all of it, or nothing."""
+        db = self.db
+        db.execute("BEGIN")
+        try:
+            db.execute("DELETE FROM answers WHERE student = ? AND problem = ?", key)
+            db.execute(
+                "INSERT OR REPLACE INTO hand_ins VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                (
+                    *key, fingerprint, causes, _text(row["files"]), _text(row["left"]), int(row["late"]),
+                    row["reason"], _text(row["notes"]),
+                    base64.b64decode(row["html"]), base64.b64decode(row["markdown"]),
+                ),
+            )  # fmt: skip
+            db.executemany(
+                f"INSERT INTO answers VALUES ({', '.join('?' * (3 + len(_ANSWER)))})",  # noqa: S608
+                [
+                    (*key, place, *(_cell(answer[column]) for column in _ANSWER))
+                    for place, answer in enumerate(row["answers"])
+                ],
+            )
+            db.execute("COMMIT")
+        except BaseException:
+            db.execute("ROLLBACK")
+            raise
+
+    def set_intake(self, students: Mapping[str, str], waiting: tuple[Waiting, ...]) -> None:
+        """Who there is, and what waits for a human."""
+        with self.db:
+            self.db.execute("BEGIN")
+            self.db.execute("DELETE FROM students")
+            self.db.executemany("INSERT INTO students VALUES (?, ?)", students.items())
+            self.db.execute("DELETE FROM waiting")
+            rows = [(w.student, w.problem, w.file, w.reason) for w in waiting]
+            self.db.executemany("INSERT OR IGNORE INTO waiting VALUES (?, ?, ?, ?)", rows)
+
+    def keep_only(self, keys: set[tuple[str, str]]) -> None:
+        """Forget hand-ins that are there no more."""
+        gone = [key for key in self.fingerprints() if key not in keys]
+        with self.db:
+            self.db.execute("BEGIN")
+            for table in ("hand_ins", "answers"):
+                statement = f"DELETE FROM {table} WHERE student = ? AND problem = ?"  # noqa: S608
+                self.db.executemany(statement, gone)
+
+    def override(self, student: str, problem: str, answer: str, marks: str, why: str) -> None:
+        """Keep a teacher's word on an answer."""
+        row = (student, problem, answer, marks, why)
+        self.db.execute("INSERT OR REPLACE INTO overrides VALUES (?, ?, ?, ?, ?)", row)
+
+    def finish(self) -> None:
+        """Keep what stands as what the next run is compared with."""
+        now = {key: (causes, _text(answers)) for key, causes, answers in self.standing()}
+        before = {(s, p): (c, a) for s, p, c, a in self.db.execute("SELECT * FROM finished")}
+        if now == before:
+            return
+        with self.db:
+            self.db.execute("BEGIN")
+            self.db.execute("DELETE FROM finished")
+            self.db.executemany(
+                "INSERT INTO finished VALUES (?, ?, ?, ?)", [(*k, *v) for k, v in now.items()]
+            )
+
+    # -- reading -----------------------------------------------------------------------------------
+
+    def fingerprints(self) -> dict[tuple[str, str], str]:
+        """What each hand-in of the record was made from."""
+        found = self.db.execute("SELECT student, problem, fingerprint FROM hand_ins")
+        return {(student, problem): fingerprint for student, problem, fingerprint in found}
+
+    def students(self) -> dict[str, str]:
+        """Every student, with the platform's id."""
+        return dict(self.db.execute("SELECT student, id FROM students ORDER BY student"))
+
+    def waiting(self) -> tuple[Waiting, ...]:
+        """What waits for a human."""
+        order = "SELECT * FROM waiting ORDER BY student, problem, file, reason"
+        return tuple(Waiting(*row) for row in self.db.execute(order))
+
+    def overrides(self) -> dict[tuple[str, str, str], tuple[str, str]]:
+        """The teacher's words: marks and why."""
+        found = self.db.execute("SELECT * FROM overrides")
+        return {(s, p, a): (marks, why) for s, p, a, marks, why in found}
+
+    def rows(self) -> Iterator[Row]:
+        """The hand-ins, one after the other."""
+        columns = "student, problem, files, left_aside, late, reason, html, markdown"
+        order = f"SELECT {columns} FROM hand_ins ORDER BY student, problem"  # noqa: S608
+        for s, p, files, left, late, reason, html, markdown in self.db.execute(order):
+            yield Row(
+                s, p, *(tuple(json.loads(x)) for x in (files, left)), bool(late), reason, html, markdown
+            )
+
+    def answers(self, student: str | None = None) -> Iterator[Graded]:
+        """The answers with their marks, the teacher's word put in; of one student, or of all."""
+        overrides = self.overrides()
+        where, values = ("WHERE student = ?", (student,)) if student is not None else ("", ())
+        order = f"SELECT * FROM answers {where} ORDER BY student, problem, place"  # noqa: S608
+        for s, p, _, *cells in self.db.execute(order, values):
+            found = dict(zip(_ANSWER, cells, strict=True))
+            name = found.pop("name")
+            said = overrides.get((s, p, name))
+            if said is not None:
+                found["why"] = f"set by the teacher: {said[1]} (the program: {found['why']})"
+                found["marks"] = said[0]
+            found["diagnosis"] = tuple(filter(None, found["diagnosis"].split(";")))
+            yield Graded(s, p, name, **found)
+
+    def standing(self) -> Iterator[tuple[tuple[str, str], str, list[list[str]]]]:
+        """Every hand-in with what it was made from, and its answers' verdict, marks and why."""
+        causes = {(s, p): c for s, p, c in self.db.execute("SELECT student, problem, causes FROM hand_ins")}
+        answers: dict[tuple[str, str], list[list[str]]] = {key: [] for key in causes}
+        for a in self.answers():
+            answers.setdefault((a.student, a.problem), []).append([a.answer, a.verdict, a.marks, a.why])
+        for key in sorted(answers):
+            yield key, causes.get(key, "{}"), answers[key]
+
+    def before(self) -> dict[tuple[str, str], tuple[dict[str, str], dict[str, list[str]]]]:
+        """What stood when the last run was finished."""
+        found = self.db.execute("SELECT * FROM finished")
+        return {
+            (s, p): (json.loads(causes), {name: rest for name, *rest in json.loads(answers)})
+            for s, p, causes, answers in found
+        }
+
+
+def _text(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _cell(value: Any) -> Any:
+    return ";".join(value) if isinstance(value, list) else value

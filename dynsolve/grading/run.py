@@ -1,0 +1,181 @@
+"""The run: everything that was handed in goes through the workers into the record, then out.
+
+What a hand-in's result was made from is its fingerprint: its files, the problem, the
+marks, the policy and the program.  Where that is in the record already nothing is
+computed; so a run that was stopped goes on, and a regrade does only what is affected.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from dataclasses import dataclass
+from functools import lru_cache
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, Protocol
+
+import dynsolve
+from dynsolve.grading.hand_ins import HandIn, Intake
+from dynsolve.grading.policy import to_data
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Record
+from dynsolve.grading.uploads import Uploads
+
+Data = dict[str, Any]
+Key = tuple[str, str]
+
+AHEAD = 4
+"""So many hand-ins a worker are under way or wait for one: memory does not grow with their number."""
+
+Advance = Callable[[int, int], None]
+
+
+class Pool(Protocol):
+    """What runs the work, on this machine or on a cluster."""
+
+    jobs: int
+
+    def submit(self, payload: Data) -> Future[Data]:
+        """A future of {"result": ...} or {"reason": ...}."""
+
+    def close(self) -> None:
+        """End all work."""
+
+
+@dataclass(frozen=True, slots=True)
+class Done:
+    """How much a run had to do: all hand-ins, and those that were computed."""
+
+    hand_ins: int
+    computed: int
+
+
+@lru_cache(maxsize=1)
+def program() -> str:
+    """What identifies the program: every source file of the package."""
+    root = Path(dynsolve.__file__).parent
+    found = sha256()
+    for path in sorted(root.rglob("*.py")):
+        found.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes())
+    return found.hexdigest()[:16]
+
+
+def grade_all(
+    problems: ProblemSet,
+    uploads: Uploads,
+    intake: Intake,
+    record: Record,
+    pool: Pool,
+    advance: Advance | None = None,
+) -> Done:
+    """Bring the record up to what was handed in; every hand-in is written when it is done.
+
+    Raises KeyboardInterrupt after what is done was written.
+    """
+    record.set_intake(intake.students, intake.waiting)
+    known = record.fingerprints()
+    keys = {(h.student, h.problem) for h in intake.hand_ins}
+    record.keep_only(keys)
+    due = [h for h in intake.hand_ins if known.get((h.student, h.problem)) != fingerprint(problems, h)]
+    running: dict[Future[Data], HandIn] = {}
+    waiting = iter(due)
+    done = 0
+    while True:
+        for hand_in in _some(waiting, AHEAD * pool.jobs - len(running)):
+            running[pool.submit(payload(problems, uploads, hand_in))] = hand_in
+        if not running:
+            break
+        finished, _ = wait(running, return_when=FIRST_COMPLETED)
+        for future in finished:
+            hand_in = running.pop(future)
+            _write(record, problems, hand_in, future.result())
+            done += 1
+            if advance is not None:
+                advance(done, len(due))
+    return Done(len(intake.hand_ins), done)
+
+
+def _some(source: Iterator[HandIn], count: int) -> Iterator[HandIn]:
+    for _, hand_in in zip(range(count), source, strict=False):
+        yield hand_in
+
+
+def causes(problems: ProblemSet, hand_in: HandIn) -> dict[str, str]:
+    """What a result is made from, cause by cause, so that a change can be named."""
+    item = problems.item(hand_in.problem)
+    files = [[file.name, file.digest] for file in hand_in.files]
+    return {
+        "hand-in": _short([files, hand_in.late, list(hand_in.left)]),
+        "problem": _short(_without_marks(item.text)),
+        "marks": _short({name: str(of) for name, of in item.problem.marks.items()}),
+        "policy": _short(to_data(problems.policy)),
+        "program": program(),
+    }
+
+
+def _without_marks(text: str) -> str:
+    """The problem's text without comments and marks: what its verdicts rest on."""
+    return text
+
+
+def fingerprint(problems: ProblemSet, hand_in: HandIn) -> str:
+    """One word for all causes."""
+    return _short(causes(problems, hand_in))
+
+
+def _short(data: Any) -> str:
+    return sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16]
+
+
+def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
+    """What a worker needs, and nothing of this machine."""
+    item = problems.item(hand_in.problem)
+    return {
+        "problem": {"file": Path(item.problem.file).name, "text": item.text},
+        "marks": {name: str(of) for name, of in item.problem.marks.items()},
+        "policy": to_data(problems.policy),
+        "student": hand_in.student,
+        "late": hand_in.late,
+        "files": [
+            {"name": file.name, "content": base64.b64encode(uploads.read(file.upload)).decode()}
+            for file in hand_in.files
+        ],
+    }
+
+
+def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data) -> None:
+    row = said["result"] if "result" in said else _unread(problems, hand_in, said["reason"])
+    found = causes(problems, hand_in)
+    record.write(
+        (hand_in.student, hand_in.problem),
+        fingerprint(problems, hand_in),
+        json.dumps(found, sort_keys=True),
+        {
+            **row,
+            "files": [file.name for file in hand_in.files],
+            "left": list(hand_in.left),
+            "late": hand_in.late,
+            "reason": said.get("reason", ""),
+            "notes": [*row.get("faults", ()), *row.get("not_recognized", ())],
+        },
+    )
+
+
+def _unread(problems: ProblemSet, hand_in: HandIn, reason: str) -> Data:
+    """The row of a hand-in that went over a bound: unreadable, for a human to look at."""
+    from dynsolve.grading.work import bare_page
+
+    item = problems.item(hand_in.problem)
+    html, markdown = bare_page(item.problem.title, hand_in.student, reason)
+    blank = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form"), "")
+    answers = [
+        {
+            **blank, "name": name, "verdict": "unreadable", "marks": "0", "of": str(of), "line": 0,
+            "why": f"unreadable: {reason}", "diagnosis": [], "fault": reason,
+        }
+        for name, of in item.problem.marks.items()
+    ]  # fmt: skip
+    return {"answers": answers, "html": html, "markdown": markdown}

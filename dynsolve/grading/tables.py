@@ -1,0 +1,47 @@
+"""`grades.csv` and `answers.csv`, which open in a spreadsheet without running anything."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+
+from dynsolve.grading.policy import shown
+
+_RUNS = ("=", "+", "-", "@", "\t", "\r", "\n", "|", "%")
+
+
+def safe(cell: str) -> str:
+    """A cell that no spreadsheet takes for a formula: an apostrophe before what would begin one.
+
+    >>> safe("=1+1"), safe("-m1*g"), safe("K"), safe(" @x"), safe("-2.5")
+    ("'=1+1", "'-m1*g", 'K', "' @x", '-2.5')
+    """
+    begun = cell.lstrip(" \u00a0\u3000\u200b\ufeff")
+    if begun.startswith(_RUNS) or begun[:1] in ("＝", "＋", "－", "＠"):  # the full-width ones run as well
+        return cell if _is_number(cell) else f"'{cell}"
+    return cell
+
+
+def _is_number(cell: str) -> bool:
+    digits = cell.removeprefix("-").replace(".", "", 1)
+    return digits.isascii() and digits.isdigit()
+
+
+def table(rows: Iterable[Sequence[str]]) -> str:
+    """Rows as CSV, every cell safe."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerows([safe(cell) for cell in row] for row in rows)
+    return out.getvalue()
+
+
+def decimal(marks: Fraction) -> str:
+    """Marks in a cell: a number that every spreadsheet reads.
+
+    >>> decimal(Fraction(5, 2)), decimal(Fraction(1, 3))
+    ('2.5', '0.3333')
+    """
+    text = shown(marks)
+    return f"{float(marks):.4f}" if "/" in text else text

@@ -1,0 +1,212 @@
+"""The files that were handed in, out of a folder or a zip, and those that are refused.
+
+A name that leads out of the folder, a link, a name that cannot be seen, a file that
+unpacks to far more than it is: each is refused by name, and the rest is taken.
+Nothing is unpacked to disk.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import stat
+import zipfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from dynsolve.errors import Finding, InputError
+
+MAX_FILE = 2_000_000
+"""A larger file is not read: what is handed in takes a few pages."""
+
+MAX_FILES = 200_000
+MAX_TOTAL = 4_000_000_000
+"""So much may a whole zip unpack to."""
+
+MAX_RATIO = 200
+"""What is packed tighter than this, and is no trifle, is a bomb."""
+
+_TRIFLE = 100_000
+_UNSEEN = re.compile("[\x00-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff]")
+_LEFT_ALONE = re.compile(r"(^|/)(\.DS_Store|Thumbs\.db|desktop\.ini|__MACOSX/.*|\._[^/]*)$")
+
+
+@dataclass(frozen=True, slots=True)
+class Upload:
+    """A file by its path within what was handed in; `order` grows with its date."""
+
+    path: PurePosixPath
+    order: tuple[int, ...]
+    size: int
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """A file that is not taken: its name as it may be shown, and why."""
+
+    name: str
+    reason: str
+
+
+def printable(name: str) -> str:
+    r"""A name with what cannot be seen made visible.
+
+    >>> printable("a\nb")
+    'a\\x0ab'
+    """
+    return _UNSEEN.sub(lambda m: f"\\x{ord(m[0]):02x}" if ord(m[0]) < 256 else f"\\u{ord(m[0]):04x}", name)
+
+
+def digest(content: bytes) -> str:
+    """What identifies a content."""
+    return hashlib.sha256(content).hexdigest()
+
+
+class Uploads:
+    """What was handed in: `files` that may be read, and `refused` ones.
+
+    Raises InputError where there is neither a folder nor a zip.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.refused: list[Refused] = []
+        self._zip: zipfile.ZipFile | None = None
+        self._members: dict[PurePosixPath, zipfile.ZipInfo] = {}
+        try:
+            if path.is_dir():
+                self.files = tuple(sorted(self._walk(), key=lambda upload: upload.path))
+                return
+            self._zip = zipfile.ZipFile(path)
+            self.files = tuple(sorted(self._list(self._zip), key=lambda upload: upload.path))
+        except zipfile.BadZipFile:
+            message, help = "this is neither a folder nor a zip", "give the download of the learning platform"
+        except OSError as error:
+            message, help = f"it cannot be read: {(error.strerror or str(error)).lower()}", "check the path"
+        else:
+            return
+        raise InputError([Finding(message, help, str(path))])
+
+    def close(self) -> None:
+        """Close the zip, where it is one."""
+        if self._zip is not None:
+            self._zip.close()
+
+    def read(self, upload: Upload) -> bytes:
+        """The bytes of a file, no more than shows that it is too large.
+
+        Raises InputError where it cannot be read.
+        """
+        try:
+            if self._zip is not None:
+                with self._zip.open(self._members[upload.path]) as stream:
+                    return stream.read(MAX_FILE + 1)
+            flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
+            with os.fdopen(os.open(self.path / upload.path, flags), "rb") as plain:
+                return plain.read(MAX_FILE + 1)
+        except (
+            OSError,
+            zipfile.BadZipFile,
+            NotImplementedError,
+            RuntimeError,
+            EOFError,
+            ValueError,
+        ) as error:
+            reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
+            raise InputError([Finding(f"cannot be read: {reason.lower()}", "", str(upload.path))]) from None
+        except Exception as error:  # zlib.error, lzma.LZMAError: a damaged member
+            if type(error).__module__ not in ("zlib", "lzma", "_lzma", "bz2"):
+                raise
+            raise InputError([Finding("cannot be read: it is damaged", "", str(upload.path))]) from None
+
+    def _refuse(self, name: str, reason: str) -> None:
+        self.refused.append(Refused(printable(name), reason))
+
+    # -- a folder ----------------------------------------------------------------------------------
+
+    def _walk(self) -> Iterator[Upload]:
+        for folder, folders, files in os.walk(self.path, followlinks=False):
+            here = Path(folder)
+            for name in [n for n in folders if (here / n).is_symlink() or _UNSEEN.search(n)]:
+                folders.remove(name)
+                relative = (here / name).relative_to(self.path).as_posix()
+                self._refuse(relative, "a link" if (here / name).is_symlink() else _HIDDEN)
+            for name in files:
+                relative = (here / name).relative_to(self.path).as_posix()
+                if _LEFT_ALONE.search(relative):
+                    continue
+                found = (here / name).lstat()
+                reason = _of_mode(found.st_mode) or _of_name(relative) or _of_size(found.st_size)
+                if reason:
+                    self._refuse(relative, reason)
+                else:
+                    yield Upload(PurePosixPath(relative), (found.st_mtime_ns,), found.st_size)
+
+    # -- a zip -------------------------------------------------------------------------------------
+
+    def _list(self, archive: zipfile.ZipFile) -> Iterator[Upload]:
+        found: dict[PurePosixPath, Upload] = {}
+        total = 0
+        for place, member in enumerate(archive.infolist()):
+            name = member.filename
+            if member.is_dir() or _LEFT_ALONE.search(name):
+                continue
+            total += min(member.file_size, MAX_FILE)
+            reason = self._of_member(member) or ("the zip holds too much" if total > MAX_TOTAL else "")
+            if place >= MAX_FILES:
+                self._refuse(name, f"the zip has more than {MAX_FILES} files")
+                break
+            if reason:
+                self._refuse(name, reason)
+                continue
+            path = PurePosixPath(name)
+            if path in found:
+                self._refuse(name, "the zip holds this name twice; the later one counts")
+            self._members[path] = member
+            found[path] = Upload(path, (*member.date_time,), member.file_size)
+        yield from found.values()
+
+    def _of_member(self, member: zipfile.ZipInfo) -> str:
+        mode = member.external_attr >> 16
+        if member.flag_bits & 1:
+            return "it is locked with a password"
+        if member.file_size > _TRIFLE and member.file_size > MAX_RATIO * max(member.compress_size, 1):
+            return "it unpacks to far more than it is (a zip bomb)"
+        return (
+            (_of_mode(mode) if stat.S_IFMT(mode) else "")
+            or _of_name(getattr(member, "orig_filename", member.filename))
+            or _of_name(member.filename)
+            or _of_size(member.file_size)
+        )
+
+
+_HIDDEN = "its name holds characters that cannot be seen"
+
+
+def _of_mode(mode: int) -> str:
+    """Why a file of this kind is refused, or nothing."""
+    if stat.S_ISLNK(mode):
+        return "a link"
+    return "" if stat.S_ISREG(mode) else "no ordinary file"
+
+
+def _of_name(name: str) -> str:
+    """Why a name is refused, or nothing.
+
+    >>> _of_name("../x"), _of_name("/etc/x"), _of_name("a/b.yaml")
+    ('its name leads out of the folder', 'its name leads out of the folder', '')
+    """
+    if _UNSEEN.search(name):
+        return _HIDDEN
+    parts = name.replace("\\", "/").split("/")
+    if ".." in parts or name.startswith(("/", "\\")) or re.match(r"[A-Za-z]:", name):
+        return "its name leads out of the folder"
+    if len(name) > 1000 or len(parts) > 30:
+        return "its name is too long"
+    return ""
+
+
+def _of_size(size: int) -> str:
+    return f"it is larger than {MAX_FILE // 1_000_000} MB" if size > MAX_FILE else ""

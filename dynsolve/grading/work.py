@@ -1,0 +1,175 @@
+"""The work on one hand-in: its verdicts, its marks and the student's page.
+
+A pure function of a payload that travels as JSON, so that it runs in this process, in
+a worker on this machine or on a cluster alike; nothing in it depends on time.
+"""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache
+from hashlib import sha256
+from typing import Any
+
+from dynsolve.answers.feedback import View, feedback
+from dynsolve.answers.judge import Judge
+from dynsolve.answers.submission import Submission, read_submission
+from dynsolve.answers.verdict import Judged, Report, Verdict
+from dynsolve.document import Document, Heading, Text
+from dynsolve.explain.style import style_of
+from dynsolve.grading.losses import losses
+from dynsolve.grading.marking import Marked, mark
+from dynsolve.grading.policy import from_data
+from dynsolve.pipeline import Derivation, derive
+from dynsolve.problem.model import Problem
+from dynsolve.problem.reader import read_problem
+
+Data = dict[str, Any]
+
+MARKS_HERE = "The marks stand here"
+"""Where the page gets its marks when it is written: a teacher may override them later."""
+
+MOST_TEXT = 2000
+"""So much is kept of how an answer was read."""
+
+
+def grade_one(payload: Data) -> Data:
+    """Judge and mark a hand-in; `payload` has problem, marks, policy, files, late and student."""
+    problem, key = _prepared(payload["problem"]["file"], payload["problem"]["text"])
+    problem = replace(problem, marks={name: Fraction(of) for name, of in payload["marks"].items()})
+    policy = from_data(payload["policy"])
+    submission = _joined([_read(problem, file) for file in payload["files"]])
+    judge = Judge(problem, submission, key)
+    report = judge.report()
+    lost = losses(judge, report)
+    marked = mark(report.answers, policy, payload["late"], lost, _parts(judge, report))
+    html, markdown = _page(report, problem, payload["student"], policy.hints)
+    return {
+        "answers": [
+            _answer(answer, marks, lost.get(answer.name, ""), _form(judge, answer))
+            for answer, marks in zip(report.answers, marked, strict=True)
+        ],
+        "not_recognized": [n.text[:200] for n in report.not_recognized][:50],
+        "faults": list(report.faults),
+        "html": html,
+        "markdown": markdown,
+    }
+
+
+@lru_cache(maxsize=64)
+def _prepared(file: str, text: str) -> tuple[Problem, Derivation]:
+    problem = read_problem(text, file)
+    return problem, derive(problem.robot)
+
+
+def _read(problem: Problem, file: Data) -> Submission:
+    return read_submission(problem, base64.b64decode(file["content"]), file["name"])
+
+
+def _joined(read: list[Submission]) -> Submission:
+    """Several files of one student as one hand-in, in their order."""
+    answers, chains = [], 0
+    for one in read:
+        answers += [replace(a, occurrence=(a.occurrence[0] + chains, a.occurrence[1])) for a in one.answers]
+        chains += 1 + max((a.occurrence[0] for a in one.answers), default=0)
+    return Submission(
+        read[0].problem,
+        read[0].student,
+        ", ".join(one.file for one in read),
+        tuple(answers),
+        tuple(n for one in read for n in one.not_recognized),
+        tuple(f for one in read for f in one.faults),
+    )
+
+
+def _parts(judge: Judge, report: Report) -> dict[str, tuple[Judged, ...]]:
+    """The parts of the wholes that are not written."""
+    given = {answer.name: answer for answer in report.answers if answer.given}
+    found = {}
+    for answer in report.answers:
+        if answer.given or answer.verdict is Verdict.MISSING:
+            continue
+        pieces = [_part(name, given) for name in judge.graph.parts(answer.name)]
+        if pieces and all(pieces):
+            found[answer.name] = tuple(piece for piece in pieces if piece)
+    return found
+
+
+def _part(name: str, given: dict[str, Judged]) -> Judged | None:
+    mirrored = f"d{name[2]}{name[1]}" if name[0] == "d" and len(name) == 3 else name
+    return given.get(name) or given.get(mirrored)
+
+
+def _answer(answer: Judged, marked: Marked, loss: str, form: str) -> Data:
+    place = answer.place
+    codes = dict.fromkeys(d.code for d in answer.diagnosis if d.code)
+    for entry in answer.entries:
+        codes.update(dict.fromkeys(d.code for d in entry.diagnosis if d.code))
+    return {
+        "name": answer.name,
+        "label": answer.label,
+        "verdict": str(answer.verdict),
+        "marks": str(marked.marks),
+        "of": str(marked.of),
+        "why": marked.why,
+        "line": place.line if place else 0,
+        "diagnosis": list(codes),
+        "message": next((d.message for d in answer.diagnosis if d.message), "")[:MOST_TEXT],
+        "read_as": answer.read_as[:MOST_TEXT],
+        "note": "; ".join(answer.notes)[:MOST_TEXT],
+        "fault": answer.fault[:MOST_TEXT],
+        "loss": loss,
+        "form": form,
+    }
+
+
+def _form(judge: Judge, answer: Judged) -> str:
+    """What is the same for wrong answers of the same value, however they are written."""
+    held = judge.held.get(answer.name)
+    if answer.verdict is not Verdict.WRONG or held is None or not held.rows:
+        return ""
+    entries = ["/".join(map(_terms, (e.value.above, e.value.bottom))) for row in held.rows for e in row]
+    return sha256(";".join(entries).encode()).hexdigest()[:16]
+
+
+def _terms(expr: Any) -> str:
+    """The terms in an order that does not depend on what else the hand-in holds."""
+    return "+".join(sorted(repr(expr).replace(" - ", " + -").split(" + ")))
+
+
+def _page(report: Report, problem: Problem, student: str, hints: int) -> tuple[str, str]:
+    """The student's page in HTML and Markdown, packed; the marks are put in when it is written."""
+    from dynsolve.render.html import render as render_html
+    from dynsolve.render.markdown import render as render_markdown
+
+    unmarked = replace(report, answers=tuple(replace(a, of=Fraction(0)) for a in report.answers))
+    document = feedback(unmarked, f"{problem.title}: {student}", View(hints, readings=True))
+    blocks = document.blocks
+    title = 1 if blocks and isinstance(blocks[0], Heading) else 0
+    document = Document((*blocks[:title], Text((MARKS_HERE,)), *blocks[title:]))
+    style = style_of(problem.robot)
+    return pack(render_html(document, style)), pack(render_markdown(document, style))
+
+
+def pack(text: str) -> str:
+    """A page as it travels and is kept."""
+    return base64.b64encode(zlib.compress(text.encode("utf-8", errors="replace"), 6)).decode()
+
+
+def unpack(packed: bytes) -> str:
+    """A page out of the record."""
+    return zlib.decompress(packed).decode()
+
+
+def bare_page(title: str, student: str, reason: str) -> tuple[str, str]:
+    """The page of a hand-in that could not be judged."""
+    from dynsolve.render.html import render as render_html
+    from dynsolve.render.markdown import render as render_markdown
+
+    said = f"This hand-in could not be judged by the program: {reason}. Your teacher has been told."
+    blocks = (Heading(f"{title}: {student}", 1), Text((MARKS_HERE,)), Text((said,)))
+    document = Document(blocks)
+    return pack(render_html(document)), pack(render_markdown(document))
