@@ -25,6 +25,12 @@ _SAID = {
 }
 
 
+_NOTES = {
+    "rounded": "a decimal rounds the exact value",
+    "not_from_own": "right, though your own earlier answers lead elsewhere",
+}
+
+
 @dataclass(frozen=True, slots=True)
 class View:
     """How much is shown: the rung of the ladder, whether differences are, whether every reading is."""
@@ -160,7 +166,7 @@ def _remarks(answer: Judged, view: View) -> Iterator[str]:
     if answer.follows_from:
         yield "from " + ", ".join(answer.follows_from)
     if answer.verdict is not Verdict.WRONG:
-        yield from answer.notes
+        yield from (_NOTES.get(note, note) for note in answer.notes)
     if len(answer.occurrences) > 1:
         yield "given {} times: {}".format(
             len(answer.occurrences),

@@ -34,6 +34,7 @@ from dynsolve.answers.verdict import (
     Verdict,
     worst,
 )
+from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.pipeline import Derivation, derive
 from dynsolve.problem.model import Problem
@@ -107,6 +108,7 @@ class Judge:
         level = find_level(self.field, dict(self._energies()), self.dimensions)
         self.graph.shift = level
         self.held = {name: self._hold(name, self._value(chains)) for name, chains in self.groups.items()}
+        self.assembled = self._assembled()
 
     # -- what was handed in ------------------------------------------------------------------------
 
@@ -142,6 +144,24 @@ class Judge:
                 value = as_expr(given.entries[0])
                 if value is not None:
                     yield name, value
+
+    def _assembled(self) -> Held | None:
+        """C put together from its entries where all of them were given: free as a whole, it is held by row."""
+        n = self.problem.robot.n
+        names = [[f"C{i + 1}{j + 1}" for j in range(n)] for i in range(n)]
+        entries = [[self.held.get(name) for name in row] for row in names]
+        if "C" in self.held or not n:
+            return None
+        rows = []
+        for row in entries:
+            found = [h.given for h in row if h is not None and h.given.rows is not None]
+            if len(found) < n or any(len(given.entries) != 1 for given in found):
+                return None
+            rows.append(found)
+        node = tree.Matrix(tuple(tuple(given.nodes[0][0] for given in row) for row in rows))
+        answer = replace(rows[0][0].answer, name="C", node=node)
+        values = tuple(tuple(given.entries[0] for given in row) for row in rows)
+        return self._hold("C", Given(answer, values, node.rows))
 
     # -- held against the key ----------------------------------------------------------------------
 
@@ -505,6 +525,8 @@ class Judge:
     def report(self) -> Report:
         """Everything that is said of the hand-in."""
         answers = {name: self.judged(name) for name in self.groups}
+        if self.assembled is not None:
+            answers |= dict(self._by_row(self.assembled, answers))
         for name in self.problem.marks or self.problem.find:
             if name not in answers and self.target(name).node in self.field.rules:
                 answers[name] = self._unwritten(name, answers)
@@ -519,6 +541,26 @@ class Judge:
             first,
             self.submission.faults,
         )
+
+    def _by_row(self, whole: Held, answers: dict[str, Judged]) -> Iterator[tuple[str, Judged]]:
+        """The entries of C, each with the verdict of its row of C q̇."""
+        base = Judged("C", Verdict.WRONG)
+        one = self._as_correct(base, "C", whole) if whole.correct else self._as_other(base, "C", whole)
+        if whole.spoilt:
+            return
+        for entry in one.entries:
+            for j in range(self.problem.robot.n):
+                name = f"C{entry.index[0]}{j + 1}"
+                wrong = entry.verdict is Verdict.WRONG and answers[name].verdict is Verdict.WRONG
+                yield name, self._scored(
+                    replace(
+                        answers[name],
+                        verdict=Verdict.WRONG if entry.verdict is Verdict.WRONG else entry.verdict,
+                        follows_from=entry.follows_from,
+                        diagnosis=answers[name].diagnosis if wrong else entry.diagnosis,
+                        difference=answers[name].difference if wrong else entry.difference,
+                    )
+                )
 
     def _unwritten(self, name: str, answers: dict[str, Judged]) -> Judged:
         """A whole that is not written: judged by its parts where all of them are, else missing."""

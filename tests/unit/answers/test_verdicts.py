@@ -159,6 +159,15 @@ def test_C_is_judged_by_row() -> None:
     assert [str(e.verdict) for e in answer.entries] == ["correct", "wrong"]
 
 
+def test_C_given_by_its_entries_is_judged_by_row_too() -> None:
+    report = judge(ELBOW, {"C11": "0", "C12": f"{H}*(2*q1_dot + q2_dot)", "C21": f"-{H}*q1_dot", "C22": "0"})
+    assert {n: v for n, v in verdicts(report).items() if n[0] == "C"} == dict.fromkeys(
+        ["C", "C11", "C12", "C21", "C22"], "correct"
+    )
+    report = judge(ELBOW, {"C11": "0", "C12": f"{H}*(2*q1_dot + q2_dot)", "C21": f"{H}*q1_dot", "C22": "0"})
+    assert [verdicts(report)[n] for n in ("C11", "C12", "C21", "C")] == ["correct", "correct", "wrong", "wrong"]
+
+
 def test_a_C_with_accelerations_is_none() -> None:
     answer = judged(ELBOW, "C", [["q2_ddot*q2_dot", f"{H}*(2*q1_dot + q2_dot) - q2_ddot*q1_dot"],
                                  [f"-{H}*q1_dot", "0"]])  # fmt: skip
@@ -313,3 +322,21 @@ def test_decimals_round_and_symbols_have_values(text: str, verdict: str, notes: 
 def test_a_number_for_g() -> None:
     assert judged(ROD, "g1", "9.81*m1*l1*cos(q1)/2").verdict == "correct"
     assert judged(ROD, "g1", "9.82*m1*l1*cos(q1)/2").verdict == "wrong"
+
+
+TILTED = """
+dh: [{theta: q1*, a: l1, alpha: 30deg}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1, shape: point}, {mass: m2, link: 2, shape: point}]
+"""
+
+
+def test_roots_may_be_rounded() -> None:
+    exact = judged(TILTED, "P2", "m2*g*l2*sin(q2)/2")
+    assert (exact.verdict, exact.notes) == ("correct", ())
+    row = ["cos(q1)", "-0.866*sin(q1)", "0.5*sin(q1)", "l1*cos(q1)"]
+    rest = [["sin(q1)", "0.866*cos(q1)", "-0.5*cos(q1)", "l1*sin(q1)"], ["0", "0.5", "0.866", "0"],
+            ["0", "0", "0", "1"]]  # fmt: skip
+    found = judged(TILTED, "A1", [row, *rest])
+    assert (found.verdict, found.notes) == ("correct", ("rounded",))
+    assert judged(TILTED, "A1", [[row[0], "-0.867*sin(q1)", *row[2:]], *rest]).verdict == "wrong"
+    assert judged(TILTED, "A1", [["cos(q1)", "-sqrt(3)/2*sin(q1)", *row[2:]], *rest]).verdict == "correct"
