@@ -72,3 +72,15 @@ def test_no_markup_of_a_renderer_in_prose(solution: dynsolve.Solution) -> None:
 
 def test_every_name_is_public() -> None:
     assert {field.name for field in fields(document.Document)} == {"blocks"}
+
+
+def titles(solution: dynsolve.Solution, detail: Detail) -> list[str]:
+    return [block.title for block in solution_document(solution, detail).blocks if isinstance(block, Fold)]
+
+
+def test_a_step_has_the_same_number_in_every_detail(solution: dynsolve.Solution) -> None:
+    full, normal, brief = (titles(solution, detail) for detail in sorted(Detail, reverse=True))
+    assert set(brief) < set(normal) < set(full)
+    assert "7.3.2 What body 2 adds to D" in full
+    last = [int(title.split()[0].split(".")[1]) for title in normal if title.startswith("7.")]
+    assert last == list(range(1, len(last) + 1))

@@ -223,3 +223,125 @@ def test_levels_of_detail() -> None:
     assert (
         levels["D"] is Detail.BRIEF and levels["Kv1"] is Detail.NORMAL and levels["D_direct1"] is Detail.FULL
     )
+
+
+def shown_working(problem: str, id: str) -> list[str]:
+    return [to_unicode(node, solved(problem).style) for node in step(problem, id).working]
+
+
+def formula(problem: str, id: str) -> str:
+    node = step(problem, id).formula
+    assert node is not None
+    return to_unicode(node, solved(problem).style)
+
+
+NAMED = """
+gravity: [0, 0, -G]
+dh: [{theta: q1*, d: h1, alpha: 90deg}, {theta: q2*, a: l}]
+masses:
+  - {mass: m2, link: 1, center: midpoint}
+  - {mass: m1 + M, link: 2, center: {along: 1/3}}
+"""
+
+
+def test_a_letter_of_the_formula_is_not_another_thing_of_the_problem() -> None:
+    assert formula(NAMED, "P1") == "P₁ = m₂ G h_c1, P₁ = -m₂ gᵀ r_c1"
+    assert shown_working(NAMED, "P1")[0] == "h_c1 = h₁/2"
+    assert formula(NAMED, "P2").startswith("P₂ = (m₁ + M) G h₂, ")
+    assert "D = m₂ J_v1ᵀ J_v1 + (m₁ + M) J_v2ᵀ J_v2" in shown_working(NAMED, "D_direct")
+
+
+def test_a_mass_without_a_symbol_is_called_after_its_body() -> None:
+    assert formula("numeric-2r", "P1") == "P₁ = m₁ g h₁, P₁ = -m₁ gᵀ r_c1"
+    assert formula("numeric-2r", "Kvp") == "K_vp = 0.5 m_p v_pᵀ v_p"
+
+
+def test_where_a_centre_comes_from() -> None:
+    assert "from the near end of link 1, o₀" in said(step("planar-2r", "rc1").why, "planar-2r")
+    assert shown_working("planar-2r", "rc1")[0] == (
+        "r_c1¹ = [[-l₁], [0], [0]] + [[l_c1], [0], [0]] = [[l_c1 - l₁], [0], [0]]"
+    )
+    assert shown_working("in3140-rp", "rc1")[0] == "r_c1¹ = ½ [[0], [-L₁], [0]] = [[0], [-L₁/2], [0]]"
+    assert "is ⅓ of the way along link 2, from o₁ to o₂." in said(step(NAMED, "rc2").why, NAMED)
+    assert "given by its coordinates in frame 1" in said(step("rp-vertical", "rc1").why, "rp-vertical")
+
+
+def test_c_and_g_are_read_off_too() -> None:
+    assert shown("in3140-rp", "Cqd") == ["C q̇ = [[2m₂ L₂ θ̇₁ L̇₂], [-m₂ L₂ θ̇₁²]]", "g = [[0], [0]]"]
+    assert "Nothing remains at rest here." in said(step("in3140-rp", "Cqd").why, "in3140-rp")
+    assert "Nothing remains" not in said(step("planar-2r", "Cqd").why, "planar-2r")
+    assert "No term has rates here." in said(step("cartesian-pp", "Cqd").why, "cartesian-pp")
+
+
+def test_a_constant_d_has_no_list_of_zeros_and_no_other_c() -> None:
+    assert step("cartesian-pp", "christoffel").notes == step("cartesian-pp", "C").notes == ()
+    assert said(step("cartesian-pp", "C").why, "cartesian-pp").endswith("There are none here.")
+    (note,) = step("planar-2r", "christoffel").notes
+    assert said(note, "planar-2r") == "c₁₁₁, c₁₂₂ and c₂₂₂ are zero."
+
+
+ONE = "dh: [{theta: q*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+
+
+def test_a_single_joint_has_no_other_rates() -> None:
+    assert said(step(ONE, "dLdqd1").why, ONE).endswith("alone: the coordinate is held fixed.")
+    text = everything_said(ONE)
+    assert "other rates" not in text and "Coriolis terms" not in text and "may be swapped" not in text
+
+
+ODD = """
+base: Rx(90deg)
+dh:
+  - {d: h0}
+  - {theta: q1*/2, a: l1}
+  - {a: l2}
+  - {theta: 0, d: 2*s1*}
+masses:
+  - {mass: mg, link: 1, center: midpoint}
+  - {mass: 0, link: 3, center: tip, inertia: {zz: J}, axes: {base: Rz(q1/2)}}
+  - {mass: m1, link: 4, center: tip}
+"""
+
+
+def test_fixed_rows_scaled_joints_and_the_world() -> None:
+    text = everything_said(ODD)
+    assert "Rows 1 and 3 have no star: fixed frames, each of which" in text
+    assert "The joint of row 2 moves at ½ times the rate of q₁." in text
+    assert "combination of coordinates" not in text
+    assert "the body belongs to the ground and does not move." in said(step(ODD, "rc1").why, ODD)
+    assert "belongs to the ground" not in said(step(ODD, "rc2").why, ODD)
+    assert "world coordinates" in text and "base coordinates" not in text
+    assert formula(ODD, "R2").startswith("R₂ = R₀^w [[")
+    assert formula(ODD, "J2") == "J₂ = [[2z₃], [0]]"
+
+
+def test_a_body_without_mass_has_no_weight() -> None:
+    assert said(step(ODD, "P2").why, ODD) == "Body 2 has inertia but no mass, so gravity does not act on it."
+    assert said(step(ODD, "Kv2").why, ODD) == "The body has no mass, only inertia."
+    assert not step(ODD, "P2").working and not step(ODD, "Kv2").working
+
+
+def test_several_columns_that_are_zero_are_listed_as_in_a_sentence() -> None:
+    why = said(step("box-cylinder-rod-sphere", "Jv1").why, "box-cylinder-rod-sphere")
+    assert why.endswith("so the columns of θ₂ and d₃ are zero.")
+
+
+def test_a_shared_column_is_worked_out() -> None:
+    (working,) = shown_working("planar-2r-remote", "J1")
+    assert working.startswith("z₀ × (o₂ - o₀) - z₁ × (o₂ - o₁) = ") and working.endswith(
+        "[[-l₁ s₁], [l₁ c₁], [0]]"
+    )
+
+
+def test_the_moments_of_a_shape_stand_where_they_are_said_to() -> None:
+    sources = [step("box-cylinder-rod-sphere", f"I_body{b}").source for b in "1234"]
+    assert sources == [
+        "Lynch and Park 8.2.1",
+        "Spong et al. 7.2.1",
+        "by the integrals of Spong et al. 7.2.1",
+        "Lynch and Park 8.2.1",
+    ]
+
+
+def test_what_the_parallel_axis_theorem_takes_away() -> None:
+    assert shown_working(MOVED, "I_body1")[1].endswith("= [[0, 0, 0], [0, m₁ l_c², 0], [0, 0, m₁ l_c²]]")
