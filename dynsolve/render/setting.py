@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 from dynsolve.document import Formula
 from dynsolve.notation.extent import RELATION, Ruler
-from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation, Row, Symbol, Words
+from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation, Row, Words
 from dynsolve.render.boxes import holds_matrix
-from dynsolve.render.flow import Flow, Notation, Piece, lines
+from dynsolve.render.flow import RELATION_BREAK, Flow, Notation, Piece, lines
 
 INDENT = 2.0
 """How far a line is moved in that goes on with a member, in em."""
@@ -73,15 +73,20 @@ class Setter:
             yield from self._broken(self.flow.pieces(left), self.room, self.room - INDENT)
         room = self.room - (width if beside else INDENT)
         name = self.notation.text(left) if beside else ""
+        waiting: list[Piece] = []
         for sign, member in zip(node.signs, members, strict=True):
             if isinstance(member, Matrix) and self.ruler.width(member) + RELATION > room:
+                yield from self._members(name, waiting, room, beside)
+                name, waiting = "" if waiting else name, []
                 yield from self._entries(member, left, formula)
-                name = ""
-                continue
-            pieces = self.flow.pieces(member, sign)
-            for i, line in enumerate(lines(pieces, room, room - INDENT)):
-                yield Line(name, self._text(line), i > 0 or not beside)
-                name = ""
+            else:
+                waiting += self.flow.pieces(member, sign)
+        yield from self._members(name, waiting, room, beside)
+
+    def _members(self, name: str, pieces: Sequence[Piece], room: float, beside: bool) -> Iterator[Line]:
+        """Members of a chain, broken at their signs where that is possible."""
+        for i, line in enumerate(lines(pieces, room, room - INDENT)):
+            yield Line("" if i else name, self._text(line), not beside or line[0].depth > RELATION_BREAK)
 
     def _broken(self, pieces: Sequence[Piece], first: float, rest: float) -> Iterator[Line]:
         for i, line in enumerate(lines(pieces, first, rest)):
@@ -141,6 +146,6 @@ def entry_name(i: int, j: int, matrix: Matrix, left: Node | None, formula: Formu
     if isinstance(left, Letter):
         index = [left.sub, Words(","), *place] if left.sub else place
         return Letter(left.base, Row(tuple(index)), left.sup, dots=left.dots)
-    if isinstance(left, Symbol):
-        return Row((left, Words(", "), *place))
-    return Row((Words("["), *place, Words("]")))
+    if left is None:
+        return Row((Words("["), *place, Words("]")))
+    return Row((Words("("), left, Words(")"), Letter("", Row(tuple(place)))))
