@@ -256,7 +256,7 @@ class Compactor:
     def _scalar(self, frame: Frame, terms: Terms) -> Node:
         """The cheaper of two: angles outside and masses inside, or masses outside."""
         scale: Factor = 1
-        if len(terms) > LARGE:
+        if len(terms) > LARGE and not self.collector.decimal:
             numbers, scale = primitive(terms)
             key = frame, numbers
         else:
