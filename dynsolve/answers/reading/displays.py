@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from dynsolve.answers.reading.limits import MAX_MEMBERS
 from dynsolve.answers.reading.scan import SEPARATORS, Token
 from dynsolve.answers.submission import Place
 
@@ -43,7 +42,7 @@ def equations(tokens: list[Token], label: str) -> list[Equation]:
         for piece in _pieces(row):
             members = _members(piece)
             if members:
-                found.append(Equation(members[:MAX_MEMBERS], own or label))
+                found.append(Equation(members, own or label))
     return found
 
 
@@ -187,4 +186,4 @@ def chain(tokens: list[Token]) -> list[list[Token]]:
             members.append([])
         else:
             members[-1].append(token)
-    return members[:MAX_MEMBERS]
+    return members

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dynsolve.answers.reading.displays import Display
-from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACROS
+from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.prepare import Macro
 from dynsolve.answers.reading.scan import Token, closing_brace, scan
 from dynsolve.answers.reading.session import Session, label_alone
@@ -61,12 +61,15 @@ def _macros(text: str) -> tuple[str, list[Definition]]:
     """The student's commands, and the text with blanks in their place."""
     found: list[Definition] = []
     pieces: list[str] = []
-    done = 0
+    done = tried = 0
     for match in _MACRO.finditer(text):
-        if match.start() < done or len(found) >= MAX_MACROS:
+        if match.start() < done:
             continue
+        tried += 1
+        if tried > MAX_MACROS:
+            break
         try:
-            end = closing_brace(text, match.end())
+            end = closing_brace(text, match.end(), MAX_MACRO_LENGTH)
             body = _body(text[match.end() + 1 : end - 1])
         except ReadError:
             continue

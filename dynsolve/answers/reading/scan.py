@@ -46,7 +46,7 @@ _TOKEN = re.compile(
     | (?P<command>\\(?:[A-Za-z]+\*?|[\\{{}}()\[\]|&\#%$_]))
     | (?P<percent>%pi)
     | (?P<fraction>[½⅓⅔¼¾⅙⅚⅛⅜⅝⅞])
-    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|==|[-+*/^_=(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″]|[ẋẏżḋṗ])
+    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|==|[-+*/^_=(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″]|[ẋẏżḋṗ])
     """,
     re.VERBOSE,
 )
@@ -70,6 +70,7 @@ _SIGNS = {
     "’": "'",
     "′": "'",
     "==": "=",
+    ":=": "=",
 }
 _ASCII = str.maketrans(SPELLED | {digit: str(value) for value, digit in enumerate(SUBSCRIPT_DIGITS)})
 _FRACTIONS = dict(zip("½⅓⅔¼¾⅙⅚⅛⅜⅝⅞", "1/2 1/3 2/3 1/4 3/4 1/6 5/6 1/8 3/8 5/8 7/8".split(), strict=True))
@@ -209,10 +210,10 @@ def _words(text: str, command: Token) -> tuple[Token, int]:
     return command._replace(kind=kind, text=content.strip() if len(content) < 200 else "", end=end), end
 
 
-def closing_brace(text: str, opening: int) -> int:
+def closing_brace(text: str, opening: int, longest: int = MAX_LENGTH) -> int:
     """Where the group that opens there has ended; raises ReadError where it does not."""
     depth = 0
-    for brace in _BRACE.finditer(text, opening):
+    for brace in _BRACE.finditer(text, opening, opening + longest):
         depth += {"{": 1, "}": -1}.get(brace.group(), 0)
         if depth == 0:
             return brace.end()

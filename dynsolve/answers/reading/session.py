@@ -14,7 +14,7 @@ from dynsolve.answers.reading.derivatives import UnknownVariable
 from dynsolve.answers.reading.displays import Display, Equation, chain, equations, is_label
 from dynsolve.answers.reading.forms import Form
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, transposed
-from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS
+from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.lookup import UnknownName
 from dynsolve.answers.reading.prepare import Macro, cut_names, expand, simplified
 from dynsolve.answers.reading.reader import Reader
@@ -36,11 +36,13 @@ from dynsolve.notation.tree import (
     Symbol,
     Words,
 )
-from dynsolve.notation.unicode import to_unicode
+from dynsolve.notation.unicode import printable, to_unicode
 
 
 _WAYS: tuple[frozenset[str], ...] = (frozenset(), frozenset({"inertia"}), frozenset({"spaces"}))
 """How a value may be read: as it stands; a bare I_1 as the moment of inertia; blanks between entries."""
+
+_LONGEST_SHOWN = 2_000
 
 _EXPECTED = "a formula is made of numbers, the problem's symbols, + - * / ^, sin, cos, tan and sqrt"
 
@@ -127,6 +129,11 @@ class Session:
     def _equation(self, equation: Equation, display: Display) -> None:
         self.chains += 1
         members = equation.members
+        if len(members) > MAX_MEMBERS:
+            start = members[0][0].start
+            place = display.locate(start, 1)
+            self.not_recognized.append(NotRecognized(_shown(display.text[start:]), equation.label, place))
+            return
         sides = self._sides(members)
         names = list(dict.fromkeys(side.candidates for side in sides if isinstance(side, Name)))
         owners = tuple(name for candidates in names for name in candidates)
@@ -175,6 +182,12 @@ class Session:
             self._unreadable(candidates, display, error, label, (self.chains, 0))
             return
         members = chain(tokens)
+        if len(members) > MAX_MEMBERS:
+            error = ReadError(
+                f"more than {MAX_MEMBERS} members of one chain", members[-1][0].start if members[-1] else 0
+            )
+            self._unreadable(candidates, display, error, label, (self.chains, 0))
+            return
         side = self._side(members[0]) if len(members) > 1 else None
         if isinstance(side, Name) and set(side.candidates) & set(candidates):
             members = members[1:]
@@ -421,7 +434,7 @@ class Session:
                 label=label,
                 node=node,
                 place=place,
-                text=text.strip(),
+                text=_shown(text),
                 read_as=to_unicode(with_names(node) if found.references else node, self.style),
                 notes=notes,
                 alternatives=tuple(other for other, _, _ in fitted[1:]),
@@ -627,8 +640,8 @@ def _may_help(options: frozenset[str], tokens: list[Token]) -> bool:
 
 def _shown(text: str) -> str:
     """A text as it is kept with what was not recognized."""
-    text = " ".join(text.split())
-    return text if len(text) <= 300 else text[:297] + "..."
+    text = printable(" ".join(text.split()))
+    return text if len(text) <= _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 3] + "..."
 
 
 def label_alone(text: str) -> str:

@@ -9,11 +9,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from dynsolve.answers.submission import Place
+from dynsolve.notation.unicode import printable
 
 _LONGEST_EXCERPT = 400
-_UNSEEN = re.compile(
-    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff\ud800-\udfff]"
-)
 
 
 @dataclass(frozen=True)
@@ -53,7 +51,7 @@ class Source:
 
 def shown(text: str) -> str:
     """A text without the characters that could steer a terminal."""
-    return _UNSEEN.sub("\ufffd", text.replace("\t", " "))
+    return printable(text.replace("\t", " "))
 
 
 def decoded(content: str | bytes) -> str:

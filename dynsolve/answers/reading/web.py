@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from html.parser import HTMLParser
 
 from dynsolve.answers.reading.reports import read_report
@@ -14,14 +15,29 @@ _BLOCKS = frozenset(
 )
 _VOID = frozenset("area base br col embed hr img input link meta source track wbr".split())
 _LONGEST_TAG_STACK = 5_000
+_HIDDEN = re.compile(r"[^\n]")
 
 
 def read_page(session: Session, source: Source) -> None:
     """Read the displayed equations of a web page."""
     page = _Page()
-    page.feed(source.text)
+    page.feed(_without_comments(source.text))
     page.close()
     read_report(session, Source("".join(page.pieces), source.file, tuple(page.origins) or ((0, 1, 1),)))
+
+
+def _without_comments(text: str) -> str:
+    """The text with blanks for comments; one that never closes ends it."""
+    pieces: list[str] = []
+    position = 0
+    while (start := text.find("<!--", position)) >= 0:
+        end = text.find("-->", start)
+        pieces.append(text[position:start])
+        if end < 0:
+            return "".join(pieces)
+        pieces.append(_HIDDEN.sub(" ", text[start : end + 3]))
+        position = end + 3
+    return "".join([*pieces, text[position:]])
 
 
 class _Page(HTMLParser):

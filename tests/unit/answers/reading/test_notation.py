@@ -112,7 +112,10 @@ ELBOW = [
     (r"\left[m_1 + m_2\right] g \, l_1", "(m1 + m2)*g*l1"),
     (r"\sin^2\theta_1 + \cos^{2}(\theta_2)", "sin(q1)**2 + cos(q2)**2"),
     (r"\sin^{2}{\left(q_{1} \right)}", "sin(q1)**2"),
-    (r"m_{1} \sin{\left(q_{1}{\left(t \right)} \right)} \frac{d}{d t} q_{1}{\left(t \right)}", "m1*sin(q1)*q1_dot"),
+    (
+        r"m_{1} \sin{\left(q_{1}{\left(t \right)} \right)} \frac{d}{d t} q_{1}{\left(t \right)}",
+        "m1*sin(q1)*q1_dot",
+    ),
     (r"m_{1} \left(\frac{d}{d t} q_{1}{\left(t \right)}\right)^{2}", "m1*q1_dot**2"),
     (r"m_{1} \frac{d^{2}}{d t^{2}} q_{1}{\left(t \right)}", "m1*q1_ddot"),
     (r"m_1 \frac{d^2 q_1}{dt^2} + m_2\frac{dq_1}{dt}", "m1*q1_ddot + m2*q1_dot"),
@@ -154,8 +157,10 @@ def test_a_planar_arm_in_every_dress(text: str, expected: str) -> None:
 
 ARM = [
     (r"\frac{m_2 \dot{L}_2^{\star 2}}{2}", "m2*L2_dot**2/2"),
-    (r"\frac{m_2(\cos(2\theta_1)L_2^{\star^2}\dot{\theta}_1^2 + \dot{L}_2^{\star^2})}{2}",
-     "m2*(cos(2*theta1)*L2**2*theta1_dot**2 + L2_dot**2)/2"),
+    (
+        r"\frac{m_2(\cos(2\theta_1)L_2^{\star^2}\dot{\theta}_1^2 + \dot{L}_2^{\star^2})}{2}",
+        "m2*(cos(2*theta1)*L2**2*theta1_dot**2 + L2_dot**2)/2",
+    ),
     (r"m_2 L_2^{*2} \dot{\theta_1}^{2}", "m2*L2**2*theta1_dot**2"),
     (r"m_2 L_2^{*^2} \dot{\theta_1^2}", "m2*L2**2*theta1_dot**2"),
     (r"\dot{L_2^{*2}}", "L2_dot**2"),
@@ -226,9 +231,20 @@ def test_a_matrix_in_every_dress(text: str) -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["[m1, m2]", "[[m1], [m2]]", "[m1; m2]", "Matrix([m1, m2])", "Matrix([[m1], [m2]])", "[m1, m2]'", "[m1 m2].'"
-     , r"\begin{bmatrix} m_1 \\ m_2 \end{bmatrix}", r"\begin{bmatrix} m_1 & m_2 \end{bmatrix}^\top"
-     , "(m1, m2)", "\n    - m1\n    - m2", "[m1\n     m2]"],
+    [
+        "[m1, m2]",
+        "[[m1], [m2]]",
+        "[m1; m2]",
+        "Matrix([m1, m2])",
+        "Matrix([[m1], [m2]])",
+        "[m1, m2]'",
+        "[m1 m2].'",
+        r"\begin{bmatrix} m_1 \\ m_2 \end{bmatrix}",
+        r"\begin{bmatrix} m_1 & m_2 \end{bmatrix}^\top",
+        "(m1, m2)",
+        "\n    - m1\n    - m2",
+        "[m1\n     m2]",
+    ],
 )
 def test_a_column_in_every_dress(text: str) -> None:
     from dynsolve.notation.tree import Matrix, Symbol
