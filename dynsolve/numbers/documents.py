@@ -48,7 +48,7 @@ def _values(numbers: Numbers) -> Iterator[Block]:
 
 def _table(rows: Iterable[tuple[Node, Entry, str]]) -> Table:
     cells: list[tuple[Inline, ...]] = [
-        (symbol, _written(entry), Words(units.pretty(unit)) if unit else "") for symbol, entry, unit in rows
+        (symbol, _written(entry), units.node(unit) if unit else "") for symbol, entry, unit in rows
     ]
     return Table(("symbol", "value", "unit"), tuple(cells))
 
@@ -76,10 +76,18 @@ def _results(
     for stage, results in shown.items():
         if results and (stages is None or stage in stages):
             formulas = tuple(
-                Formula(_with_unit(letter, tree(name), quantities.of_result(robot, name)))
+                Formula(_with_unit(letter, tree(name), quantities.of_result(robot, name)),
+                        entries=_entries(robot, name))
                 for name, letter in results
-            )
+            )  # fmt: skip
             yield Fold(STAGES[stage], (*_remark(robot, stage), *formulas), Detail.BRIEF)
+
+
+def _entries(robot: Robot, name: str) -> tuple[tuple[Node, ...], ...]:
+    """The names of the entries of a matrix that may be too wide for the page."""
+    n = robot.n
+    small = {"D": ("d", n), "C": ("c", n), "g": ("g", 1)}
+    return letters.entries(small[name][0], n, small[name][1]) if name in small else ()
 
 
 def _remark(robot: Robot, stage: str) -> Iterator[Block]:
@@ -101,11 +109,11 @@ def _with_unit(letter: Node, result: Node, unit: str | quantities.Units) -> Node
         if len(several) == 1:
             (unit,) = several
         elif len(unit[0]) == 1 or letter in (letters.D, letters.C):
-            return Row((equation(letter, result), Words(" in "), _unit_matrix(unit)))
+            return equation(letter, Row((result, Words(" in "), _unit_matrix(unit))))
     if not unit or not isinstance(unit, str):
         return equation(letter, result)
     lead = " in " if any(isinstance(part, Symbol | Sum) for part in _walk(result)) else " "
-    return Row((equation(letter, result), Words(lead + units.pretty(unit))))
+    return equation(letter, Row((result, units.node(unit, lead))))
 
 
 def _walk(node: Node) -> Iterator[Node]:
@@ -115,7 +123,7 @@ def _walk(node: Node) -> Iterator[Node]:
 
 
 def _unit_matrix(unit: quantities.Units) -> Matrix:
-    return Matrix(tuple(tuple(Words(units.pretty(entry) or "1") for entry in row) for row in unit))
+    return Matrix(tuple(tuple(units.node(entry or "1") for entry in row) for row in unit))
 
 
 # -- a state ---------------------------------------------------------------------------------------

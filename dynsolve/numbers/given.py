@@ -160,11 +160,6 @@ def _parameter_key(reader: _Reader, assignment: Assignment) -> Key | None:
     return None
 
 
-def missing(robot: Robot, given: Given) -> tuple[str, ...]:
-    """The parameters that have no value yet."""
-    return tuple(name for name in robot.parameters if (name, 0) not in given.entries)
-
-
 # -- states ----------------------------------------------------------------------------------------
 
 
@@ -293,7 +288,8 @@ class _Reader:
         unit, tree = self.unit(key), reading.tree
         if self.is_angle(key):
             checked = self.angle(assignment, tree, radians, unit)
-            return None if checked is None else Entry(checked, assignment.value, "", decimal or radians)
+            told = turned or checked is None or not numbers
+            return checked and Entry(checked, assignment.value, "" if told else unit, decimal or radians)
         if turned and not self.is_rate_of_angle(key):
             what = "a length" if key[0] not in self.robot.parameters else "no angle"
             self.report(assignment.at_value(f"{assignment.name} is {what}, and is given an angle"))

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, ctx
 
 from dynsolve.algebra.expr import Expr, Generator, rational
 from dynsolve.algebra.ring import Ring
@@ -118,26 +118,58 @@ def _fraction(value: arb) -> Fraction:
     return Fraction(Decimal(value.str(_WORKING_DIGITS, radius=False)))
 
 
-@lru_cache(maxsize=8)
 def _constants(ring: Ring) -> Mapping[int, arb]:
     """The generators that are numbers, with their values."""
+    return _found(ring, len(ring.inverses))
+
+
+@lru_cache(maxsize=8)
+def _found(ring: Ring, inverses: int) -> Mapping[int, arb]:
+    found: dict[int, arb] = {}
     with ctx.workprec(_WORKING_BITS):
-        found = {g.index: _value(g) for g in ring.generators}
-    return {index: value for index, value in found.items() if value is not None}
+        for g in sorted(ring.generators, key=_order):
+            value = _value(ring, g, found)
+            if value is not None:
+                found[g.index] = value
+    return found
 
 
-def _value(g: Generator) -> arb | None:
+def _order(g: Generator) -> tuple[int, int]:
+    """Roots are of angles, numbers and roots laid out after them; denominators may hold all of these."""
+    return ("root", "inverse").index(g.kind) + 1 if g.kind in ("root", "inverse") else 0, -g.index
+
+
+def _value(ring: Ring, g: Generator, known: Mapping[int, arb]) -> arb | None:
     match g.kind:
         case "symbol" if g.name == "pi":
             return arb.pi()
-        case "root" if isinstance(g.node, Number):
-            return arb(fmpq(g.node.p, g.node.q)).sqrt()
+        case "root":
+            assert g.node is not None
+            inner = _worth(ring.expr(g.node).poly, known)
+            return None if inner is None else inner.sqrt()
+        case "inverse" if g.index in ring.inverses:
+            inner = _worth(ring.inverses[g.index], known)
+            return None if inner is None else 1 / inner
         case "sin" | "cos" | "constant" if all(atom == () for atom, _ in g.angle.terms):
             angle = arb.pi() * arb(rational(g.angle.degrees / 180))
             for _, radians in g.angle.terms:
                 angle += arb(rational(radians))
             return angle.sin() if g.kind == "sin" else angle.cos()
     return None
+
+
+def _worth(poly: Any, known: Mapping[int, arb]) -> arb | None:
+    """The value of a polynomial in known generators, None where another stands in it."""
+    total = arb(0)
+    for exponents, coefficient in poly.to_dict().items():
+        term = arb(coefficient)
+        for index, exponent in enumerate(exponents):
+            if exponent and index not in known:
+                return None
+            if exponent:
+                term *= known[index] ** int(exponent)
+        total += term
+    return total
 
 
 def has_constants(ring: Ring) -> bool:

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
+from dynsolve.notation.tree import Letter, Node, Number, Row, Words
 from dynsolve.robot.dimensions import NONE, Dimension, dimension, times
 
 
@@ -113,10 +114,18 @@ def _raised(name: str, power: Fraction) -> str:
     return name if power == 1 else f"{name}^{power}"
 
 
-def pretty(unit: str) -> str:
-    """A unit as it is set: raised digits, a dot for a star.
+_SQUARE = re.compile(r"([A-Za-z]+)(?:\^|\*\*)?([23²³])")
 
-    >>> pretty("kg*m^2/s")
-    'kg·m²/s'
-    """
-    return unit.replace("**", "^").replace("^2", "²").replace("^3", "³").replace("*", "·")
+
+def node(unit: str, lead: str = "") -> Node:
+    """A unit as a formula, upright and with its powers raised; `lead` are words before it."""
+    parts: list[Node] = []
+    words, end = lead, 0
+    for found in _SQUARE.finditer(unit):
+        words += unit[end : found.start()]
+        parts += [Words(words)] if words else []
+        parts.append(Letter(found[1], None, Number(int(found[2].translate(_RAISED))), "upright"))
+        words, end = "", found.end()
+    words += unit[end:]
+    parts += [Words(words)] if words else []
+    return parts[0] if len(parts) == 1 else Row(tuple(parts))
