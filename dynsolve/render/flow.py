@@ -211,6 +211,31 @@ class Flow:
         return self.ruler.width(node) > 100 * _FINE
 
 
+def together(pieces: Sequence[Piece], most: float, join: Callable[[Sequence[str]], str]) -> list[Piece]:
+    """The pieces, each joined with the deeper ones after it where that is at most `most` em wide.
+
+    Whoever breaks lines without looking at depth then breaks at shallow places first.
+
+    >>> parts = [Piece("a", 4), Piece("+(b", 4, 1), Piece("+c)", 4, 3), Piece("+d", 4, 1)]
+    >>> [piece.text for piece in together(parts, 12, "".join)]
+    ['a', '+(b+c)', '+d']
+    """
+    joined: list[Piece] = []
+    i = 0
+    while i < len(pieces):
+        end, width = i + 1, pieces[i].width
+        while end < len(pieces) and pieces[end].depth > pieces[i].depth:
+            width += pieces[end].width
+            end += 1
+        if width > most:
+            end = i + 1
+        group = pieces[i:end]
+        text = join([piece.text for piece in group])
+        joined.append(Piece(text, sum(piece.width for piece in group), pieces[i].depth))
+        i = end
+    return joined
+
+
 _DEPTH_COST = 0.35
 _OVERFULL = 1e4
 

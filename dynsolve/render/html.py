@@ -32,7 +32,7 @@ from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Number, Relation, Row
 from dynsolve.render.boxes import holds_matrix
-from dynsolve.render.flow import Flow, Notation
+from dynsolve.render.flow import Flow, Notation, together
 from dynsolve.render.references import numbered
 from dynsolve.render.setting import entry_name, listed
 from dynsolve.render.words import spoken, visible
@@ -45,6 +45,7 @@ PAGE = 44.0
 
 _AROUND = 4.0
 _FINE = 6.0
+_WHOLE = 13.0
 _LEVELS = ("brief", "normal", "full")
 _TALL = ("<mfrac>", "<mtable>", "<munderover>")
 
@@ -241,7 +242,8 @@ class _Page:
             yield "</div>"
 
     def broken(self, node: Node) -> str:
-        pieces = "<wbr>".join(math(piece.text, display=True) for piece in self.flow.pieces(node))
+        parts = together(self.flow.pieces(node), _WHOLE, "".join)
+        pieces = "<wbr>".join(math(part.text, display=True) for part in parts)
         return f'<div class="line">{pieces}</div>'
 
     def needed(self, width: float) -> int:
