@@ -75,7 +75,15 @@ class Question:
 class Diagnoser:
     """Names slips, the simplest that explains an answer."""
 
-    def __init__(self, problem: Problem, graph: Graph, follow: Follow, dimensions: Dimensions) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        graph: Graph,
+        follow: Follow,
+        dimensions: Dimensions,
+        derivations: DerivationSlips,
+    ) -> None:
+        self.derivations = derivations
         self.problem = problem
         self.graph = graph
         self.follow = follow
@@ -93,11 +101,6 @@ class Diagnoser:
     def terms(self) -> TermSlips:
         """Finds slips in terms."""
         return TermSlips(self.ring, self.dimensions, self.words)
-
-    @cached_property
-    def derivations(self) -> DerivationSlips:
-        """The derivations with a rule replaced."""
-        return DerivationSlips(self.graph)
 
     def __call__(self, question: Question) -> tuple[Diagnosis, ...]:
         """The slips in one scalar."""

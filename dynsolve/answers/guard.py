@@ -16,12 +16,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from dynsolve.answers.judge import check
+from dynsolve.answers.judge import Checker
 from dynsolve.answers.submission import Submission, read_submission
 from dynsolve.answers.verdict import Report
 from dynsolve.errors import Finding
-from dynsolve.pipeline import Derivation, derive
-from dynsolve.problem.model import Problem
 
 SECONDS = 2
 """Processor time for one answer."""
@@ -37,40 +35,39 @@ class Stopped(Exception):
     """A child was stopped by its limits."""
 
 
-def check_file(problem: Problem, source: bytes | str, file: str, key: Derivation | None = None) -> Report:
+def check_file(checker: Checker, source: bytes | str, file: str) -> Report:
     """Read a hand-in and judge it, within limits; nothing in `source` raises."""
-    key = key if key is not None else derive(problem.robot)
     try:
-        submission = limited(lambda: read_submission(problem, source, file), 5 * SECONDS)
+        submission = limited(lambda: read_submission(checker.problem, source, file), 5 * SECONDS)
     except Stopped:
         fault = Finding("the file takes too much time or memory to read", "hand in a smaller file", file)
         submission = Submission("", "", file, (), faults=(fault,))
-    return check_within(problem, submission, key)
+    return check_within(checker, submission)
 
 
-def check_within(problem: Problem, submission: Submission, key: Derivation) -> Report:
+def check_within(checker: Checker, submission: Submission) -> Report:
     """Judge what was read, within limits."""
     allowed = SECONDS * (len(submission.answers) + 1)
     try:
-        return limited(lambda: check(problem, submission, key), allowed)
+        return limited(lambda: checker(submission), allowed)
     except Stopped:
-        sound = replace(submission, answers=_sound(problem, submission, key))
+        sound = replace(submission, answers=_sound(checker, submission))
     try:
-        return limited(lambda: check(problem, sound, key), allowed)
+        return limited(lambda: checker(sound), allowed)
     except Stopped:
         refused = tuple(
             replace(a, node=None, fault=a.fault or TOO_MUCH, expected=REMEDY) for a in sound.answers
         )
-        return check(problem, replace(sound, answers=refused), key)
+        return checker(replace(sound, answers=refused))
 
 
-def _sound(problem: Problem, submission: Submission, key: Derivation) -> tuple[Any, ...]:
+def _sound(checker: Checker, submission: Submission) -> tuple[Any, ...]:
     """The answers, with those that go over the limits by themselves unreadable."""
     answers = []
     for answer in submission.answers:
         alone = replace(submission, answers=(answer,))
         try:
-            limited(lambda alone=alone: check(problem, alone, key), SECONDS)  # type: ignore[misc]
+            limited(lambda alone=alone: checker(alone), SECONDS)  # type: ignore[misc]
             answers.append(answer)
         except Stopped:
             answers.append(replace(answer, node=None, fault=TOO_MUCH, expected=REMEDY))

@@ -20,10 +20,12 @@ from dynsolve.answers.compare import Comparison, Written
 from dynsolve.answers.diagnose import Diagnoser, Question
 from dynsolve.answers.dimensions import Dimensions
 from dynsolve.answers.evaluate import Frac, as_expr
+from dynsolve.answers.field import Field, Plan
 from dynsolve.answers.follow import Candidate, Follow, Own
 from dynsolve.answers.given import Given, Hand, as_value, fitted, same
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.level import find_level
+from dynsolve.answers.slips.derivation import DerivationSlips
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import (
     Diagnosis,
@@ -47,12 +49,30 @@ MOST_EXPECTED = 4
 BY_PARTS = "judged by its parts"
 
 
-def check(problem: Problem, submission: Submission, key: Derivation | None = None) -> Report:
-    """Judge a hand-in.
+class Checker:
+    """Judges hand-ins to one problem; what they all share is made once.
 
     `key` is the problem's derivation, where it has been made already.
     """
-    return Judge(problem, submission, key if key is not None else derive(problem.robot)).report()
+
+    def __init__(self, problem: Problem, key: Derivation | None = None) -> None:
+        self.problem = problem
+        self.key = key if key is not None else derive(problem.robot)
+
+    @cached_property
+    def derivations(self) -> DerivationSlips:
+        """The derivations with a rule replaced, in the problem's own ring."""
+        robot = self.problem.robot
+        return DerivationSlips(Graph(Field(robot, self.key, Plan(robot.ring))))
+
+    def __call__(self, submission: Submission) -> Report:
+        """Judge a hand-in."""
+        return Judge(self, submission).report()
+
+
+def check(problem: Problem, submission: Submission, key: Derivation | None = None) -> Report:
+    """Judge one hand-in; see `Checker` for many."""
+    return Checker(problem, key)(submission)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,11 +115,11 @@ class Held:
 class Judge:
     """Judges one hand-in."""
 
-    def __init__(self, problem: Problem, submission: Submission, key: Derivation) -> None:
-        self.problem = problem
+    def __init__(self, checker: Checker, submission: Submission) -> None:
+        self.checker = checker
+        self.problem = problem = checker.problem
         self.submission = submission
-        robot = problem.robot
-        self.hand = Hand(robot, key, submission.answers)
+        self.hand = Hand(problem.robot, checker.key, submission.answers)
         self.field = self.hand.field
         self.dimensions = Dimensions(self.field.ring, self.field.robot)
         self.compare = Comparison(problem.values)
@@ -129,7 +149,7 @@ class Judge:
         for name in (answer.name, *answer.alternatives) if answer.alternatives and given.rows else ():
             if self._hold(name, given).correct:
                 return name
-        return answer.name
+        return self.graph.answer(answer.name)
 
     def _value(self, chains: list[list[Given]]) -> Given:
         """The answer that counts: the last member of the last equation."""
@@ -312,7 +332,9 @@ class Judge:
     @cached_property
     def diagnoser(self) -> Diagnoser:
         """Names slips."""
-        return Diagnoser(self.problem, self.graph, self.follow, self.dimensions)
+        shared = self.field.same and self.graph.shift is None
+        derivations = self.checker.derivations if shared else DerivationSlips(self.graph)
+        return Diagnoser(self.problem, self.graph, self.follow, self.dimensions, derivations)
 
     def judged(self, name: str) -> Judged:
         """What is said of one answer."""
@@ -552,14 +574,17 @@ class Judge:
             for j in range(self.problem.robot.n):
                 name = f"C{entry.index[0]}{j + 1}"
                 wrong = entry.verdict is Verdict.WRONG and answers[name].verdict is Verdict.WRONG
-                yield name, self._scored(
-                    replace(
-                        answers[name],
-                        verdict=Verdict.WRONG if entry.verdict is Verdict.WRONG else entry.verdict,
-                        follows_from=entry.follows_from,
-                        diagnosis=answers[name].diagnosis if wrong else entry.diagnosis,
-                        difference=answers[name].difference if wrong else entry.difference,
-                    )
+                yield (
+                    name,
+                    self._scored(
+                        replace(
+                            answers[name],
+                            verdict=Verdict.WRONG if entry.verdict is Verdict.WRONG else entry.verdict,
+                            follows_from=entry.follows_from,
+                            diagnosis=answers[name].diagnosis if wrong else entry.diagnosis,
+                            difference=answers[name].difference if wrong else entry.difference,
+                        )
+                    ),
                 )
 
     def _unwritten(self, name: str, answers: dict[str, Judged]) -> Judged:

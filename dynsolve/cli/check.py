@@ -45,12 +45,13 @@ def check(
     could be read.
     """
     from dynsolve.answers.guard import check_file
+    from dynsolve.answers.judge import Checker
 
     stated = read(problem)
     if not quiet:
         say(stated.warnings, "warning")
     source, file = _source(answer)
-    report = check_file(stated, source, file)
+    report = check_file(Checker(stated), source, file)
     if not quiet:
         say(report.faults)
     if json:

@@ -26,7 +26,15 @@ VERDICTS = {
     "follows": {"L": 32, "dLdqd1": 36, "dLdq1": 38, "tau1": 39, "ddt2": 41, "dLdq2": 42, "f2": 43,
                 "D": 46, "C": 46},
 }  # fmt: skip
-FROM = {"L": {"Kv2"}, "dLdqd1": {"L"}, "dLdq1": {"L"}, "dLdq2": {"L"}, "ddt2": {"dLdqd2"}, "D": {"tau"}, "C": {"tau"}}
+FROM = {
+    "L": {"Kv2"},
+    "dLdqd1": {"L"},
+    "dLdq1": {"L"},
+    "dLdq2": {"L"},
+    "ddt2": {"dLdqd2"},
+    "D": {"tau"},
+    "C": {"tau"},
+}
 SLIPS = {
     "Kv2": {"double_angle"}, "K": {"dropped_dot"}, "ddt1": {"dropped_inertia", "extra_dot"},
     "dLdqd2": {"dropped_mass", "dimensions"}, "tau": {"dropped_factor", "dimensions"},

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
-from dynsolve.answers.judge import check
+from dynsolve.answers.judge import Checker
 from dynsolve.answers.submission import Answer, Place, Submission
 from dynsolve.answers.verdict import Judged, Report
 from dynsolve.notation import tree
@@ -54,9 +54,15 @@ def key(stem: str) -> Derivation:
     return derive(problem(stem).robot)
 
 
+@lru_cache(maxsize=32)
+def checker(stem: str) -> Checker:
+    """Judges hand-ins to it."""
+    return Checker(problem(stem), key(stem))
+
+
 def judge(stem: str, answers: Mapping[str, Text]) -> Report:
     """The report on a hand-in."""
-    return check(problem(stem), submission(answers), key(stem))
+    return checker(stem)(submission(answers))
 
 
 def judged(stem: str, name: str, text: Text, **beside: Text) -> Judged:

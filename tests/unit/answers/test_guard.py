@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
 
 import pytest
 
 from dynsolve.answers import guard
+from dynsolve.answers.judge import Checker
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import Report
-from tests.unit.answers.hands import answer, key, problem
+from tests.unit.answers.hands import answer, checker
 
 G2 = "m2*lc2*g*cos(q1 + q2)"
 
@@ -46,16 +46,16 @@ def test_time_has_a_limit() -> None:
 def test_the_answer_that_goes_over_is_unreadable_and_the_others_are_judged(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    real = guard.check
+    real = Checker.__call__
 
-    def heavy(stated: object, submission: Submission, derived: object) -> Report:
+    def heavy(self: Checker, submission: Submission) -> Report:
         if any(a.name == "P1" and a.node is not None for a in submission.answers):
             bytearray(3 << 30)
-        return real(stated, submission, derived)  # type: ignore[arg-type]
+        return real(self, submission)
 
-    monkeypatch.setattr(guard, "check", heavy)
+    monkeypatch.setattr(Checker, "__call__", heavy)
     hand = Submission("", "", "", (answer("P1", "0", 0), answer("g2", G2, 1)))
-    report = guard.check_within(problem("planar-2r"), hand, key("planar-2r"))
+    report = guard.check_within(checker("planar-2r"), hand)
     found = {a.name: a for a in report.answers}
     assert (found["P1"].verdict, found["P1"].fault) == ("unreadable", guard.TOO_MUCH)
     assert found["g2"].verdict == "correct"
@@ -63,6 +63,6 @@ def test_the_answer_that_goes_over_is_unreadable_and_the_others_are_judged(
 
 def test_a_report_comes_back_as_it_was_made() -> None:
     hand = Submission("", "", "", (answer("g2", "0", 0), answer("K", "m1*q1_dot", 1)))
-    report = guard.check_within(problem("planar-2r"), hand, key("planar-2r"))
-    direct = guard.check(problem("planar-2r"), hand, key("planar-2r"))
-    assert replace(report) == direct
+    report = guard.check_within(checker("planar-2r"), hand)
+    direct = checker("planar-2r")(hand)
+    assert report == direct

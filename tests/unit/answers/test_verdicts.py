@@ -165,7 +165,12 @@ def test_C_given_by_its_entries_is_judged_by_row_too() -> None:
         ["C", "C11", "C12", "C21", "C22"], "correct"
     )
     report = judge(ELBOW, {"C11": "0", "C12": f"{H}*(2*q1_dot + q2_dot)", "C21": f"{H}*q1_dot", "C22": "0"})
-    assert [verdicts(report)[n] for n in ("C11", "C12", "C21", "C")] == ["correct", "correct", "wrong", "wrong"]
+    assert [verdicts(report)[n] for n in ("C11", "C12", "C21", "C")] == [
+        "correct",
+        "correct",
+        "wrong",
+        "wrong",
+    ]
 
 
 def test_a_C_with_accelerations_is_none() -> None:
