@@ -17,14 +17,20 @@ from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.unicode import UnicodePrinter
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from dynsolve.explain.abbreviations import Abbreviated, Definition
     from dynsolve.robot.model import Body
     from dynsolve.solution import Solution
 
 FORMAT = "dynsolve-solution/1"
 
 
-def to_json(solution: Solution) -> dict[str, Any]:
-    """Everything: the problem, the coordinates, the results, the steps and the verification."""
+def to_json(solution: Solution, short: Abbreviated | None = None) -> dict[str, Any]:
+    """Everything: the problem, the coordinates, the results, the steps and the verification.
+
+    With `short` there is a section `abbreviated` of its definitions and forms too.
+    """
     problem, verification = solution.problem, solution.verification
     exporter = _Exporter(solution)
     return {
@@ -52,6 +58,7 @@ def to_json(solution: Solution) -> dict[str, Any]:
             "states": verification.states,
             "max_relative_error": verification.max_relative_error,
         },
+        **({} if short is None else {"abbreviated": exporter.abbreviated(short)}),
         **_numbers(solution),
     }
 
@@ -126,6 +133,27 @@ class _Exporter:
             "Kv": self.scalar(f"Kv{b}"),
             "Kw": self.scalar(f"Kw{b}"),
             "K": self.scalar(f"K{b}"),
+        }
+
+    def abbreviated(self, short: Abbreviated) -> dict[str, Any]:
+        """`abbreviated`; a definition uses those before it alone, and c_ijk is given for i ≤ j."""
+
+        def rows(matrix: Matrix) -> list[list[str]]:
+            return [[self.python.text(entry) for entry in row] for row in matrix.rows]
+
+        def listed(definitions: Iterable[Definition]) -> list[dict[str, str]]:
+            return [{"name": d.name.name, "value": self.python.text(d.meaning)} for d in definitions]
+
+        return {
+            "constants": listed(short.constants),
+            "recurring": listed(short.sums),
+            "D": rows(short.D),
+            "C": rows(short.C),
+            "g": [entry for (entry,) in rows(short.g)],
+            "christoffel": [
+                {"i": i + 1, "j": j + 1, "k": k + 1, "value": self.python.text(value)}
+                for (i, j, k), value in short.christoffel.items()
+            ],
         }
 
     def equation(self, k: int) -> dict[str, str]:

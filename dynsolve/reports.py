@@ -14,6 +14,7 @@ from dynsolve.render.formats import Format
 
 if TYPE_CHECKING:
     from dynsolve.document import Document
+    from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
     from dynsolve.notation.printing import Style
     from dynsolve.solution import Solution
@@ -27,17 +28,20 @@ def report(
     stages: Iterable[str] | None = None,
     star: bool = False,
     fragment: bool = False,
+    abbreviate: Abbreviate | str = "auto",
 ) -> bytes:
     r"""A solution in a form.
 
     `stages` are those that are shown, or all; `star` puts the mark of a joint variable
-    on every coordinate; `fragment` gives LaTeX that another document takes in.
+    on every coordinate; `fragment` gives LaTeX that another document takes in;
+    `abbreviate` says whether long results are written in names: `auto`, `never`, `always`.
 
     >>> import dynsolve
     >>> page = report(dynsolve.solve("planar-2r"), Format.LATEX)
     >>> page.decode().splitlines()[0]
     '\\documentclass[a4paper,11pt]{article}'
     """
+    from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.documents import solution_document
     from dynsolve.explain.step import Detail
 
@@ -45,10 +49,10 @@ def report(
     if format is Format.JSON:
         from json import dumps
 
-        return (dumps(solution.to_json(), ensure_ascii=False) + "\n").encode()
+        return (dumps(solution.to_json(abbreviate), ensure_ascii=False) + "\n").encode()
     style = style_of(solution, star)
     shown = Detail.FULL if format is Format.HTML else detail
-    document = solution_document(solution, shown, stages)
+    document = solution_document(solution, shown, stages, Abbreviate(abbreviate))
     if format in PICTURED and (stages is None or "kinematics" in stages):
         document = _with_picture(document, solution, star)
     return _rendered(document, style, format, detail, fragment)

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     import sympy
 
     from dynsolve.document import Block, Document
+    from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
     from dynsolve.explain.step import Detail
     from dynsolve.numbers.beside import Numbers
     from dynsolve.numbers.given import Assignment, Plain
@@ -169,12 +170,42 @@ class Solution:
         """The whole derivation, step by step."""
         return tuple(self.explain())
 
-    def explain(self, stages: Iterable[str] | None = None) -> Iterator[Step]:
-        """The steps of some stages, in the order of the course."""
+    def explain(
+        self, stages: Iterable[str] | None = None, short: Abbreviated | None = None
+    ) -> Iterator[Step]:
+        """The steps of some stages, in the order of the course; with `short`, in its names."""
         from dynsolve.explain import explain
         from dynsolve.explain.course import Course
+        from dynsolve.explain.named import in_names
 
-        return explain(Course(self.robot, self.values, self.forms, self.agreement), stages)
+        course = Course(self.robot, self.values, self.forms, self.agreement)
+        steps = explain(course, stages)
+        return steps if short is None else in_names(steps, course, short)
+
+    def abbreviated(self, abbreviate: Abbreviate | str = "always") -> Abbreviated | None:
+        """D, C and g with constants and recurring terms named; held against the independent computation.
+
+        With `auto` None where they are short enough to be read, with `never` always None.
+
+        >>> short = solve("planar-2r").abbreviated()
+        >>> [definition.name.name for definition in short.definitions]
+        ['h']
+        """
+        from dynsolve.explain.abbreviations import Abbreviate, is_long
+
+        asked = Abbreviate(abbreviate)
+        if not self.robot.bodies or asked is Abbreviate.NEVER:
+            return None
+        return self._abbreviated if asked is Abbreviate.ALWAYS or is_long(self.forms) else None
+
+    @cached_property
+    def _abbreviated(self) -> Abbreviated:
+        from dynsolve.explain.abbreviations import abbreviate, expanded
+
+        short = abbreviate(self.forms)
+        D, C, g = expanded(short.definitions, [short.D, short.C, short.g])
+        verify(self.robot, {"D": D, "C": C, "g": g}, self.verification.states)
+        return short
 
     def hint(self, stage: str) -> Document:
         """What to do in a stage, as a document that holds no result of it or of a later one.
@@ -189,11 +220,11 @@ class Solution:
 
         return hint_document(self.problem.title, Course(self.robot, self.values, self.forms), stage)
 
-    def to_json(self) -> dict[str, Any]:
-        """The solution as JSON, `dynsolve-solution/1`."""
+    def to_json(self, abbreviate: Abbreviate | str = "never") -> dict[str, Any]:
+        """The solution as JSON, `dynsolve-solution/1`; with `always` a section `abbreviated` too."""
         from dynsolve.export import to_json
 
-        return to_json(self)
+        return to_json(self, self.abbreviated("always") if abbreviate == "always" else None)
 
     def symbolic(self, name: str) -> Any:
         """A quantity as SymPy, by its name in an answer file: `H2`, `Jv1`, `Kw1`, `dLdqd1`, `D`.
@@ -254,8 +285,8 @@ class Solution:
         >>> state = solve("planar-2r").at(q1="30deg", q2="90deg", q1_dot=2)
         >>> state.symbolic("v1").T
         Matrix([[-lc1, sqrt(3)*lc1, 0]])
-        >>> solve("planar-2r").with_values(l1=1, lc1=0.5).at(q1="17deg", q2=0).number("rc1")[0][0]
-        0.4781523779815178
+        >>> solve("planar-2r").with_values(l1=1, lc1=0.5).at(q1="17deg", q2=0).number("H1")[0]
+        [0.9563047559630354, -0.2923717047227367, 0.0, 0.9563047559630354]
         """
         from dynsolve.numbered import at_state
         from dynsolve.numbers.given import of_call

@@ -39,6 +39,14 @@ class StageName(StrEnum):
     VECTORIZED = "vectorized"
 
 
+class AbbreviateName(StrEnum):
+    """Whether long results are written in names."""
+
+    AUTO = "auto"
+    NEVER = "never"
+    ALWAYS = "always"
+
+
 def solve(
     problem: Problems,
     json: Annotated[bool, typer.Option("--json", help="JSON with everything, one object a line.")] = False,
@@ -65,6 +73,9 @@ def solve(
     star: Annotated[
         bool, typer.Option("--star", help="Mark joint variables with a star everywhere.")
     ] = False,
+    abbreviate: Annotated[
+        AbbreviateName, typer.Option(help="Write long results in names, which are defined first.")
+    ] = AbbreviateName.AUTO,
     set_: SetOption = None,
     at: AtOption = None,
     digits: DigitsOption = None,
@@ -106,11 +117,11 @@ def solve(
         if hint:
             print_hint(solution, hint.value)
         elif place_and_form == Output(Format.TEXT, None):
-            _print_document(solution, detail, stages, star, place > 0)
+            _print_document(solution, detail, stages, star, abbreviate, place > 0)
         elif place_and_form == Output(Format.JSON, None):
-            _print_json(solution)
+            _print_json(solution, abbreviate)
         else:
-            writer.write(name, _report(solution, place_and_form, detail, stages, star, fragment))
+            writer.write(name, _report(solution, place_and_form, detail, stages, star, abbreviate, fragment))
     writer.close()
     return code
 
@@ -141,11 +152,11 @@ def _solved(name: str, quiet: bool) -> Solution:
         return solve_problem(problem, progress=advance)
 
 
-def _print_json(solution: Solution) -> None:
+def _print_json(solution: Solution, abbreviate: AbbreviateName) -> None:
     import sys
     from json import dump
 
-    dump(solution.to_json(), sys.stdout, ensure_ascii=False)
+    dump(solution.to_json(abbreviate.value), sys.stdout, ensure_ascii=False)
     sys.stdout.write("\n")
 
 
@@ -155,24 +166,39 @@ def _report(
     detail: DetailName,
     stages: list[str] | None,
     star: bool,
+    abbreviate: AbbreviateName,
     fragment: bool,
 ) -> bytes:
     from dynsolve.explain.step import Detail
     from dynsolve.reports import report
 
     level = Detail[detail.name]
-    return report(solution, output.format, detail=level, stages=stages, star=star, fragment=fragment)
+    return report(
+        solution,
+        output.format,
+        detail=level,
+        stages=stages,
+        star=star,
+        fragment=fragment,
+        abbreviate=abbreviate.value,
+    )
 
 
 def _print_document(
-    solution: Solution, detail: DetailName, stages: list[str] | None, star: bool, follows_another: bool
+    solution: Solution,
+    detail: DetailName,
+    stages: list[str] | None,
+    star: bool,
+    abbreviate: AbbreviateName,
+    follows_another: bool,
 ) -> None:
     from dynsolve.cli.page import print_document
+    from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.documents import solution_document
     from dynsolve.explain.step import Detail
     from dynsolve.reports import style_of
 
     if follows_another:
         typer.echo()
-    document = solution_document(solution, Detail[detail.name], stages)
+    document = solution_document(solution, Detail[detail.name], stages, Abbreviate(abbreviate.value))
     print_document(document, style_of(solution, star))

@@ -7,7 +7,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import count
 from typing import TYPE_CHECKING
 
-from dynsolve.document import Block, Document, Fold, Formula, Heading, Note, Table, Text, Uses
+from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Table, Text, Uses
+from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
+from dynsolve.explain.named import definition_blocks
 from dynsolve.explain.step import STAGES, Detail, Step
 from dynsolve.pipeline import course_rules
 
@@ -21,13 +23,19 @@ CONVENTIONS = {
 
 
 def solution_document(
-    solution: Solution, detail: Detail = Detail.NORMAL, stages: Iterable[str] | None = None
+    solution: Solution,
+    detail: Detail = Detail.NORMAL,
+    stages: Iterable[str] | None = None,
+    abbreviate: Abbreviate = Abbreviate.AUTO,
 ) -> Document:
-    """A solution with the steps of some stages, in the depth of `detail`."""
+    """A solution with the steps of some stages, in the depth of `detail`.
+
+    `abbreviate` says whether long results are written in names, which are defined first.
+    """
     stages = None if stages is None else tuple(stages)
     return Document((
         *_opening(solution),
-        *_stages(solution, detail, stages),
+        *_stages(solution, detail, stages, solution.abbreviated(abbreviate)),
         *solution.number_blocks(detail, stages),
         *_closing(solution),
     ))  # fmt: skip
@@ -42,13 +50,17 @@ def _opening(solution: Solution) -> Iterator[Block]:
         yield Text((fact,))
 
 
-def _stages(solution: Solution, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
+def _stages(
+    solution: Solution, detail: Detail, stages: Iterable[str] | None, short: Abbreviated | None
+) -> Iterator[Block]:
     """Stages and their steps, numbered as in the whole derivation."""
     numbers = {stage: number for number, stage in enumerate(STAGES, start=1)}
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     stage, place, extra = "", 0, 0
-    for step in solution.explain(stages):
+    for step in solution.explain(stages, short):
         if step.stage != stage:
+            if short is not None and step.stage == "vectorized":
+                yield from definition_blocks(short)
             stage, place, extra = step.stage, 0, 0
             yield Heading(f"{numbers[stage]}. {STAGES[stage]}", 2)
         if step.detail is Detail.FULL:  # 7.3.1, so that the others have the same number in every detail
@@ -78,7 +90,10 @@ def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Ite
             yield Formula(working, optional=True)
         if inputs:
             yield Uses(inputs)
-    for result, label in zip(step.result, _labels(step), strict=False):
+    if step.listed:
+        yield Equations(step.result)
+    labelled = () if step.listed else zip(step.result, _labels(step), strict=False)
+    for result, label in labelled:
         yield Formula(result, entries=step.entries, optional=step.optional, label=label)
     if detail > Detail.BRIEF:
         for note in step.notes:

@@ -42,7 +42,7 @@ class Step:
     and stands in the textbook at `source`; `working` is the same with this robot's
     quantities; `result` what comes out.  `entries` names the entries of a result
     that is a matrix too wide for the page; an `optional` result says nothing new, and
-    is left out where it does not fit.
+    is left out where it does not fit; results that are `listed` stand in one display.
     """
 
     id: str
@@ -57,4 +57,5 @@ class Step:
     table: Table | None = None
     entries: tuple[tuple[Node, ...], ...] = ()
     optional: bool = False
+    listed: bool = False
     detail: Detail = Detail.NORMAL

@@ -1,0 +1,292 @@
+"""The steps of a long model, in names: what would fill pages says what it is made of.
+
+D, the Christoffel symbols and g are given with the definitions of
+`explain.abbreviations`; the energies, the momenta and the forces by their formulas in
+d_ij, c_ijk and g_k; velocities and tensors of far links stay the products they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+
+from dynsolve.algebra.build import cost, negated, split_sign
+from dynsolve.document import Block, Equations, Fold, Heading, Prose, Text
+from dynsolve.explain import letters
+from dynsolve.explain.abbreviations import Abbreviated, Definition
+from dynsolve.explain.course import Course
+from dynsolve.explain.step import Detail, Step
+from dynsolve.notation import tree
+from dynsolve.notation.tree import (
+    ZERO,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Relation,
+    Row,
+    Sum,
+    Symbol,
+    equation,
+)
+from dynsolve.robot.model import Coordinate
+
+LONGEST = 200
+"""The operations up to which a result on the way to D, c_ijk and g is written out."""
+
+
+def in_names(steps: Iterable[Step], course: Course, short: Abbreviated) -> Iterator[Step]:
+    """The steps, with names in them and, of a model with named constants, without what fills pages."""
+    names = _Names(course, short)
+    for step in steps:
+        change = names.changes.get(step.id)
+        if change is not None:
+            yield change(step)
+        elif short.constants and names.is_too_long(step):
+            yield names.left_out(step)
+        else:
+            yield step
+
+
+def definition_blocks(short: Abbreviated) -> Iterator[Block]:
+    """The section in which the names are defined."""
+    if not short.definitions:
+        return
+    yield Heading("Abbreviations", 2)
+    if short.constants:
+        yield Fold("Inertial constants", tuple(_constant_blocks(short)), Detail.BRIEF)
+    if short.sums:
+        yield Fold("Recurring terms", tuple(_recurring_blocks(short)), Detail.BRIEF)
+
+
+def _constant_blocks(short: Abbreviated) -> Iterator[Block]:
+    count = len(short.constants)
+    yield Text((
+        f"The {count} base parameters: " if count > 1 else "The base parameter: ",
+        "the combinations of masses, mass centres, moments of inertia and lengths that D and g are made "
+        "of. What the arm does tells no more about its masses than their values.",
+    ))  # fmt: skip
+    yield Equations(tuple(map(_defined, short.constants)))
+
+
+def _recurring_blocks(short: Abbreviated) -> Iterator[Block]:
+    yield Text(("What stands in several places below, each made of those before it.",))
+    yield Equations(tuple(map(_defined, short.sums)))
+
+
+def _defined(definition: Definition) -> Relation:
+    return equation(definition.name, definition.meaning)
+
+
+class _Names:
+    """Formulas in d_ij, c_ijk and g_k; those that are zero are left out."""
+
+    def __init__(self, course: Course, short: Abbreviated) -> None:
+        self.course, self.short = course, short
+        self.n = course.robot.n
+        self.changes: dict[str, Callable[[Step], Step]] = {
+            "D": self.inertia,
+            "christoffel": self.christoffel,
+            "C": self.coriolis,
+            "g": self.gravity,
+        }
+        if short.constants:
+            self.changes |= {"K": self.kinetic, "L": self.lagrangian, "Cqd": self.coriolis_forces}
+            for q in course.robot.coordinates:
+                self.changes |= {
+                    f"dLdqd{q.index}": self.momentum(q),
+                    f"ddt{q.index}": self.momentum_rate(q),
+                    f"dLdq{q.index}": self.slope(q),
+                    f"tau{q.index}": self.force(q),
+                }
+
+    # -- the entries and their names ---------------------------------------------------------------
+
+    def d(self, i: int, j: int, dots: int = 0) -> Letter | None:
+        """The name of d_ij, from 0; None where it is zero."""
+        if self.short.D.rows[i][j] == ZERO:
+            return None
+        return replace(letters.entry("d", min(i, j) + 1, max(i, j) + 1), dots=dots)
+
+    def c(self, i: int, j: int, k: int) -> Letter | None:
+        i, j = min(i, j), max(i, j)
+        if self.short.christoffel[i, j, k] == ZERO:
+            return None
+        return letters.entry("c", i + 1, j + 1, k + 1)
+
+    def g(self, k: int) -> Letter | None:
+        return None if self.short.g.rows[k][0] == ZERO else letters.entry("g", k + 1)
+
+    def rate(self, k: int, dots: int = 1) -> Symbol:
+        return Symbol(self.course.robot.coordinates[k].name, dots)
+
+    def rates(self, i: int, j: int) -> tuple[Node, ...]:
+        """q̇_i q̇_j"""
+        return (Power(self.rate(i), Number(2)),) if i == j else (self.rate(i), self.rate(j))
+
+    def pairs(self) -> list[tuple[int, int]]:
+        return [(i, j) for i in range(self.n) for j in range(i, self.n)]
+
+    def accelerated(self, k: int) -> list[Node]:
+        """d_kj q̈_j"""
+        return [Product((d, self.rate(j, 2))) for j in range(self.n) if (d := self.d(k, j))]
+
+    def coriolis_terms(self, k: int) -> list[Node]:
+        """c_ijk q̇_i q̇_j, twice where i and j differ"""
+        return [
+            Product((*([] if i == j else [Number(2)]), c, *self.rates(i, j)))
+            for i, j in self.pairs()
+            if (c := self.c(i, j, k))
+        ]
+
+    # -- steps -------------------------------------------------------------------------------------
+
+    def is_too_long(self, step: Step) -> bool:
+        """Whether a step on the way would fill pages."""
+        on_the_way = step.stage == "inertia" or step.stage == "energy"
+        return on_the_way and max(map(_size, step.result), default=0) > LONGEST
+
+    def left_out(self, step: Step) -> Step:
+        """The step with its formula as its result."""
+        if step.formula is None:
+            return step
+        return replace(
+            step,
+            result=(),
+            notes=(*step.notes, ("Too long to be of use written out; the formula says what it is.",)),
+        )
+
+    def kinetic(self, step: Step) -> Step:
+        quadratic = Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))
+        terms = [
+            Product((*([letters.HALF] if i == j else []), d, *self.rates(i, j)))
+            for i, j in self.pairs()
+            if (d := self.d(i, j))
+        ]
+        return _with(
+            step,
+            equation(letters.K, quadratic, _total(terms)),
+            " Collected by the rates, it is a quadratic form; its coefficients are the entries of D, which "
+            "the vectorized form gives.",
+        )
+
+    def lagrangian(self, step: Step) -> Step:
+        quadratic = Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))
+        return _with(step, equation(letters.L, Sum((quadratic, Negative(letters.P)))))
+
+    def momentum(self, q: Coordinate) -> Callable[[Step], Step]:
+        k = q.index - 1
+        terms: list[Node] = [Product((d, self.rate(j))) for j in range(self.n) if (d := self.d(k, j))]
+        result = equation(letters.slope(letters.L, letters.rate(q)), _total(terms))
+        return lambda step: _with(step, result, " The entries of D are given with the vectorized form.")
+
+    def momentum_rate(self, q: Coordinate) -> Callable[[Step], Step]:
+        k = q.index - 1
+        D, ring = self.course.values["D"], self.course.robot.ring
+        moving = [any(not ring.diff(D[k, j], i).is_zero for i in range(self.n)) for j in range(self.n)]
+        rates = [
+            Product((d, self.rate(j))) for j in range(self.n) if moving[j] and (d := self.d(k, j, dots=1))
+        ]
+        left = letters.time_rate(letters.slope(letters.L, letters.rate(q)))
+        result = equation(left, _total([*self.accelerated(k), *rates]))
+        i, j, row = (Symbol(name) for name in ("i", "j", str(q.index)))
+        both = tree.Parenthesized(Sum((Letter("c", Row((i, j, row))), Letter("c", Row((i, row, j))))))
+        change = equation(
+            Letter("d", Row((row, j)), dots=1),
+            tree.BigSum(Product((both, Letter("q", i, dots=1))), i, Number(1), Number(self.n)),
+        )
+        return lambda step: _with(step, result, " In the Christoffel symbols, ", change, ".")
+
+    def slope(self, q: Coordinate) -> Callable[[Step], Step]:
+        k = q.index - 1
+        by = Symbol(q.name)
+        D, ring = self.course.values["D"], self.course.robot.ring
+        moves = any(not ring.diff(D[i, j], k).is_zero for i, j in self.pairs())
+        terms: list[Node] = []
+        if moves:
+            middle = tree.Parenthesized(letters.slope(letters.D, by))
+            terms.append(Product((letters.HALF, letters.transposed_product(letters.QD, middle))))
+        if g := self.g(k):
+            terms.append(Negative(g))
+        result = equation(letters.slope(letters.L, by), _total(terms))
+        return lambda step: _with(step, result)
+
+    def force(self, q: Coordinate) -> Callable[[Step], Step]:
+        k = q.index - 1
+        g = self.g(k)
+        terms = [*self.accelerated(k), *self.coriolis_terms(k), *([g] if g else [])]
+        result = equation(letters.force(q), _total(terms))
+        return lambda step: _with(
+            step, result, " Collected by the accelerations and the rates; the factors follow below."
+        )
+
+    def coriolis_forces(self, step: Step) -> Step:
+        product = Product((letters.C, letters.QD))
+        rows = tuple((_total(self.coriolis_terms(k)),) for k in range(self.n))
+        return replace(step, result=(equation(product, tree.Matrix(rows)),))
+
+    def inertia(self, step: Step) -> Step:
+        return replace(step, result=(equation(letters.D, self.short.D),))
+
+    def gravity(self, step: Step) -> Step:
+        return replace(step, result=(equation(letters.G, self.short.g),))
+
+    def coriolis(self, step: Step) -> Step:
+        """C by its Christoffel symbols, where those are long."""
+        C = self.short.C
+        results = list(step.result)
+        if self.short.constants:
+            C = tree.Matrix(tuple(tuple(self.entry(k, j) for j in range(self.n)) for k in range(self.n)))
+            results = results[:1]
+        return replace(step, result=(equation(letters.C, C), *results[1:]))
+
+    def entry(self, k: int, j: int) -> Node:
+        """c_kj = Σ_i c_ijk q̇_i"""
+        return _total([Product((c, self.rate(i))) for i in range(self.n) if (c := self.c(i, j, k))])
+
+    def christoffel(self, step: Step) -> Step:
+        """The distinct symbols; those that are equal, or each other's opposites, in one chain."""
+        groups: dict[Node, list[tuple[int, Letter]]] = {}
+        symbols = self.short.christoffel
+        for i, j, k in sorted(symbols, key=lambda ijk: (ijk[2], ijk[0], ijk[1])):
+            value, name = symbols[i, j, k], letters.entry("c", i + 1, j + 1, k + 1)
+            if value == ZERO:
+                continue
+            if negated(value) in groups:
+                groups[negated(value)].append((-1, name))
+            else:
+                groups.setdefault(value, []).append((1, name))
+        rows = tuple(_chain(named, value) for value, named in groups.items())
+        return replace(step, result=rows, listed=True)
+
+
+def _chain(named: Sequence[tuple[int, Node]], value: Node) -> Relation:
+    """c_112 = -c_121 = ... = value, a value with a plus"""
+    sign, value = split_sign(value)
+    signed = sorted(((s * sign, name) for s, name in named), key=lambda pair: -pair[0])
+    return equation(*(name if s > 0 else Negative(name) for s, name in signed), value)
+
+
+def _size(node: Node) -> int:
+    """The operations in a result."""
+    value = node.parts[-1] if isinstance(node, Relation) else node
+    if isinstance(value, tree.Matrix):
+        return sum(_size(entry) for row in value.rows for entry in row)
+    try:
+        return cost(value)
+    except TypeError:  # a formula in letters
+        return 0
+
+
+def _total(terms: Sequence[Node]) -> Node:
+    if not terms:
+        return ZERO
+    return terms[0] if len(terms) == 1 else Sum(tuple(terms))
+
+
+def _with(step: Step, result: Node, *more: str | Node) -> Step:
+    """The step with a result in names, and what there is to say about it."""
+    why: Prose = (*step.why, *more)
+    return replace(step, result=(result,), why=why)
