@@ -1,0 +1,56 @@
+"""Pictures for the tests: drawn once, and what lies on what in them."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from dynsolve.draw.ink import WHITE, line
+from dynsolve.draw.labels import Label
+from dynsolve.draw.scene import Scene, scene
+from dynsolve.draw.space import Box, Taken
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem import load, read_problem
+
+ROOT = Path(__file__).parent.parent.parent.parent
+LIBRARY = sorted((ROOT / "problems").glob("*.yaml"))
+TEXTBOOKS = sorted((ROOT / "tests" / "golden" / "textbooks").glob("*.yaml"))
+
+
+@cache
+def drawn(path: Path) -> Scene:
+    return scene(load(path))
+
+
+def drawn_text(text: str) -> Scene:
+    return scene(read_problem(text.encode(), "problem.yaml"))
+
+
+def names(picture: Scene, kind: str = "") -> list[str]:
+    """What the labels of a kind say, or all; axes that share a label apart."""
+    labels = [label for label in picture.labels if kind in ("", label.kind)]
+    return [name for label in labels for name in to_unicode(label.node, picture.style).split(", ")]
+
+
+def overlapping(picture: Scene) -> list[tuple[str, str]]:
+    """Labels that lie on one another."""
+    labels = picture.labels
+    return [
+        (to_unicode(a.node), to_unicode(b.node))
+        for k, a in enumerate(labels)
+        for b in labels[k + 1 :]
+        if a.box.overlaps(b.box)
+    ]
+
+
+def struck_through(picture: Scene) -> list[str]:
+    """Labels that have something drawn under or over their letters, but for their own line."""
+    return [to_unicode(label.node) for label in picture.labels if _hits(picture, label) > 1]
+
+
+def _hits(picture: Scene, label: Label) -> int:
+    own = line(*label.lead) if label.lead else None
+    taken = Taken()
+    taken.add(p for p in picture.paths if p.commands != own and (p.fill or p.stroke != WHITE))
+    box = label.box
+    return taken.inside(Box(box.left + 1, box.top + 2, box.right - 1, box.bottom - 2))

@@ -1,0 +1,137 @@
+"""Every robot's picture: whole, readable, and the same every time."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+
+from dynsolve.draw.ink import flattened
+from dynsolve.draw.scene import scene
+from dynsolve.draw.svg import to_svg
+from dynsolve.problem import load
+from dynsolve.robot.model import JointType
+
+from .pictures import LIBRARY, TEXTBOOKS, drawn, drawn_text, names, overlapping, struck_through
+
+ALL = [*LIBRARY, *TEXTBOOKS]
+
+ODD = {
+    "one revolute joint": "dh: [{theta: q1*}]",
+    "one prismatic joint": "dh: [{d: q1*}]",
+    "no lengths at all": "dh: [{theta: q1*}, {theta: q2*}, {theta: q3*}]",
+    "no gravity": "gravity: none\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]",
+    "gravity across the plane": "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]",
+    "a turned base": "base: Rx(90deg)\ndh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {d: q3*}]",
+    "on a wall": "base: Ry(90deg)\ndh: [{theta: q1*, d: L1, alpha: 90deg}, {theta: q2*, a: l2}, {a: 0.3}]",
+    "fixed rows first": "dh: [{a: b0, d: h0}, {theta: q1*, a: l1}, {theta: q2*, a: l2}]",
+    "three slides": "dh: [{d: d1*, alpha: -90deg}, {d: d2*, theta: -90deg, alpha: -90deg}, {d: d3*}]",
+    "hanging": "base: Rx(180deg)\ndh: [{theta: t1*, d: L1, alpha: 90deg}, {theta: t2*, a: l2}]",
+    "roots and quotients": "dh: [{theta: t1* + beta, d: s/r, alpha: gamma}, {theta: t2*, a: sqrt(r - s)}]",
+    "very different lengths": "dh: [{theta: t1*, d: 400, alpha: 90deg}, {theta: t2*, a: 3}]",
+    "negative lengths": "dh: [{theta: t1*, d: -d1, alpha: 90deg}, {theta: t2*, a: -a2}]",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
+def test_no_label_lies_on_another(path: Path) -> None:
+    assert overlapping(drawn(path)) == []
+
+
+@pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
+def test_no_line_runs_through_a_label(path: Path) -> None:
+    assert struck_through(drawn(path)) == []
+
+
+@pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
+def test_everything_is_inside_the_picture(path: Path) -> None:
+    picture = drawn(path)
+    frame = picture.frame
+    for label in picture.labels:
+        box = label.box
+        assert frame.left < box.left and box.right < frame.right, label
+        assert frame.top < box.top and box.bottom < frame.bottom, label
+    for x, y in (point for p in picture.paths for piece in flattened(p.commands) for point in piece):
+        assert frame.left < x < frame.right and frame.top < y < frame.bottom
+
+
+@pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
+def test_axes_joints_and_masses_are_named(path: Path) -> None:
+    robot, picture = load(path).robot, drawn(path)
+    subscripts = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+    axes = [f"{letter}{i}".translate(subscripts) for letter in "xz" for i in range(len(robot.joints) + 1)]
+    assert sorted(names(picture, "axis")) == sorted(axes)
+    assert names(picture, "mass") == [f"r_c{body.name}" for body in robot.bodies]
+    assert sum("⋆" in name for name in names(picture, "variable")) == sum(
+        joint.type is not None for joint in robot.joints
+    )
+    assert names(picture, "gravity") == ([] if robot.gravity.is_zero else ["g"])
+
+
+@pytest.mark.parametrize("text", ODD.values(), ids=ODD.keys())
+def test_odd_robots_are_drawn(text: str) -> None:
+    picture = drawn_text(text)
+    assert overlapping(picture) == []
+    assert "nan" not in to_svg(picture) and "inf" not in to_svg(picture)
+
+
+@pytest.mark.parametrize("name", ["in3140-rp", "planar-2r", "puma560"])
+def test_a_picture_is_the_same_every_time(name: str) -> None:
+    path = next(path for path in LIBRARY if path.stem == name)
+    assert to_svg(scene(load(path))) == to_svg(drawn(path))
+
+
+def test_a_planar_arm_is_drawn_flat() -> None:
+    """Seen from straight in front, z axes are points and x axes have their full length."""
+    problem = load(next(path for path in LIBRARY if path.stem == "planar-2r"))
+    from dynsolve.draw.numbers import numbers
+    from dynsolve.draw.setting import setting
+
+    world = setting(problem.robot, numbers(problem))
+    assert world.normal == pytest.approx((0.0, 0.0, 1.0)) and world.up == pytest.approx((0.0, 1.0, 0.0))
+
+
+@pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r", "scara-rrpr", "crustcrawler-2r"])
+def test_an_arm_that_leaves_its_plane_is_drawn_in_space(name: str) -> None:
+    from dynsolve.draw.numbers import numbers
+    from dynsolve.draw.setting import setting
+
+    problem = load(next(path for path in LIBRARY if path.stem == name))
+    assert setting(problem.robot, numbers(problem)).normal is None
+
+
+def test_a_part_of_a_symbol_is_labelled_as_that_part() -> None:
+    """[0, 0, l2/2] puts the centre half of l2 away, and the picture says so."""
+    shown = names(drawn(next(path for path in LIBRARY if path.stem == "box-cylinder-rod-sphere")))
+    assert "l₂/2" in shown and "l₂" not in shown
+
+
+def test_no_star_leaves_the_marks_out() -> None:
+    problem = load(next(path for path in LIBRARY if path.stem == "in3140-rp"))
+    shown = names(scene(problem, star=False))
+    assert "θ₁ + 90°" in shown and "L₂" in shown and "L₁" in shown
+
+
+def test_joint_types_have_their_names_in_the_description() -> None:
+    picture = drawn(next(path for path in LIBRARY if path.stem == "in3140-rp"))
+    assert "revolute joint 1 (theta1), prismatic joint 2 (L2)" in picture.description
+    assert JointType.PRISMATIC.value in picture.description
+
+
+def test_titles_are_text_in_the_svg() -> None:
+    title = r"<script>alert(1)</script> & %_ \input{x} ]]> “”\u202e"
+    picture = drawn_text(f"title: '{title}'\ndh: [{{theta: q1*, a: l1}}]")
+    root = ET.fromstring(to_svg(picture))  # noqa: S314 - our own
+    found = root.find("{http://www.w3.org/2000/svg}title")
+    assert found is not None and found.text is not None and "<script>alert(1)</script> & %_" in found.text
+    assert not root.findall(".//{http://www.w3.org/2000/svg}script")
+
+
+def test_labels_are_text_with_indices() -> None:
+    svg = to_svg(drawn(next(path for path in LIBRARY if path.stem == "in3140-rp")))
+    labels = re.findall(r"<text [^>]*>(.*?)</text>", svg)
+    plain = {re.sub("<[^>]*>", "", label) for label in labels}
+    assert {"θ1∗+\xa090°", "L2∗", "L1", "rc1", "rc2", "z0", "x2", "g"} <= plain
+    assert '<tspan font-style="italic">θ</tspan><tspan font-size="11.9" dy="4.08">1</tspan>' in svg
