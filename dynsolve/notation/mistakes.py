@@ -14,6 +14,7 @@ _KNOWN_ELSEWHERE = frozenset(
     "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh sec csc cot sgn abs pow max min "
     "sind cosd sine cosine tangent root".split()
 )
+_UNITS = frozenset("m cm mm kg g s N Nm rad".split())
 _EXCERPT = 60
 
 
@@ -43,7 +44,10 @@ def missing_product(text: str, tokens: Sequence[Token], position: int) -> ReadEr
     message = f"{what} is missing between `{before.text}` and `{after.text}`"
     if both_numbers:
         return ReadError(message, offset, length, "a decimal is written with one point: 9.81")
-    return ReadError(message, offset, length, f"products are written out: {' '.join(corrected.split())}")
+    help = f"products are written out: {' '.join(corrected.split())}"
+    if before.kind == "number" and after.text in _UNITS:
+        help += f"; if `{after.text}` is the unit, leave it out"
+    return ReadError(message, offset, length, help)
 
 
 def unknown_function(token: Token, name: str) -> ReadError | None:

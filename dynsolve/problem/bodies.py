@@ -204,7 +204,7 @@ def _read_center(report: Report, fields: Fields, index: int) -> CenterSheet | No
     if node is None:
         if "inertia" in fields or isinstance(fields.get("shape"), MappingNode):
             if fields.lacks("center"):
-                report.error(fields.span, f"body {index} is no point, and has no `center`", _CENTER_HELP)
+                report.error(fields.span, f"body {index} is not a point and has no `center`", _CENTER_HELP)
             return None
         return CenterSheet("tip", fields.span)
     if isinstance(node, Sequence):
@@ -212,7 +212,7 @@ def _read_center(report: Report, fields: Fields, index: int) -> CenterSheet | No
         return CenterSheet("at", node.span, cells) if cells else None
     if isinstance(node, MappingNode):
         return _read_measured(report, node, what)
-    kind = word(report, node, CENTERS, what)
+    kind = word(report, node, CENTERS, what, _CENTER_HELP)
     return CenterSheet(kind, node.span) if kind else None
 
 
@@ -287,6 +287,12 @@ def _read_tensor(report: Report, node: Node | None, body: str) -> TensorSheet | 
     if node is None or isinstance(node, Faulty):
         return None
     if isinstance(node, Sequence):
+        words = [item.text for item in node.items if isinstance(item, Scalar)]
+        if len(words) == len(node.items) == 3:
+            moments = ", ".join(f"{axis}{axis}: {moment}" for axis, moment in zip(AXES, words, strict=True))
+            message = f"the inertia of {body} is a tensor, not a list of three"
+            report.error(node.span, message, f"write {{{moments}}}, or three rows of three")
+            return None
         rows = read_matrix(report, node, f"the inertia of {body}")
         return TensorSheet(node.span, rows, listed=True) if rows else None
     if not isinstance(node, MappingNode) or not node.entries:

@@ -6,6 +6,8 @@ import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from difflib import get_close_matches
 
+from dynsolve.errors import ReadError
+from dynsolve.notation.names import normalize
 from dynsolve.problem.source import Report
 from dynsolve.problem.yaml_nodes import Faulty, Mapping, Node, Scalar, Span
 from dynsolve.problem.yaml_nodes import Sequence as ListNode
@@ -56,6 +58,15 @@ def odd_letter(word: str) -> str:
     return ""
 
 
+def _spelled_out(word: str, known: Sequence[str]) -> str:
+    """The known word that is written with a Greek letter, as in the table on paper."""
+    try:
+        spelled = normalize(word) if not word.isascii() else ""
+    except ReadError:
+        return ""
+    return spelled if spelled in known else ""
+
+
 def unknown(report: Report, key: Scalar, value: Node, known: Sequence[str], what: str) -> str:
     """Note an unknown key; the known one that was probably meant, or nothing."""
     word = key.decoded
@@ -67,7 +78,7 @@ def unknown(report: Report, key: Scalar, value: Node, known: Sequence[str], what
         return name.strip()
     odd = odd_letter(word)
     plain = "".join(c if c.isascii() else "?" for c in word)
-    meant = nearest(plain, known)
+    meant = _spelled_out(word, known) or nearest(plain, known)
     help = f"did you mean `{meant}`?" if meant else f"known are {', '.join(known)}"
     if odd:
         help = f"{odd}; {help}"
@@ -133,18 +144,17 @@ def items(report: Report, node: Node | None, what: str, help: str) -> tuple[Node
     return ()
 
 
-def word(report: Report, node: Node | None, known: Sequence[str], what: str) -> str | None:
-    """One of a few words, None (reported) where it is another."""
+def word(report: Report, node: Node | None, known: Sequence[str], what: str, help: str = "") -> str | None:
+    """One of a few words, None (reported, with `help` unless one is close) where it is another."""
     if node is None or isinstance(node, Faulty):
         return None
     text = node.text if isinstance(node, Scalar) else ""
     if text in known:
         return text
     choices = ", ".join(known)
-    help = did_you_mean(text, known) if text else ""
-    report.error(
-        node.span, f"{what} is one of {choices}, not {describe(node)}", help or f"write one of {choices}"
-    )
+    close = did_you_mean(text, known) if text else ""
+    message = f"{what} is one of {choices}, not {describe(node)}"
+    report.error(node.span, message, close or help or f"write one of {choices}")
     return None
 
 

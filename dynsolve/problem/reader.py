@@ -41,6 +41,8 @@ KEYS = (
 )
 """The keys of a problem file, in the order of the documentation."""
 
+_CONVENTION_HELP = "`standard` is that of Spong, `modified` that of Craig"
+
 
 @dataclass(frozen=True, slots=True)
 class Reading:
@@ -136,7 +138,9 @@ def _root_fields(report: Report, root: Node | None) -> Fields | None:
 
 
 def _sheet(report: Report, fields: Fields) -> Sheet:
-    named = word(report, fields.get("convention"), [c.value for c in Convention], "convention")
+    named = word(
+        report, fields.get("convention"), [c.value for c in Convention], "convention", _CONVENTION_HELP
+    )
     convention = Convention(named or "standard")
     table = read_table(report, fields, convention is Convention.MODIFIED)
     coordinates = dict(table.coordinates)

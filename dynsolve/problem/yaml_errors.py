@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from dynsolve.problem.source import Report
@@ -85,6 +86,9 @@ def _bracket(text: str, at: int, opened: int) -> tuple[int, str, str]:
     bracket = text[opened : opened + 1]
     closing = {"{": "}", "[": "]"}.get(bracket, "bracket")
     same_line = "\n" not in text[opened:at].rstrip()
+    if same_line and (latex := re.search(r"\\[a-zA-Z]+", text[opened:at])):
+        message = f"`{latex[0]}` is LaTeX, which has no meaning here"
+        return opened + latex.start(), message, "write plain text: theta1, pi/2 or 90deg, a/b, sqrt(2)"
     if same_line and at < len(text) and text[at] not in "\n]}":
         return (
             at,

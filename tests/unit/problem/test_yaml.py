@@ -13,6 +13,7 @@ SYNTAX = {
     "a bracket that stays open": ("gravity: «[»0, 0, -g\n", "never closed"),
     "the wrong bracket": ("gravity: [0, 0, -g«}»\n", "does not close the `[`"),
     "a missing comma": ("dh:\n  - {theta: q1* d«:» 0}\n", "a comma is missing"),
+    "LaTeX between braces": ("dh:\n  - {theta: q1*, alpha: «\\»frac{pi}{2}}\n", "is LaTeX"),
     "a bracket too many": ("find: [tau]«]»\n", "closes nothing"),
     "a comma too many": ("gravity: [0,«,» -g]\n", "a value is missing"),
     "two colons": ("title: RP«:» a manipulator\n", "this `:` cannot stand here"),
