@@ -1,4 +1,4 @@
-"""Parentheses and matrices in every notation: bmatrix, array, [[a, b], [c, d]], [a, b; c, d], rows below one another."""
+"""Parentheses and matrices in every notation: bmatrix, [[a, b], [c, d]], [a, b; c, d], rows below rows."""
 
 from __future__ import annotations
 
@@ -75,8 +75,7 @@ def square(reader: Reader) -> Value:
     reader.expect("]", opening)
     rows = [row for row in rows if row]
     if len(rows) == 1 and len(rows[0]) == 1:
-        only = rows[0][0]
-        return only
+        return rows[0][0]
     if len(rows) == 1 and all(isinstance(entry, Grid) and entry.shape[0] == 1 for entry in rows[0]):
         rows = [[entry] for entry in rows[0]]
     found = finished(reader, rows, opening)

@@ -166,7 +166,7 @@ def _named(reader: Reader, name: str) -> Symbol:
 def stands_here(reader: Reader) -> bool:
     """Whether a derivative in plain text begins here."""
     token = reader.token
-    if token.kind == "name" and token.text == "d" or token.text == "partial":
+    if (token.kind == "name" and token.text == "d") or token.text == "partial":
         return _slash(reader) is not None
     if token.kind == "name" and len(token.text) > 1 and token.text[0] == "d" and reader.peek().kind == "/":
         return _begins_with_d(reader.peek(2)) and key(token.text[1:]) in ("L", "K", "P", "T", "V", "U")

@@ -124,8 +124,7 @@ def _pieces(row: list[Token]) -> list[list[Token]]:
         level = max(level + _OPENS.get(token.kind, 0), 0)
         if level == 0 and (
             token.kind == "separator"
-            or token.text in SEPARATORS
-            and token.kind == "command"
+            or (token.text in SEPARATORS and token.kind == "command")
             or token.kind in (",", ";")
         ):
             pieces.append([])

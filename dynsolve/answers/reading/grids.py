@@ -129,7 +129,7 @@ def times(left: Value, right: Value, sign: str = "") -> Value:
     if sign == "times" and left.shape == right.shape == (3, 1):
         return _cross(left, right)
     if sign == "cdot" and left.shape == right.shape and left.shape[1] == 1:
-        left = transposed(left)
+        return _product(Grid(tuple(zip(*left.rows, strict=True))), right)
     return _product(left, right)
 
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from dynsolve.answers.reading.forms import Form, is_angle
-from dynsolve.answers.reading.grids import Abstract, Grid, Value, mapped
+from dynsolve.answers.reading.forms import Form
+from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, is_running, key
 from dynsolve.answers.submission import reference
 from dynsolve.errors import ReadError
@@ -19,7 +18,6 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
-    Power,
     Product,
     Quotient,
     Sum,
@@ -68,11 +66,11 @@ def value_of(reader: Reader, form: Form) -> Value:
     if meaning is None:
         meaning = _meaning(reader, form, name)
     if meaning is None:
-        found = None if reader.naming else _quantity(reader, form, name)
-        if found is None:
-            found = _letter(reader, form, name)
-        if found is not None:
-            return found
+        other = None if reader.naming else _quantity(reader, form, name)
+        if other is None:
+            other = _letter(reader, form, name)
+        if other is not None:
+            return other
         raise _unknown(reader, form, name)
     if meaning.note:
         reader.notes.setdefault(meaning.note)
@@ -142,6 +140,8 @@ def _note_use(reader: Reader, value: Value) -> None:
 
 def skip_time(reader: Reader) -> None:
     """Leave out the `(t)` of q1(t)."""
+    if reader.token.kind not in ("(", "[", "{"):
+        return
     kinds = []
     for ahead in range(5):
         token = reader.peek(ahead)

@@ -20,7 +20,6 @@ from dynsolve.answers.reading.grids import (
     Grid,
     Value,
     divided,
-    mapped,
     negative,
     times,
     total,

@@ -140,8 +140,8 @@ def scan(text: str) -> list[Token]:
 
     Raises ReadError for a character of no formula, and for a text over the bounds.
 
-    >>> [token.text for token in scan(r"m_2 \dot{θ}₁")][:3]
-    ['m_2', '\\', 'dot']
+    >>> [token.text for token in scan(r"m_2 \dot{θ}")]
+    ['m_2', 'dot', '{', 'theta', '}', '']
     """
     if len(text) > MAX_LENGTH:
         message = f"an equation of {len(text)} characters; at most {MAX_LENGTH} are read"
@@ -151,6 +151,9 @@ def scan(text: str) -> list[Token]:
     spaced = broken = False
     match = _TOKEN.match
     while offset < length:
+        if len(found) > MAX_TOKENS:
+            message = f"an equation of more than {MAX_TOKENS} signs"
+            raise ReadError(message, offset, 1, "name parts of it with abbreviations")
         piece = match(text, offset)
         if piece is None:
             raise character_error(text[offset], offset)
@@ -159,7 +162,13 @@ def scan(text: str) -> list[Token]:
             spaced = True
             broken = broken or "\n" in piece.group()
         else:
-            token = _token(str(kind), piece.group(), offset, end, spaced, broken)
+            text_of = piece.group()
+            if kind == "number" or (kind == "name" and text_of.isascii() and end - offset <= MAX_IDENTIFIER):
+                found.append(Token(kind, text_of, offset, end, 0, spaced, broken))
+                spaced = broken = False
+                offset = end
+                continue
+            token = _token(str(kind), text_of, offset, end, spaced, broken)
             if token is None:
                 spaced = True
             else:
@@ -169,9 +178,6 @@ def scan(text: str) -> list[Token]:
                 spaced = broken = False
                 if token.kind == "\\\\" and (skipped := _DIMENSION.match(text, end)):
                     end = skipped.end()
-            if len(found) > MAX_TOKENS:
-                message = f"an equation of more than {MAX_TOKENS} signs"
-                raise ReadError(message, offset, 1, "name parts of it with abbreviations")
         offset = end
     found.append(Token("end", "", length, length, 0, spaced, broken))
     return found

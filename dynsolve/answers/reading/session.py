@@ -22,7 +22,7 @@ from dynsolve.answers.reading.scan import Token, scan
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, key
 from dynsolve.answers.submission import Answer, NotRecognized, Place, referred
 from dynsolve.errors import ReadError
-from dynsolve.notation.printing import Style
+from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import (
     ZERO,
     Function,
@@ -37,7 +37,6 @@ from dynsolve.notation.tree import (
     Words,
 )
 from dynsolve.notation.unicode import printable, to_unicode
-
 
 _WAYS: tuple[frozenset[str], ...] = (frozenset(), frozenset({"inertia"}), frozenset({"spaces"}))
 """How a value may be read: as it stands; a bare I_1 as the moment of inertia; blanks between entries."""
@@ -88,14 +87,13 @@ class _Pending:
 class Session:
     """Reads equation after equation of one hand-in."""
 
-    def __init__(self, vocabulary: Vocabulary) -> None:
-        self.vocabulary = vocabulary
+    def __init__(self, vocabulary: Vocabulary, style: Style = PLAIN) -> None:
+        self.vocabulary, self.style = vocabulary, style
         self.macros: dict[str, Macro] = {}
         self.answers: list[Answer] = []
         self.pending: list[_Pending] = []
         self.not_recognized: list[NotRecognized] = []
         self.chains = 0
-        self.style = Style(shorthand={})
         self._model: list[Answer] = []
 
     # Displays
@@ -183,10 +181,8 @@ class Session:
             return
         members = chain(tokens)
         if len(members) > MAX_MEMBERS:
-            error = ReadError(
-                f"more than {MAX_MEMBERS} members of one chain", members[-1][0].start if members[-1] else 0
-            )
-            self._unreadable(candidates, display, error, label, (self.chains, 0))
+            fault = ReadError(f"more than {MAX_MEMBERS} members of one chain", 0, 1, "write the value alone")
+            self._unreadable(candidates, display, fault, label, (self.chains, 0))
             return
         side = self._side(members[0]) if len(members) > 1 else None
         if isinstance(side, Name) and set(side.candidates) & set(candidates):
@@ -194,8 +190,8 @@ class Session:
         for index, member in enumerate(members):
             where = (self.chains, index)
             if not member:
-                error = ReadError("nothing stands on one side of this `=`", 0, 1, "write the value alone")
-                self._unreadable(candidates, display, error, label, where)
+                fault = ReadError("nothing stands on one side of this `=`", 0, 1, "write the value alone")
+                self._unreadable(candidates, display, fault, label, where)
                 continue
             found = self.member(member, candidates)
             if isinstance(found, Read) and isinstance(found.value, Abstract):
@@ -219,9 +215,7 @@ class Session:
                 side = self._side(member)
             elif not last or not any(isinstance(side, Name) for side in found):
                 side = self._side(member)
-                if isinstance(side, Unknown):
-                    side = None
-                elif last and self._is_symbol(member):
+                if isinstance(side, Unknown) or (last and self._is_symbol(member)):
                     side = None
             elif member[0].kind in ("begin", "["):
                 side = self._side(member)

@@ -19,7 +19,7 @@ def own_symbols(session: Session, display: Display, name: str, is_symbol: bool) 
     try:
         shown = simplified(scan(name))[:-1]
         plain = key("".join(t.text for t in shown if t.kind in ("name", "letter", "number")))
-        dots = sum(t.dots + ("dot" == t.text) + 2 * ("ddot" == t.text) for t in shown)
+        dots = sum(t.dots + (t.text == "dot") + 2 * (t.text == "ddot") for t in shown)
         tokens = simplified(expand(scan(display.text), session.macros))[:-1]
     except ReadError as error:
         session.vocabulary.broken[key(name)] = error.message

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from itertools import product
 
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.notation.names import split
@@ -32,7 +33,7 @@ def key(name: str) -> str:
     >>> key("I_{1,zz}"), key("theta_1")
     ('I1zz', 'theta1')
     """
-    return _STRIP.sub("", name)
+    return name if name.isalnum() else _STRIP.sub("", name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +99,7 @@ class Vocabulary:
 
     def angle_of(self, digits: str) -> Node | None:
         """The sum of the coordinates with these subscripts: `12` is theta1 + theta2."""
-        if not digits or len(digits) > len(self.coordinates) and digits not in self.subscripts:
+        if not digits or (len(digits) > len(self.coordinates) and digits not in self.subscripts):
             return None
         if digits in self.subscripts:
             return self._angle(digits)
@@ -252,18 +253,13 @@ def _quantities(
     table.add("C", (n, n), "", ("C",))
     table.add("g", vector, "", ("g", "G", "phi", "gvec"))
     table.add("Cqd", vector, "", ("Cqd", "c", "V", "Cqdot", "h", "C"))
-    digits = [str(i) for i in range(1, n + 1)]
-    for i in digits:
-        for j in digits:
-            table.add(
-                f"d{i}{j}",
-                None,
-                "d",
-                (f"d{i}{j}", f"D{i}{j}", f"m{i}{j}", f"M{i}{j}", f"b{i}{j}", f"B{i}{j}"),
-            )
-            table.add(f"C{i}{j}", None, "C", (f"C{i}{j}", f"c{i}{j}"))
-            for k in digits:
-                table.add(f"c{i}{j}{k}", None, "c", (f"c{i}{j}{k}", f"C{i}{j}{k}", f"Gamma{i}{j}{k}"))
+    digits = [str(digit) for digit in range(1, n + 1)]
+    for row, column in product(digits, digits):
+        ij = row + column
+        table.add(f"d{ij}", None, "d", tuple(letter + ij for letter in "dDmMbB"))
+        table.add(f"C{ij}", None, "C", (f"C{ij}", f"c{ij}"))
+        for k in digits:
+            table.add(f"c{ij}{k}", None, "c", (f"c{ij}{k}", f"C{ij}{k}", f"Gamma{ij}{k}"))
     return table.names, table.shapes, table.families
 
 
@@ -289,7 +285,7 @@ class _Quantities:
 def _add_body(table: _Quantities, b: str, n: int) -> None:
     column: Shape = (3, 1)
     table.add(f"rc{b}", column, "rc", (f"rc{b}", f"pc{b}", f"oc{b}", f"rm{b}"))
-    for canonical, letter, marks in (("v", "v", ("v",)), ("w", "omega", ("omega", "w"))):
+    for canonical, marks in (("v", ("v",)), ("w", ("omega", "w"))):
         points = ("", "c", "m") if canonical == "v" else ("", "c")
         for mark in marks:
             spellings = tuple(f"{mark}{point}{b}" for point in points)

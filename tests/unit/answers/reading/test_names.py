@@ -149,7 +149,7 @@ def test_a_name_on_the_left(name: str, value: str, canonical: str) -> None:
 
 @pytest.mark.parametrize(("name", "value", "canonical"), [row for row in NAMES if row[0] not in ("g", "G")])
 def test_a_name_on_the_right(name: str, value: str, canonical: str) -> None:
-    if canonical[0] in "dcCIw" and name[0] in "cCdmMI" or canonical == "Cqd":
+    if (canonical[0] in "dcCIw" and name[0] in "cCdmMI") or canonical == "Cqd":
         return  # on the right these are cosines and symbols of the problem
     found = report(f"$$ 2 {value} = {name} $$")
     assert [answer.name for answer in found.answers] == [canonical], found.not_recognized

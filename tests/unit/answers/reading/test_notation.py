@@ -28,7 +28,7 @@ def answer(stem: str, name: str, text: str, head: str = "") -> Answer:
     return answers[0]
 
 
-STATE = random.Random(4)  # noqa: S311
+STATE = random.Random(4)
 
 
 def values(stem: str) -> dict[str, float]:
