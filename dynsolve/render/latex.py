@@ -229,7 +229,7 @@ class _Page:
         head, *body = rows
         columns = "c" * len(table.header)
         return (
-            f"\\begin{{center}}\n\\begin{{tabular}}{{{columns}}}\n{head} \\\\ \\hline\n"
+            f"\\begin{{center}}\n\\begin{{tabular}}{{{columns}}}\n{head} \\\\ \\hline\\rule{{0pt}}{{2.6ex}}"
             + " \\\\\n".join(body)
             + " \\\\\n\\end{tabular}\n\\end{center}"
         )
