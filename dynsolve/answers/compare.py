@@ -51,6 +51,8 @@ class Comparison:
             return ""
         mine = written.value
         if self.values:
+            if self._mixed(expected, mine):
+                return ""
             expected, mine = self._with_numbers(expected, mine)
             if equal(Frac(expected), mine):
                 return ""
@@ -68,6 +70,25 @@ class Comparison:
             if ring.has_symbol(name) and ring._symbols[(name, 0)] not in used
         }
         return substituted(expected, put), mine
+
+    def _mixed(self, expected: Expr, mine: Frac) -> bool:
+        """Whether they are equal with all numbers put in, a symbol standing here as symbol and there as number.
+
+        Every term of the answer must be one of the expected with numbers for some of
+        its symbols, so that two lengths of one value are not taken for each other.
+        """
+        ring = expected.ring
+        put = {ring._symbols[(n, 0)]: v for n, v in self.values.items() if ring.has_symbol(n)}
+        if mine.below is not None or substituted(expected, put) != substituted(mine.above, put):
+            return False
+        theirs = [[int(e) for e in exponents] for exponents in expected.poly.monoms()]
+        return all(
+            any(
+                all(a == b or (i in put and a < b) for i, (a, b) in enumerate(zip(ours, their, strict=True)))
+                for their in theirs
+            )
+            for ours in ([int(e) for e in exponents] for exponents in mine.above.poly.monoms())
+        )
 
     def _steps(self, written: Written) -> Iterator[Expr]:
         """How far the answer moves when one of its decimals moves by half a unit of its last place."""

@@ -14,7 +14,7 @@ import pickle
 import signal
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.submission import Submission, read_submission
@@ -29,6 +29,9 @@ MEMORY = 1 << 30
 
 TOO_MUCH = "this takes more than 2 s or 1 GiB to work out"
 REMEDY = "multiply out less, or name parts of it with `let`"
+
+
+_T = TypeVar("_T")
 
 
 class Stopped(Exception):
@@ -74,7 +77,7 @@ def _sound(checker: Checker, submission: Submission) -> tuple[Any, ...]:
     return tuple(answers)
 
 
-def limited(work: Callable[[], Any], seconds: int) -> Any:
+def limited(work: Callable[[], _T], seconds: int) -> _T:
     """What `work` gives, made in a child process with limits.
 
     Raises Stopped where the child was stopped, and whatever `work` raises.  Where
@@ -96,7 +99,8 @@ def limited(work: Callable[[], Any], seconds: int) -> Any:
     good, value = pickle.loads(data)  # noqa: S301  written by our own child
     if not good:
         raise value
-    return value
+    result: _T = value
+    return result
 
 
 def _run(work: Callable[[], Any], writing: int, seconds: int) -> None:

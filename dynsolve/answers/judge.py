@@ -26,6 +26,7 @@ from dynsolve.answers.given import Given, Hand, as_value, fitted, same
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.level import find_level
 from dynsolve.answers.slips.derivation import DerivationSlips
+from dynsolve.answers.slips.table import slip
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import (
     Diagnosis,
@@ -43,6 +44,8 @@ from dynsolve.problem.model import Problem
 
 NOT_FROM_OWN = "not_from_own"
 NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's"
+UNAFFECTED = "tau is unaffected"
+
 MOST_EXPECTED = 4
 """From so many of the values that a student's own answers lead to a slip is looked for."""
 
@@ -262,21 +265,22 @@ class Judge:
             factors = zip(row, ring.names, strict=True)
             node: Node = Sum(tuple(Product((entry, Symbol(name, 1))) for entry, name in factors))
             rows.append((Written(self.hand.moved(node), node, self.hand.moved),))
-        return tuple(rows), tuple(self._accelerated(given))
+        return tuple(rows), tuple(self._unfit(given))
 
-    def _accelerated(self, given: Given) -> Iterator[Diagnosis]:
+    def _unfit(self, given: Given) -> Iterator[Diagnosis]:
+        """What no C may hold: accelerations, or joint variables in a denominator."""
         ring = self.field.ring
+        accelerations = [ring.symbol(name, 2).poly.degrees() for name in ring.names]
+        indices = [list(degrees).index(1) for degrees in accelerations]
         for entry in given.entries:
-            for part in (entry.above, entry.bottom):
-                degrees = part.poly.degrees() if part.poly else ()
-                if degrees and any(degrees[ring._symbols[(name, 2)]] > 0 for name in ring.names):
-                    yield Diagnosis(
-                        "acceleration_in_C",
-                        "Your C contains a joint acceleration; what is multiplied by q̈ belongs into D.",
-                        "a term in the wrong matrix",
-                        "C holds only coordinates and velocities.",
-                    )
-                    return
+            value = as_expr(entry)
+            if value is None:
+                yield slip("C_not_polynomial")
+                return
+            degrees = value.poly.degrees() if value.poly else ()
+            if degrees and any(degrees[i] > 0 for i in indices):
+                yield slip("acceleration_in_C")
+                return
 
     # -- held against what the student's own answers lead to ---------------------------------------
 
@@ -431,8 +435,10 @@ class Judge:
         )
         if not entries:
             one = self._entry(name, held, (1, 1), 0, 0, whole)
+            constant = any(d.code == "constant_term" for d in one.diagnosis)
             return replace(
-                base, verdict=one.verdict, follows_from=one.follows_from, diagnosis=one.diagnosis,
+                base,
+                notes=(*base.notes, UNAFFECTED) if constant else base.notes, verdict=one.verdict, follows_from=one.follows_from, diagnosis=one.diagnosis,
                 difference=one.difference,
             )  # fmt: skip
         verdict = worst([entry.verdict for entry in entries])
@@ -553,7 +559,8 @@ class Judge:
             if name not in answers and self.target(name).node in self.field.rules:
                 answers[name] = self._unwritten(name, answers)
         ordered = sorted(answers.values(), key=lambda a: self.graph.place(a.name))
-        first = next((a.name for a in ordered if a.verdict is Verdict.WRONG), "")
+        wrong = [a for a in ordered if a.verdict is Verdict.WRONG]
+        first = next((a.name for a in wrong if a.given), wrong[0].name if wrong else "")
         return Report(
             self.problem.stem,
             self.submission.student,

@@ -233,6 +233,10 @@ _SLIPS = (
          "Your C contains a joint acceleration; what is multiplied by q̈ belongs into D.",
          "C holds only coordinates and velocities.",
          Example(_RP, "C", [["m2*L2*L2_dot", "m2*L2*theta1_dot"], ["-m2*L2*theta1_dot", "m2*L2_ddot"]])),
+    Slip("C_not_polynomial", "the form of C", "Your C has a joint variable or a velocity in a denominator.",
+         "C is linear in the velocities; nothing is divided by what may be 0.",
+         Example(_2R, "C", [["-m2*l1*lc2*sin(q2)*(2*q2_dot + q2_dot^2/q1_dot)", "0"],
+                 ["m2*l1*lc2*sin(q2)*q1_dot", "0"]])),
     Slip("shape", "the size of the matrix", "{yours}", "Count rows and columns.",
          Example(_2R, "g", [["m2*lc2*g*cos(q1)"]])),
 )  # fmt: skip

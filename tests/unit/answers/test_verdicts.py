@@ -317,6 +317,8 @@ values: {g: 9.81, m1: 2}
         ("0.667*l1^2", "correct", ("rounded",)),
         ("0.66*l1^2", "wrong", ()),
         ("2*m1*l1^2/3", "wrong", ()),
+        ("m1*l1^2/4 + 2*l1^2/12", "correct", ()),
+        ("m1*l1^2/4 + 2*l1^2/11", "wrong", ()),
     ],
 )
 def test_decimals_round_and_symbols_have_values(text: str, verdict: str, notes: tuple[str, ...]) -> None:
