@@ -32,6 +32,9 @@ STAGE = "vectorized"
 LONGEST_IN_PARTS = 150
 """Up to this number of terms in D its parts are shown too."""
 
+MOST_ZEROS = 20
+"""Up to this number Christoffel symbols that are zero are named one by one."""
+
 _I, _J, _K, _N = (Symbol(name) for name in "ijkn")
 _SKEW = Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C)))))
 
@@ -247,6 +250,9 @@ def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
 def _zero_note(zero: Sequence[tuple[int, int, int]]) -> Iterator[Prose]:
     if not zero:
         return
+    if len(zero) > MOST_ZEROS:
+        yield ("All the others are zero.",)
+        return
     yield (
         *listed([letters.entry("c", i + 1, j + 1, k + 1) for i, j, k in zero]),
         " are zero." if len(zero) > 1 else " is zero.",
@@ -316,9 +322,10 @@ def _agreement(course: Course) -> Step:
     wrong = [name for name, holds in verdicts.items() if not holds]
     why = ""
     if same:
-        why = f"{', '.join(same)}: read off from the forces and assembled directly, they are equal, exactly."
+        verb = "is" if len(same) == 1 else "are"
+        why = f"{_and(same)}, read off from the forces and assembled directly, {verb} equal, exactly."
     if wrong:
-        why += f" {', '.join(wrong)}: the two ways differ."
+        why += f" The two ways differ in {_and(wrong)}."
     return Step(
         id="agreement",
         stage=STAGE,
@@ -326,6 +333,10 @@ def _agreement(course: Course) -> Step:
         why=(why.strip(),),
         source=shv("7.3"),
     )
+
+
+def _and(names: Sequence[str]) -> str:
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def _skew(course: Course) -> Step:

@@ -345,3 +345,14 @@ def test_the_moments_of_a_shape_stand_where_they_are_said_to() -> None:
 
 def test_what_the_parallel_axis_theorem_takes_away() -> None:
     assert shown_working(MOVED, "I_body1")[1].endswith("= [[0, 0, 0], [0, m₁ l_c², 0], [0, 0, m₁ l_c²]]")
+
+
+def test_a_long_list_of_zeros_is_not_printed() -> None:
+    (note,) = step("scara-rrpr", "christoffel").notes
+    assert said(note, "scara-rrpr") == "All the others are zero."
+
+
+def test_what_agrees_is_said_in_a_sentence() -> None:
+    assert said(step("planar-2r", "agreement").why, "planar-2r") == (
+        "D, C q̇ and g, read off from the forces and assembled directly, are equal, exactly."
+    )
