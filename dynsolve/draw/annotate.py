@@ -14,15 +14,13 @@ from dynsolve.draw import ink
 from dynsolve.draw.ink import Path
 from dynsolve.draw.labels import Wanted
 from dynsolve.draw.parts import RADIUS, TUBE, Part
-from dynsolve.draw.pose import AXIS, Pose
+from dynsolve.draw.pose import AXIS, Pose, point_to_segment
 from dynsolve.draw.space import Taken
 from dynsolve.draw.typography import typeset
 from dynsolve.draw.vectors import (
     Point,
     Vector,
-    along,
     cross,
-    distance,
     dot,
     length,
     moved,
@@ -41,6 +39,8 @@ _END_ON = 0.06
 _RING = 1.75 * RADIUS
 _ARC = 31.0
 _SAME = 5.0
+_MARK = 6.0
+"""The radius of the mark of a mass centre."""
 
 
 @dataclass
@@ -57,9 +57,18 @@ class Notes:
         self.paths += paths
         self.taken.add(paths)
 
-    def label(self, node: Node, anchors: Sequence[Point], toward: Point, colour: str, kind: str) -> None:
+    def label(
+        self,
+        node: Node,
+        anchors: Sequence[Point],
+        toward: Point,
+        colour: str,
+        kind: str,
+        radius: float = 0.0,
+    ) -> None:
         """Ask for a label."""
-        self.wanted.append(Wanted(node, typeset(node, self.style), tuple(anchors), toward, colour, kind))
+        line = typeset(node, self.style)
+        self.wanted.append(Wanted(node, line, tuple(anchors), toward, colour, kind, radius))
 
 
 # -- frames ----------------------------------------------------------------------------------------
@@ -83,7 +92,8 @@ def frames(pose: Pose, notes: Notes) -> None:
                 groups.append((origin, tip, [name]))
     for origin, tip, names in groups:
         toward = (tip[0] - origin[0], tip[1] - origin[1])
-        notes.label(_listed(names), [tip], toward, ink.FRAME, "axis")
+        radius = _MARK if tip == origin else 0.0
+        notes.label(_listed(names), [tip], toward, ink.FRAME, "axis", radius)
 
 
 def _listed(names: Sequence[Node]) -> Node:
@@ -98,7 +108,8 @@ def _axis(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     view = pose.view
     x, y = view.direction(axis)
     if math.hypot(x, y) < _END_ON:
-        _end_on(origin, dot(axis, view.toward) > 0, notes)
+        has_mass = any(math.dist(origin, view.point(mass.center)) < _MARK for mass in pose.skeleton.masses)
+        _end_on(origin, dot(axis, view.toward) > 0, _MARK + 3.5 if has_mass else _MARK, notes)
         return origin
     tip = (origin[0] + x * AXIS, origin[1] + y * AXIS)
     back = (tip[0] - x / math.hypot(x, y) * 6.0, tip[1] - y / math.hypot(x, y) * 6.0)
@@ -110,13 +121,13 @@ def _axis(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     return tip
 
 
-def _end_on(origin: Point, toward: bool, notes: Notes) -> None:
+def _end_on(origin: Point, toward: bool, radius: float, notes: Notes) -> None:
     """An axis seen end on: a point for the tip of the arrow, a cross for its feathers."""
-    notes.draw(Path(ink.circle(origin, 6.0), ink.FRAME, 1.4, ink.WHITE))
+    notes.draw(Path(ink.circle(origin, radius), ink.FRAME, 1.4, ink.WHITE))
     if toward:
         notes.draw(Path(ink.circle(origin, 2.0), None, fill=ink.FRAME))
         return
-    (x, y), s = origin, 4.2
+    (x, y), s = origin, 0.7 * radius
     for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
         notes.draw(Path(ink.line(a, b), ink.FRAME, 1.4))
 
@@ -184,33 +195,26 @@ def masses(pose: Pose, notes: Notes) -> None:
     """Mass centres: the quartered disk of mechanics, a ball for a point mass."""
     for mass in pose.skeleton.masses:
         center = pose.view.point(mass.center)
-        if not _is_on_link(mass.center, pose):
+        if not _is_on_link(center, pose):
             origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
             notes.draw(Path(ink.line(origin, center), ink.BLACK, 0.9, dashed=True))
         notes.draw(*(_ball(center) if mass.is_point else _quartered(center)))
-        notes.label(Symbol(f"rc{mass.name}"), [center], (0.0, 0.0), ink.BLACK, "mass")
+        notes.label(Symbol(f"rc{mass.name}"), [center], (0.0, 0.0), ink.BLACK, "mass", _MARK)
 
 
-def _is_on_link(center: Vector, pose: Pose) -> bool:
-    """Whether a mass centre lies on the chain of links."""
-    near = pose.view.space(5 * TUBE)
+def _is_on_link(center: Point, pose: Pose) -> bool:
+    """Whether a mass centre is seen on a link."""
     ways = [pose.skeleton.path, *pose.parts.links]
-    return any(_gap(center, a, b) < near for way in ways for a, b in pairwise(way))
-
-
-def _gap(point: Vector, a: Vector, b: Vector) -> float:
-    """How far a point is from a straight way."""
-    way = subtract(b, a)
-    part = min(1.0, max(0.0, dot(subtract(point, a), way) / dot(way, way)))
-    return distance(point, along(a, way, part))
+    lines = ((pose.view.point(a), pose.view.point(b)) for way in ways for a, b in pairwise(way))
+    return any(point_to_segment(center, a, b) < 2 * TUBE for a, b in lines)
 
 
 def _ball(center: Point) -> tuple[Path, ...]:
-    return (Path(ink.circle(center, 6.0), ink.WHITE, 1.2, ink.BLACK),)
+    return (Path(ink.circle(center, _MARK), ink.WHITE, 1.2, ink.BLACK),)
 
 
 def _quartered(center: Point) -> tuple[Path, ...]:
-    r = 6.0
+    r = _MARK
     quarters = tuple(
         Path(
             (

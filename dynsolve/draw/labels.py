@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
+from random import Random
 
 from dynsolve.draw.space import Box, Taken
 from dynsolve.draw.typography import Line
@@ -16,13 +18,15 @@ from dynsolve.draw.vectors import Point
 from dynsolve.notation.tree import Node
 
 _ROUNDS = 4
+_ORDERS = 16
+_SEED = 1955
 _DIRECTIONS = tuple(2 * math.pi * k / 16 for k in range(16))
 _DISTANCES = (4.0, 8.0, 13.0, 19.0, 27.0, 36.0, 46.0, 60.0, 76.0, 95.0)
 _FAR = 22.0
 """The distance from which a thin line leads from a label to what it names."""
 
-_CLOSE, _BARRED = 5.0, 16.0
-"""A label that is not close costs this much where lines bar the way to what it names."""
+_CLOSE, _BARRED = 5.0, 1.5
+"""What each cell costs that bars the way from a label to what it names."""
 
 _BESIDE, _ABOVE = 7.0, 2.0
 """The least room between two labels."""
@@ -30,7 +34,10 @@ _BESIDE, _ABOVE = 7.0, 2.0
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """A label to be placed: beside any of its anchors, best in the direction `toward` from it."""
+    """A label to be placed beside any of its anchors, best in the direction `toward` from it.
+
+    `radius` is how far around an anchor its own symbol reaches.
+    """
 
     node: Node
     line: Line
@@ -38,6 +45,7 @@ class Wanted:
     toward: Point
     colour: str
     kind: str
+    radius: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,21 +76,37 @@ class _Place:
 
 
 def place(wanted: Sequence[Wanted], taken: Taken) -> tuple[Label, ...]:
-    """Place labels, in their order."""
+    """Place labels: in several orders, of which the best is taken."""
     options = [_options(label, taken) for label in wanted]
-    chosen: list[_Place | None] = [None] * len(wanted)
-    for _ in range(_ROUNDS):
-        before = list(chosen)
-        for k, places in enumerate(options):
-            others = [other for j, other in enumerate(chosen) if other is not None and j != k]
-            chosen[k] = _best(places, others)
-        if chosen == before:
-            break
+    random = Random(_SEED)  # noqa: S311 - the same orders every time are wanted
+    order = list(range(len(wanted)))
+    tried = []
+    for _ in range(_ORDERS):
+        chosen = _placed(options, order)
+        tried.append((_total(chosen), chosen))
+        order = sorted(order, key=lambda _: random.random())
+    best = min(tried, key=lambda one: one[0])[1]
     return tuple(
         Label(label.node, label.line, found.box, label.colour, label.kind, found.lead)
-        for label, found in zip(wanted, chosen, strict=True)
-        if found is not None
+        for label, found in zip(wanted, best, strict=True)
     )
+
+
+def _placed(options: Sequence[Sequence[_Place]], order: Sequence[int]) -> list[_Place]:
+    """A place for each label, chosen in an order and again once the others are known."""
+    chosen: dict[int, _Place] = {}
+    for _ in range(_ROUNDS):
+        before = dict(chosen)
+        for k in order:
+            chosen[k] = _best(options[k], [other for j, other in chosen.items() if j != k])
+        if chosen == before:
+            break
+    return [chosen[k] for k in range(len(options))]
+
+
+def _total(chosen: Sequence[_Place]) -> float:
+    clashes = sum(not a.is_clear_of(b) for a, b in combinations(chosen, 2))
+    return round(sum(place.cost for place in chosen) + 200.0 * clashes, 6)
 
 
 def _best(places: Sequence[_Place], others: Sequence[_Place]) -> _Place:
@@ -94,19 +118,19 @@ def _best(places: Sequence[_Place], others: Sequence[_Place]) -> _Place:
 
 
 def _options(label: Wanted, taken: Taken) -> list[_Place]:
+    """All places of a label, the cheapest first."""
     wide, high = label.line.width, label.line.height
     preferred = math.atan2(label.toward[1], label.toward[0]) if label.toward != (0.0, 0.0) else None
     places = []
     for rank, anchor in enumerate(label.anchors):
         for away in _DISTANCES:
             for angle in _DIRECTIONS:
-                box = _beside(anchor, away, angle, wide, high)
+                box = _beside(anchor, away + label.radius, angle, wide, high)
                 turn = 0.0 if preferred is None else abs(math.remainder(angle - preferred, 2 * math.pi))
-                hits = taken.inside(box)
-                lead = _lead(anchor, away, box)
-                crossed = _BARRED * taken.on_line(*_way(anchor, box)) if away > _CLOSE else 0.0
-                cost = 9.0 * hits + 0.45 * away + 2.2 * turn + 1.5 * rank + crossed
-                places.append(_Place(box, lead, round(cost, 6)))
+                way = _way(anchor, box, label.radius + 3.0)
+                barred = taken.cells_on(*way) if away > _CLOSE else 0
+                cost = 9.0 * taken.inside(box) + 0.45 * away + 2.2 * turn + 1.5 * rank + _BARRED * barred
+                places.append(_Place(box, way if away >= _FAR else None, round(cost, 6)))
     places.sort(key=lambda option: option.cost)
     return places
 
@@ -117,16 +141,10 @@ def _beside(anchor: Point, away: float, angle: float, wide: float, high: float) 
     return Box.around((anchor[0] + c * (away + wide / 2), anchor[1] + s * (away + high / 2)), wide, high)
 
 
-def _lead(anchor: Point, away: float, box: Box) -> tuple[Point, Point] | None:
-    """The line from what a label names to the label, where that is far."""
-    if away < _FAR:
-        return None
-    return _way(anchor, box)
-
-
-def _way(anchor: Point, box: Box) -> tuple[Point, Point]:
-    """The straight way from an anchor to a box, without its ends."""
+def _way(anchor: Point, box: Box, radius: float) -> tuple[Point, Point]:
+    """The straight way from an anchor's symbol to a box."""
     end = box.nearest(anchor)
     reach = math.dist(end, anchor) or 1.0
     x, y = (end[0] - anchor[0]) / reach, (end[1] - anchor[1]) / reach
-    return (anchor[0] + 3.0 * x, anchor[1] + 3.0 * y), (end[0] - 2.0 * x, end[1] - 2.0 * y)
+    start = min(radius, reach / 2)
+    return (anchor[0] + start * x, anchor[1] + start * y), (end[0] - 2.0 * x, end[1] - 2.0 * y)

@@ -13,6 +13,8 @@ from dynsolve.draw.labels import Label
 from dynsolve.draw.scene import Scene
 from dynsolve.draw.svg import number
 from dynsolve.notation.latex import to_latex
+from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import Node, Row, Words
 
 WIDEST = 345.0
 """The width of a page's text, in big points."""
@@ -75,10 +77,17 @@ def _colour(colour: str) -> str:
     return " ".join(f"{int(colour[k : k + 2], 16) / 255:.3f}" for k in (1, 3, 5))
 
 
+def _formula(node: Node, style: Style) -> str:
+    """A label's formula; a list of names needs no package for its commas."""
+    if isinstance(node, Row):
+        return ",\\ ".join(to_latex(part, style) for part in node.parts if not isinstance(part, Words))
+    return to_latex(node, style)
+
+
 def _label(label: Label, scene: Scene) -> str:
     x, y = label.box.center
     place = f"{number(x - scene.frame.left)},{number(scene.frame.bottom - y)}"
-    formula = to_latex(label.node, scene.style)
+    formula = _formula(label.node, scene.style)
     return (
         rf"\put({place}){{\makebox(0,0){{\dynsolveink{{{_colour(label.colour)} rg}}"
         rf"${formula}$\dynsolveink{{0 g}}}}}}%"

@@ -100,12 +100,13 @@ class Taken:
 
     def on_line(self, a: Point, b: Point) -> float:
         """The part of a line that runs over what is taken."""
-        steps = max(1, math.ceil(math.dist(a, b) / CELL))
-        hits = sum(
-            _cell((a[0] + (b[0] - a[0]) * k / steps, a[1] + (b[1] - a[1]) * k / steps)) in self._cells
-            for k in range(steps + 1)
-        )
-        return hits / (steps + 1)
+        return self.cells_on(a, b) / (_steps(a, b) + 1)
+
+    def cells_on(self, a: Point, b: Point) -> int:
+        """How many of the steps of a line, a cell long, are on what is taken."""
+        steps = _steps(a, b)
+        x, y = (b[0] - a[0]) / steps, (b[1] - a[1]) / steps
+        return sum(_cell((a[0] + x * k, a[1] + y * k)) in self._cells for k in range(steps + 1))
 
     def inside(self, box: Box) -> int:
         """How many taken cells a box touches."""
@@ -113,6 +114,10 @@ class Taken:
         rows = range(math.floor(box.top / CELL), math.floor(box.bottom / CELL) + 1)
         cells = self._cells
         return sum((column, row) in cells for row in rows for column in columns)
+
+
+def _steps(a: Point, b: Point) -> int:
+    return max(1, math.ceil(math.dist(a, b) / CELL))
 
 
 def _cell(point: Point) -> tuple[int, int]:
