@@ -33,19 +33,21 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.robot.model import Coordinate
 
-LONGEST = 200
+LONGEST = 120
 """The operations up to which a result on the way to D, c_ijk and g is written out."""
 
 
 def in_names(steps: Iterable[Step], course: Course, short: Abbreviated) -> Iterator[Step]:
     """The steps, with names in them and, of a model with named constants, without what fills pages."""
     names = _Names(course, short)
+    told = False
     for step in steps:
         change = names.changes.get(step.id)
         if change is not None:
             yield change(step)
         elif short.constants and names.is_too_long(step):
-            yield names.left_out(step)
+            yield names.left_out(step, told)
+            told = True
         else:
             yield step
 
@@ -148,15 +150,15 @@ class _Names:
         on_the_way = step.stage == "inertia" or step.stage == "energy"
         return on_the_way and max(map(_size, step.result), default=0) > LONGEST
 
-    def left_out(self, step: Step) -> Step:
-        """The step with its formula as its result."""
+    def left_out(self, step: Step, told: bool) -> Step:
+        """The step with its formula as its result; the first one says so."""
         if step.formula is None:
             return step
-        return replace(
-            step,
-            result=(),
-            notes=(*step.notes, ("Too long to be of use written out; the formula says what it is.",)),
+        note: Prose = (
+            "Written out it would be too long to be of use; the formula says what it is. So it is below, "
+            "where a formula stands alone. What comes of it in the end are the entries of D.",
         )
+        return replace(step, result=(), notes=step.notes if told else (*step.notes, note))
 
     def kinetic(self, step: Step) -> Step:
         quadratic = Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))
@@ -223,9 +225,8 @@ class _Names:
         )
 
     def coriolis_forces(self, step: Step) -> Step:
-        product = Product((letters.C, letters.QD))
-        rows = tuple((_total(self.coriolis_terms(k)),) for k in range(self.n))
-        return replace(step, result=(equation(product, tree.Matrix(rows)),))
+        """Of the forces nothing new is to be read off."""
+        return replace(step, result=(), why=(*step.why, " Above they have the factors c and g."))
 
     def inertia(self, step: Step) -> Step:
         return replace(step, result=(equation(letters.D, self.short.D),))
@@ -248,24 +249,35 @@ class _Names:
 
     def christoffel(self, step: Step) -> Step:
         """The distinct symbols; those that are equal, or each other's opposites, in one chain."""
-        groups: dict[Node, list[tuple[int, Letter]]] = {}
+        groups: dict[frozenset[Node], tuple[Node, list[tuple[int, Letter]]]] = {}
         symbols = self.short.christoffel
         for i, j, k in sorted(symbols, key=lambda ijk: (ijk[2], ijk[0], ijk[1])):
             value, name = symbols[i, j, k], letters.entry("c", i + 1, j + 1, k + 1)
             if value == ZERO:
                 continue
-            if negated(value) in groups:
-                groups[negated(value)].append((-1, name))
+            terms = _terms(value)
+            opposite = frozenset(map(negated, terms))
+            if opposite in groups:
+                groups[opposite][1].append((-1, name))
             else:
-                groups.setdefault(value, []).append((1, name))
-        rows = tuple(_chain(named, value) for value, named in groups.items())
+                groups.setdefault(terms, (value, []))[1].append((1, name))
+        rows = tuple(_chain(named, value) for value, named in groups.values())
         return replace(step, result=rows, listed=True)
 
 
+def _terms(value: Node) -> frozenset[Node]:
+    """The terms of a sum, whatever their order."""
+    sign, inner = split_sign(value)
+    terms = inner.terms if isinstance(inner, Sum) else (inner,)
+    return frozenset(terms if sign > 0 else map(negated, terms))
+
+
 def _chain(named: Sequence[tuple[int, Node]], value: Node) -> Relation:
-    """c_112 = -c_121 = ... = value, a value with a plus"""
-    sign, value = split_sign(value)
-    signed = sorted(((s * sign, name) for s, name in named), key=lambda pair: -pair[0])
+    """c_112 = -c_121 = ... = value, the first name with a plus, and the value too if that is possible"""
+    sign, bare = split_sign(value)
+    if any(s == sign for s, _ in named):
+        named, value = [(s * sign, name) for s, name in named], bare
+    signed = sorted(named, key=lambda pair: -pair[0])
     return equation(*(name if s > 0 else Negative(name) for s, name in signed), value)
 
 

@@ -125,7 +125,7 @@ class _Sharing:
             if gains[part] <= 0:
                 break
             users = [name for name in holders[part] if self._holds(name, part)]
-            if self._gain(part, len(users)) > 0:
+            if self._gain(part, len(users) + self._is_sum(part)) > 0:
                 self._put(part, sorted(users, key=_number))
                 changed = True
         return changed
@@ -152,6 +152,10 @@ class _Sharing:
         """The operations that a name saves."""
         size = sum(cost(split_sign(term)[1], self._costs) for term in part) + len(part) - 1
         return (users - 1) * size - 2 if size >= SHORTEST_SUM else 0
+
+    def _is_sum(self, part: _Key) -> bool:
+        """Whether the part is a sum by itself somewhere."""
+        return part in self.sums or frozenset(map(negated, part)) in self.sums
 
     def _holds(self, name: Symbol, part: _Key) -> bool:
         terms = frozenset(self.terms[name])
