@@ -30,6 +30,13 @@ def read(reader: Reader) -> Value:
 
 def parenthesis(reader: Reader) -> Value:
     """(a + b); or a tuple (a, b), a column."""
+    before, reader.rows_by_line = reader.rows_by_line, False
+    found = _parenthesis(reader)
+    reader.rows_by_line = before
+    return found
+
+
+def _parenthesis(reader: Reader) -> Value:
     opening = reader.take()
     if reader.token.kind == ")":
         raise ReadError(
@@ -49,6 +56,31 @@ def parenthesis(reader: Reader) -> Value:
 
 def square(reader: Reader) -> Value:
     """[...]: rows after commas, semicolons or line ends; or a bracket around a sum."""
+    before = reader.rows_by_line
+    reader.rows_by_line = _lines_are_rows(reader)
+    found = _square(reader)
+    reader.rows_by_line = before
+    return found
+
+
+def _lines_are_rows(reader: Reader) -> bool:
+    """Whether the lines inside the bracket here are rows: entries with commas, no other sign between rows."""
+    level, commas, lines = 0, 0, [0]
+    for token in reader.tokens[reader.position : reader.position + 2_000]:
+        level += (token.kind in ("[", "(", "{")) - (token.kind in ("]", ")", "}"))
+        if level == 0:
+            break
+        if token.kind in (";", "\\\\", "&", "begin") or (token.kind == "[" and level > 1):
+            return False
+        if token.broken and level == 1 and token.kind != "]" and commas:
+            lines.append(0)
+        if token.kind == "," and level == 1:
+            lines[-1] += 1
+            commas += 1
+    return len(lines) > 1 and len(set(lines)) == 1 and lines[0] > 0
+
+
+def _square(reader: Reader) -> Value:
     opening = reader.take()
     rows: list[list[Value]] = [[]]
     if reader.token.kind == "]":
@@ -70,6 +102,8 @@ def square(reader: Reader) -> Value:
         kind = reader.token.kind
         if kind == "," or kind == "&":
             reader.take()
+        elif reader.rows_by_line and reader.token.broken and kind != "]":
+            rows.append([])
         elif kind not in (";", "\\\\", "]") and not ("spaces" in reader.options and reader.token.spaced):
             reader.expect("]", opening)
     reader.expect("]", opening)

@@ -11,6 +11,7 @@ from dynsolve.answers.reading.sources import Source, decoded
 from dynsolve.answers.reading.vocabulary import vocabulary
 from dynsolve.answers.submission import Submission
 from dynsolve.errors import Finding
+from dynsolve.explain.style import style_of
 from dynsolve.problem.model import Problem
 
 ENDINGS = (".yaml", ".yml", ".json", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm")
@@ -22,7 +23,7 @@ def read_file(problem: Problem, content: bytes | str, file: str) -> Submission:
     if len(content) > MAX_BYTES:
         message = f"the file is larger than {MAX_BYTES // 1_000_000} MB"
         return Submission("", "", file, (), (), (Finding(message, "hand in the text alone", file),))
-    session = Session(vocabulary(problem))
+    session = Session(vocabulary(problem), style_of(problem.robot))
     source = Source(decoded(content), file)
     ending = PurePath(file.replace("\0", "")).suffix.lower()
     head = ("", "")

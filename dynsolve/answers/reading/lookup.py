@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 ACCENTS: Mapping[str, int] = {"dot": 1, "ddot": 2, "dddot": 3}
 
 _FREE = frozenset("h0 H0 z0 y0 h href hzero hb P0h zref".split())
+# Letters that name an answer on the left alone: on the right they are the student's own.
+_OWN = frozenset({"h", "c"})
+
 _POTENTIAL = re.compile(r"P.*|L")
 _LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*|[xyz],?[qt].*)")
 _HEIGHT = re.compile(r"h[1-9a-z][0-9]*")
@@ -155,7 +158,7 @@ def skip_time(reader: Reader) -> None:
 
 def _short(reader: Reader, form: Form) -> Function:
     """C_{theta_1}, s_{q_1 + q_2}, c_{1-2}: the sine or cosine of the angle in the index."""
-    angle = _digits_angle(reader.vocabulary, form)
+    angle: Value | None = _digits_angle(reader.vocabulary, form)
     if angle is None:
         angle = reader.inner(form.angle, naming=False)
     if not isinstance(angle, Node):
@@ -210,6 +213,8 @@ def _quantity(reader: Reader, form: Form, name: str) -> Value | None:
     """The answer that a name stands for, as placeholders; None where it is none."""
     vocabulary = reader.vocabulary
     names = vocabulary.quantities.get(name, ())
+    if name in _OWN and not reader.naming:
+        return None
     if form.script and name.startswith("I"):
         names = tuple(n for n in names if n.startswith("I") and not n.startswith("I_body"))
     if form.dots:

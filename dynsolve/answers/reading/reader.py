@@ -70,6 +70,7 @@ class Reader:
         "options",
         "owner",
         "names_used",
+        "rows_by_line",
     )
 
     def __init__(
@@ -95,6 +96,7 @@ class Reader:
         self.free: dict[str, None] = {}
         self.candidates: tuple[str, ...] = ()
         self.names_used = 0
+        self.rows_by_line = False
 
     def value(self) -> Value:
         """The value of all tokens; raises ReadError for what cannot be read."""
@@ -202,7 +204,7 @@ class Reader:
             seed = None
             terms.append(negative(term) if sign == "-" else term)
             sign = self.token.kind
-            if sign != "+" and sign != "-":
+            if (sign != "+" and sign != "-") or (self.rows_by_line and self.token.broken):
                 break
             self.take()
         self.nesting -= 1
@@ -249,6 +251,8 @@ class Reader:
         """Whether a product or a quotient goes on at the token that is looked at."""
         kind = self.token.kind
         if kind == "command" and self.token.text in brackets.STOPS:
+            return False
+        if self.rows_by_line and self.token.broken:
             return False
         if "spaces" in self.options and self.token.spaced and kind in _BEGINS:
             return False

@@ -17,7 +17,7 @@ from dynsolve.errors import ReadError
 
 _ENVIRONMENT = "equation|align|gather|multline|eqnarray|alignat|flalign|displaymath|math|dmath|IEEEeqnarray|subequations|split"
 _OPENING = re.compile(
-    rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}"
+    rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|(?P<double>\\\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}"
     r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$]))",
     re.MULTILINE,
 )
@@ -138,6 +138,8 @@ def _closing(opening: re.Match[str]) -> str:
         return "$$"
     if opening["bracket"]:
         return "\\]"
+    if opening["double"]:
+        return "\\\\]"
     if opening["fence"]:
         return "\n" + opening["fence"].strip()[:3]
     return "$"

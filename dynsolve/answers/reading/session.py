@@ -139,7 +139,9 @@ class Session:
         for index, member in enumerate(members):
             if not isinstance(sides[index], (Name, Unknown)):
                 read.append((index, self.member(member, owners)))
-        if names:
+        if names and self._is_own_letter(members, names, read):
+            self.define(key(members[0][0].text), next(f for _, f in read if isinstance(f, Read)))
+        elif names:
             self._judged(names, read, equation, display)
         else:
             self._without_name(sides, read, equation, display)
@@ -202,6 +204,18 @@ class Session:
                 self._unreadable(candidates, display, found, label, where)
             else:
                 self._value([candidates], found, member, label, display, where)
+
+    def _is_own_letter(
+        self,
+        members: list[list[Token]],
+        names: list[tuple[str, ...]],
+        read: list[tuple[int, Read | ReadError]],
+    ) -> bool:
+        """Whether `h = ...` defines an abbreviation, its value having no shape of what books call h."""
+        if len(names) > 1 or len(members[0]) > 1 or key(members[0][0].text) in self.vocabulary.shapes:
+            return False
+        values = [found.value for _, found in read if isinstance(found, Read) and not found.is_definition]
+        return bool(values) and not any(self._fitted(names[0], value) for value in values)
 
     # What the sides are
 
@@ -521,7 +535,7 @@ class Session:
                 faults = [found for _, found in read if isinstance(found, ReadError)]
                 if faults:
                     self.vocabulary.broken[first.key] = faults[-1].message
-            else:
+            elif not display.plain:
                 self.not_recognized.append(refused)
             return
         model = next((self._model_parts(v.value) for v in values if self._model_parts(v.value)), {})
@@ -535,7 +549,8 @@ class Session:
         leading = read[0][1] if read and read[0][0] == 0 else None
         if isinstance(leading, Read) and leading.is_definition:
             return
-        self.not_recognized.append(refused)
+        if not display.plain:
+            self.not_recognized.append(refused)
 
     def _put_off(
         self,
