@@ -12,7 +12,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from dynsolve.cli import check, draw, grade, lint, new, problems, schema, solve
+from dynsolve.cli import check, draw, grade, lint, new, override, problems, schema, solve
 from dynsolve.errors import DynsolveError, ExitCode, InputError
 
 TRACEBACK = "--traceback"
@@ -88,6 +88,7 @@ def app() -> typer.Typer:
         draw.draw,
         check.check,
         grade.grade,
+        override.override,
         lint.lint,
         new.new,
         schema.schema,

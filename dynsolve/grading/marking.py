@@ -113,7 +113,8 @@ def _capped(found: Iterable[Marked], policy: Policy) -> Iterator[Marked]:
 def maximum(marks: Iterable[tuple[str, Fraction]], policy: Policy) -> Fraction:
     """The most that a problem can earn.
 
-    >>> maximum([("K", Fraction(4)), ("P", Fraction(2)), ("D", Fraction(1))], Policy(caps={"energy": Fraction(5)}))
+    >>> marks = [("K", Fraction(4)), ("P", Fraction(2)), ("D", Fraction(1))]
+    >>> maximum(marks, Policy(caps={"energy": Fraction(5)}))
     Fraction(6, 1)
     """
     all_of = (Marked(name, of, of, "") for name, of in marks)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
+from fractions import Fraction
 from hashlib import sha256
 from html import escape
-from itertools import groupby
 from pathlib import Path
 
 from dynsolve.grading.ledger import most, standings
@@ -25,14 +24,18 @@ def write_outputs(folder: Path, problems: ProblemSet, record: Record) -> None:
     from dynsolve.grading.teacher import teachers_page
 
     write(folder / "grades.csv", table(_grades(problems, record)))
-    write(folder / "answers.csv", table(_answers(problems, record)))
+    write(folder / "answers.csv", table(_answers(record)))
     _feedback(folder / "feedback", record)
     write(folder / "report.html", teachers_page(problems, record))
 
 
 def write(path: Path, text: str) -> None:
     """A file whole or not at all, and only where something changes."""
-    data = text.encode("utf-8", errors="replace")
+    write_bytes(path, text.encode("utf-8", errors="replace"))
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    """Bytes whole or not at all, and only where something changes."""
     try:
         if path.read_bytes() == data:
             return
@@ -41,36 +44,26 @@ def write(path: Path, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.new")
     temporary.write_bytes(data)
-    os.replace(temporary, path)
+    temporary.replace(path)
 
 
 def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
-    of = decimal(sum(most(problems).values()))
+    of = decimal(sum(most(problems).values(), Fraction(0)))
     yield ("student", *problems.stems, "total", "of")
     for standing in standings(record):
-        cells = (decimal(standing.marks[stem]) if stem in standing.marks else "" for stem in problems.stems)
+        cells = (decimal(standing.marks.get(stem, Fraction(0))) for stem in problems.stems)
         yield (standing.student, *cells, decimal(standing.total), of)
 
 
-def _answers(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
-    from fractions import Fraction
-
+def _answers(record: Record) -> Iterator[tuple[str, ...]]:
     yield _ANSWERS
-    waiting = {student: list(found) for student, found in groupby(record.waiting(), key=lambda w: w.student)}
-    for standing in standings(record):
-        for a in standing.answers:
-            marks, of = decimal(Fraction(a.marks)), decimal(Fraction(a.of))
-            line = str(a.line) if a.line else ""
-            yield (a.student, a.problem, a.answer, a.verdict, marks, of, line, ";".join(a.diagnosis))
-        for item in problems.items:
-            left = [w for w in waiting.get(standing.student, ()) if w.problem in (item.stem, "")]
-            if item.stem not in standing.marks:
-                for name, points in item.problem.marks.items():
-                    verdict = "unreadable" if left else "missing"
-                    code = "for_a_human" if left else ""
-                    yield (standing.student, item.stem, name, verdict, "0", decimal(points), "", code)
-    for entry in waiting.get("", ()):
-        yield ("", entry.problem, entry.file, "unreadable", "0", "0", "", "for_a_human")
+    for a in record.answers():
+        marks, of = decimal(Fraction(a.marks)), decimal(Fraction(a.of))
+        line = str(a.line) if a.line else ""
+        yield (a.student, a.problem, a.answer, a.verdict, marks, of, line, ";".join(a.diagnosis))
+    for entry in record.waiting():
+        if not entry.student:
+            yield ("", entry.problem, entry.file, "unreadable", "0", "0", "", "for_a_human")
 
 
 # -- feedback ----------------------------------------------------------------------------------------
@@ -92,6 +85,8 @@ def folder_name(student: str) -> str:
 def _feedback(folder: Path, record: Record) -> None:
     expected: set[Path] = set()
     for row in record.rows():
+        if not row.html:
+            continue
         answers = [a for a in record.answers(row.student) if a.problem == row.problem]
         place = folder / folder_name(row.student)
         for ending, packed, marks in (
@@ -109,8 +104,6 @@ def _feedback(folder: Path, record: Record) -> None:
 
 
 def _total(answers: list[Graded]) -> str:
-    from fractions import Fraction
-
     marks = sum((Fraction(a.marks) for a in answers), Fraction(0))
     of = sum((Fraction(a.of) for a in answers), Fraction(0))
     return f"Marks: {shown(marks)} of {shown(of)}"

@@ -18,7 +18,7 @@ MAX_METADATA = 30_000_000
 
 @dataclass(frozen=True, slots=True)
 class Owner:
-    """Whose file it is: `student` names the row, `id` is the platform's own, empty where there is no platform.
+    """Whose file it is: `student` names the row, `id` is the platform's own, empty where there is none.
 
     `delivery` is what was handed in at once: its files belong together, another delivery
     of the same student is another copy.  `order` grows with the delivery; `name` is the
@@ -41,7 +41,7 @@ _MOODLE = re.compile(r"(?P<who>.+)_(?P<id>\d+)_assignsubmission_(?:file|onlinete
 
 
 def _canvas(parts: tuple[str, ...]) -> Owner | None:
-    """`<lastfirst>[_LATE]_<user id>_<attachment id>_<name>`, `..._<user id>_text.html`, `[LATE_]anon_<id>_...`."""
+    """`<lastfirst>[_LATE]_<user id>_<attachment id>_<name>`, `..._text.html`, `[LATE_]anon_<id>_...`."""
     if len(parts) > 1:
         return None
     found = _ANONYMOUS.fullmatch(parts[0])
@@ -122,9 +122,9 @@ def is_metadata(path: PurePosixPath) -> bool:
 
 
 def read_metadata(content: bytes) -> dict[str, Any]:
-    """Gradescope's list: scalars stay text, tags mean nothing, so that nothing is constructed.
+    r"""Gradescope's list: scalars stay text, tags mean nothing, so that nothing is constructed.
 
-    >>> read_metadata(b"submission_1:\\n  :submitters:\\n  - :name: A\\n    :sid: '007'\\n")
+    >>> read_metadata(b"submission_1:\n  :submitters:\n  - :name: A\n    :sid: '007'\n")
     {'submission_1': {':submitters': [{':name': 'A', ':sid': '007'}]}}
     """
     import yaml

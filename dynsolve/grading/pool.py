@@ -12,7 +12,7 @@ import sys
 import threading
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 Data = dict[str, Any]
 
@@ -28,13 +28,6 @@ class Bounds:
     memory: int = 1 << 30
 
 
-class Executor(Protocol):
-    """What runs the work: `submit` gives a future, as `concurrent.futures` has them."""
-
-    def submit(self, fn: Any, /, *args: Any) -> Future[Data]:
-        """Take a piece of work."""
-
-
 class Worker:
     """One worker process, replaced when it must be."""
 
@@ -42,13 +35,16 @@ class Worker:
         self.bounds = bounds
         self.process: subprocess.Popen[bytes] | None = None
         self.served = 0
+        self.closed = False
 
     def __call__(self, payload: Data) -> Data:
         """The result of a hand-in: {"result": ...} or {"reason": ...}."""
         line = json.dumps(payload).encode() + b"\n"
         fresh = self.process is None
         said = self._ask(line)
-        if said is None and not fresh:  # what is wrong may be left over from another hand-in
+        if (
+            said is None and not fresh and not self.closed
+        ):  # what is wrong may be left over from another hand-in
             said = self._ask(line)
         if said is None:
             return {
@@ -60,14 +56,16 @@ class Worker:
         """The worker's answer, None where it ended without one."""
         if self.process is None:
             self._start()
-        assert self.process is not None and self.process.stdin and self.process.stdout
+        process = self.process
+        assert process is not None and process.stdin and process.stdout
         late = threading.Event()
-        timer = threading.Timer(self.bounds.seconds, self._end_late, (late,))
+        timer = threading.Timer(self.bounds.seconds, _end_late, (process, late))
+        timer.daemon = True
         timer.start()
         try:
-            self.process.stdin.write(line)
-            self.process.stdin.flush()
-            answer = self.process.stdout.readline()
+            process.stdin.write(line)
+            process.stdin.flush()
+            answer = process.stdout.readline()
         except OSError:
             answer = b""
         finally:
@@ -87,11 +85,6 @@ class Worker:
         if self.served >= SERVES:
             self.end()
         return said
-
-    def _end_late(self, late: threading.Event) -> None:
-        late.set()
-        if self.process is not None:
-            self.process.kill()
 
     def _start(self) -> None:
         module = [sys.executable, "-m", "dynsolve.grading.worker"]
@@ -133,11 +126,18 @@ class LocalPool:
         """End every worker, also those that are at work."""
         self._threads.shutdown(wait=False, cancel_futures=True)
         for worker in self._workers:
-            if worker.process is not None:
-                worker.process.kill()
+            worker.closed = True
+            process = worker.process
+            if process is not None:
+                process.kill()
         self._threads.shutdown(wait=True)
         for worker in self._workers:
             worker.end()
+
+
+def _end_late(process: subprocess.Popen[bytes], late: threading.Event) -> None:
+    late.set()
+    process.kill()
 
 
 def _mebibytes(memory: int) -> str:

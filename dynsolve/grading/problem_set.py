@@ -11,7 +11,7 @@ Every fault of the file is reported at its place, as in problem files.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -52,7 +52,7 @@ class ProblemSet:
 
     title: str
     items: tuple[Item, ...]
-    policy: Policy = Policy()
+    policy: Policy = field(default_factory=Policy)
 
     @property
     def stems(self) -> tuple[str, ...]:

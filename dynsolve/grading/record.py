@@ -212,9 +212,8 @@ class Record:
         columns = "student, problem, files, left_aside, late, reason, html, markdown"
         order = f"SELECT {columns} FROM hand_ins ORDER BY student, problem"  # noqa: S608
         for s, p, files, left, late, reason, html, markdown in self.db.execute(order):
-            yield Row(
-                s, p, *(tuple(json.loads(x)) for x in (files, left)), bool(late), reason, html, markdown
-            )
+            names, others = (tuple(json.loads(text)) for text in (files, left))
+            yield Row(s, p, names, others, bool(late), reason, html, markdown)
 
     def answers(self, student: str | None = None) -> Iterator[Graded]:
         """The answers with their marks, the teacher's word put in; of one student, or of all."""

@@ -18,9 +18,10 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import dynsolve
+from dynsolve.errors import InputError
 from dynsolve.grading.hand_ins import HandIn, Intake
 from dynsolve.grading.policy import to_data
-from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.uploads import Uploads
 
@@ -36,7 +37,9 @@ Advance = Callable[[int, int], None]
 class Pool(Protocol):
     """What runs the work, on this machine or on a cluster."""
 
-    jobs: int
+    @property
+    def jobs(self) -> int:
+        """How many hand-ins are worked on at once."""
 
     def submit(self, payload: Data) -> Future[Data]:
         """A future of {"result": ...} or {"reason": ...}."""
@@ -78,14 +81,18 @@ def grade_all(
     record.set_intake(intake.students, intake.waiting)
     known = record.fingerprints()
     keys = {(h.student, h.problem) for h in intake.hand_ins}
-    record.keep_only(keys)
+    absent = dict(_absent(problems, intake, keys))
+    record.keep_only(keys | absent.keys())
+    for key, rows in absent.items():
+        if known.get(key) != rows[0]:
+            record.write(key, *rows)
     due = [h for h in intake.hand_ins if known.get((h.student, h.problem)) != fingerprint(problems, h)]
     running: dict[Future[Data], HandIn] = {}
     waiting = iter(due)
     done = 0
     while True:
         for hand_in in _some(waiting, AHEAD * pool.jobs - len(running)):
-            running[pool.submit(payload(problems, uploads, hand_in))] = hand_in
+            running[_submitted(pool, problems, uploads, hand_in)] = hand_in
         if not running:
             break
         finished, _ = wait(running, return_when=FIRST_COMPLETED)
@@ -96,6 +103,35 @@ def grade_all(
             if advance is not None:
                 advance(done, len(due))
     return Done(len(intake.hand_ins), done)
+
+
+def _submitted(pool: Pool, problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Future[Data]:
+    try:
+        return pool.submit(payload(problems, uploads, hand_in))
+    except InputError as error:  # a file that was there a moment ago
+        lost: Future[Data] = Future()
+        lost.set_result({"reason": error.findings[0].message})
+        return lost
+
+
+def _absent(
+    problems: ProblemSet, intake: Intake, keys: set[Key]
+) -> Iterator[tuple[Key, tuple[str, str, Data]]]:
+    """The rows of what was not handed in, or only in a form that waits for a human."""
+    reasons: dict[Key, list[str]] = {}
+    for entry in intake.waiting:
+        for stem in (entry.problem,) if entry.problem else problems.stems:
+            reasons.setdefault((entry.student, stem), []).append(f"{entry.file}: {entry.reason}")
+    for student in intake.students:
+        for item in problems.items:
+            key = (student, item.stem)
+            if key in keys:
+                continue
+            said = reasons.get(key, [])
+            found = {"hand-in": _short(said), "marks": _of_marks(item), "program": program()}
+            row = _unread(problems, student, item.stem, "; ".join(said))
+            rest = {"files": [], "left": [], "late": False, "reason": "; ".join(said), "notes": []}
+            yield key, (_short(found), json.dumps(found, sort_keys=True), {**row, **rest})
 
 
 def _some(source: Iterator[HandIn], count: int) -> Iterator[HandIn]:
@@ -109,16 +145,15 @@ def causes(problems: ProblemSet, hand_in: HandIn) -> dict[str, str]:
     files = [[file.name, file.digest] for file in hand_in.files]
     return {
         "hand-in": _short([files, hand_in.late, list(hand_in.left)]),
-        "problem": _short(_without_marks(item.text)),
-        "marks": _short({name: str(of) for name, of in item.problem.marks.items()}),
+        "problem": _short(item.text),
+        "marks": _of_marks(item),
         "policy": _short(to_data(problems.policy)),
         "program": program(),
     }
 
 
-def _without_marks(text: str) -> str:
-    """The problem's text without comments and marks: what its verdicts rest on."""
-    return text
+def _of_marks(item: Item) -> str:
+    return _short({name: str(of) for name, of in item.problem.marks.items()})
 
 
 def fingerprint(problems: ProblemSet, hand_in: HandIn) -> str:
@@ -147,7 +182,11 @@ def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
 
 
 def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data) -> None:
-    row = said["result"] if "result" in said else _unread(problems, hand_in, said["reason"])
+    row = (
+        said["result"]
+        if "result" in said
+        else _unread(problems, hand_in.student, hand_in.problem, said["reason"])
+    )
     found = causes(problems, hand_in)
     record.write(
         (hand_in.student, hand_in.problem),
@@ -164,17 +203,18 @@ def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data) ->
     )
 
 
-def _unread(problems: ProblemSet, hand_in: HandIn, reason: str) -> Data:
-    """The row of a hand-in that went over a bound: unreadable, for a human to look at."""
+def _unread(problems: ProblemSet, student: str, stem: str, reason: str) -> Data:
+    """The row of what could not be judged: unreadable, for a human to look at; missing without a reason."""
     from dynsolve.grading.work import bare_page
 
-    item = problems.item(hand_in.problem)
-    html, markdown = bare_page(item.problem.title, hand_in.student, reason)
+    item = problems.item(stem)
+    html, markdown = bare_page(item.problem.title, student, reason) if reason else ("", "")
+    verdict = "unreadable" if reason else "missing"
     blank = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form"), "")
     answers = [
         {
-            **blank, "name": name, "verdict": "unreadable", "marks": "0", "of": str(of), "line": 0,
-            "why": f"unreadable: {reason}", "diagnosis": [], "fault": reason,
+            **blank, "name": name, "verdict": verdict, "marks": "0", "of": str(of), "line": 0,
+            "why": f"unreadable: {reason}" if reason else "missing", "diagnosis": [], "fault": reason,
         }
         for name, of in item.problem.marks.items()
     ]  # fmt: skip

@@ -18,6 +18,8 @@ def safe(cell: str) -> str:
     >>> safe("=1+1"), safe("-m1*g"), safe("K"), safe(" @x"), safe("-2.5")
     ("'=1+1", "'-m1*g", 'K', "' @x", '-2.5')
     """
+    if cell == "-":
+        return cell
     begun = cell.lstrip(" \u00a0\u3000\u200b\ufeff")
     if begun.startswith(_RUNS) or begun[:1] in ("＝", "＋", "－", "＠"):  # the full-width ones run as well
         return cell if _is_number(cell) else f"'{cell}"

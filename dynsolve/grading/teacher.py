@@ -61,7 +61,8 @@ def teachers_page(problems: ProblemSet, record: Record) -> str:
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         f'{policy}\n<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f'<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n<title>{title}</title>\n'
+        f'<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
+        f"<title>{title}</title>\n"
         f"<style>\n{css}</style>\n</head>\n<body>\n<main>\n{body}</main>\n<script>\n{_own('sort.js')}</script>\n"
         "</body>\n</html>\n"
     )
@@ -79,18 +80,12 @@ def _count(problems: ProblemSet, record: Record) -> _Cohort:
     for w in record.waiting():
         cohort.queue.append((w.student, w.problem, w.file, w.reason))
     for row in record.rows():
-        if row.reason:
-            cohort.queue.append((row.student, row.problem, ", ".join(row.files), row.reason))
         if row.left:
             cohort.queue.append(
                 (row.student, row.problem, ", ".join(row.left), "left aside: a newer copy counts")
             )
     for standing in standings(record):
         cohort.marks.append((standing.student, standing.marks, standing.total))
-        for item in problems.items:
-            if item.stem not in standing.marks:
-                for name in item.problem.marks:
-                    cohort.verdicts[item.stem, name]["missing"] += 1
         for answer in standing.answers:
             _count_answer(cohort, answer)
     return cohort
@@ -158,7 +153,8 @@ def _distribution(problems: ProblemSet, cohort: _Cohort) -> str:
         )
     return (
         "<h2>Marks</h2>\n"
-        f'<svg class="bars" viewBox="0 0 450 190" role="img" aria-label="Distribution of marks">{"".join(bars)}</svg>\n'
+        '<svg class="bars" viewBox="0 0 450 190" role="img" aria-label="Distribution of marks">'
+        f"{''.join(bars)}</svg>\n"
     )
 
 
@@ -228,7 +224,7 @@ def _queue(cohort: _Cohort) -> str:
 def _students(problems: ProblemSet, cohort: _Cohort) -> str:
     def rows() -> Iterator[str]:
         for student, marks, total in cohort.marks:
-            each = (decimal(marks[stem]) if stem in marks else "" for stem in problems.stems)
+            each = (decimal(marks.get(stem, Fraction(0))) for stem in problems.stems)
             yield _cells(student, *each, decimal(total))
 
     return "<h2>Students</h2>\n" + _table(("student", *problems.stems, "total"), rows())

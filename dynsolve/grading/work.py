@@ -15,7 +15,7 @@ from hashlib import sha256
 from typing import Any
 
 from dynsolve.answers.feedback import View, feedback
-from dynsolve.answers.judge import Judge
+from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.submission import Submission, read_submission
 from dynsolve.answers.verdict import Judged, Report, Verdict
 from dynsolve.document import Document, Heading, Text
@@ -23,7 +23,6 @@ from dynsolve.explain.style import style_of
 from dynsolve.grading.losses import losses
 from dynsolve.grading.marking import Marked, mark
 from dynsolve.grading.policy import from_data
-from dynsolve.pipeline import Derivation, derive
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import read_problem
 
@@ -38,11 +37,11 @@ MOST_TEXT = 2000
 
 def grade_one(payload: Data) -> Data:
     """Judge and mark a hand-in; `payload` has problem, marks, policy, files, late and student."""
-    problem, key = _prepared(payload["problem"]["file"], payload["problem"]["text"])
-    problem = replace(problem, marks={name: Fraction(of) for name, of in payload["marks"].items()})
-    policy = from_data(payload["policy"])
+    stated = payload["problem"]
+    checker = _checker(stated["file"], stated["text"], tuple(payload["marks"].items()))
+    problem, policy = checker.problem, from_data(payload["policy"])
     submission = _joined([_read(problem, file) for file in payload["files"]])
-    judge = Judge(problem, submission, key)
+    judge = Judge(checker, submission)
     report = judge.report()
     lost = losses(judge, report)
     marked = mark(report.answers, policy, payload["late"], lost, _parts(judge, report))
@@ -60,9 +59,9 @@ def grade_one(payload: Data) -> Data:
 
 
 @lru_cache(maxsize=64)
-def _prepared(file: str, text: str) -> tuple[Problem, Derivation]:
+def _checker(file: str, text: str, marks: tuple[tuple[str, str], ...]) -> Checker:
     problem = read_problem(text, file)
-    return problem, derive(problem.robot)
+    return Checker(replace(problem, marks={name: Fraction(of) for name, of in marks}))
 
 
 def _read(problem: Problem, file: Data) -> Submission:
