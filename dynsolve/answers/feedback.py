@@ -48,10 +48,10 @@ def feedback(report: Report, title: str, view: View) -> Document:
 def _blocks(report: Report, title: str, view: View) -> Iterator[Block]:
     yield Heading(title, 1)
     yield from _opening(report, view)
-    wrong = [a for a in report.answers if a.verdict is Verdict.WRONG]
+    wrong = [a for a in report.answers if a.verdict is Verdict.WRONG and a.given]
     for answer in wrong:
         yield Fold(f"{_named(answer)}: wrong", tuple(_wrong(answer, report, view)))
-    unread = [a for a in report.answers if a.verdict is Verdict.UNREADABLE]
+    unread = [a for a in report.answers if a.verdict is Verdict.UNREADABLE and a.given]
     for answer in unread:
         yield Fold(f"{_named(answer)}: could not be read", tuple(_unreadable(answer)))
     yield Heading("All answers")
@@ -150,7 +150,7 @@ def _unreadable(answer: Judged) -> Iterator[Block]:
 def findings(report: Report) -> Iterator[Finding]:
     """What could not be read, with its place and a caret."""
     for answer in report.answers:
-        if answer.verdict is Verdict.UNREADABLE:
+        if answer.verdict is Verdict.UNREADABLE and answer.given:
             place = answer.place or Place(0, 0)
             yield Finding(
                 f"{answer.name}: {answer.fault}", answer.expected, report.file,

@@ -14,6 +14,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.evaluate import Evaluator, Frac, as_expr, equal
 from dynsolve.answers.field import Field, FieldBuilder
+from dynsolve.answers.graph import Entry, Graph
 from dynsolve.answers.submission import Answer, referred
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
@@ -63,6 +64,7 @@ class Hand:
             except AlgebraError as error:
                 self._faults[place] = error.message, error.help
         self.field: Field = builder.field(key)
+        self.graph = Graph(self.field)
         self.answers = tuple(answers)
         self._last = {a.name: place for place, a in enumerate(answers) if place not in self._faults}
         self._values: dict[int, Given] = {}
@@ -99,25 +101,36 @@ class Hand:
         if found is None:
             raise AlgebraError(f"{symbol} is not a symbol of this problem")
         name, row, column = found
+        own = self._own(name, row, column)
+        return self._from_key(name, row, column) if own is None else own
+
+    def _own(self, name: str, row: int | None, column: int | None) -> Frac | None:
+        """The student's own value: of the answer itself, or of the matrix that it is an entry of."""
         place = self._last.get(name)
-        if place is not None and place not in self._busy:
-            work = self.evaluator.work
-            given = self._given(place)
-            self.evaluator.work = work
-            if given.rows is not None:
-                value = _entry(given.rows, row, column)
-                if value is not None:
-                    return value
-        return self._from_key(name, row, column)
+        if place is None:
+            entry = self.graph.entry(name)
+            if entry is None:
+                force = self.graph.node(name).removeprefix("tau")
+                if not force.isdigit():
+                    return None
+                entry = Entry("tau", int(force) - 1, 0)
+            name, row, column = entry.whole, entry.row + 1, entry.column + 1
+            place = self._last.get(name)
+        if place is None or place in self._busy:
+            return None
+        work = self.evaluator.work
+        given = self._given(place)
+        self.evaluator.work = work
+        return None if given.rows is None else _entry(given.rows, row, column)
 
     def _from_key(self, name: str, row: int | None, column: int | None) -> Frac:
-        from dynsolve.answers.graph import Graph
-
-        graph = Graph(self.field)
-        entry = graph.entry(name)
+        symbol = self.graph.christoffel(name)
+        if symbol is not None:
+            return Frac(self.field.key("christoffel")[symbol])
+        entry = self.graph.entry(name)
         if entry is not None:
             name, row, column = entry.whole, entry.row + 1, entry.column + 1
-        node = name if name == "C" else graph.node(name)
+        node = name if name == "C" else self.graph.node(name)
         if node not in self.field.rules:
             raise AlgebraError(f"{name} is not a quantity of this problem")
         value = self.field.key(node)

@@ -2,11 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from dynsolve.answers.judge import NOT_CHRISTOFFEL, NOT_FROM_OWN, check
-from dynsolve.answers.submission import Submission
-from tests.unit.answers.hands import Text, answer, codes, judge, judged, key, problem, verdicts
+from dynsolve.answers.submission import Submission, reference
+from dynsolve.answers.verdict import Judged
+from dynsolve.notation import tree
+from tests.unit.answers.hands import (
+    Text,
+    answer,
+    checker,
+    codes,
+    judge,
+    judged,
+    key,
+    problem,
+    submission,
+    verdicts,
+)
 
 RP, ELBOW = "in3140-rp", "planar-2r"
 
@@ -347,3 +362,37 @@ def test_roots_may_be_rounded() -> None:
     assert (found.verdict, found.notes) == ("correct", ("rounded",))
     assert judged(TILTED, "A1", [[row[0], "-0.867*sin(q1)", *row[2:]], *rest]).verdict == "wrong"
     assert judged(TILTED, "A1", [["cos(q1)", "-sqrt(3)/2*sin(q1)", *row[2:]], *rest]).verdict == "correct"
+
+
+# -- names inside values ---------------------------------------------------------------------------
+
+
+def _referring(*names: str) -> tree.Node:
+    return tree.Sum(tuple(tree.Symbol(reference(name)) for name in names))
+
+
+def _with_reference(own: dict[str, Text], name: str, value: tree.Node) -> Judged:
+    """A hand-in whose last answer names others."""
+    hand = submission(own)
+    one = replace(answer(name, "0", 99), node=value)
+    report = checker(ELBOW)(replace(hand, answers=(*hand.answers, one)))
+    return next(a for a in report.answers if a.name == name)
+
+
+def test_a_name_inside_a_value_is_the_students_own_answer() -> None:
+    right = _with_reference({"P1": "m1*g*lc1*sin(q1)"}, "P", _referring("P1", "P2"))
+    assert right.verdict == "correct"
+    carried = _with_reference({"P1": "m1*g*l1*sin(q1)"}, "P", _referring("P1", "P2"))
+    assert (carried.verdict, carried.follows_from) == ("follows", ("P1",))
+
+
+@pytest.mark.parametrize(
+    ("name", "refers"), [("g2", "@g2"), ("c121", "@c121"), ("d12", "@d12"), ("C12", "@C12"), ("K1", "@K1")]
+)
+def test_a_name_that_was_not_handed_in_is_the_keys(name: str, refers: str) -> None:
+    assert _with_reference({}, name, tree.Symbol(refers)).verdict == "correct"
+
+
+def test_a_name_of_an_entry_is_of_the_matrix_that_was_handed_in() -> None:
+    own: dict[str, Text] = {"D": [[D11, f"2*({D12})"], [D12, D22]]}
+    assert _with_reference(own, "d21", tree.Symbol("@d12")).verdict == "wrong"
