@@ -105,7 +105,8 @@ class Ruler:
             case Product(factors):
                 return sum(map(self._factor, factors))
             case Sum(terms):
-                return sum(map(self._term, terms)) + BINARY * max(len(terms) - 1, 0)
+                lead = 0.78 if terms and type(terms[0]) is Negative else 0.0
+                return lead + sum(map(self._term, terms)) + BINARY * max(len(terms) - 1, 0)
             case Negative(argument):
                 return 0.78 + self._factor(argument)
             case Quotient(numerator, denominator):

@@ -1,0 +1,48 @@
+"""The widths that lines are broken by, against those that TeX finds."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import dynsolve
+from dynsolve.explain.documents import solution_document
+from dynsolve.explain.step import Detail
+from dynsolve.notation.extent import Ruler
+from dynsolve.notation.latex import LatexPrinter
+from dynsolve.render.references import formulas
+from tests.reports.tools import typeset
+
+EM = 10.95
+LONGEST = 300  # what TeX can still measure as one box
+
+
+@pytest.mark.parametrize(
+    "name", ["in3140-rp", "elbow-3r", "numeric-2r", "planar-2r-remote", "puma560-first3"]
+)
+def test_nothing_is_wider_than_it_is_thought_to_be(name: str, tmp_path: Path) -> None:
+    solution = dynsolve.solve(name)
+    nodes = [formula.node for formula in formulas(solution_document(solution, Detail.FULL).blocks)]
+    ruler, printer = Ruler(solution.style), LatexPrinter(solution.style)
+    nodes = [node for node in nodes if ruler.width(node) < LONGEST]
+    boxes = "\n".join(
+        f"\\setbox0\\hbox{{$\\displaystyle {printer.text(node)}$}}\\typeout{{WIDTH \\the\\wd0}}"
+        for node in nodes
+    )
+    source = (
+        "\\documentclass[11pt]{article}\\usepackage{amsmath}\\begin{document}\n"
+        f"{boxes}\nmeasured\n\\end{{document}}\n"
+    )
+    log = typeset(source, tmp_path).log
+    found = [float(width) / EM for width in re.findall(r"^WIDTH ([\d.]+)pt$", log, re.MULTILINE)]
+    assert len(found) == len(nodes) > 30
+    thought = [ruler.width(node) for node in nodes]
+    too_narrow = [
+        (round(is_, 2), round(was, 2), printer.text(node)[:120])
+        for node, is_, was in zip(nodes, found, thought, strict=True)
+        if is_ > was + 0.05
+    ]
+    assert too_narrow == []
+    assert sum(thought) < 1.25 * sum(found), "and not thought to be much wider either"

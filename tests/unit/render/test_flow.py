@@ -1,0 +1,93 @@
+"""Formulas in pieces, and the lines that are made of them."""
+
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from dynsolve.document import Formula
+from dynsolve.notation.extent import Ruler
+from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.text import read
+from dynsolve.notation.tree import Letter, Matrix, Number, Symbol, equation
+from dynsolve.render.flow import Flow, Piece, lines, together
+from dynsolve.render.latex import latex_notation
+from dynsolve.render.setting import INDENT, Setter
+
+LONG = "m1*(a1 + b1 + c1*(d1 + e1 + f1 + g1 + h1 + i1 + j1 + k1) + l1)*q1 + m2*(a2 + b2)/2 + (a3 + b3)^2"
+
+
+def flow() -> Flow:
+    return Flow(latex_notation(LatexPrinter()), Ruler())
+
+
+def setter(room: float) -> Setter:
+    return Setter(latex_notation(LatexPrinter()), Ruler(), room)
+
+
+pieces = st.lists(
+    st.builds(Piece, st.just("x"), st.floats(0.5, 9), st.integers(0, 7)), min_size=1, max_size=40
+)
+
+
+@given(pieces, st.floats(10, 40))
+def test_lines_keep_every_piece_in_order_and_fit(parts: list[Piece], room: float) -> None:
+    broken = lines(parts, room, room - 1)
+    assert [piece for line in broken for piece in line] == parts
+    for place, line in enumerate(broken):
+        assert sum(piece.width for piece in line) <= (room if place == 0 else room - 1) + 1e-9
+
+
+@given(pieces)
+def test_joined_pieces_are_the_same_formula(parts: list[Piece]) -> None:
+    joined = together(parts, 12, "".join)
+    assert "".join(piece.text for piece in joined) == "x" * len(parts)
+    assert abs(sum(p.width for p in joined) - sum(p.width for p in parts)) < 1e-6
+    assert all(piece.width <= 12 or piece.text == "x" for piece in joined)
+
+
+def test_pieces_are_the_formula() -> None:
+    node = read(LONG).tree
+    text = " ".join(piece.text for piece in flow().pieces(node))
+    plain = LatexPrinter().text(node)
+    assert text.replace("{} ", "").replace(" ", "").replace(r"\Bigl", "").replace(r"\Bigr", "") == (
+        plain.replace(" ", "").replace(r"\left", "").replace(r"\right", "")
+    )
+
+
+def test_a_short_formula_stands_on_one_line() -> None:
+    node = equation(Symbol("P1"), read("m1*g*l1").tree)
+    assert [line.right for line in setter(30).set(Formula(node))] == ["P_{1} = m_{1} g l_{1}"]
+
+
+def test_a_long_sum_is_broken_before_its_signs() -> None:
+    node = equation(Symbol("tau1"), read(LONG).tree)
+    broken = setter(20).set(Formula(node))
+    assert len(broken) > 2
+    assert broken[0].left == r"\tau_{1}"
+    assert all(line.right.startswith(("{} +", "{} -", "{} =")) for line in broken)
+    assert all(line.indented for line in broken[1:])
+
+
+def test_lines_that_begin_a_member_are_level_and_others_are_moved_in() -> None:
+    chain = equation(Symbol("c"), Symbol("d"), read("+".join(f"a{i}" for i in range(12))).tree)
+    for room in (8, 12, 20):
+        broken = setter(room).set(Formula(chain))
+        assert len(broken) > 1
+        assert all(line.indented is not line.right.startswith("{} =") for line in broken)
+
+
+def test_a_wide_matrix_is_given_entry_by_entry() -> None:
+    entry = read("m1*l1 + m2*l2 + m3*l3 + I1 + I2 + I3").tree
+    matrix = Matrix(((entry, Number(0)), (Number(0), entry)))
+    names = tuple(tuple(Symbol(f"d{i}{j}") for j in (1, 2)) for i in (1, 2))
+    broken = setter(24).set(Formula(equation(Letter("D", style="bold"), matrix), entries=names))
+    assert [line.left for line in broken] == ["d_{11}", "d_{12}"]
+    assert broken[0].right.startswith("{} = d_{22} {} = m_{1}")
+    assert broken[1].right == "{} = d_{21} {} = 0"
+
+
+def test_an_optional_formula_whose_matrices_do_not_fit_is_left_out() -> None:
+    entry = read("m1*l1 + m2*l2 + m3*l3 + I1 + I2 + I3").tree
+    node = equation(Letter("x"), Matrix(((entry, entry),)))
+    assert setter(24 - INDENT).set(Formula(node, optional=True)) == []

@@ -1,0 +1,68 @@
+"""Words in every notation: what is seen, and nothing that is obeyed."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.tree import Node
+from dynsolve.render.latex_text import latex_text
+from dynsolve.render.markdown import escaped
+from dynsolve.render.words import spoken, visible
+
+
+def shown(text: str) -> list[str]:
+    printer = LatexPrinter()
+    return [f"${printer.text(p)}$" if isinstance(p, Node) else p for p in spoken(text)]
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("Row 1 of the table: A₁", ["Row 1 of the table: ", "$A_{1}$"]),
+        ("turn by θ about", ["turn by ", r"$\theta$", " about"]),
+        ("D, C q̇, g: equal", ["D, C ", r"$\dot{q}$", ", g: equal"]),
+        ("Ḋ - 2C", [r"$\dot{D}$", " - 2C"]),
+        ("H₂⁰", ["$H_{2}^{0}$"]),
+        ("Überarm naïve I a", ["Überarm naïve I a"]),
+    ],
+)
+def test_mathematics_among_words(text: str, parts: list[str]) -> None:
+    assert shown(text) == parts
+
+
+@pytest.mark.parametrize(
+    ("text", "seen"),
+    [("a\u202eb", "ab"), ("a\u200fb", "ab"), ("a\tb\x07", "a b "), ("o\u0308", "ö"), ("a\ue000", "a\ufffd")],
+)
+def test_what_cannot_be_seen_is_left_out(text: str, seen: str) -> None:
+    assert visible(text) == seen
+
+
+@pytest.mark.parametrize(
+    ("text", "latex"),
+    [
+        (r"\input{x}", r"\textbackslash{}input\{x\}"),
+        ("50% & #1_2 $x$ ~^", r"50\% \& \#1\_2 \$x\$ \textasciitilde{}\textasciicircum{}"),
+        ("<script>", r"\textless{}script\textgreater{}"),
+        ("a---b", "a-{}-{}-b"),
+        ("é ñ Č ø", r"\'{e} \~{n} \v{C} \o{}"),
+        ("θ ≤ 90°", r"$\theta$ $\leq$ 90\textdegree{}"),
+        ("中", "{[}U+4E2D{]}"),
+    ],
+)
+def test_any_text_as_latex(text: str, latex: str) -> None:
+    assert latex_text(text) == latex
+
+
+@pytest.mark.parametrize(
+    ("text", "markdown"),
+    [
+        ("*a* _b_ `c`", r"\*a\* \_b\_ \`c\`"),
+        ("[x](javascript:y)", r"\[x\](javascript:y)"),
+        ("$1 | $2", "&#36;1 &#124; &#36;2"),
+        ("# not a heading", r"\# not a heading"),
+    ],
+)
+def test_any_text_as_markdown(text: str, markdown: str) -> None:
+    assert escaped(text) == markdown
