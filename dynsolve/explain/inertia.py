@@ -55,7 +55,9 @@ def steps(course: Course) -> Iterator[Step]:
     """Of each body: r_c, and unless it is a point, I, R and I in the base frame."""
     bodies = course.robot.bodies
     off_origin = next((body for body in bodies if not body.center.is_zero), None)
-    framed = next((body for body in bodies if body.link > 1 and _has_link_axes(body)), None)
+    framed = next(
+        (body for body in bodies if _has_link_axes(body) and any(_right_frame(course, body.link))), None
+    )
     for body in bodies:
         yield _center(course, body, tells=body is off_origin)
         if body.is_point:
@@ -302,13 +304,10 @@ def _rotation(course: Course, body: Body, tells: bool) -> Step:
     formula: Node | None = None
     match body.axes.kind:
         case AxesKind.LINK if _has_link_axes(body):
-            why: Prose = (
-                f"The body's axes are those of frame {link}, the frame that comes after the mass",
-                " and is fixed in the same link.",
-            )
+            which = "the frame that comes after the mass and" if course.standard else "which"
+            why: Prose = (f"The body's axes are those of frame {link}, {which} is fixed in the same link.",)
             formula = equation(rotation, frame)
-            if tells:
-                notes = ((f"Frame {link} is the one to take, not frame {link - 1} before the mass.",),)
+            notes = tuple(_right_frame(course, link)) if tells else ()
         case AxesKind.LINK:
             why = (f"The body's axes are turned in frame {link}, as the problem gives them.",)
             formula = equation(rotation, Product((frame, turned)))
@@ -343,6 +342,19 @@ def _rotation(course: Course, body: Body, tells: bool) -> Step:
         result=(equation(rotation, course.form(f"R{body.name}")),),
         notes=notes,
     )
+
+
+def _right_frame(course: Course, link: int) -> Iterator[Prose]:
+    """Which frame is mistaken for that of the link: the one at its other end."""
+    joints = course.robot.joints
+    if course.standard:
+        if link > 1:
+            yield (f"Frame {link} is the one to take, not frame {link - 1} before the mass.",)
+    elif link < len(joints) and joints[link].type:
+        yield (
+            f"Frame {link} is the one to take, at the near end of the link in the modified convention. "
+            f"Frame {link + 1}, after the mass, moves with the next link.",
+        )
 
 
 def _base_tensor(course: Course, body: Body) -> Step:

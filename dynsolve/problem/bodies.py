@@ -236,7 +236,12 @@ def _read_shape(report: Report, node: Node | None, body: str) -> ShapeSheet | No
     if isinstance(node, Scalar):
         return _bare_shape(report, node, body)
     if not isinstance(node, MappingNode) or len(node.entries) != 1:
-        report.error(node.span, f"the shape of {body} is one shape with its dimensions", _SHAPE_HELP)
+        named = [key.decoded for key, _ in node.entries] if isinstance(node, MappingNode) else []
+        beside = named[:1] if named[1:] == ["axis"] and KINDS.get(named[0]) else []
+        help = (
+            f"write axis among its dimensions: {{{beside[0]}: {{..., axis: z}}}}" if beside else _SHAPE_HELP
+        )
+        report.error(node.span, f"the shape of {body} is one shape with its dimensions", help)
         return None
     key, value = node.entries[0]
     if key.decoded not in KINDS or key.decoded == "point":

@@ -356,3 +356,20 @@ def test_what_agrees_is_said_in_a_sentence() -> None:
     assert said(step("planar-2r", "agreement").why, "planar-2r") == (
         "D, C q̇ and g, read off from the forces and assembled directly, are equal, exactly."
     )
+
+
+CRAIG = """
+convention: modified
+dh: [{theta: q1*}, {theta: q2*, a: l1}, {theta: q3*, a: l2}]
+masses:
+  - {mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}
+  - {mass: m2, link: 2, center: midpoint, inertia: {zz: I2}}
+"""
+
+
+def test_frame_i_is_before_the_mass_in_the_modified_convention() -> None:
+    text = everything_said(CRAIG)
+    assert "comes after the mass" not in text and "before the mass" not in text
+    assert "Frame 1 is the one to take, at the near end" in text
+    assert "Frame 2, after the mass, moves with the next link." in text
+    assert "from o₁, half the way on" in said(step(CRAIG, "rc1").why, CRAIG)

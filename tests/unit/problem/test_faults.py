@@ -121,6 +121,11 @@ BODIES = {
         "`ball` is no shape",
         "shapes are point, box",
     ),
+    "an axis beside a shape": (
+        body("{mass: m, link: 1, center: tip, shape: «{rod: {length: l}, axis: x}»}"),
+        "one shape with its dimensions",
+        "write axis among its dimensions: {rod: {..., axis: z}}",
+    ),
     "a missing dimension": (
         body("{mass: m, link: 1, center: tip, shape: {cylinder: «{radius: r}»}}"),
         "lacks length",
