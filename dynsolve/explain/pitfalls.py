@@ -43,11 +43,11 @@ def _kinematics(robot: Robot) -> Iterator[Prose]:
 
 def _jacobian(robot: Robot) -> Iterator[Prose]:
     if robot.convention is Convention.STANDARD:
-        yield ("Joint i moves about the axis of the frame before it, ", letters.z(0),
+        yield ("Joint i moves about or along the axis of the frame before it, ", letters.z(0),
                " for the first one: take the third column of H with index i-1, not i.")  # fmt: skip
     else:
-        yield ("In Craig's convention joint i moves about the axis of its own frame: take the third column "
-               "of H with index i.",)  # fmt: skip
+        yield ("In Craig's convention joint i moves about or along the axis of its own frame: take the third "
+               "column of H with index i.",)  # fmt: skip
     sliding = _of_type(robot, JointType.PRISMATIC)
     if sliding:
         what = " is a length: its column has" if len(sliding) == 1 else " are lengths: their columns have"
@@ -56,8 +56,8 @@ def _jacobian(robot: Robot) -> Iterator[Prose]:
         yield ("The cross product is not symmetric: the axis stands first, the lever second.",)
     if any(len(joint.rates) > 1 or any(rate != 1 for _, rate in joint.rates) for joint in robot.joints):
         yield (
-            "A joint variable here is a combination of coordinates: its column counts for each of them, "
-            "times the factor with which it stands in the table.",
+            "Not every joint variable here is a coordinate itself: the column of a joint counts for each "
+            "coordinate in it, times the factor with which that stands in the table.",
         )
     fixed = [joint for joint in robot.joints if joint.type is None]
     if fixed:
@@ -80,8 +80,10 @@ def _inertia(robot: Robot) -> Iterator[Prose]:
             " is not given about the mass centre. Going there, the parallel-axis term is subtracted.",
         )
     if any(body.axes.kind is AxesKind.LINK for body in extended):
+        standard = robot.convention is Convention.STANDARD
+        ends = ("after", "before") if standard else ("before", "after")
         yield (
-            "The frame of a body is the one after it, which is fixed in the same link, not the one before.",
+            f"The frame of a body is the one {ends[0]} it, which is fixed in the same link, not the one {ends[1]}.",
         )
     if extended:
         yield ("In R I Rᵀ the transpose stands on the right: R turns the body's axes into the base's.",)
@@ -145,7 +147,11 @@ def _vectorized(robot: Robot) -> Iterator[Prose]:
         )
     yield ("Do not forget the ½ of the Christoffel symbols.",)
     if not robot.gravity.is_zero:
-        yield ("g holds no rates and no accelerations, and its sign is that of the slope of ", letters.P, ".")
+        yield (
+            "g holds no rates and no accelerations, and its sign is that of the derivatives of ",
+            letters.P,
+            ".",
+        )
 
 
 def _of_type(robot: Robot, kind: JointType) -> list[Node]:
