@@ -81,9 +81,9 @@ def _inertia(robot: Robot) -> Iterator[Prose]:
         )
     if any(body.axes.kind is AxesKind.LINK for body in extended):
         standard = robot.convention is Convention.STANDARD
-        ends = ("after", "before") if standard else ("before", "after")
+        own, other = ("after", "before") if standard else ("before", "after")
         yield (
-            f"The frame of a body is the one {ends[0]} it, which is fixed in the same link, not the one {ends[1]}.",
+            f"The frame of a body is the one {own} it, which is fixed in the same link, not the one {other}.",
         )
     if extended:
         yield ("In R I Rᵀ the transpose stands on the right: R turns the body's axes into the base's.",)
