@@ -24,6 +24,7 @@ from itertools import count
 from dynsolve.algebra.build import cost, negated, times, total
 from dynsolve.algebra.compact import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.terms import Frame, Terms
 from dynsolve.explain.base_parameters import BaseParameters
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.recurring import Definition, name_recurring
@@ -103,7 +104,7 @@ def _with_constants(forms: Forms) -> Abbreviated:
     base = BaseParameters.of(robot, values["D"], values["g"], CONSTANT)
     leading, parallel = forms.collecting
     names = list(base.meanings)
-    compactor = Compactor(base.ring, [*names, *leading], parallel, decimal=is_numeric(robot))
+    compactor = _ByAngles(base.ring, [*names, *leading], parallel, decimal=is_numeric(robot))
     D, g = base.matrix(values["D"]), base.matrix(values["g"])
     symbols = christoffel_symbols(robot, D)
     meanings = tuple(Definition(Symbol(name), forms.of(value)) for name, value in base.meanings.items())
@@ -114,6 +115,13 @@ def _with_constants(forms: Forms) -> Abbreviated:
         compactor.matrix(g),
         _forms_of(symbols, compactor),
     )
+
+
+class _ByAngles(Compactor):
+    """Collects sines and cosines outside, the constants they multiply inside."""
+
+    def _scalar(self, frame: Frame, terms: Terms) -> Node:
+        return self._by_angles(frame, terms)
 
 
 def _forms_of(symbols: Mapping[Index, Expr], compactor: Compactor) -> dict[Index, Node]:

@@ -56,7 +56,8 @@ class BaseParameters:
     letter: str
     _rows: dict[Exponents, _Row] = field(default_factory=dict)
     _found: list[Coefficient] = field(default_factory=list)
-    _products: list[Coefficient] = field(default_factory=list)
+    _split: dict[Expr, dict[Exponents, Coefficient]] = field(default_factory=dict)
+    _carried: dict[Expr, Expr] = field(default_factory=dict)
 
     @staticmethod
     def of(robot: Robot, D: Matrix, g: Matrix, letter: str) -> BaseParameters:
@@ -64,7 +65,7 @@ class BaseParameters:
         found = BaseParameters(robot, letter)
         coefficients = {
             frozenset(c.items()): c
-            for expr in (*D.entries, *g.entries)
+            for expr in dict.fromkeys((*D.entries, *g.entries))
             for c in found._coefficients(expr).values()
         }
         for coefficient in sorted(coefficients.values(), key=_size):
@@ -109,6 +110,12 @@ class BaseParameters:
 
     def _coefficients(self, expr: Expr) -> dict[Exponents, Coefficient]:
         """The coefficient of every product of sines, cosines and coordinates."""
+        found = self._split.get(expr)
+        if found is None:
+            found = self._split[expr] = self._split_up(expr)
+        return found
+
+    def _split_up(self, expr: Expr) -> dict[Exponents, Coefficient]:
         result: dict[Exponents, Coefficient] = {}
         for e, f in expr.poly.to_dict().items():
             motion = tuple(0 if i in self._parameters else int(x) for i, x in enumerate(e))
@@ -147,7 +154,6 @@ class BaseParameters:
         self._found.append(self._shortened(whole))
         for factor in self._factors:
             product = {_plus(e, factor): f for e, f in self._found[number].items()}
-            self._products.append(product)
             self._put(product, {(factor, number): Fraction(1)})
 
     def _shortened(self, coefficient: Coefficient) -> Coefficient:
@@ -207,6 +213,12 @@ class BaseParameters:
 
     def expr(self, expr: Expr) -> Expr:
         """D's or g's entry in base parameters, in `ring`."""
+        found = self._carried.get(expr)
+        if found is None:
+            found = self._carried[expr] = self._carry(expr)
+        return found
+
+    def _carry(self, expr: Expr) -> Expr:
         ring = self.ring
         total: dict[Exponents, Fraction] = {}
         width = len(ring.generators)
