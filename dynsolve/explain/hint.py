@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Prose, Table, Text
 from dynsolve.errors import UsageError
 from dynsolve.explain import WITHOUT_MASSES, explain, letters
-from dynsolve.explain.course import Course, is_small
+from dynsolve.explain.course import Course, is_small, listed
 from dynsolve.explain.pitfalls import pitfalls
 from dynsolve.explain.step import STAGES, Step
 from dynsolve.notation.tree import Node, Product, equation
@@ -99,10 +99,15 @@ def _given(course: Course, stage: str) -> Iterator[Block]:
         yield Table(table.header, table.rows)
         return
     yield Text((_AT_HAND[stage],))
+    long: list[Node] = []
     for letter, name in _inputs(course, stage):
         form = course.form(name)
         if is_small(form):
             yield Formula(equation(letter, form))
+        else:
+            long.append(letter)
+    if long:
+        yield Text((*listed(long), ", too long to be repeated here."))
 
 
 _AT_HAND = {

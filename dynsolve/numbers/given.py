@@ -163,7 +163,7 @@ def _parameter_key(reader: _Reader, assignment: Assignment) -> Key | None:
 # -- states ----------------------------------------------------------------------------------------
 
 
-def state(problem: Problem, assignments: Iterable[Assignment], option: str = "") -> Given:
+def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
     """A state of the robot: every coordinate, and the velocities and accelerations, 0 unless given.
 
     Raises InputError with every fault, a coordinate that is missing among them.
@@ -171,6 +171,7 @@ def state(problem: Problem, assignments: Iterable[Assignment], option: str = "")
     reader = _Reader(problem)
     entries: dict[Key, Entry] = {}
     assignments = tuple(assignments)
+    option = next((assignment.file for assignment in assignments), "")
     for assignment in assignments:
         reader.take(entries, assignment, _state_key)
     robot = problem.robot
@@ -260,9 +261,10 @@ class _Reader:
 
     def unknown(self, assignment: Assignment, name: str, known: Iterable[str], what: str) -> None:
         known = list(known)
-        close = get_close_matches(name, known, n=1)
+        close = get_close_matches(name, known, n=1, cutoff=0.5)
         some = ", ".join(known[:12]) + (", ..." if len(known) > 12 else "")
-        help = f"did you mean `{close[0]}`?" if close else f"the {what} are {some}" if known else ""
+        help = f"did you mean `{close[0]}`? " if close else ""
+        help += f"The {what} are {some}" if known else f"this robot has no {what}"
         self.report(assignment.at_name(f"{name} does not occur in this problem", help))
 
     def entry(self, key: Key, assignment: Assignment) -> Entry | None:

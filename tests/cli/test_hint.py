@@ -1,0 +1,106 @@
+"""Hints: what to do in a stage, without its result or a later one."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+import pytest
+
+import dynsolve as package
+from dynsolve.explain.step import STAGES
+from dynsolve.library import bundled
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.render.terminal import render
+from tests.cli.running import dynsolve
+
+SMALL = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+
+
+@lru_cache
+def solved(problem: str) -> package.Solution:
+    return package.solve(problem)
+
+
+def hint(problem: str, stage: str) -> str:
+    solution = solved(problem)
+    lines = render(solution.hint(stage), 400, solution.style)
+    return "\n".join(line.text for line in lines)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("problem", SMALL)
+def test_no_result_of_the_stage_or_of_a_later_one(problem: str, stage: str) -> None:
+    """What is to be done holds no formula that comes out; what there is came out of an earlier stage."""
+    solution = solved(problem)
+    order = list(STAGES)
+    there_is, _, to_do = hint(problem, stage).partition("\n1. ")
+    for result in _results(solution, order[order.index(stage) :]):
+        assert result not in to_do, result
+    given = {to_unicode(solution.forms(name), solution.style) for _, name in GIVEN.get(stage, ())}
+    assert "too long to be repeated here" in there_is or all(text in there_is for text in given)
+
+
+GIVEN = {"lagrangian": [("𝒦", "K"), ("𝒫", "P")], "torque": [("𝓛", "L")], "vectorized": [("τ₁", "tau1")]}
+"""What a stage starts from, as far as it is no matrix."""
+
+
+def _results(solution: package.Solution, stages: list[str]) -> set[str]:
+    """What comes out of some stages: right-hand sides that say something, entries of matrices too."""
+    from dynsolve.notation.tree import Matrix, Relation
+
+    found: set[str] = set()
+    for step in solution.explain(stages) if stages else ():
+        if step.id in ("dh", "skew", "model"):
+            continue
+        for node in step.result:
+            right = node.parts[-1] if isinstance(node, Relation) else node
+            entries = [e for row in right.rows for e in row] if isinstance(right, Matrix) else [right]
+            found |= {to_unicode(entry, solution.style) for entry in entries}
+    return {text for text in found if re.search(r"[θqLdmI].*[-+ ].*[₀-₉]", text) and len(text) > 12}
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_every_stage_says_what_there_is_what_to_do_and_what_to_look_out_for(stage: str) -> None:
+    ran = dynsolve("solve", "in3140-rp", "--hint", stage)
+    assert ran.code == 0 and not ran.err
+    assert "You have" in ran.out and "1. " in ran.out and "Look out:" in ran.out
+    assert "Verified" not in ran.out
+
+
+def test_formulas_and_inputs_of_this_robot() -> None:
+    energy = hint("in3140-rp", "energy")
+    assert "K_ω1 = ½ ω₁ᵀ 𝓘₁ ω₁" in energy and "J_v2 = [z₀ × (r_c2 - o₀)  z₁]" in energy
+    assert "r_c2 = ⎢L₂ s₁⎥" in energy  # what the stage before has given
+    assert "θ̇₁²" not in energy
+    torque = hint("in3140-rp", "torque")
+    assert "𝓛 = ((m₂ L₂² + I_1zz) θ̇₁² + m₂ L̇₂²)/2 - m₁ g L₁/2 - m₂ g L₁" in torque and "θ̈₁" not in torque
+    assert "What drives θ₁ is a torque; what drives L₂ a force." in torque
+
+
+def test_it_does_not_tell_what_is_zero() -> None:
+    """The slope of P, Christoffel symbols that vanish, a mass centre that stands still are results."""
+    for stage in STAGES:
+        for problem in ("in3140-rp", "cartesian-pp"):
+            text = " ".join(hint(problem, stage).split())
+            for words in ("so g is zero", "does not move.", "Zero:", "is constant, so", "at rest here"):
+                assert words not in text, (problem, stage, words)
+
+
+def test_pitfalls_are_those_of_the_robot() -> None:
+    assert "The angle of row 1 is θ₁⋆ + 90°" in hint("in3140-rp", "kinematics")
+    assert "Craig's convention" in hint("rp-vertical", "kinematics")
+    assert "torque" not in hint("cartesian-pp", "torque")
+    assert "chain rule" in hint("planar-2r", "torque")
+    assert "counts for each coordinate in it" in " ".join(hint("planar-2r-remote", "jacobian").split())
+    assert "point" not in hint("elbow-3r", "energy").partition("Look out:")[2]
+
+
+def test_a_robot_without_masses_has_no_energies() -> None:
+    ran = dynsolve("solve", "-", "--hint", "energy", stdin="dh: [{theta: q1*, a: l1}]")
+    assert ran.code == 2 and "no body has mass" in ran.err
+    assert dynsolve("solve", "-", "--hint", "jacobian", stdin="dh: [{theta: q1*, a: l1}]").code == 0
+
+
+def test_an_unknown_stage_is_a_usage_error() -> None:
+    assert dynsolve("solve", "in3140-rp", "--hint", "dynamics").code == 2

@@ -1,0 +1,121 @@
+"""Numbers on the command line: --set, --at, --digits and `values:`, in text, JSON and reports."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.running import dynsolve
+
+SET = ("--set", "L1=0.4,m1=2", "--set", "m2=1,I1zz=0.05", "--set", "g=9.81")
+AT = ("--at", "theta1=30deg,L2=0.2,theta1_dot=0.5,L2_dot=0.1")
+
+
+def solved(*words: str) -> str:
+    ran = dynsolve("solve", "in3140-rp", *words)
+    assert ran.code == 0 and not ran.err, ran.err
+    return ran.out
+
+
+def test_results_with_values_stand_beside_the_symbolic_ones() -> None:
+    out = solved(*SET)
+    assert "    τ₁ = (m₂ L₂² + I_1zz) θ̈₁ + 2m₂ L₂ θ̇₁ L̇₂\n" in out
+    assert "    τ₁ = (0.05 + L₂²) θ̈₁ + 2L₂ θ̇₁ L̇₂ in N m\n" in out
+    assert "    f₂ = L̈₂ - L₂ θ̇₁² in N\n" in out
+    assert "    𝒫 = 7.848 J\n" in out  # m1 g L1/2 + m2 g L1 = 2·9.81·0.2 + 9.81·0.4
+    assert "    I_1zz    0.05    kg m²\n" in out
+
+
+def test_a_state_shows_every_stage() -> None:
+    out = solved(*SET, *AT).partition("At a state")[2]
+    assert "L̈₂ are 0." in out and "θ̈₁" in out
+    for line in (
+        "    K_v2 = 0.01 J",  # (L2² θ̇1² + L̇2²)/2 = (0.01 + 0.01)/2
+        "    K_ω1 = 0.00625 J",  # 0.05·0.5²/2
+        "    𝒦 = 0.01625 J",
+        "    𝓛 = -7.832 J",
+        "    ∂𝓛/∂θ̇₁ = 0.045 kg m²/s",  # (0.05 + 0.2²)·0.5
+        "    τ₁ = 0.02 N m",  # 2·0.2·0.5·0.1
+        "    f₂ = -0.05 N",  # -0.2·0.5²
+    ):
+        assert line + "\n" in out, line
+
+
+def test_without_decimals_a_state_is_exact() -> None:
+    out = solved("--at", "theta1=30deg,L2=1/5", "--stage", "kinematics")
+    assert "√3/10" in out and "L₁" in out
+    assert "Parameters without a value stay symbols: L₁, m₁, I_1zz, m₂, g." in out
+    assert "0.1732" in solved("--at", "theta1=30deg,L2=1/5", "--stage", "kinematics", "--digits", "4")
+
+
+@pytest.mark.parametrize(("digits", "shown"), [("2", "0.17\n"), ("6", "0.173205\n")])
+def test_digits(digits: str, shown: str) -> None:
+    out = solved("--at", "theta1=60deg,L2=0.2,L2_dot=0.2", "--stage", "energy", "--digits", digits)
+    assert shown.strip() in out
+
+
+def test_stages_choose_numbers_too() -> None:
+    out = solved(*SET, "--stage", "lagrangian")
+    assert "𝓛 = (0.025 + 0.5 L₂²) θ̇₁² + 0.5 L̇₂² - 7.848 in J" in out and "τ₁" not in out
+
+
+def test_json_has_sections_of_its_own() -> None:
+    plain = json.loads(solved("--json"))
+    assert not {"values", "at", "units"} & plain.keys()
+    full = json.loads(solved(*SET, *AT, "--json"))
+    assert {name: full[name] for name in plain} == plain
+    assert full["values"]["given"]["L1"] == {"value": "0.4", "unit": "m"}
+    assert full["values"]["results"]["P"] == "7.848"
+    assert full["values"]["results"]["D"] == [["0.05 + L2**2", "0"], ["0", "1"]]
+    assert full["at"]["given"]["theta1_dot"] == {"value": "0.5", "unit": "rad/s"}
+    assert full["at"]["results"]["tau"] == ["0.02", "-0.05"]
+    assert full["at"]["results"]["H"][1][0][3] == "0.173205080756888"
+    assert full["at"]["results"].keys() == plain["results"].keys()
+    assert full["units"]["tau"] == ["N m", "N"] and full["units"]["D"][0] == ["kg m^2", "kg m"]
+
+
+def test_exact_states_are_exact_in_json() -> None:
+    found = json.loads(solved("--json", "--at", "theta1=30deg,L2=1/5"))["at"]["results"]
+    assert found["H"][1][0][3] == "sqrt(3)/10"
+
+
+def test_values_of_a_file_count_where_they_are_complete(tmp_path: Path) -> None:
+    text = "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m1, link: 1}]\nvalues: {l1: 500, m1: 2VALUES}\nunits: {l1: mm}\n"
+    whole, partial = tmp_path / "whole.yaml", tmp_path / "partial.yaml"
+    whole.write_text(text.replace("VALUES", ", g: 10"))
+    partial.write_text(text.replace("VALUES", ""))
+    assert "D = [0.5] in kg m²" in (out := dynsolve("solve", str(whole)).out) or "D = [½] kg m²" in out
+    assert "With numbers" not in dynsolve("solve", str(partial)).out
+    rest = dynsolve("solve", str(partial), "--set", "m1=4").out
+    assert "Without a value, and so still a symbol: g." in rest
+
+
+def test_reports_carry_the_numbers(tmp_path: Path) -> None:
+    for form, shown in {"--latex": r"\text{ N m}", "--html": "N m", "--markdown": "With numbers"}.items():
+        assert shown in solved(form, *SET, *AT)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--at", "theta1=30,L2=0.2"), "--at:8: the bare number 30 stands as an angle"),
+        (("--at", "theta1=30deg"), "--at: the state lacks L2"),
+        (("--set", "L3=1"), "did you mean `L1`?"),
+        (("--digits", "3"), "--digits needs numbers"),
+        (("--digits", "0", *SET), "greater than or equal to 1"),
+    ],
+)
+def test_mistakes_are_said_with_their_remedy(words: tuple[str, ...], said: str) -> None:
+    ran = dynsolve("solve", "in3140-rp", *words)
+    assert ran.code == 2 and not ran.out and said in " ".join(ran.err.split()) and "Traceback" not in ran.err
+
+
+def test_a_value_of_the_file_that_is_no_angle_has_its_place(tmp_path: Path) -> None:
+    file = tmp_path / "p.yaml"
+    file.write_text(
+        "dh: [{theta: q1*, a: l1, alpha: beta}]\nmasses: [{mass: m1, link: 1}]\nvalues: {beta: 30}\n"
+    )
+    ran = dynsolve("solve", str(file), "--set", "m1=1")
+    assert ran.code == 2 and ":3:16: the bare number 30 stands as an angle" in ran.err
