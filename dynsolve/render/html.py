@@ -33,7 +33,7 @@ from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Number, Relation, Row
 from dynsolve.render.boxes import holds_matrix
 from dynsolve.render.flow import Flow, Notation, together
-from dynsolve.render.references import numbered
+from dynsolve.render.references import numbered, with_results
 from dynsolve.render.setting import entry_name, listed
 from dynsolve.render.words import spoken, visible
 
@@ -164,7 +164,7 @@ class _Page:
         if self.entries:
             self.entries[-1].steps.append((anchor, title, fold.level))
         yield f'<details open class="step l{int(fold.level)}" id="{anchor}"><summary>{title}</summary>\n'
-        for block in fold.blocks:
+        for block in with_results(fold.blocks):
             yield from self.block(block)
         yield "</details>\n"
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from dynsolve.document import Block, Document, Fold, Formula, Heading, Text
+from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Text, Uses
 
 
 def numbered(document: Document) -> dict[str, int]:
@@ -24,8 +24,19 @@ def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:
             yield from formulas(block.blocks)
 
 
+def with_results(blocks: Sequence[Block]) -> list[Block]:
+    """The blocks without a `Uses` that nothing follows which is computed from it."""
+    following = [*blocks[1:], None]
+    return [
+        block
+        for block, after in zip(blocks, following, strict=True)
+        if not isinstance(block, Uses) or isinstance(after, Formula | Equations)
+    ]
+
+
 def with_sources(blocks: Sequence[Block]) -> Iterator[Block]:
     """The same blocks, the source of a formula beside the paragraph that introduces it."""
+    blocks = with_results(blocks)
     for block, following in zip(blocks, [*blocks[1:], None], strict=True):
         if isinstance(block, Text) and isinstance(following, Formula) and not block.source:
             yield replace(block, source=following.source)
