@@ -18,14 +18,17 @@ from dynsolve.draw.vectors import Point
 from dynsolve.notation.tree import Node
 
 _ROUNDS = 4
-_ORDERS = 16
+_ORDERS = 24
 _SEED = 1955
 _DIRECTIONS = tuple(2 * math.pi * k / 16 for k in range(16))
 _DISTANCES = (4.0, 8.0, 13.0, 19.0, 27.0, 36.0, 46.0, 60.0, 76.0, 95.0)
 _FAR = 22.0
 """The distance from which a thin line leads from a label to what it names."""
 
-_CLOSE, _BARRED = 5.0, 1.5
+_STRUCK = 25.0
+"""What each cell under a label costs that something is drawn on."""
+
+_CLOSE, _BARRED = 5.0, 3.0
 """What each cell costs that bars the way from a label to what it names."""
 
 _BESIDE, _ABOVE = 7.0, 2.0
@@ -129,7 +132,8 @@ def _options(label: Wanted, taken: Taken) -> list[_Place]:
                 turn = 0.0 if preferred is None else abs(math.remainder(angle - preferred, 2 * math.pi))
                 way = _way(anchor, box, label.radius + 3.0)
                 barred = taken.cells_on(*way) if away > _CLOSE else 0
-                cost = 9.0 * taken.inside(box) + 0.45 * away + 2.2 * turn + 1.5 * rank + _BARRED * barred
+                cost = _STRUCK * taken.inside(box) + _BARRED * barred
+                cost += 0.6 * away + 2.2 * turn + 1.5 * rank
                 places.append(_Place(box, way if away >= _FAR else None, round(cost, 6)))
     places.sort(key=lambda option: option.cost)
     return places

@@ -28,6 +28,9 @@ WIDTH, HEIGHT = 500.0, 390.0
 LARGEST = 150.0
 """The most picture units that a length of 1 takes."""
 
+_MANY, _MORE = 4, 1.35
+"""A robot with more rows than that is drawn larger, for there is more to write beside it."""
+
 AXIS = 44.0
 """How long the axes of frames are drawn."""
 
@@ -101,7 +104,8 @@ def _pose(robot: Robot, numbers: Numbers, setting: Setting, choice: _Choice) -> 
         view = facing(setting.normal, setting.up)
     else:
         view = oblique(setting.up, setting.ahead, choice[-2], choice[-1])
-    view = view.sized(_size([view.point(point) for point in body.path]))
+    room = _MORE if len(robot.joints) > _MANY else 1.0
+    view = view.sized(room * _size([view.point(point) for point in body.path]))
     return Pose(body, arrange(body, view, setting.up), view)
 
 
