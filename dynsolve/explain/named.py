@@ -33,21 +33,22 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.robot.model import Coordinate
 
-LONGEST = 120
+LONGEST = 80
 """The operations up to which a result on the way to D, c_ijk and g is written out."""
 
 
 def in_names(steps: Iterable[Step], course: Course, short: Abbreviated) -> Iterator[Step]:
     """The steps, with names in them and, of a model with named constants, without what fills pages."""
     names = _Names(course, short)
-    told = False
+    told: set[str] = set()
     for step in steps:
         change = names.changes.get(step.id)
         if change is not None:
             yield change(step)
         elif short.constants and names.is_too_long(step):
-            yield names.left_out(step, told)
-            told = True
+            kind = step.id.rstrip("0123456789")
+            yield names.left_out(step, first=not told, again=kind in told)
+            told.add(kind)
         else:
             yield step
 
@@ -150,15 +151,21 @@ class _Names:
         on_the_way = step.stage == "inertia" or step.stage == "energy"
         return on_the_way and max(map(_size, step.result), default=0) > LONGEST
 
-    def left_out(self, step: Step, told: bool) -> Step:
-        """The step with its formula as its result; the first one says so."""
+    def left_out(self, step: Step, first: bool, again: bool) -> Step:
+        """The step with its formula as its result; the first says so, those `again` are details."""
         if step.formula is None:
             return step
         note: Prose = (
-            "Written out it would be too long to be of use; the formula says what it is. So it is below, "
-            "where a formula stands alone. What comes of it in the end are the entries of D.",
+            "Written out it would be too long to be of use; the formula says what it is. So it is below "
+            "where a formula stands alone, and for the bodies after such a one, whose steps are left out. "
+            "What comes of them are the entries of D.",
         )
-        return replace(step, result=(), notes=step.notes if told else (*step.notes, note))
+        return replace(
+            step,
+            result=(),
+            notes=(*step.notes, note) if first else step.notes,
+            detail=Detail.FULL if again else step.detail,
+        )
 
     def kinetic(self, step: Step) -> Step:
         quadratic = Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))
