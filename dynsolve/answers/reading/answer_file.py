@@ -29,6 +29,9 @@ _BLOCK = re.compile(r"[|>][+-]?[0-9]?[+-]?[ \t]*(?:#[^\n]*)?$", re.MULTILINE)
 _ITEM = re.compile(r"[ \t]*-(?=[ \t]|$)")
 
 
+_DELIMITERS = (("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]"))
+
+
 @dataclass(frozen=True, slots=True)
 class Entry:
     """A key with the stretch of text that is its value."""
@@ -169,6 +172,9 @@ def _display(source: Source, entry: Entry) -> Display:
         value = _without_comments(value)
         if "\n" in text[entry.start : start] and _ITEM.match(value):
             value = _listed(value)
+    for opening, closing in _DELIMITERS:
+        if value.startswith(opening) and value.endswith(closing) and len(value) > len(opening + closing):
+            start, value = start + len(opening), value[len(opening) : -len(closing)]
     base = start
 
     def locate(offset: int, length: int) -> Place:

@@ -73,8 +73,9 @@ def _rows(tokens: list[Token]) -> list[list[Token]]:
             break
         if token.kind == "\\\\" and level == 0:
             rows.append([])
-        elif token.kind != "&" or level:
+        else:
             rows[-1].append(token)
+    rows = [_without_tabs(row) for row in rows]
     joined: list[list[Token]] = []
     for row in rows:
         if joined and _goes_on(joined[-1], row):
@@ -82,6 +83,20 @@ def _rows(tokens: list[Token]) -> list[list[Token]]:
         elif row:
             joined.append(row)
     return joined
+
+
+def _without_tabs(row: list[Token]) -> list[Token]:
+    """The row without the `&` that only align its equations; one that stands between two of them stays."""
+    kept: list[Token] = []
+    level = 0
+    for position, token in enumerate(row):
+        level += (token.kind in ("begin", "{")) - (token.kind in ("close", "}"))
+        if token.kind == "&" and level <= 0:
+            after = row[position + 1].kind if position + 1 < len(row) else "end"
+            if not kept or kept[-1].kind in ("=", "&") or after in ("=", "&", "end"):
+                continue
+        kept.append(token)
+    return kept
 
 
 def _goes_on(before: list[Token], row: list[Token]) -> bool:
@@ -118,29 +133,42 @@ _PENDING = frozenset({"+", "-", "*", "/", "=", "cdot", "times", "command"})
 
 def _pieces(row: list[Token]) -> list[list[Token]]:
     r"""The equations that stand beside one another in a row: `P_1 = 0, \quad P_2 = 0`."""
-    pieces: list[list[Token]] = [[]]
+    merged: list[list[Token]] = []
+    for boundary, piece in _cut(row):
+        if _is_words(piece):
+            continue
+        if not merged:
+            merged.append(piece)
+        elif _is_equation(piece) and piece[0].kind != "=":
+            if not _is_equation(merged[-1]):
+                merged.pop()
+            merged.append(piece)
+        elif boundary is None or boundary.kind in ("&", "command") and boundary.text not in _CONCLUSIONS:
+            merged[-1] += piece
+        elif boundary.kind in (",", ";"):
+            merged[-1] += [boundary, *piece]
+    return [_trimmed(piece) for piece in merged]
+
+
+_CONCLUSIONS = SEPARATORS - {"quad", "qquad"}
+
+
+def _cut(row: list[Token]) -> list[tuple[Token | None, list[Token]]]:
+    """The pieces of a row between commas, wide blanks and words, each with what stands before it."""
+    pieces: list[tuple[Token | None, list[Token]]] = [(None, [])]
     level = 0
     for token in row:
         level = max(level + _OPENS.get(token.kind, 0), 0)
-        if level == 0 and (
-            token.kind == "separator"
-            or (token.text in SEPARATORS and token.kind == "command")
-            or token.kind in (",", ";")
-        ):
-            pieces.append([])
-        else:
-            pieces[-1].append(token)
-    merged: list[list[Token]] = []
-    for piece in pieces:
-        if merged and not _is_equation(piece):
-            if _is_words(piece):
+        wide = token.text in SEPARATORS and token.kind == "command"
+        if level == 0 and (wide or token.kind in ("separator", ",", ";", "&")):
+            before, last = pieces[-1]
+            if last or not wide:
+                pieces.append((token, []))
+            elif before is None:
                 continue
-            merged[-1] += piece
-        elif merged and not _is_equation(merged[-1]):
-            merged[-1] += piece
-        elif piece:
-            merged.append(piece)
-    return [_trimmed(piece) for piece in merged]
+        else:
+            pieces[-1][1].append(token)
+    return pieces
 
 
 def _is_words(piece: list[Token]) -> bool:

@@ -52,7 +52,7 @@ class UnknownName(ReadError):
 def value_of(reader: Reader, form: Form) -> Value:
     """The value of a name with its scripts; raises UnknownName for one that has none."""
     vocabulary = reader.vocabulary
-    name = form.key
+    name = form.key + _called_index(reader, form)
     if reader.naming or form.script:
         found = _quantity(reader, form, name)
         if found is not None:
@@ -78,6 +78,22 @@ def value_of(reader: Reader, form: Form) -> Value:
     if meaning.note:
         reader.notes.setdefault(meaning.note)
     return _scripted(reader, form, meaning)
+
+
+def _called_index(reader: Reader, form: Form) -> str:
+    """The index of q(2), as MATLAB writes an entry of the vector q; nothing for every other name."""
+    if reader.token.kind != "(" or reader.peek(1).kind != "number" or reader.peek(2).kind != ")":
+        return ""
+    index = reader.peek(1).text
+    meaning = reader.vocabulary.symbol(form.key + index) if len(index) < 3 else None
+    if form.index or meaning is None or reader.vocabulary.symbol(form.key) is not None:
+        return ""
+    if not isinstance(meaning.value, Symbol) or reader.vocabulary.coordinate(meaning.value) is None:
+        return ""
+    for _ in range(3):
+        reader.take()
+    reader.beside(form)
+    return index
 
 
 def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:

@@ -96,6 +96,9 @@ def simplified(tokens: list[Token]) -> list[Token]:
         kind = token.kind
         if kind == "command":
             if token.text in _FACES:
+                if token.text == "boxed" and tokens[position].kind == "{":
+                    groups.append(-1)
+                    position += 1
                 continue
             if token.text in _SCRIPT:
                 token = token._replace(text="script")
@@ -119,6 +122,8 @@ def simplified(tokens: list[Token]) -> list[Token]:
             groups.append(len(out))
         elif kind == "}" and groups:
             start = groups.pop()
+            if start < 0:
+                continue
             inside = len(out) - start - 1
             if inside == 1 and out[-1].kind in _SINGLE and out[-1].kind != "text":
                 out[start:] = [out[-1]._replace(spaced=out[start].spaced)]

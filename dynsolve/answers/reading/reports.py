@@ -17,7 +17,7 @@ from dynsolve.errors import ReadError
 
 _ENVIRONMENT = "equation|align|gather|multline|eqnarray|alignat|flalign|displaymath|math|dmath|IEEEeqnarray|subequations|split"
 _OPENING = re.compile(
-    rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|(?P<double>\\\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}"
+    rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|(?P<double>\\\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}(?:\{{[0-9]{{1,2}}\}})?"
     r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$]))",
     re.MULTILINE,
 )

@@ -203,10 +203,11 @@ def _add_derivatives(
     subscripts: dict[str, Coordinate],
 ) -> None:
     """Every spelling of the coordinates and their derivatives that is no symbol of the problem."""
-    for rank in range(3):
+    for rank in range(4):
         for index, q in subscripts.items():
             letter = "theta" if q.type is JointType.REVOLUTE else "d"
-            name = (q.name, f"q{q.index}", f"{letter}{index}")[rank]
+            short = "th" if letter == "theta" else letter
+            name = (q.name, f"q{q.index}", f"{letter}{index}", f"{short}{index}")[rank]
             if rank and name in symbols:
                 continue
             for spelling, dots in spellings(name):
