@@ -31,7 +31,8 @@ _KINDS = {
     ".jpg": "a picture", ".jpeg": "a picture", ".heic": "a picture", ".gif": "a picture",
     ".webp": "a picture",
     ".tif": "a picture", ".tiff": "a picture", ".bmp": "a picture", ".svg": "a picture",
-    ".zip": "an archive", ".rar": "an archive", ".7z": "an archive", ".gz": "an archive", ".tar": "an archive",
+    ".zip": "an archive", ".rar": "an archive", ".7z": "an archive", ".gz": "an archive",
+    ".tar": "an archive",
     ".xlsx": "a spreadsheet", ".pptx": "slides", ".mp4": "a film", ".mov": "a film",
 }  # fmt: skip
 

@@ -10,11 +10,11 @@ from html import escape
 from pathlib import Path
 
 from dynsolve.grading.ledger import most, standings
+from dynsolve.grading.pages import MARKS_HERE, unpack
 from dynsolve.grading.policy import shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record, Row
 from dynsolve.grading.tables import decimal, table
-from dynsolve.grading.work import MARKS_HERE, unpack
 
 _ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "diagnosis")
 

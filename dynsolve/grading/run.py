@@ -205,7 +205,7 @@ def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data) ->
 
 def _unread(problems: ProblemSet, student: str, stem: str, reason: str) -> Data:
     """The row of what could not be judged: unreadable, for a human to look at; missing without a reason."""
-    from dynsolve.grading.work import bare_page
+    from dynsolve.grading.pages import bare_page
 
     item = problems.item(stem)
     html, markdown = bare_page(item.problem.title, student, reason) if reason else ("", "")

@@ -7,7 +7,6 @@ a worker on this machine or on a cluster alike; nothing in it depends on time.
 from __future__ import annotations
 
 import base64
-import zlib
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
@@ -22,14 +21,12 @@ from dynsolve.document import Document, Heading, Text
 from dynsolve.explain.style import style_of
 from dynsolve.grading.losses import losses
 from dynsolve.grading.marking import Marked, mark
+from dynsolve.grading.pages import MARKS_HERE, pack
 from dynsolve.grading.policy import from_data
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import read_problem
 
 Data = dict[str, Any]
-
-MARKS_HERE = "The marks stand here"
-"""Where the page gets its marks when it is written: a teacher may override them later."""
 
 MOST_TEXT = 2000
 """So much is kept of how an answer was read."""
@@ -151,24 +148,3 @@ def _page(report: Report, problem: Problem, student: str, hints: int) -> tuple[s
     document = Document((*blocks[:title], Text((MARKS_HERE,)), *blocks[title:]))
     style = style_of(problem.robot)
     return pack(render_html(document, style)), pack(render_markdown(document, style))
-
-
-def pack(text: str) -> str:
-    """A page as it travels and is kept."""
-    return base64.b64encode(zlib.compress(text.encode("utf-8", errors="replace"), 6)).decode()
-
-
-def unpack(packed: bytes) -> str:
-    """A page out of the record."""
-    return zlib.decompress(packed).decode()
-
-
-def bare_page(title: str, student: str, reason: str) -> tuple[str, str]:
-    """The page of a hand-in that could not be judged."""
-    from dynsolve.render.html import render as render_html
-    from dynsolve.render.markdown import render as render_markdown
-
-    said = f"This hand-in could not be judged by the program: {reason}. Your teacher has been told."
-    blocks = (Heading(f"{title}: {student}", 1), Text((MARKS_HERE,)), Text((said,)))
-    document = Document(blocks)
-    return pack(render_html(document)), pack(render_markdown(document))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from functools import cache
 from pathlib import Path
 
@@ -18,7 +19,7 @@ SLIPS = 0.3
 @cache
 def key(problem: str) -> dict[str, str | list[list[str]]]:
     """Ten answers as `solve --json` prints them."""
-    results = solve(problem).to_dict()["results"]
+    results = solve(problem).to_json()["results"]
     bodies = results["bodies"]
     found = {f"P{body['name']}": body["P"] for body in bodies[:2]}
     found |= {f"K{body['name']}": body["K"] for body in bodies[:2]}
@@ -37,7 +38,9 @@ def _slipped(text: str, chance: random.Random) -> str:
 
 @cache
 def _latex(text: str) -> str:
-    return to_latex(read(text).tree, PLAIN)
+    text = to_latex(read(text).tree, PLAIN)
+    dotted = r"([A-Za-z]|\\[a-z]+)_\{(\w+),\\mathrm\{(d+)ot\}\}"
+    return re.sub(dotted, lambda m: rf"\{m[3]}ot{{{m[1]}}}_{{{m[2]}}}", text)
 
 
 def hand_in(problem: str, student: str, chance: random.Random) -> tuple[str, str]:
@@ -49,7 +52,7 @@ def hand_in(problem: str, student: str, chance: random.Random) -> tuple[str, str
         if isinstance(value, list):
             rows = [list(row) if isinstance(row, list) else [row] for row in value]
             i = chance.randrange(len(rows))
-            rows[i][0] = _slipped(rows[i][0], chance)
+            rows[i][0] = _slipped(rows[i][0], chance) if rows[i][0] != "0" else "m1"
             answers[name] = rows
         else:
             answers[name] = _slipped(value, chance)
