@@ -37,7 +37,7 @@ from dynsolve.render.references import numbered, with_results
 from dynsolve.render.setting import entry_name, listed
 from dynsolve.render.words import spoken, visible
 
-PHONE = 18.0
+PHONE = 16.5
 """What fits a phone, in em."""
 
 PAGE = 44.0
