@@ -158,18 +158,21 @@ class Diagnoser:
 
     def _told(self, found: list[Found]) -> Iterator[Diagnosis]:
         """The slips where they are few; of many, which terms are written that should not be."""
-        light = [one.diagnosis for one in found if one.weight < LIGHT]
+        found = sorted(found, key=lambda f: f.weight)
         if len(found) <= MOST_NAMED:
-            yield from (one.diagnosis for one in sorted(found, key=lambda f: f.weight))
+            yield from (one.diagnosis for one in found)
             return
-        yield from light[:MOST_NAMED]
+        light = [one for one in found if one.weight < LIGHT]
+        yield from (one.diagnosis for one in light[:MOST_NAMED])
         if len(light) < len(found):
-            extra = [f.term for f in found if f.diagnosis.code == "extra_term"]
-            count = sum(f.diagnosis.code == "missing_term" for f in found)
+            extra = [f for f in found if f.code == "extra_term"]
+            count = sum(f.code == "missing_term" for f in found)
             yours = f"{count} {'is' if count == 1 else 'are'} missing. " if count else ""
             if extra:
                 more = f", and {len(extra) - MOST_NAMED} more" if len(extra) > MOST_NAMED else ""
-                yours += f"These do not belong: {', '.join(extra[:MOST_NAMED])}{more}."
+                yours += (
+                    f"These do not belong: {', '.join(f.word('term') for f in extra[:MOST_NAMED])}{more}."
+                )
             yield slip("terms_differ", yours=yours.strip())
 
     # -- the step, the derivation ------------------------------------------------------------------
@@ -220,12 +223,18 @@ class Diagnoser:
         wanted = self._dimension(question)
         if wanted is None or not self.dimensions.known or self.problem.values:
             return
-        for monomial in parts(mine) if is_small(mine) else ():
-            term = monomial_expr(self.ring, monomial)
-            found = self.dimensions.of(term)
-            if found is not None and found != wanted:
+        terms = [monomial_expr(self.ring, m) for m in parts(mine)] if is_small(mine) else []
+        known = [(term, found) for term in terms if (found := self.dimensions.of(term)) is not None]
+        for term, found in known:
+            if found != wanted:
+                mixed = any(other != found for _, other in known)
+                how = "but it is added to what is" if mixed else "where this should be"
                 yield slip(
-                    "dimensions", term=self.words.of(term), part=describe(found), other=describe(wanted)
+                    "dimensions",
+                    term=self.words.of(term),
+                    part=describe(found),
+                    how=how,
+                    other=describe(wanted),
                 )
                 return
 

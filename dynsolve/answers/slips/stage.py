@@ -14,6 +14,9 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.slips.table import slip
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.notation.printing import PLAIN
+from dynsolve.notation.tree import Symbol
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 from dynsolve.stages import energy, inertia, jacobian, kinematics, vectorized
 
@@ -242,16 +245,20 @@ def _rate(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
     accelerated = right
     for k in moving:
         accelerated = accelerated - slopes[k] * ring.symbol(names[k], 1)
-    every = ", ".join(names[k] for k in moving)
+    every = ", ".join(_written(names[k]) for k in moving)
     yield accelerated, slip("product_rule", part=every)
     for k in moving:
         part = slopes[k] * ring.symbol(names[k], 1)
-        yield right - part, slip("product_rule", part=names[k])
-        yield right - part + slopes[k], slip("chain_rule", part=f"{names[k]}_dot")
+        yield right - part, slip("product_rule", part=_written(names[k]))
+        yield right - part + slopes[k], slip("chain_rule", part=_written(names[k], 1))
     bare = accelerated
     for k in moving:
         bare = bare + slopes[k]
     yield bare, slip("chain_rule", part="q̇")
+
+
+def _written(name: str, dots: int = 0) -> str:
+    return to_unicode(Symbol(name, dots), PLAIN)
 
 
 def _force(robot: Robot, index: str, value: Value) -> Iterator[Variant]:

@@ -8,8 +8,8 @@ without a partner is a missing term, or one too many.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from dynsolve.algebra.expr import Expr, Generator
@@ -35,13 +35,31 @@ LIGHT = 4
 """A slip up to this weight is one that a person makes in one place."""
 
 
+Told = str | Callable[[], str]
+"""A piece of a message, or how to make it."""
+
+
+def _found(weight: int, code: str, **what: Told) -> Found:
+    return Found(weight, code, what)
+
+
 @dataclass(frozen=True, slots=True)
 class Found:
     """A slip between two parts: how far-fetched it is, and what is said."""
 
     weight: int
-    diagnosis: Diagnosis
-    term: str = ""
+    code: str
+    what: Mapping[str, Told]
+
+    @property
+    def diagnosis(self) -> Diagnosis:
+        """The slip as it is told; its words are made here, since most pairs are never told."""
+        return slip(self.code, **{key: self.word(key) for key in self.what})
+
+    def word(self, key: str) -> str:
+        """One piece of the message."""
+        told = self.what[key]
+        return told if isinstance(told, str) else told()
 
 
 class TermSlips:
@@ -77,6 +95,10 @@ class TermSlips:
             found += self._same_monomial(ours.pop(monomial), theirs.pop(monomial))
         return found + self._matched(list(ours.values()), list(theirs.values()))
 
+    def _monomial(self, monomial: Iterable[tuple[int, int]]) -> Told:
+        """A monomial in words, made when it is told."""
+        return lambda: self.words.of(monomial_expr(self.ring, monomial))
+
     # -- the same monomial -------------------------------------------------------------------------
 
     def _same_monomial(self, mine: Part, expected: Part) -> list[Found]:
@@ -89,12 +111,16 @@ class TermSlips:
         return self._waves_apart(mine, expected)
 
     def _factor(self, expected: Part, ratio: Fraction, yours: Fraction, other: Fraction) -> Found:
-        term = self.words.of(part_expr(self.ring, expected))
         if ratio == -1:
-            return Found(1, slip("sign", term=term))
-        bare = self.words.of(part_expr(self.ring, expected) / other)
-        said = slip("factor", term=bare, yours=self.words.number(yours), other=self.words.number(other))
-        return Found(1 if abs(ratio) in (2, Fraction(1, 2)) else 2, said)
+            return _found(1, "sign", term=self._said(expected))
+        weight = 1 if abs(ratio) in (2, Fraction(1, 2)) else 2
+        bare = Part(expected.monomial, tuple((w, c / other) for w, c in expected.waves))
+        mine, theirs = self.words.number(yours), self.words.number(other)
+        return _found(weight, "factor", term=self._said(bare), yours=mine, other=theirs)
+
+    def _said(self, part: Part) -> Told:
+        """A part in words, made when it is told."""
+        return lambda: self.words.of(part_expr(self.ring, part))
 
     def _number_of(self, part: Part) -> Fraction:
         return part.waves[0][1]
@@ -105,26 +131,26 @@ class TermSlips:
         if m is None or e is None or abs(m[1]) != abs(e[1]):
             return None
         (wave, _), (wanted, _) = m, e
-        yours = self.words.of(part_expr(self.ring, mine))
+        yours = self._said(mine)
         mine_says, theirs = self._wave_words(wave), self._wave_words(wanted)
         if wanted == ("cos", (0,) * len(wanted[1])):
             if wave[0] == "cos" and all(x % 2 == 0 for x in wave[1]):
-                return Found(2, slip("double_angle", yours=yours, part=mine_says))
-            return Found(3, slip("extra_factor", yours=yours, part=mine_says))
+                return _found(2, "double_angle", yours=yours, part=mine_says)
+            return _found(3, "extra_factor", yours=yours, part=mine_says)
         if not any(wave[1]):
-            return Found(3, slip("dropped_factor", yours=yours, part=theirs))
+            return _found(3, "dropped_factor", yours=yours, part=theirs)
         if wave[1] == wanted[1]:
-            return Found(2, slip("sin_for_cos", yours=yours, part=mine_says, other=theirs))
+            return _found(2, "sin_for_cos", yours=yours, part=mine_says, other=theirs)
         if wave[0] == wanted[0]:
             code = "angle_product" if self._is_product(wave) else "angle"
-            return Found(2 + (m[1] != e[1]), slip(code, yours=yours, part=mine_says, other=theirs))
+            return _found(2 + (m[1] != e[1]), code, yours=yours, part=mine_says, other=theirs)
         return None
 
     def _is_product(self, wave: Wave) -> bool:
         return any(len(atom) > 1 for atom, _ in angle_of(self.ring, wave).terms)
 
-    def _wave_words(self, wave: Wave) -> str:
-        return self.words.of(wave_expr(self.ring, wave))
+    def _wave_words(self, wave: Wave) -> Told:
+        return lambda: self.words.of(wave_expr(self.ring, wave))
 
     def _waves_apart(self, mine: Part, expected: Part) -> list[Found]:
         """Each wave by itself: one that is missing, one too many, one with another number."""
@@ -150,9 +176,9 @@ class TermSlips:
         for wave, value in extra.items():
             found.append(self._extra(Part(mine.monomial, ((wave, value),))))
         if len(found) > 2:
-            term = self.words.of(monomial_expr(self.ring, mine.monomial))
-            factor = self.words.of(part_expr(self.ring, Part((), mine.waves)))
-            return [Found(5, slip("trig_part", term=term, yours=factor))]
+            term = self._monomial(mine.monomial)
+            factor = self._said(Part((), mine.waves))
+            return [_found(5, "trig_part", term=term, yours=factor)]
         return found
 
     # -- other monomials ---------------------------------------------------------------------------
@@ -183,7 +209,7 @@ class TermSlips:
         return result
 
     def _missing(self, part: Part) -> Found:
-        return Found(4, slip("missing_term", term=self.words.of(part_expr(self.ring, part))))
+        return _found(4, "missing_term", term=self._said(part))
 
     def _extra(self, part: Part) -> Found:
         unknown = [
@@ -191,9 +217,8 @@ class TermSlips:
             if (g := self.ring.generators[i]).kind == "symbol" and self.words.is_unknown(g)
         ]  # fmt: skip
         if unknown:
-            return Found(4, slip("unknown_symbol", part=self.words.generator(unknown[0])))
-        term = self.words.of(part_expr(self.ring, part))
-        return Found(4, slip("extra_term", term=term), term)
+            return _found(4, "unknown_symbol", part=self.words.generator(unknown[0]))
+        return _found(4, "extra_term", term=self._said(part))
 
     def _between(self, mine: Part, expected: Part) -> Found | None:
         """The slip that turns an expected part into the one that was written."""
@@ -205,11 +230,11 @@ class TermSlips:
                 return None
         change = _change(mine.monomial, expected.monomial)
         found = next(self._named(change, mine), None)
-        return None if found is None else Found(found.weight + weight, found.diagnosis)
+        return None if found is None else replace(found, weight=found.weight + weight)
 
     def _named(self, change: dict[int, int], mine: Part) -> Iterator[Found]:
         """The slip of a change of exponents (expected minus written)."""
-        yours = self.words.of(part_expr(self.ring, mine))
+        yours = self._said(mine)
         generators = self.ring.generators
         has = dict(mine.monomial)
         if len(change) == 1:
@@ -218,11 +243,11 @@ class TermSlips:
             if power > 0:
                 code = self._dropped(g, power, has.get(index, 0))
                 part = name if power == 1 or code == "dropped_square" else self.words.power(g, power)
-                yield Found(1, slip(code, yours=yours, part=part))
+                yield _found(1, code, yours=yours, part=part)
             elif has.get(index, 0) > -power:
-                yield Found(2, slip("extra_square", yours=yours, part=name))
+                yield _found(2, "extra_square", yours=yours, part=name)
             else:
-                yield Found(2, slip("extra_factor", yours=yours, part=self.words.power(g, -power)))
+                yield _found(2, "extra_factor", yours=yours, part=self.words.power(g, -power))
             return
         if len(change) == 2:
             (plus, p), (minus, q) = sorted(change.items(), key=lambda item: -item[1])
@@ -232,11 +257,11 @@ class TermSlips:
                 )
                 return
         if all(power > 0 for power in change.values()) and sum(change.values()) <= 3:
-            lost = self.words.of(monomial_expr(self.ring, change.items()))
-            yield Found(3, slip("dropped_factor", yours=yours, part=lost))
+            lost = self._monomial(change.items())
+            yield _found(3, "dropped_factor", yours=yours, part=lost)
         elif all(power < 0 for power in change.values()) and sum(change.values()) >= -3:
-            gained = self.words.of(monomial_expr(self.ring, ((i, -p) for i, p in change.items())))
-            yield Found(3, slip("extra_factor", yours=yours, part=gained))
+            gained = self._monomial([(i, -p) for i, p in change.items()])
+            yield _found(3, "extra_factor", yours=yours, part=gained)
 
     def _dropped(self, g: Generator, power: int, present: int) -> str:
         if present:
@@ -249,27 +274,25 @@ class TermSlips:
         return "dropped_inertia" if role == INERTIA else "dropped_factor"
 
     def _exchanged(
-        self, wanted: Generator, p: int, written: Generator, q: int, present: int, yours: str
+        self, wanted: Generator, p: int, written: Generator, q: int, present: int, yours: Told
     ) -> Iterator[Found]:
         """One symbol where another belongs, or the same with another number of dots."""
-        part, other = self.words.power(written, q), self.words.power(wanted, p)
+        part: Told = self.words.power(written, q)
+        other: Told = self.words.power(wanted, p)
         if wanted.kind == written.kind == "symbol" and wanted.name == written.name:
             if p != q:
                 return
             code = "dropped_dot" if written.dots < wanted.dots else "extra_dot"
             if present > q:
                 part = self.words.power(written, present)
-                both = self.words.of(
-                    monomial_expr(self.ring, ((wanted.index, p), (written.index, present - q)))
-                )
-                other = both
-            yield Found(1, slip(code, yours=yours, part=part, other=other))
+                other = self._monomial([(wanted.index, p), (written.index, present - q)])
+            yield _found(1, code, yours=yours, part=part, other=other)
         elif p == q and wanted.kind == written.kind == "symbol":
             if self.words.is_unknown(written):
-                yield Found(2, slip("unknown_symbol", part=part))
+                yield _found(2, "unknown_symbol", part=part)
                 return
             light = self.dimensions.of_generator(wanted) == self.dimensions.of_generator(written)
-            yield Found(2 if light else 4, slip("symbol", yours=yours, part=part, other=other))
+            yield _found(2 if light else 4, "symbol", yours=yours, part=part, other=other)
 
 
 def _fraction(value: object) -> Fraction:
