@@ -125,6 +125,9 @@ def content(factors: Iterable[Factor]) -> Factor:
     return Fraction(shared, largest)
 
 
+_SMALL_WHOLE = 9
+
+
 def whole_content(factors: Iterable[Factor]) -> Factor:
     """The content that leaves coprime whole numbers: of 1 and 1/2 it is 1/2."""
     factors = list(factors)
@@ -178,6 +181,8 @@ class Collector:
             ((mono, factor),) = poly.items()
             return factor, mono
         shared = whole_content(poly.values())
+        if self.decimal and any(abs(f / shared) > _SMALL_WHOLE for f in poly.values()):
+            shared = self.content(poly.values())  # 0.34 and 0.457 are no whole numbers that anyone reads
         factor, mono = self.decompose(self.form({mono: exact(f, shared) for mono, f in poly.items()}))
         return factor * shared, mono
 

@@ -119,7 +119,8 @@ def test_all_faults_come_at_once() -> None:
 
 
 def test_units_that_do_not_fit_are_remarked() -> None:
-    text = "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m1, link: 1}]\nvalues: {l1: 2, m1: 1}\nunits: {l1: kg, m1: ell}\n"
+    text = "dh: [{theta: q1*, a: l1}]\nmasses: [{mass: m1, link: 1}]\n"
+    text += "values: {l1: 2, m1: 1}\nunits: {l1: kg, m1: ell}\n"
     one, other = parameters(read_problem(text), ()).warnings
     assert "the unit of l1 is kg; where it stands it is measured in m" in str(one)
     assert "the unit `ell` of m1 is not known" in str(other) and str(other).startswith("4:")
