@@ -57,12 +57,13 @@ def _stages(
     numbers = {stage: number for number, stage in enumerate(STAGES, start=1)}
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     stage, place, extra = "", 0, 0
+    heading: Heading | None = None
     for step in solution.explain(stages, short):
         if step.stage != stage:
             if short is not None and step.stage == "vectorized":
                 yield from definition_blocks(short)
             stage, place, extra = step.stage, 0, 0
-            yield Heading(f"{numbers[stage]}. {STAGES[stage]}", 2)
+            heading = Heading(f"{numbers[stage]}. {STAGES[stage]}", 2)
         if step.detail is Detail.FULL:  # 7.3.1, so that the others have the same number in every detail
             extra += 1
             number = f"{numbers[stage]}.{place}.{extra}"
@@ -70,6 +71,9 @@ def _stages(
             place, extra = place + 1, 0
             number = f"{numbers[stage]}.{place}"
         if step.detail <= detail:
+            if heading:  # none over a stage of which nothing is shown
+                yield heading
+                heading = None
             blocks = tuple(step_blocks(step, detail, tuple(_used(step.id, inputs))))
             yield Fold(f"{number} {step.title}", blocks, step.detail)
 

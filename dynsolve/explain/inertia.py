@@ -304,7 +304,7 @@ def _rotation(course: Course, body: Body, tells: bool) -> Step:
     formula: Node | None = None
     match body.axes.kind:
         case AxesKind.LINK if _has_link_axes(body):
-            which = "the frame that comes after the mass and" if course.standard else "which"
+            which = "the frame that comes after the mass and" if _ends_after(course, body) else "which"
             why: Prose = (f"The body's axes are those of frame {link}, {which} is fixed in the same link.",)
             formula = equation(rotation, frame)
             notes = tuple(_right_frame(course, link)) if tells else ()
@@ -344,12 +344,20 @@ def _rotation(course: Course, body: Body, tells: bool) -> Step:
     )
 
 
+def _ends_after(course: Course, body: Body) -> bool:
+    """Whether the frame of the link is known to lie behind the mass: the mass is between the link's ends."""
+    between = body.center_written in ("tip", "midpoint") or _given(body, "near") or _given(body, "along")
+    return course.standard and between
+
+
 def _right_frame(course: Course, link: int) -> Iterator[Prose]:
     """Which frame is mistaken for that of the link: the one at its other end."""
     joints = course.robot.joints
     if course.standard:
-        if link > 1:
-            yield (f"Frame {link} is the one to take, not frame {link - 1} before the mass.",)
+        if link > 1 and joints[link - 1].type:
+            yield (
+                f"Frame {link} is the one to take, not frame {link - 1}, which is not fixed in link {link}.",
+            )
     elif link < len(joints) and joints[link].type:
         yield (
             f"Frame {link} is the one to take, at the near end of the link in the modified convention. "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import FrozenInstanceError, fields, is_dataclass
+from itertools import pairwise
 from typing import get_args
 
 import pytest
@@ -84,3 +85,10 @@ def test_a_step_has_the_same_number_in_every_detail(solution: dynsolve.Solution)
     assert "7.3.2 What body 2 adds to D" in full
     last = [int(title.split()[0].split(".")[1]) for title in normal if title.startswith("7.")]
     assert last == list(range(1, len(last) + 1))
+
+
+def test_no_heading_stands_over_nothing(solution: dynsolve.Solution) -> None:
+    for detail in Detail:
+        blocks = solution_document(solution, detail).blocks
+        for block, below in pairwise(blocks):
+            assert not (isinstance(block, Heading) and isinstance(below, Heading))

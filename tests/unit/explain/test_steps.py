@@ -373,3 +373,8 @@ def test_frame_i_is_before_the_mass_in_the_modified_convention() -> None:
     assert "Frame 1 is the one to take, at the near end" in text
     assert "Frame 2, after the mass, moves with the next link." in text
     assert "from o₁, half the way on" in said(step(CRAIG, "rc1").why, CRAIG)
+
+
+def test_a_frame_comes_after_the_mass_where_the_mass_is_on_the_link() -> None:
+    assert "comes after the mass" in said(step("planar-2r", "R2").why, "planar-2r")
+    assert "comes after the mass" not in said(step("spherical-rrp", "R2").why, "spherical-rrp")
