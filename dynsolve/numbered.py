@@ -9,7 +9,7 @@ from dynsolve.errors import AlgebraError, UsageError
 from dynsolve.explain.forms import is_numeric
 from dynsolve.numbers import quantities, units
 from dynsolve.numbers.beside import Numbers
-from dynsolve.numbers.given import Assignment, Given, missing, parameters
+from dynsolve.numbers.given import Assignment, Given, parameters
 from dynsolve.numbers.given import state as read_state
 from dynsolve.numbers.robot import put_in
 from dynsolve.numbers.rounding import DIGITS
@@ -47,11 +47,11 @@ def beside(
     """The solution with numeric results beside the symbolic ones; see `Solution.beside`."""
     values = tuple(values)
     problem, robot = solution.problem, solution.robot
+    whole = bool(robot.parameters) and set(robot.parameters) <= problem.written.keys()
+    if not (values or whole or state is not None):
+        return solution
     given = parameters(problem, values)
     place = None if state is None else read_state(problem, state)
-    whole = given.entries and not missing(robot, given)
-    if not (values or whole or place):
-        return solution
     numeric = with_values(solution, given) if given.entries else solution
     shown = Valued(
         robot=numeric.robot,

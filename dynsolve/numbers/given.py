@@ -219,6 +219,16 @@ def _state_key(reader: _Reader, assignment: Assignment) -> Key | None:
 # -- the reading of a value ------------------------------------------------------------------------
 
 
+@dataclass(frozen=True, slots=True)
+class _Written:
+    """A value as it is written: `turned` says that it is an angle by its unit, degrees or `radians`."""
+
+    tree: Node
+    turned: bool
+    radians: bool
+    decimal: bool
+
+
 class _Reader:
     """Reads assignments one by one and keeps every fault."""
 
@@ -269,34 +279,41 @@ class _Reader:
 
     def entry(self, key: Key, assignment: Assignment) -> Entry | None:
         """The value, exact and in SI units; None (reported) where it has none."""
+        written = self.read(assignment)
+        if written is None:
+            return None
+        unit = self.unit(key)
+        if self.is_angle(key):
+            checked = self.angle(assignment, written, unit)
+            if checked is None:
+                return None
+            return Entry(checked, assignment.value, "" if written.turned else unit, written.decimal)
+        if written.turned and not self.is_rate_of_angle(key):
+            what = "no angle" if key[0] in self.robot.parameters else "a length"
+            self.report(assignment.at_value(f"{assignment.name} is {what}, and is given an angle"))
+            return None
+        return self.measured(key, Entry(written.tree, assignment.value, unit, written.decimal))
+
+    def read(self, assignment: Assignment) -> _Written | None:
+        """The formula of a value, without names; None (reported) where it is none."""
+        text = assignment.value
+        radians = text.endswith("rad") and not text[:-3].rstrip()[-1:].isalpha()
+        text = text[:-3].rstrip() if radians else text
         try:
-            text, radians = assignment.value, False
-            if text.endswith("rad") and not text[:-3].rstrip()[-1:].isalpha():
-                text, radians = text[:-3].rstrip(), True
             reading = read(text)
-            numbers = [token for token in tokens(text) if token.kind in ("number", "degrees")]
         except ReadError as error:
             self.report(assignment.at_value(error.message, error.help, error.offset, error.length))
             return None
         if reading.names:
             first = reading.names[0]
-            self.report(assignment.at_value(
-                f"the value of {assignment.name} contains the name {first.name}",
-                "a value is a number: 0.4, 2/3, sqrt(2)/2, 30deg", first.offset, first.length,
-            ))  # fmt: skip
+            message = f"the value of {assignment.name} contains the name {first.name}"
+            help = "a value is a number: 0.4, 2/3, sqrt(2)/2, 30deg"
+            self.report(assignment.at_value(message, help, first.offset, first.length))
             return None
+        numbers = [token for token in tokens(text) if token.kind in ("number", "degrees")]
+        degrees = any(token.kind == "degrees" for token in numbers)
         decimal = any("." in token.text or "e" in token.text.replace("deg", "").lower() for token in numbers)
-        turned = any(token.kind == "degrees" for token in numbers) or radians or "pi" in text or "π" in text
-        unit, tree = self.unit(key), reading.tree
-        if self.is_angle(key):
-            checked = self.angle(assignment, tree, radians, unit)
-            told = turned or checked is None or not numbers
-            return checked and Entry(checked, assignment.value, "" if told else unit, decimal or radians)
-        if turned and not self.is_rate_of_angle(key):
-            what = "a length" if key[0] not in self.robot.parameters else "no angle"
-            self.report(assignment.at_value(f"{assignment.name} is {what}, and is given an angle"))
-            return None
-        return self.measured(key, Entry(tree, assignment.value, unit, decimal))
+        return _Written(reading.tree, degrees or radians, radians, decimal or radians)
 
     def is_angle(self, key: Key) -> bool:
         """Whether a value turns something: a revolute coordinate, a symbol in an angle."""
@@ -306,14 +323,14 @@ class _Reader:
     def is_rate_of_angle(self, key: Key) -> bool:
         return bool(key[1]) and key[0] in self.angles
 
-    def angle(self, assignment: Assignment, tree: Node, radians: bool, unit: str) -> Node | None:
+    def angle(self, assignment: Assignment, written: _Written, unit: str) -> Node | None:
         """An angle; a bare number counts only where its unit is written."""
         known = units.parse(unit) if unit else None
-        value = rational_value(tree)
-        if known is not None and known.degrees and value is not None and not radians:
+        value = rational_value(written.tree)
+        if known is not None and known.degrees and value is not None and not written.radians:
             return _degrees(value)
         try:
-            angle_from_tree(tree, radians=radians or unit == "rad")
+            angle_from_tree(written.tree, radians=written.radians or unit == "rad")
         except AlgebraError as error:
             help = error.help
             if value is not None:
@@ -321,7 +338,7 @@ class _Reader:
                 help = f"did you mean {shown}deg? For radians write {shown}rad or pi/6"
             self.report(assignment.at_value(error.message, help))
             return None
-        return tree
+        return written.tree
 
     def unit(self, key: Key) -> str:
         """The unit of a value: the file's, else SI by its role."""
