@@ -41,7 +41,7 @@ from dynsolve.answers.slips.stage import variants
 from dynsolve.answers.slips.substitution import substitutions
 from dynsolve.answers.slips.table import slip
 from dynsolve.answers.slips.terms import LIGHT, Found, TermSlips
-from dynsolve.answers.slips.waves import is_small, monomial_expr, parts
+from dynsolve.answers.slips.waves import is_small, monomial_expr, monomials
 from dynsolve.answers.slips.words import Words
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
@@ -223,7 +223,7 @@ class Diagnoser:
         wanted = self._dimension(question)
         if wanted is None or not self.dimensions.known or self.problem.values:
             return
-        terms = [monomial_expr(self.ring, m) for m in parts(mine)] if is_small(mine) else []
+        terms = [monomial_expr(self.ring, m) for m in monomials(mine)] if is_small(mine) else []
         known = [(term, found) for term in terms if (found := self.dimensions.of(term)) is not None]
         for term, found in known:
             if found != wanted:

@@ -201,6 +201,8 @@ def _digits_angle(vocabulary: Vocabulary, form: Form) -> Node | None:
         if part is None:
             return None
         terms.append(Negative(part) if sign == "-" else part)
+    if not terms:
+        return None
     return terms[0] if len(terms) == 1 else Sum(tuple(terms))
 
 

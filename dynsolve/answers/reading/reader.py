@@ -315,6 +315,7 @@ class Reader:
         return self.named(form)
 
     def number(self) -> Value:
+        """A number, with its degrees."""
         token = self.take()
         value = plain.rational(plain.Token("number", token.text, token.start, token.end))
         if self.token.kind == "°" or (self.token.kind == "name" and self.token.text == "deg"):
@@ -384,6 +385,7 @@ class Reader:
         return self.named(self.form())
 
     def command(self, token: Token) -> Value:
+        """What a LaTeX command begins: an accent, a function, a fraction, a derivative."""
         name = token.text
         if name in lookup.ACCENTS or name == "script":
             return self.named(self.form())
@@ -415,6 +417,7 @@ class Reader:
         )
 
     def fraction(self) -> Value:
+        r"""`\frac{a}{b}`, which may be a derivative."""
         self.enter()
         start = self.take().start
         above, below = self.group(), self.group()
@@ -446,6 +449,7 @@ class Reader:
         return form
 
     def accented(self, accent: Token) -> Form:
+        """A name under a dot."""
         form = self.under(accent)
         form.dots += lookup.ACCENTS[accent.text]
         if form.scripts.powers:
@@ -608,6 +612,7 @@ class Reader:
         return value
 
     def raised(self, value: Value, power: Fraction, start: int) -> Value:
+        """The value raised to a power."""
         if isinstance(value, Abstract):
             return value
         if isinstance(value, Grid):

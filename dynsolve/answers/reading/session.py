@@ -306,6 +306,8 @@ class Session:
 
         `owners` are the answers it may be a value of.
         """
+        if not member:
+            return ReadError("there is nothing here", 0, 1, _EXPECTED)
         tokens = cut_names(member, self.vocabulary)
         first: Read | ReadError | None = None
         for options in _WAYS:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from math import prod
 from typing import Any
 
@@ -82,44 +83,61 @@ def _turning(ring: Ring) -> frozenset[int]:
     return frozenset(i for pair in ring.pairs for i in (pair.sine, pair.cosine))
 
 
-_Laurent = dict[tuple[int, ...], tuple[Fraction, Fraction]]
+def monomials(expr: Expr) -> list[Monomial]:
+    """The monomials in the symbols that occur, each once."""
+    turning = _turning(expr.ring)
+    found: dict[Monomial, None] = {}
+    for exponents in expr.poly.monoms() if expr.poly else ():
+        found.setdefault(tuple((i, int(e)) for i, e in enumerate(exponents) if e and i not in turning))
+    return list(found)
+
+
+_Laurent = dict[tuple[int, ...], tuple[int, int]]
+"""Σ (a + bi) Π z_k^{n_k}, z_k = exp(iθ_k), at (n_1, n_2, ...)"""
 
 
 def _waves(terms: Mapping[tuple[int, ...], Fraction], width: int) -> tuple[tuple[Wave, Fraction], ...]:
     """Products of powers of sines and cosines as sums of waves, by exponentials."""
-    total: _Laurent = {}
+    total: dict[tuple[int, ...], list[Fraction]] = {}
     for powers, value in terms.items():
-        product: _Laurent = {(0,) * width: (value, Fraction(0))}
-        for k in range(width):
-            for _ in range(powers[2 * k]):
-                product = _shift(product, k, sine=True)
-            for _ in range(powers[2 * k + 1]):
-                product = _shift(product, k, sine=False)
-        for vector, (re, im) in product.items():
-            a, b = total.get(vector, (Fraction(0), Fraction(0)))
-            total[vector] = (a + re, b + im)
+        share = value / (1 << sum(powers))
+        for vector, (re, im) in _exponentials(powers, width).items():
+            sums = total.setdefault(vector, [Fraction(0), Fraction(0)])
+            sums[0] += re * share
+            sums[1] += im * share
     found: dict[Wave, Fraction] = {}
-    for vector, (re, im) in total.items():
+    for vector, (a, b) in total.items():
         lead = next((x for x in vector if x), 0)
         if lead < 0:
             continue
         factor = 2 if lead else 1
-        if re:
-            found["cos", vector] = factor * re
-        if im:
-            found["sin", vector] = -factor * im
+        if a:
+            found["cos", vector] = factor * a
+        if b:
+            found["sin", vector] = -factor * b
     return tuple(sorted(found.items()))
 
 
+@lru_cache(maxsize=4096)
+def _exponentials(powers: tuple[int, ...], width: int) -> _Laurent:
+    """2^Σpowers Π sin^a cos^b in exponentials; powers are those of sine and cosine in turn."""
+    product: _Laurent = {(0,) * width: (1, 0)}
+    for k in range(width):
+        for _ in range(powers[2 * k]):
+            product = _shift(product, k, sine=True)
+        for _ in range(powers[2 * k + 1]):
+            product = _shift(product, k, sine=False)
+    return product
+
+
 def _shift(product: _Laurent, k: int, *, sine: bool) -> _Laurent:
-    """times (z + 1/z)/2, or (z - 1/z)/2i"""
+    """times (z + 1/z), or (z - 1/z)/i"""
     result: _Laurent = {}
-    half = Fraction(1, 2)
     for vector, (re, im) in product.items():
         for step in (1, -1):
             to = (*vector[:k], vector[k] + step, *vector[k + 1 :])
-            x, y = (im * half * step, -re * half * step) if sine else (re * half, im * half)
-            a, b = result.get(to, (Fraction(0), Fraction(0)))
+            x, y = (im * step, -re * step) if sine else (re, im)
+            a, b = result.get(to, (0, 0))
             result[to] = (a + x, b + y)
     return {v: c for v, c in result.items() if c[0] or c[1]}
 
