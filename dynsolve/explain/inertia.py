@@ -10,7 +10,7 @@ from dynsolve.document import Prose
 from dynsolve.errors import ReadError
 from dynsolve.explain import letters
 from dynsolve.explain.course import Course, block_of, is_small, shv, side_by_side
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     Letter,
@@ -106,6 +106,7 @@ def _center(course: Course, body: Body, tells: bool) -> Step:
         working=working,
         result=(equation(r, course.form(f"rc{body.name}")),),
         notes=(_not_the_origin(body, H),) if tells else (),
+        detail=Detail.BRIEF,
     )
 
 
@@ -394,4 +395,5 @@ def _base_tensor(course: Course, body: Body) -> Step:
         working=(equation(inertia_, members[2]),) if len(members) > 2 else (),
         result=(equation(inertia_, base),),
         notes=notes,
+        detail=Detail.BRIEF if is_small(base) else Detail.NORMAL,
     )

@@ -12,7 +12,7 @@ import dynsolve
 from dynsolve import document
 from dynsolve.document import Block, Document, Fold, Formula, Heading, Text
 from dynsolve.explain.documents import solution_document
-from dynsolve.explain.step import Detail
+from dynsolve.explain.step import STAGES, Detail
 
 
 @pytest.mark.parametrize("kind", get_args(Block), ids=lambda kind: kind.__name__)
@@ -92,3 +92,11 @@ def test_no_heading_stands_over_nothing(solution: dynsolve.Solution) -> None:
         blocks = solution_document(solution, detail).blocks
         for block, below in pairwise(blocks):
             assert not (isinstance(block, Heading) and isinstance(below, Heading))
+
+
+def test_in_brief_every_stage_has_its_result(solution: dynsolve.Solution) -> None:
+    for stage in STAGES:
+        assert any(
+            isinstance(block, Formula)
+            for block in blocks_of(solution_document(solution, Detail.BRIEF, [stage]))
+        )
