@@ -8,8 +8,9 @@ from dataclasses import replace
 from dynsolve.errors import AlgebraError, UsageError
 from dynsolve.explain.forms import is_numeric
 from dynsolve.numbers import quantities, units
+from dynsolve.numbers.assignments import Assignment
 from dynsolve.numbers.beside import Numbers
-from dynsolve.numbers.given import Assignment, Given, parameters
+from dynsolve.numbers.given import Given, parameters
 from dynsolve.numbers.given import state as read_state
 from dynsolve.numbers.robot import put_in
 from dynsolve.numbers.rounding import DIGITS

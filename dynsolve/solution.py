@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from dynsolve.document import Block, Document
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
     from dynsolve.explain.step import Detail
+    from dynsolve.numbers.assignments import Assignment, Plain
     from dynsolve.numbers.beside import Numbers
-    from dynsolve.numbers.given import Assignment, Plain
     from dynsolve.numbers.state import State
     from dynsolve.numeric import NumericFunction
 
@@ -271,7 +271,8 @@ class Solution:
         9/40
         """
         from dynsolve.numbered import with_values
-        from dynsolve.numbers.given import of_call, parameters
+        from dynsolve.numbers.assignments import of_call
+        from dynsolve.numbers.given import parameters
 
         return with_values(self, parameters(self.problem, of_call(values)))
 
@@ -289,7 +290,7 @@ class Solution:
         [0.9563047559630354, -0.2923717047227367, 0.0, 0.9563047559630354]
         """
         from dynsolve.numbered import at_state
-        from dynsolve.numbers.given import of_call
+        from dynsolve.numbers.assignments import of_call
         from dynsolve.numbers.given import state as read_state
 
         return at_state(self, read_state(self.problem, of_call(state)))

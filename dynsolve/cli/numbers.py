@@ -43,9 +43,11 @@ def with_numbers(
     """The solution with the numbers beside it that were asked for, or that the file gives in full."""
     if not (values or state or solution.problem.written):
         if digits is not None:
-            raise typer.BadParameter("--digits needs numbers: give them with --set, --at or values: in the file")
+            raise typer.BadParameter(
+                "--digits needs numbers: --set, --at, or values: in the file"
+            )
         return solution
-    from dynsolve.numbers.given import of_option
+    from dynsolve.numbers.assignments import of_option
 
     place = None if state is None else tuple(of_option(AT, state))
     return solution.beside(tuple(of_option(SET, values or ())), place, digits)

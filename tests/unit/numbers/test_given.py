@@ -10,7 +10,8 @@ import dynsolve
 from dynsolve.algebra.survey import rational_value
 from dynsolve.errors import InputError
 from dynsolve.notation.tree import Degrees, Number
-from dynsolve.numbers.given import Given, of_option, parameters, state
+from dynsolve.numbers.assignments import of_option
+from dynsolve.numbers.given import Given, parameters, state
 from dynsolve.problem import Problem, read_problem
 
 RP = dynsolve.load("in3140-rp")
