@@ -42,11 +42,14 @@ def name_recurring(
     Entries that are equal but for sign count once; with `whole` false they count each,
     so that what several entries consist of gets a name.
 
-    >>> a, b, c, d, x, y = map(Symbol, "abcdxy")
-    >>> whole = Product((a, b, c, Function("sin", x)))
-    >>> definitions, used = name_recurring([Negative(whole), Product((d, whole))], iter([Symbol("h")]))
-    >>> definitions[0].name, used
-    (Symbol(name='h', dots=0), [Negative(argument=Symbol(name='h', dots=0)), ...])
+    >>> from dynsolve.notation.python import to_python
+    >>> m, l, r, q, I = map(Symbol, ("m", "l", "r", "q", "I"))
+    >>> product = Product((m, l, r, Function("sin", q)))
+    >>> definitions, used = name_recurring([Negative(product), Sum((I, product))], iter([Symbol("h")]))
+    >>> to_python(definitions[0].meaning)
+    'm*l*r*sin(q)'
+    >>> list(map(to_python, used))
+    ['-h', 'I + h']
     """
     sharing = _Sharing()
     roots = [sharing.intern(entry) for entry in entries]
