@@ -48,7 +48,7 @@ VALUES = {
     "nested parentheses": "(" * 50_000 + "m1" + ")" * 50_000,
     "unclosed parentheses": "(" * 20_000,
     "closing parentheses": ")" * 20_000,
-    "nested braces": "{" * 20_000 + "m1" + "}" * 20_000,
+    "nested braces": "{" * 20_000 + "m1 + m2" + "}" * 20_000,
     "nested fractions": r"\frac{1}{" * 5_000 + "m1" + "}" * 5_000,
     "nested roots": r"\sqrt{" * 5_000 + "m1" + "}" * 5_000,
     "nested sines": "sin(" * 5_000 + "m1" + ")" * 5_000,
@@ -221,7 +221,8 @@ def test_a_hostile_report_is_read_quickly(content: str, file: str) -> None:
 NOTEBOOKS = {
     "nested": "[" * 100_000,
     "no cells": "{}",
-    "cells of another kind": '{"cells": [1, null, {"cell_type": "markdown", "source": 5}, {"cell_type": "code", "source": "$$K=1$$"}]}',
+    "cells of another kind": '{"cells": [1, null, {"cell_type": "markdown", "source": 5}, '
+    '{"cell_type": "code", "source": "$$K=1$$"}]}',
     "a number": "1" * 100_000,
 }
 

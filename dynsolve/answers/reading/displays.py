@@ -143,7 +143,7 @@ def _pieces(row: list[Token]) -> list[list[Token]]:
             if not _is_equation(merged[-1]):
                 merged.pop()
             merged.append(piece)
-        elif boundary is None or boundary.kind in ("&", "command") and boundary.text not in _CONCLUSIONS:
+        elif boundary is None or (boundary.kind in ("&", "command") and boundary.text not in _CONCLUSIONS):
             merged[-1] += piece
         elif boundary.kind in (",", ";"):
             merged[-1] += [boundary, *piece]

@@ -20,8 +20,8 @@ _NAMES |= (
 )
 _RECIPROCALS = {"cot": ("cos", "sin"), "sec": ("", "cos"), "csc": ("", "sin")}
 _ELSEWHERE = frozenset(
-    "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh abs sgn sign max min pow sind cosd root det "
-    "inv simplify eval exec open input print import".split()
+    "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh abs sgn sign max min pow "
+    "sind cosd root det inv simplify eval exec open input print import".split()
 )
 
 

@@ -97,7 +97,7 @@ def _called_index(reader: Reader, form: Form) -> str:
 
 
 def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
-    """Other ways to write a symbol: s of an angle, the one inertia with that index, letters of another case."""
+    """Other ways to write a symbol: s of an angle, the one inertia of that index, another case."""
     vocabulary = reader.vocabulary
     short = vocabulary.short_angle(name)
     if short is not None:

@@ -16,12 +16,12 @@ from dynsolve.errors import ReadError
 
 _FACES = frozenset(
     "mathbf boldsymbol bm mathrm mathit mathsf mathtt mathbb mathnormal pmb bf rm vec underline "
-    "overrightarrow operatorname ensuremath boxed mathop mathord mathrel mathbin pmb smash mathchoice bold".split()
+    "overrightarrow operatorname ensuremath boxed mathop mathord mathrel mathbin smash bold".split()
 )
 _SCRIPT = frozenset("mathcal mathscr mathfrak cal script".split())
 _ENVIRONMENTS = frozenset(
-    "equation align aligned split gather gathered multline eqnarray alignat alignedat flalign displaymath math "
-    "subequations dmath IEEEeqnarray".split()
+    "equation align aligned split gather gathered multline eqnarray alignat alignedat flalign "
+    "displaymath math subequations dmath IEEEeqnarray".split()
 )
 _SINGLE = frozenset({"name", "letter", "number", "text"})
 _WORDS = frozenset("and og where hvor der with med so such or eller for då da".split())
@@ -265,7 +265,7 @@ def _known(piece: str, vocabulary: Vocabulary, naming: bool) -> bool:
 
 
 CALLS = frozenset(
-    "sin cos tan sqrt cot sec csc Sin Cos Tan Sqrt SIN COS Derivative diff Diff Matrix matrix Rational transpose "
-    "Transpose MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix Integer deg array np".split()
+    "sin cos tan sqrt cot sec csc Sin Cos Tan Sqrt SIN COS Derivative diff Diff Matrix matrix Rational "
+    "transpose Transpose MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix Integer deg array np".split()
 )
 """Words that are functions, never products of letters."""

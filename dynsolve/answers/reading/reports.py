@@ -15,7 +15,10 @@ from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.submission import Place
 from dynsolve.errors import ReadError
 
-_ENVIRONMENT = "equation|align|gather|multline|eqnarray|alignat|flalign|displaymath|math|dmath|IEEEeqnarray|subequations|split"
+_ENVIRONMENT = (
+    "equation|align|gather|multline|eqnarray|alignat|flalign|displaymath|math|dmath|IEEEeqnarray"
+    "|subequations|split"
+)
 _OPENING = re.compile(
     rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|(?P<double>\\\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}(?:\{{[0-9]{{1,2}}\}})?"
     r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$]))",

@@ -35,10 +35,12 @@ _DOTTED = {"\u0307": 1, "\u0308": 2}
 _GREEK = "".join(SPELLED)
 _LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳ"
 _INDEX = f"0-9{SUBSCRIPT_DIGITS}"
-_NAME_PART = rf"[{_LETTER}{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9])|_\{{[ ]?[A-Za-z0-9]{{1,20}}(?:(?:,[ ]?|[ ])[A-Za-z0-9]{{1,20}}){{0,5}}[ ]?\}}"
+_BRACED = r"_\{[ ]?[A-Za-z0-9]{1,20}(?:(?:,[ ]?|[ ])[A-Za-z0-9]{1,20}){0,5}[ ]?\}"
+_NAME_PART = rf"[{_LETTER}{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9])|{_BRACED}"
 _TOKEN = re.compile(
     rf"""
-      (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200a\u202f~]|%(?!pi\b)[^\n]*(?:\n|$)|\\(?:[,;:!\ >]|\n)|\\(?:left|right)[ ]?\.)+)
+      (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200a\u202f~]|%(?!pi\b)[^\n]*(?:\n|$)
+          |\\(?:[,;:!\ >]|\n)|\\(?:left|right)[ ]?\.)+)
     | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
     | (?P<number>(?:[0-9]+(?:\.[0-9]+|\.(?![A-Za-z.*/^\\']))?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?![A-Za-z_]))?)
     | (?P<dotted>[{_LETTER}][\u0307\u0308]{{1,2}}(?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*)
@@ -78,10 +80,11 @@ _DOTTED_LETTERS = {"ẋ": "x", "ẏ": "y", "ż": "z", "ḋ": "d", "ṗ": "p"}
 
 # Commands that set type and mean nothing; with the sizes of brackets.
 _INK = frozenset(
-    "left right big Big bigg Bigg bigl bigr Bigl Bigr biggl biggr Biggl Biggr bigm middle displaystyle textstyle "
-    "scriptstyle limits nolimits nonumber notag quad qquad enspace thinspace medspace thickspace negthinspace "
-    "hfill hfil noindent centering small normalsize large Large it rm cal sf tt scriptsize footnotesize "
-    "allowbreak newline hline protect relax smallskip medskip bigskip par".split()
+    "left right big Big bigg Bigg bigl bigr Bigl Bigr biggl biggr Biggl Biggr bigm middle "
+    "displaystyle textstyle "
+    "scriptstyle limits nolimits nonumber notag quad qquad enspace thinspace medspace thickspace "
+    "negthinspace hfill hfil noindent centering small normalsize large Large it rm cal sf tt scriptsize "
+    "footnotesize allowbreak newline hline protect relax smallskip medskip bigskip par".split()
 )
 SEPARATORS = frozenset(
     "quad qquad implies Rightarrow Leftrightarrow Longrightarrow iff therefore because".split()
@@ -90,8 +93,8 @@ SEPARATORS = frozenset(
 
 # Commands whose argument is no formula; those in `_KEPT` leave a token of their own.
 _WORDS = frozenset(
-    "text textrm textit textbf textnormal textsf texttt mbox hbox intertext shortintertext label tag hspace vspace "
-    "color ref eqref cite class cssId begin end textcolor notag hskip fontsize".split()
+    "text textrm textit textbf textnormal textsf texttt mbox hbox intertext shortintertext label tag "
+    "hspace vspace color ref eqref cite class cssId begin end textcolor notag hskip fontsize".split()
 )
 _KEPT = {"tag": "tag", "begin": "begin", "end": "close", "intertext": "separator"}
 _SIGN_COMMANDS = {

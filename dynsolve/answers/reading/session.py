@@ -455,7 +455,7 @@ class Session:
         )
 
     def _fitted(self, candidates: tuple[str, ...], value: Value) -> list[tuple[str, Node, str]]:
-        """(name, tree, note) of every candidate that the value can be; those of the right shape alone, if any."""
+        """(name, tree, note) of the candidates that a value can be, of its very shape if any is."""
         exact: list[tuple[str, Node, str]] = []
         loose: list[tuple[str, Node, str]] = []
         for name in candidates:

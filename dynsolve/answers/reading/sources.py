@@ -16,7 +16,7 @@ _LONGEST_EXCERPT = 400
 
 @dataclass(frozen=True)
 class Source:
-    """A text; `origins` are (offset, line, column) of its stretches, where the file is not the text itself."""
+    """A text; `origins` are (offset, line, column) of its stretches, where the file is another text."""
 
     text: str
     file: str = ""

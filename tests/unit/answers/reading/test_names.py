@@ -183,7 +183,8 @@ DEFINITIONS = [
     r"D = \begin{bmatrix} d_{11} & d_{12} \\ d_{21} & d_{22} \end{bmatrix}",
     r"C = \begin{bmatrix} c_{11} & c_{12} \\ c_{21} & c_{22} \end{bmatrix}",
     r"g_k = \frac{\partial P}{\partial q_k}",
-    r"c_{ijk} = \frac{1}{2}\left( \frac{\partial d_{kj}}{\partial q_i} + \frac{\partial d_{ki}}{\partial q_j} "
+    r"c_{ijk} = \frac{1}{2}\left( \frac{\partial d_{kj}}{\partial q_i} "
+    r"+ \frac{\partial d_{ki}}{\partial q_j} "
     r"- \frac{\partial d_{ij}}{\partial q_k} \right)",
     r"D = \sum_{i=1}^2 m_i J_{v_i}^T J_{v_i} + J_{\omega_i}^T R_i I_i R_i^T J_{\omega_i}",
     r"D(q) = m_1 J_{v_1}^T J_{v_1} + m_2 J_{v_2}^T J_{v_2} + J_{\omega_1}^T I_1 J_{\omega_1}",

@@ -133,7 +133,8 @@ def test_an_index_that_is_none_is_not_recognized_where_two_are_absent() -> None:
 
 def test_the_model_in_matrices_gives_its_parts() -> None:
     model = (
-        r"$$\tau = \begin{bmatrix} m_1 & 0 \\ 0 & m_2 \end{bmatrix}\begin{bmatrix} \ddot q_1 \\ \ddot q_2 \end{bmatrix}"
+        r"$$\tau = \begin{bmatrix} m_1 & 0 \\ 0 & m_2 \end{bmatrix}"
+        r"\begin{bmatrix} \ddot q_1 \\ \ddot q_2 \end{bmatrix}"
         r" + \begin{bmatrix} 0 & I_1 \\ 0 & 0 \end{bmatrix}\begin{bmatrix} \dot q_1 \\ \dot q_2 \end{bmatrix}"
         r" + \begin{bmatrix} g \\ 0 \end{bmatrix}$$"
     )
