@@ -29,10 +29,9 @@ _KINDS = {
     ".pdf": "a PDF", ".doc": "a Word file", ".docx": "a Word file", ".odt": "a word processor's file",
     ".rtf": "a word processor's file", ".pages": "a word processor's file", ".png": "a picture",
     ".jpg": "a picture", ".jpeg": "a picture", ".heic": "a picture", ".gif": "a picture",
-    ".webp": "a picture",
-    ".tif": "a picture", ".tiff": "a picture", ".bmp": "a picture", ".svg": "a picture",
-    ".zip": "an archive", ".rar": "an archive", ".7z": "an archive", ".gz": "an archive",
-    ".tar": "an archive",
+    ".webp": "a picture", ".tif": "a picture", ".tiff": "a picture", ".bmp": "a picture",
+    ".svg": "a picture", ".zip": "an archive", ".rar": "an archive", ".7z": "an archive",
+    ".gz": "an archive", ".tar": "an archive",
     ".xlsx": "a spreadsheet", ".pptx": "slides", ".mp4": "a film", ".mov": "a film",
 }  # fmt: skip
 

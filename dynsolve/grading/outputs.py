@@ -96,8 +96,8 @@ def _feedback(folder: Path, record: Record) -> None:
             path = place / f"{row.problem}{ending}"
             expected.add(path)
             page = unpack(packed)
-            before = f"<p>{MARKS_HERE}</p>" if ending == ".html" else f"{MARKS_HERE}\n"
-            write(path, page.replace(before, marks, 1))
+            here = rf"<p[^>]*>{MARKS_HERE}</p>" if ending == ".html" else rf"(?m)^{MARKS_HERE}$"
+            write(path, re.sub(here, marks.replace("\\", r"\\"), page, count=1))
     for path in sorted(folder.glob("*/*")) if folder.is_dir() else ():
         if path not in expected and path.suffix in (".html", ".md"):
             path.unlink()

@@ -1,0 +1,326 @@
+"""`dynsolve grade` and `dynsolve override` as a teacher meets them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from tests.cli.running import ROOT, dynsolve, environment
+from tests.grading.generate import course, problem_set
+
+RIGHT = "problem: in3140-rp\nanswers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n  g: [0, 0]\n"
+WRONG = RIGHT.replace("L2^2*theta1'^2)", "L2*theta1'^2)")
+
+
+@pytest.fixture
+def set_folder(tmp_path: Path) -> Path:
+    folder = tmp_path / "set"
+    folder.mkdir()
+    (folder / "in3140-rp.yaml").write_text((ROOT / "problems" / "in3140-rp.yaml").read_text())
+    (folder / "set.yaml").write_text("title: Assignment 2\nmarks: {in3140-rp: {K: 4, g: 2}}\n")
+    return folder
+
+
+def _write(folder: Path, files: dict[str, str | bytes]) -> Path:
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return folder
+
+
+def _csv(path: Path) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(path.read_text())))
+
+
+def _contents(folder: Path) -> dict[str, bytes]:
+    """Every file but the record."""
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and not path.name.startswith("grades.sqlite")
+    }
+
+
+def _dump(folder: Path) -> list[tuple[object, ...]]:
+    """The record, table by table, sorted."""
+    db = sqlite3.connect(folder / "grades.sqlite")
+    tables = [
+        name for (name,) in db.execute("SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name")
+    ]
+    found = [(table, *row) for table in tables for row in db.execute(f"SELECT * FROM {table}")]  # noqa: S608
+    db.close()
+    return sorted(found, key=repr)
+
+
+def _grade(problems: Path, hand_ins: Path, out: Path, *words: str) -> subprocess.Popen[bytes]:
+    command = [
+        sys.executable,
+        "-m",
+        "dynsolve",
+        "grade",
+        str(problems),
+        str(hand_ins),
+        "-o",
+        str(out),
+        *words,
+    ]
+    return subprocess.Popen(
+        command, cwd=ROOT, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+
+
+def test_a_canvas_download_comes_in_and_goes_out(tmp_path: Path, set_folder: Path) -> None:
+    files = {
+        "lovelaceada_101_9001_in3140-rp.yaml": RIGHT,
+        "babbagecharles_LATE_102_9002_in3140-rp.yaml": WRONG,
+        "hoppergrace_103_9003_scan.pdf": b"%PDF-1.7",
+    }
+    archive = tmp_path / "submissions.zip"
+    with zipfile.ZipFile(archive, "w") as packed:
+        for name, content in files.items():
+            packed.writestr(name, content)
+    roster = tmp_path / "gradebook.csv"
+    roster.write_text(
+        "Student,ID,SIS User ID,SIS Login ID,Section,Assignment 2 (555),Quiz (556)\n"
+        "    Points Possible,,,,,6,3\n"
+        '"Lovelace, Ada",101,s101,ada,A,,2\n"=cmd()",102,s102,charles,A,,\n'
+        '"Hopper, Grace",103,s103,grace,A,EX,\n'
+        '"Nobody, Else",104,s104,else,A,,\n'
+    )
+    out = tmp_path / "out"
+    ran = dynsolve(
+        "grade", str(set_folder), str(archive), "-o", str(out), "--lms", "canvas", "--roster", str(roster)
+    )
+    assert ran.code == 0, ran.err
+    grades = {row["student"]: row["total"] for row in _csv(out / "grades.csv")}
+    assert grades == {"babbagecharles_102": "2", "hoppergrace_103": "0", "lovelaceada_101": "6"}
+    answers = {(row["student"], row["answer"]): row["verdict"] for row in _csv(out / "answers.csv")}
+    assert answers["babbagecharles_102", "K"] == "wrong"
+    assert answers["hoppergrace_103", "K"] == "unreadable"
+    assert (out / "canvas.csv").read_text() == (
+        "Student,ID,SIS User ID,SIS Login ID,Section,Assignment 2 (555)\n"
+        "    Points Possible,,,,,6\n"
+        '"Lovelace, Ada",101,s101,ada,A,6\n\'=cmd(),102,s102,charles,A,2\n'
+        '"Hopper, Grace",103,s103,grace,A,EX\n'
+        '"Nobody, Else",104,s104,else,A,\n'
+    )
+    page = (out / "feedback" / "babbagecharles_102" / "in3140-rp.html").read_text()
+    assert "Marks: 2 of 6" in page and "It was handed in late." in page
+    report = (out / "report.html").read_text()
+    assert "a PDF: a human reads it" in report and "http" not in report.replace("http-equiv", "")
+
+
+def test_a_moodle_download_comes_in_and_goes_out(tmp_path: Path, set_folder: Path) -> None:
+    hand_ins = _write(
+        tmp_path / "in", {
+            "Ada Lovelace_41_assignsubmission_file/in3140-rp.yaml": RIGHT,
+            "Grace Hopper_42_assignsubmission_file/hw.yaml": WRONG,
+        }
+    )  # fmt: skip
+    roster = tmp_path / "worksheet.csv"
+    header = (
+        "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Grade can be changed,"
+        "Last modified (submission),Last modified (grade),Feedback comments"
+    )
+    roster.write_text(
+        f"\ufeff{header}\n"
+        "Participant 41,Ada Lovelace,a@x,Submitted for grading,,6.00,Yes,1 May,-,\n"
+        "Participant 42,Grace Hopper,g@x,Submitted for grading,,6.00,Yes,1 May,-,\n"
+        "Participant 43,No One,n@x,No submission,,6.00,Yes,-,-,\n"
+    )
+    out = tmp_path / "out"
+    words = (
+        "grade",
+        str(set_folder),
+        str(hand_ins),
+        "-o",
+        str(out),
+        "--lms",
+        "moodle",
+        "--roster",
+        str(roster),
+    )
+    ran = dynsolve(*words)
+    assert ran.code == 0, ran.err
+    assert (out / "moodle.csv").read_text().splitlines() == [
+        header,
+        "Participant 41,Ada Lovelace,a@x,Submitted for grading,6,6.00,Yes,1 May,-,in3140-rp: 6",
+        "Participant 42,Grace Hopper,g@x,Submitted for grading,2,6.00,Yes,1 May,-,in3140-rp: 2",
+        "Participant 43,No One,n@x,No submission,,6.00,Yes,-,-,",
+    ]
+    with zipfile.ZipFile(out / "moodle-feedback.zip") as packed:
+        assert packed.namelist() == [
+            "Ada Lovelace_41_assignfeedback_file/feedback.html",
+            "Grace Hopper_42_assignfeedback_file/feedback.html",
+        ]
+
+
+def test_a_gradescope_export_comes_in_and_goes_out(tmp_path: Path, set_folder: Path) -> None:
+    hand_ins = _write(
+        tmp_path / "in", {
+            "assignment_1_export/submission_7/in3140-rp.yaml": RIGHT,
+            "assignment_1_export/submission_metadata.yml":
+                "submission_7:\n  :submitters:\n  - :name: Ada\n    :sid: s7\n",
+        }
+    )  # fmt: skip
+    out = tmp_path / "out"
+    ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(out), "--lms", "gradescope")
+    assert ran.code == 0, ran.err
+    results = json.loads((out / "gradescope" / "s7" / "results.json").read_text())
+    assert results["score"] == 6
+    assert [(test["name"], test["score"], test["max_score"]) for test in results["tests"]] == [
+        ("K", 4, 4),
+        ("g", 2, 2),
+    ]
+
+
+def test_hostile_files_leave_the_good_ones_their_marks(tmp_path: Path, set_folder: Path) -> None:
+    hand_ins = _write(
+        tmp_path / "in", {
+            "good/in3140-rp.yaml": RIGHT,
+            "deep/in3140-rp.yaml": "answers:\n  K: " + "(" * 100_000 + "\n",
+            "power/in3140-rp.yaml": "answers:\n  K: 9^9^9^9\n",
+            "bytes/in3140-rp.yaml": os.urandom(5000),
+            "empty/in3140-rp.yaml": "",
+            "script/in3140-rp.md": "# <script>alert(1)</script>\n\n$$K = <img src=x onerror=alert(1)>$$\n",
+            "=cmd(1)/in3140-rp.yaml": RIGHT,
+        }
+    )  # fmt: skip
+    (hand_ins / "link.yaml").symlink_to("/etc/passwd")
+    out = tmp_path / "out"
+    ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(out))
+    assert ran.code == 0, ran.err
+    totals = {row["student"]: row["total"] for row in _csv(out / "grades.csv")}
+    assert totals["good"] == "6"
+    assert totals["'=cmd(1)"] == "6"
+    assert set(totals) == {"good", "deep", "power", "bytes", "empty", "script", "link", "'=cmd(1)"}
+    assert "refused: link.yaml: a link" in ran.err
+    pages = "".join(path.read_text() for path in out.rglob("*.html"))
+    assert "<img src=x" not in pages and "<script>alert" not in pages
+
+
+def test_a_bound_that_is_passed_is_unreadable_with_the_reason(tmp_path: Path, set_folder: Path) -> None:
+    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    out = tmp_path / "out"
+    ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(out), "--timeout", "0.1")
+    assert ran.code == 0, ran.err
+    assert [row["verdict"] for row in _csv(out / "answers.csv")] == ["unreadable"] * 2
+    assert "more than 0.1 s" in (out / "report.html").read_text()
+
+
+def test_a_second_run_on_one_folder_says_so_and_stops(tmp_path: Path) -> None:
+    from dynsolve.grading.record import Record
+
+    problem_set(tmp_path / "set")
+    course(tmp_path / "in", 2)
+    out = tmp_path / "out"
+    out.mkdir()
+    record = Record(out)
+    ran = dynsolve("grade", str(tmp_path / "set"), str(tmp_path / "in"), "-o", str(out))
+    record.close()
+    assert ran.code == 2
+    assert "another run is at work on" in ran.err
+
+
+def test_a_run_that_is_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
+    problem_set(tmp_path / "set")
+    course(tmp_path / "in", 30)
+    words = (tmp_path / "set", tmp_path / "in")
+    with _grade(*words, tmp_path / "whole") as whole:
+        assert whole.wait() == 0
+    chance = random.Random(5)
+    for _ in range(10):
+        with _grade(*words, tmp_path / "killed") as run:
+            time.sleep(chance.uniform(0.1, 1.5))
+            run.send_signal(signal.SIGKILL)
+    with _grade(*words, tmp_path / "killed") as run:
+        assert run.wait() == 0
+    assert _contents(tmp_path / "killed") == _contents(tmp_path / "whole")
+    assert _dump(tmp_path / "killed") == _dump(tmp_path / "whole")
+
+
+def test_ctrl_c_ends_cleanly_and_says_how_to_go_on(tmp_path: Path) -> None:
+    problem_set(tmp_path / "set")
+    course(tmp_path / "in", 200)
+    with _grade(tmp_path / "set", tmp_path / "in", tmp_path / "out") as run:
+        time.sleep(2)
+        run.send_signal(signal.SIGINT)
+        _, err = run.communicate()
+    assert run.returncode == 130
+    assert b"the same command goes on" in err and b"Traceback" not in err
+
+
+def test_regrade_computes_what_is_affected_and_tells_whose_marks_changed(
+    tmp_path: Path, set_folder: Path
+) -> None:
+    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT, "b/in3140-rp.yaml": WRONG})
+    words = ("grade", str(set_folder), str(hand_ins), "-o", str(tmp_path / "out"), "--diff")
+    assert "2 hand-ins graded" in dynsolve(*words).err
+    again = dynsolve(*words)
+    assert "0 hand-ins graded, 2 as before" in again.err and again.out == ""
+    _write(hand_ins, {"b/in3140-rp.yaml": RIGHT})
+    changed = dynsolve(*words)
+    assert "1 hand-ins graded, 1 as before" in changed.err
+    assert changed.out == "b in3140-rp K: 0 -> 4 (the hand-in changed; correct: 4 of 4)\n"
+    (set_folder / "set.yaml").write_text("title: Assignment 2\nmarks: {in3140-rp: {K: 5, g: 2}}\n")
+    remarked = dynsolve(*words)
+    assert "a in3140-rp K: 4 -> 5 (the marks changed; correct: 5 of 5)" in remarked.out
+
+
+def test_an_override_is_kept_and_shown(tmp_path: Path, set_folder: Path) -> None:
+    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": WRONG, "b/scan.pdf": b"%PDF"})
+    out = tmp_path / "out"
+    words = ("grade", str(set_folder), str(hand_ins), "-o", str(out))
+    dynsolve(*words)
+    override = ("override", str(out), "a", "in3140-rp", "K", "--marks", "3", "--why", "<good> idea")
+    assert dynsolve(*override).code == 0
+    assert (
+        dynsolve("override", str(out), "b", "in3140-rp", "g", "--marks", "2", "--why", "on paper").code == 0
+    )
+    for _ in range(2):
+        totals = {row["student"]: row["total"] for row in _csv(out / "grades.csv")}
+        assert totals == {"a": "5", "b": "2"}
+        page = (out / "feedback" / "a" / "in3140-rp.html").read_text()
+        assert "set by the teacher: &lt;good&gt; idea (the program: wrong: 0 of 4)" in page
+        _write(hand_ins, {"a/in3140-rp.yaml": WRONG + "# again\n"})
+        dynsolve(*words)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("nobody", "in3140-rp", "K", "--marks", "3"), "there is no student `nobody`"),
+        (("a", "in3140-rp", "Q", "--marks", "3"), "has no answer `Q`"),
+        (("a", "in3140-rp", "K", "--marks", "9"), "--marks is from 0 to 4"),
+        (("a", "in3140-rp", "K", "--marks", "x"), "is no number"),
+    ],
+)
+def test_a_wrong_override_is_refused(
+    tmp_path: Path, set_folder: Path, words: tuple[str, ...], message: str
+) -> None:
+    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(tmp_path / "out"))
+    ran = dynsolve("override", str(tmp_path / "out"), *words, "--why", "x")
+    assert ran.code == 2
+    assert message in ran.err
+
+
+def test_a_platform_without_its_roster_says_what_is_needed(tmp_path: Path, set_folder: Path) -> None:
+    _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    words = (str(set_folder), str(tmp_path / "in"), "-o", str(tmp_path / "out"), "--lms", "canvas")
+    ran = dynsolve("grade", *words)
+    assert ran.code == 2
+    assert "needs --roster, the CSV that Canvas exports" in ran.err
