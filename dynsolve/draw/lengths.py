@@ -99,7 +99,7 @@ def _offset(a: Point, b: Point, along: Point, across: Point, taken: Taken) -> tu
         return taken.on_line(moved(p, along, 3.0), moved(q, along, -3.0))
 
     def cost(offset: float) -> tuple[float, float]:
-        return round(crowded(offset) * 100.0 + abs(offset) * 0.35 + (offset < 0) * 2.0, 6), offset
+        return round(crowded(offset) * 250.0 + abs(offset) * 0.35 + (offset < 0) * 2.0, 6), offset
 
     best = min(_OFFSETS, key=cost)
     return best, crowded(best)
