@@ -124,6 +124,11 @@ def _scripted(reader: Reader, form: Form, meaning: Meaning) -> Value:
     dots = form.dots + (scripts.primes if isinstance(value, Node) else 0)
     if dots:
         dotted = vocabulary_rate(reader, form, dots) or rate(value, reader.vocabulary, dots)
+        if dotted is None and reader.naming:
+            raise _unknown(reader, form, form.key)
+        if dotted is None and form.key in reader.vocabulary.defined:
+            reader.names_used += 1
+            return Abstract(f"the derivative of {form.text} is not written out")
         if dotted is None:
             message = f"{form.text} has no derivative here"
             help = "velocities and accelerations are those of the coordinates"

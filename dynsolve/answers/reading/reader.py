@@ -43,7 +43,7 @@ from dynsolve.notation.tree import (
     Symbol,
 )
 
-_BEGINS = frozenset({"number", "fraction", "name", "letter", "command", "(", "[", "{", "√", "begin"})
+_BEGINS = frozenset({"number", "fraction", "name", "letter", "command", "(", "[", "{", "√", "begin", "|"})
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
 _TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
 
@@ -179,7 +179,7 @@ class Reader:
         """The tokens up to the bracket that closes, which is taken too."""
         level, start = 1, self.position
         while self.token.kind != "end":
-            level += (self.token.kind == opening.kind) - (self.token.kind == closing)
+            level += (self.token.kind == opening.kind != closing) - (self.token.kind == closing)
             if level == 0:
                 found = self.tokens[start : self.position]
                 self.take()
@@ -294,6 +294,8 @@ class Reader:
             return functions.applied(self, "sqrt", argument, token)
         if kind == "^":
             return self.framed()
+        if kind == "|":
+            return self.norm()
         if kind == "'" and self.peek().text == "diff":
             self.take()
             return self.word(self.token)
@@ -404,6 +406,8 @@ class Reader:
                 token.end - token.start,
                 "write it out",
             )
+        if name == "hat":
+            return self.unit_vector()
         if name in ("underbrace", "overbrace"):
             self.take()
             found = self.inner(self.group())
@@ -415,6 +419,26 @@ class Reader:
         raise ReadError(
             message, token.start, token.end - token.start, "the commands of LaTeX's formulas are read"
         )
+
+    def norm(self) -> Value:
+        """The length of a vector, of which the square alone is read."""
+        opening = self.take()
+        value = self.inner(self.until("|", opening))
+        scripts = Scripts()
+        if not isinstance(value, Node) and self.script(scripts) and scripts.powers == [Fraction(2)]:
+            return self.with_scripts(value, scripts, opening.start)
+        message = "a length or an absolute value cannot be read"
+        raise ReadError(message, opening.start, 1, "write it out; |v|^2 is read for a vector v")
+
+    def unit_vector(self) -> Value:
+        r"""`\hat{k}`: a unit vector of the base frame; of other frames none is known."""
+        self.take()
+        form = self.form()
+        axis = {"i": 0, "x": 0, "x0": 0, "j": 1, "y": 1, "y0": 1, "k": 2, "z": 2, "z0": 2}.get(form.key)
+        if axis is None:
+            self.names_used += 1
+            return Abstract(f"{form.text} with a hat is a letter of the derivation")
+        return Grid(tuple((Number(int(row == axis)),) for row in range(3)))
 
     def fraction(self) -> Value:
         r"""`\frac{a}{b}`, which may be a derivative."""
@@ -444,6 +468,7 @@ class Reader:
             self.position -= 1
             self.token = token
             raise self.unexpected("a name is expected here")
+        form.start = token.start
         self.beside(form)
         self.nesting -= 1
         return form

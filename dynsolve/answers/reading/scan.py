@@ -125,6 +125,11 @@ _SIGN_COMMANDS = {
     "lvert": "|",
     "rvert": "|",
     "colon": ":",
+    "|": "|",
+    "Vert": "|",
+    "lVert": "|",
+    "rVert": "|",
+    "vert": "|",
 }
 _GREEK_COMMANDS = {
     "vartheta": "theta",
@@ -256,7 +261,7 @@ def _command(name: str, start: int, end: int, spaced: bool, broken: bool) -> Tok
     name = name.removesuffix("*") if len(name) > 1 else name
     if name in _INK and name not in SEPARATORS:
         return None
-    if name in ("(", ")", "[", "]", "$", "|", "#", "%", "_"):
+    if name in ("(", ")", "[", "]", "$", "#", "%", "_"):
         raise ReadError(f"`\\{name}` cannot stand inside an equation", start, 2, "write the formula alone")
     sign = _SIGN_COMMANDS.get(name)
     if sign is not None:

@@ -276,11 +276,21 @@ class Session:
         """The answers that a value consisting of placeholders alone names."""
         if isinstance(value, Symbol) and (found := referred(value.name)):
             return candidates if found[0] in candidates else (found[0],)
+        if force := self._force(value):
+            return (force,)
         if isinstance(value, Grid):
             if value.quantity:
                 return candidates if value.quantity in candidates else (value.quantity,)
             return self._whole(value)
         return ()
+
+    def _force(self, value: Value) -> str:
+        """The force that d/dt(∂L/∂q̇_i) - ∂L/∂q_i is."""
+        for q in self.vocabulary.coordinates:
+            terms = (Symbol(f"@ddt{q.index}"), Negative(Symbol(f"@dLdq{q.index}")))
+            if value == Sum(terms):
+                return q.force
+        return ""
 
     def _whole(self, value: Grid) -> tuple[str, ...]:
         """The matrix whose entries are all names: [tau_1; f_2] is tau."""
