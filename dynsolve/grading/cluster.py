@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import threading
 from concurrent.futures import Future
+from importlib import import_module
 from typing import Any
 
 from dynsolve.errors import UsageError
@@ -22,13 +23,13 @@ class ClusterPool:
 
     def __init__(self, address: str, bounds: Bounds) -> None:
         try:
-            from distributed import Client
+            distributed: Any = import_module("distributed")
         except ImportError:
             message = "--cluster needs Dask: install it with `pip install dynsolve[cluster]`"
             raise UsageError(message) from None
         self.bounds = bounds
         try:
-            self._client: Any = Client(address, timeout="10s", set_as_default=False)
+            self._client: Any = distributed.Client(address, timeout="10s", set_as_default=False)
         except (OSError, ValueError) as error:
             raise UsageError(f"no Dask scheduler answers at {address}: {error}") from None
         self._executor: Any = self._client.get_executor(pure=False, retries=3)
@@ -48,7 +49,7 @@ class ClusterPool:
 
     def close(self) -> None:
         """Leave the scheduler; what is under way is given up."""
-        self._executor.shutdown(wait=False, cancel_futures=True)
+        self._executor.shutdown(wait=False)
         self._client.close()
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judge import Held, Judge
+from dynsolve.answers.judge import Judge
 from dynsolve.answers.verdict import Report, Verdict
 
 
@@ -26,8 +26,8 @@ def losses(judge: Judge, report: Report) -> dict[str, str]:
     return found
 
 
-def _loss(judge: Judge, held: Held) -> str:
-    key = judge.key(held.target)
+def _loss(judge: Judge, held: Any) -> str:
+    key = held.target.of(judge.graph.key(held.target.node))
     expected = list(key.entries) if isinstance(key, Matrix) else [key]
     written = [part for row in held.rows for entry in row for part in (entry.value.above, entry.value.bottom)]
     before, after = _names(expected), _names(written)
