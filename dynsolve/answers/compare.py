@@ -46,7 +46,7 @@ class Comparison:
     values: Mapping[str, Fraction]
 
     def __call__(self, expected: Expr, written: Written) -> str | None:
-        """ "" where they are equal, `rounded` where a decimal rounds, None where they differ."""
+        """Empty where they are equal, `rounded` where a decimal rounds, None where they differ."""
         if equal(Frac(expected), written.value):
             return ""
         mine = written.value
@@ -72,7 +72,7 @@ class Comparison:
         return substituted(expected, put), mine
 
     def _mixed(self, expected: Expr, mine: Frac) -> bool:
-        """Whether they are equal with all numbers put in, a symbol standing here as symbol and there as number.
+        """Whether they are equal with all numbers put in: a symbol may stand as either, term by term.
 
         Every term of the answer must be one of the expected with numbers for some of
         its symbols, so that two lengths of one value are not taken for each other.
@@ -84,8 +84,8 @@ class Comparison:
         theirs = [[int(e) for e in exponents] for exponents in expected.poly.monoms()]
         return all(
             any(
-                all(a == b or (i in put and a < b) for i, (a, b) in enumerate(zip(ours, their, strict=True)))
-                for their in theirs
+                all(a == b or (a < b and i in put) for i, (a, b) in enumerate(zip(ours, one, strict=True)))
+                for one in theirs
             )
             for ours in ([int(e) for e in exponents] for exponents in mine.above.poly.monoms())
         )

@@ -7,7 +7,7 @@ never the solution; a teacher sees the differences too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.answers.submission import Place
@@ -71,7 +71,8 @@ def _opening(report: Report, view: View) -> Iterator[Block]:
         resting = sum(a.verdict is Verdict.FOLLOWS for a in report.answers)
         text = f"It first went wrong at {_named(first)}{_where(first)}."
         if resting:
-            text += f" {resting} later {'answer follows' if resting == 1 else 'answers follow'} from earlier slips."
+            verb = "answer follows" if resting == 1 else "answers follow"
+            text += f" {resting} later {verb} from earlier slips."
         yield Text((text,))
     else:
         yield Text((f"{count} of {len(report.answers)} answers are correct.",))
@@ -102,7 +103,7 @@ def _wrong(answer: Judged, report: Report, view: View) -> Iterator[Block]:
         plural = {"row": "rows", "entry": "entries"}[word] if len(bad) > 1 else word
         text = f"Wrong in {plural} {places}"
         yield Text((text + ("; the others are right or follow." if right else "."),))
-    told = [d for d in answer.diagnosis]
+    told = answer.diagnosis
     if view.level >= 2 or view.teacher:
         yield from _slips(told, view)
     if view.teacher:
@@ -117,11 +118,9 @@ def _wrong(answer: Judged, report: Report, view: View) -> Iterator[Block]:
         yield Note((note,))
 
 
-def _slips(told: list[Diagnosis], view: View) -> Iterator[Block]:
+def _slips(told: Sequence[Diagnosis], view: View) -> Iterator[Block]:
     if view.level >= 3 or view.teacher:
-        items: list[Prose] = []
-        for d in told:
-            items.append((f"{d.message} {d.look}".strip(),))
+        items: list[Prose] = [(f"{d.message} {d.look}".strip(),) for d in told]
         if items:
             yield List(tuple(items))
     else:

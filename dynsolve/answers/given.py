@@ -30,7 +30,7 @@ MOST_ENTRIES = 144
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """One answer with its value: rows of entries, a scalar as 1×1; None with a `fault` where there is none."""
+    """One answer with its value: rows of entries, a scalar as 1×1; `fault` where there is none."""
 
     answer: Answer
     rows: Rows | None

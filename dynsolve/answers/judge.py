@@ -9,27 +9,28 @@ The order of the report is that of the derivation, so that the first slip comes 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.compare import Comparison, Written
+from dynsolve.answers.compare import Comparison
 from dynsolve.answers.diagnose import Diagnoser, Question
 from dynsolve.answers.dimensions import Dimensions
 from dynsolve.answers.evaluate import Frac, as_expr
 from dynsolve.answers.field import Field, Plan
-from dynsolve.answers.follow import Candidate, Follow, Own
-from dynsolve.answers.given import Given, Hand, as_value, fitted, same
+from dynsolve.answers.follow import Candidate, Follow
+from dynsolve.answers.given import Given, Hand, same
 from dynsolve.answers.graph import Graph
+from dynsolve.answers.hold import Held, Holder, Target
 from dynsolve.answers.level import find_level
+from dynsolve.answers.own import own_values
 from dynsolve.answers.slips.derivation import DerivationSlips
-from dynsolve.answers.slips.table import slip
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import (
-    Diagnosis,
     EntryVerdict,
     Judged,
     Occurrence,
@@ -38,7 +39,6 @@ from dynsolve.answers.verdict import (
     worst,
 )
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node, Symbol
 from dynsolve.pipeline import Derivation, derive
 from dynsolve.problem.model import Problem
 
@@ -78,43 +78,6 @@ def check(problem: Problem, submission: Submission, key: Derivation | None = Non
     return Checker(problem, key)(submission)
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
-    """What an answer is held against: a node, and the one entry of it that was asked for."""
-
-    node: str
-    entry: tuple[int, int] | None = None
-    christoffel: tuple[int, int, int] | None = None
-
-    def of(self, value: Any) -> Any:
-        """The part of a node's value that is meant."""
-        if self.christoffel is not None:
-            return value[self.christoffel]
-        return value if self.entry is None else value[self.entry]
-
-
-@dataclass(frozen=True, slots=True)
-class Held:
-    """An answer held against the key: its entries as they are compared, and whether each is right."""
-
-    given: Given
-    target: Target
-    rows: tuple[tuple[Written, ...], ...] = ()
-    right: tuple[tuple[str | None, ...], ...] = ()
-    fits: bool = True
-    spoilt: tuple[Diagnosis, ...] = ()
-
-    @property
-    def correct(self) -> bool:
-        """Whether every entry is right."""
-        return bool(self.rows) and not self.spoilt and all(r is not None for row in self.right for r in row)
-
-    @property
-    def rounded(self) -> bool:
-        """Whether a decimal rounds."""
-        return any(r for row in self.right for r in row)
-
-
 class Judge:
     """Judges one hand-in."""
 
@@ -127,10 +90,11 @@ class Judge:
         self.dimensions = Dimensions(self.field.ring, self.field.robot)
         self.compare = Comparison(problem.values)
         self.graph = Graph(self.field)
+        self.hold = Holder(self.graph, self.compare, self.hand.moved)
         self.groups = self._grouped()
         level = find_level(self.field, dict(self._energies()), self.dimensions)
         self.graph.shift = level
-        self.held = {name: self._hold(name, self._value(chains)) for name, chains in self.groups.items()}
+        self.held = {name: self.hold(name, self._value(chains)) for name, chains in self.groups.items()}
         self.assembled = self._assembled()
 
     # -- what was handed in ------------------------------------------------------------------------
@@ -150,7 +114,7 @@ class Judge:
         """The quantity that is meant where the notation leaves two: the one that it equals."""
         answer = given.answer
         for name in (answer.name, *answer.alternatives) if answer.alternatives and given.rows else ():
-            if self._hold(name, given).correct:
+            if self.hold(name, given).correct:
                 return name
         return self.graph.answer(answer.name)
 
@@ -169,7 +133,7 @@ class Judge:
                     yield name, value
 
     def _assembled(self) -> Held | None:
-        """C put together from its entries where all of them were given: free as a whole, it is held by row."""
+        """C put together from its entries where all were given: free as a whole, it is held by row."""
         n = self.problem.robot.n
         names = [[f"C{i + 1}{j + 1}" for j in range(n)] for i in range(n)]
         entries = [[self.held.get(name) for name in row] for row in names]
@@ -184,149 +148,14 @@ class Judge:
         node = tree.Matrix(tuple(tuple(given.nodes[0][0] for given in row) for row in rows))
         answer = replace(rows[0][0].answer, name="C", node=node)
         values = tuple(tuple(given.entries[0] for given in row) for row in rows)
-        return self._hold("C", Given(answer, values, node.rows))
-
-    # -- held against the key ----------------------------------------------------------------------
-
-    def target(self, name: str) -> Target:
-        """What an answer of this name is held against."""
-        entry = self.graph.entry(name)
-        if entry is not None:
-            return Target(entry.whole, (entry.row, entry.column))
-        symbol = self.graph.christoffel(name)
-        if symbol is not None:
-            return Target("christoffel", None, symbol)
-        return Target(self.graph.node(name))
-
-    def key(self, target: Target) -> Any:
-        """The key's value of a target."""
-        return target.of(self.graph.key(target.node))
-
-    def _hold(self, name: str, given: Given) -> Held:
-        target = self.target(name)
-        if given.rows is None or target.node not in self.field.rules:
-            return Held(given, target)
-        key = self.key(target)
-        rows, spoilt = self._rows(name, given, key)
-        if rows is None:
-            return Held(given, target, fits=False, spoilt=spoilt)
-        matrix = key if isinstance(key, Matrix) else Matrix(self.field.ring, ((key,),))
-        right = tuple(
-            tuple(map(self.compare, expected, written))
-            for expected, written in zip(matrix.rows, rows, strict=True)
-        )
-        return Held(given, target, rows, right, spoilt=spoilt)
-
-    def _rows(
-        self, name: str, given: Given, key: Any
-    ) -> tuple[tuple[tuple[Written, ...], ...] | None, tuple[Diagnosis, ...]]:
-        """The entries as they are compared; of C, the rows of C q̇."""
-        assert given.rows is not None
-        if name == "C":
-            return self._coriolis(given)
-        rows = fitted(given.rows, key)
-        if rows is None:
-            return None, (self._misfit(given, key),)
-        nodes = given.nodes if len(given.nodes) == len(rows) and len(given.nodes[0]) == len(rows[0]) else None
-        if nodes is None:
-            flat = [node for row in given.nodes for node in row]
-            if len(flat) < len(rows) * len(rows[0]):
-                flat = flat * (len(rows) * len(rows[0]))
-            width = len(rows[0])
-            nodes = tuple(tuple(flat[i * width : (i + 1) * width]) for i in range(len(rows)))
-        return tuple(
-            tuple(Written(value, node, self.hand.moved) for value, node in zip(r, n, strict=True))
-            for r, n in zip(rows, nodes, strict=True)
-        ), ()
-
-    def _misfit(self, given: Given, key: Any) -> Diagnosis:
-        assert given.rows is not None
-        mine = f"{len(given.rows)}×{len(given.rows[0])}"
-        shape = key.shape if isinstance(key, Matrix) else (1, 1)
-        wanted = f"a {shape[0]}×{shape[1]} matrix" if shape != (1, 1) else "a single expression"
-        return Diagnosis(
-            "shape",
-            f"You wrote a {mine} matrix; {given.answer.name} is {wanted}.",
-            "the size of the matrix",
-            "Count rows and columns.",
-        )
-
-    def _coriolis(self, given: Given) -> tuple[tuple[tuple[Written, ...], ...] | None, tuple[Diagnosis, ...]]:
-        """C as its C q̇, n×1; a C with accelerations in it is none."""
-        assert given.rows is not None
-        n, ring = self.problem.robot.n, self.field.ring
-        zero = len(given.entries) == 1 and given.entries[0].is_zero
-        if not zero and (len(given.rows) != n or len(given.rows[0]) != n):
-            return None, (self._misfit(given, self.field.key("C")),)
-        from dynsolve.notation.tree import Product, Sum
-
-        rows = []
-        for row in given.nodes if not zero else ((given.nodes[0][0],) * n,) * n:
-            factors = zip(row, ring.names, strict=True)
-            node: Node = Sum(tuple(Product((entry, Symbol(name, 1))) for entry, name in factors))
-            rows.append((Written(self.hand.moved(node), node, self.hand.moved),))
-        return tuple(rows), tuple(self._unfit(given))
-
-    def _unfit(self, given: Given) -> Iterator[Diagnosis]:
-        """What no C may hold: accelerations, or joint variables in a denominator."""
-        ring = self.field.ring
-        accelerations = [ring.symbol(name, 2).poly.degrees() for name in ring.names]
-        indices = [list(degrees).index(1) for degrees in accelerations]
-        for entry in given.entries:
-            value = as_expr(entry)
-            if value is None:
-                yield slip("C_not_polynomial")
-                return
-            degrees = value.poly.degrees() if value.poly else ()
-            if degrees and any(degrees[i] > 0 for i in indices):
-                yield slip("acceleration_in_C")
-                return
+        return self.hold("C", Given(answer, values, node.rows))
 
     # -- held against what the student's own answers lead to ---------------------------------------
 
     @cached_property
     def follow(self) -> Follow:
         """The candidates that the student's own answers lead to."""
-        return Follow(self.graph, dict(self._own()))
-
-    def _own(self) -> Iterator[tuple[str, Own]]:
-        for name, held in self.held.items():
-            target = held.target
-            if target.entry is None and target.christoffel is None and target.node in self.field.rules:
-                if held.given.rows is not None and not (name == "Cqd" and "C" in self.held):
-                    yield target.node, self._own_value(name, held)
-        for whole in ("D", "g"):
-            if whole not in self.held:
-                yield from self._own_whole(whole)
-
-    def _own_value(self, name: str, held: Held) -> Own:
-        key = self.graph.key(held.target.node)
-        if held.correct:
-            return Own(key)
-        rows = tuple(tuple(written.value for written in row) for row in held.rows)
-        return Own(as_value(rows, key) if rows else None, (name,))
-
-    def _own_whole(self, whole: str) -> Iterator[tuple[str, Own]]:
-        """A matrix that was given entry by entry; of a symmetric one half is enough."""
-        if not self.problem.robot.bodies:
-            return
-        key: Matrix = self.graph.key(whole)
-        entries: list[list[Expr]] = []
-        names: list[str] = []
-        for i, row in enumerate(key.rows):
-            entries.append([])
-            for j in range(len(row)):
-                candidates = (f"d{i + 1}{j + 1}", f"d{j + 1}{i + 1}") if whole == "D" else (f"g{i + 1}",)
-                name = next((c for c in candidates if c in self.held), None)
-                held = self.held[name] if name else None
-                if name is None or held is None or held.given.rows is None or not held.rows:
-                    return
-                value = key[i, j] if held.correct else as_expr(held.rows[0][0].value)
-                if value is None:
-                    return
-                entries[-1].append(value)
-                names += [] if held.correct else [name]
-        yield whole, Own(Matrix.of(self.field.ring, entries), tuple(dict.fromkeys(names)))
+        return Follow(self.graph, own_values(self.graph, self.held))
 
     def _candidates(self, held: Held) -> Sequence[Candidate]:
         return self.follow.derived(held.target.node)
@@ -396,7 +225,7 @@ class Judge:
         nearest = self.nearest(held.target)
         if nearest is None:
             return False
-        key = self.key(held.target)
+        key = self.hold.key(held.target)
         ways = self._nearest_of_ways(held.target)
         return bool(ways) and all(not _equal(value, key) for value in ways)
 
@@ -414,7 +243,7 @@ class Judge:
     def nearest(self, target: Target) -> Any:
         """The value expected from the student's own nearest answers; None where they lead nowhere."""
         if not self.follow.touched(target.node):
-            return self.key(target)
+            return self.hold.key(target)
         found = self.follow.derived(target.node)
         return target.of(found[0].value) if found else None
 
@@ -435,12 +264,17 @@ class Judge:
         )
         if not entries:
             one = self._entry(name, held, (1, 1), 0, 0, whole)
-            constant = any(d.code == "constant_term" for d in one.diagnosis)
+            notes = base.notes
+            if any(d.code == "constant_term" for d in one.diagnosis):
+                notes = (*notes, UNAFFECTED)
             return replace(
                 base,
-                notes=(*base.notes, UNAFFECTED) if constant else base.notes, verdict=one.verdict, follows_from=one.follows_from, diagnosis=one.diagnosis,
+                notes=notes,
+                verdict=one.verdict,
+                follows_from=one.follows_from,
+                diagnosis=one.diagnosis,
                 difference=one.difference,
-            )  # fmt: skip
+            )
         verdict = worst([entry.verdict for entry in entries])
         used = [name for entry in entries for name in entry.follows_from]
         found = tuple(dict.fromkeys(d for entry in entries for d in entry.diagnosis))
@@ -490,7 +324,7 @@ class Judge:
         )
 
     def _question(self, name: str, held: Held, i: int, j: int) -> Question:
-        key = self.key(held.target)
+        key = self.hold.key(held.target)
         return Question(
             name=name,
             target=held.target,
@@ -519,7 +353,7 @@ class Judge:
         return tuple(found)
 
     def _verdict_of(self, name: str, given: Given) -> Verdict:
-        held = self._hold(name, given)
+        held = self.hold(name, given)
         if given.rows is None:
             return Verdict.UNREADABLE
         if held.correct:
@@ -540,7 +374,7 @@ class Judge:
 
     def _with_chain(self, base: Judged, chain: list[Given]) -> Judged:
         """The place of the slip in a = b = c: the first member that differs from the one before it."""
-        for before, after in zip(chain, chain[1:], strict=False):
+        for before, after in pairwise(chain):
             if before.rows is None or after.rows is None or same(before.rows, after.rows):
                 continue
             note = f"differs from what stands before it, {before.answer.text.strip()}"
@@ -556,7 +390,7 @@ class Judge:
         if self.assembled is not None:
             answers |= dict(self._by_row(self.assembled, answers))
         for name in self.problem.marks or self.problem.find:
-            if name not in answers and self.target(name).node in self.field.rules:
+            if name not in answers and self.hold.target(name).node in self.field.rules:
                 answers[name] = self._unwritten(name, answers)
         ordered = sorted(answers.values(), key=lambda a: self.graph.place(a.name))
         wrong = [a for a in ordered if a.verdict is Verdict.WRONG]
@@ -612,7 +446,7 @@ class Judge:
                 given=False,
                 notes=(BY_PARTS,),
                 follows_from=self._sorted(used),
-            )  # fmt: skip
+            )
         )
 
     def _written_parts(self, name: str, answers: dict[str, Judged]) -> list[Judged] | None:

@@ -13,7 +13,7 @@ from dynsolve.answers.verdict import Diagnosis
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """A hand-in that shows a slip: the answer `name` of `problem` with a wrong value, other answers beside it."""
+    """A hand-in that shows a slip: `name` of `problem` with a wrong value, other answers beside it."""
 
     problem: str
     name: str
@@ -69,7 +69,8 @@ _SLIPS = (
     Slip("dropped_mass", "a mass left out", "In {yours} the mass {part} is left out.",
          "Every term of an energy, a momentum or a force carries a mass or an inertia.",
          Example(_RP, "f2", "L2_ddot - m2*L2*theta1_dot^2")),
-    Slip("dropped_inertia", "a moment of inertia left out", "In {yours} the moment of inertia {part} is left out.",
+    Slip("dropped_inertia", "a moment of inertia left out",
+         "In {yours} the moment of inertia {part} is left out.",
          "Every term of an energy, a momentum or a force carries a mass or an inertia.",
          Example(_RP, "dLdqd1", "theta1_dot + m2*L2^2*theta1_dot")),
     Slip("dropped_square", "a square left out", "In {yours} the {part} should be squared.",
@@ -103,7 +104,7 @@ _SLIPS = (
          "Check from which axis the angle is measured, and which function the derivative gives.",
          Example(_2R, "P1", "m1*g*lc1*cos(q1)")),
     Slip("double_angle", "cos² − sin² for cos² + sin²",
-         "In {yours} stands {part}, which is cos² − sin²; squares of both components add up to cos² + sin² = 1.",
+         "In {yours} stands {part}, which is cos² − sin²; the squares add up to cos² + sin² = 1.",
          "Square the components of the velocity one by one, and mind the sign of the square.",
          Example(_RP, "Kv2", "m2*(cos(2*theta1)*L2^2*theta1_dot^2 + L2_dot^2)/2")),
     Slip("angle", "the angle of a sine or cosine", "In {yours} stands {part} where {other} belongs.",
@@ -145,7 +146,8 @@ _SLIPS = (
                  " + (m2*lc2^2+I2)*q2_ddot - m2*l1*lc2*sin(q2)*q1_dot")),
     Slip("lagrangian_sum", "the Lagrangian", "You added P where it is subtracted: L = K - P.",
          "Look at the definition of the Lagrangian.",
-         Example(_RP, "L", "I1zz*theta1_dot^2/2 + m2*(L2^2*theta1_dot^2 + L2_dot^2)/2 + m1*g*L1/2 + m2*g*L1")),
+         Example(_RP, "L", "I1zz*theta1_dot^2/2 + m2*(L2^2*theta1_dot^2 + L2_dot^2)/2"
+                 " + m1*g*L1/2 + m2*g*L1")),
     Slip("slope_sign", "the Euler-Lagrange equation",
          "∂L/∂q is added where it is subtracted: τ = d/dt ∂L/∂q̇ - ∂L/∂q.",
          "Look at the signs in the Euler-Lagrange equation.",
@@ -176,13 +178,13 @@ _SLIPS = (
          "The inertia tensor of body {part} was turned with Rᵀ I R in place of R I Rᵀ.",
          "R turns from the body's axes into the base's: I_base = R I Rᵀ."),
     Slip("frame_before", "the frame of the inertia tensor",
-         "The inertia tensor of body {part} was turned with the frame before the mass, not with the one after it.",
+         "The inertia tensor of body {part} was turned with the frame before the mass, not the one after it.",
          "The frame that moves with the body is the one that comes after the mass."),
     Slip("spin_frame", "the frame of the angular velocity",
          "Body {part}'s angular velocity is along the base's axes, its inertia tensor along its own.",
          "ω and I must be given in one frame."),
     Slip("parallel_axis_missing", "the parallel-axis theorem",
-         "The parallel-axis theorem was not applied to body {part}: its tensor is not given about the mass centre.",
+         "The parallel-axis theorem was not applied to body {part}, whose tensor is about another point.",
          "Move the tensor to the mass centre before you use it beside ½ m vᵀ v.",
          Example(_PENDULUM, "d11", "I1 + m1*l1^2/4")),
     Slip("parallel_axis_twice", "the parallel-axis theorem",
@@ -199,7 +201,8 @@ _SLIPS = (
          Example(_RP, "Jw", [["0", "cos(theta1)"], ["0", "sin(theta1)"], ["1", "0"]])),
     Slip("order", "the order of a product", "The matrices are multiplied in the wrong order.",
          "H_i = H_{{i-1}} A_i: each new frame stands on the right.",
-         Example(_RP, "H2", [["-sin(theta1)", "0", "cos(theta1)", "0"], ["cos(theta1)", "0", "sin(theta1)", "0"],
+         Example(_RP, "H2", [["-sin(theta1)", "0", "cos(theta1)", "0"],
+                 ["cos(theta1)", "0", "sin(theta1)", "0"],
                  ["0", "1", "0", "L1+L2"], ["0", "0", "0", "1"]])),
     Slip("convention", "the convention", "This is the matrix of the other Denavit-Hartenberg convention.",
          "Standard: Rot_z Trans_z Trans_x Rot_x; modified: Rot_x Trans_x Rot_z Trans_z.",
@@ -207,7 +210,8 @@ _SLIPS = (
                  ["cos(theta1)", "-sin(theta1)", "0", "0"], ["0", "0", "0", "1"]])),
     Slip("offset", "an offset of the joint variable", "The constant part of the joint angle is left out.",
          "Look at the table: the angle is the variable plus its offset.",
-         Example(_RP, "A1", [["cos(theta1)", "0", "sin(theta1)", "0"], ["sin(theta1)", "0", "-cos(theta1)", "0"],
+         Example(_RP, "A1", [["cos(theta1)", "0", "sin(theta1)", "0"],
+                 ["sin(theta1)", "0", "-cos(theta1)", "0"],
                  ["0", "1", "0", "L1"], ["0", "0", "0", "1"]])),
     Slip("twist_sign", "the sign of α", "The sign of α is wrong.", "α turns about x, from z to the next z.",
          Example(_RP, "A1", [["-sin(theta1)", "0", "-cos(theta1)", "0"],
