@@ -33,16 +33,15 @@ def solids(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
     """All of a robot's body, from back to front."""
     found = [*link_pieces(parts, view)]
     for part in parts.joints:
-        shape = cylinder if part.type is JointType.REVOLUTE else box
-        found.append(shape(part, view, up))
+        found.append(cylinder(part, view) if part.type is JointType.REVOLUTE else box(part, view, up))
     found.sort(key=lambda solid: round(solid.depth, 6))
-    return (*ground(parts, view, up), *(path for solid in joined(found) for path in solid.paths))
+    return (*ground(parts, view), *(path for solid in joined(found) for path in solid.paths))
 
 
 # -- joints ----------------------------------------------------------------------------------------
 
 
-def cylinder(part: Part, view: View, up: Vector) -> Solid:
+def cylinder(part: Part, view: View) -> Solid:
     """A revolute joint: a cylinder along its axis."""
     axis = part.axis if dot(part.axis, view.toward) >= 0 else scale(part.axis, -1.0)
     depth = view.depth(part.center)
@@ -122,11 +121,11 @@ def _face(
 # -- the ground ------------------------------------------------------------------------------------
 
 
-def ground(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
+def ground(parts: Parts, view: View) -> tuple[Path, ...]:
     """The ground under the base: a hatched line, or a hatched plate where there is space."""
     normal, place = parts.ground_normal, parts.ground
     if view.flat:
-        return _hatched_line(place, cross(normal, view.toward), normal, view, _GROUND, 12)
+        return _hatched_line(place, cross(normal, view.toward), normal, view, _GROUND)
     first = _level(normal, view)
     second = cross(normal, first)
     half = view.space(_GROUND)
@@ -148,11 +147,12 @@ def ground(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
 
 def _level(normal: Vector, view: View) -> Vector:
     """A direction in a plane that runs sideways on paper."""
-    return unit(subtract(view.right, scale(normal, dot(view.right, normal))))
+    level = subtract(view.right, scale(normal, dot(view.right, normal)))
+    return unit(level) if length(level) > 0.05 else any_normal(normal)
 
 
 def _hatched_line(
-    place: Vector, direction: Vector, normal: Vector, view: View, half: float, _count: int
+    place: Vector, direction: Vector, normal: Vector, view: View, half: float
 ) -> tuple[Path, ...]:
     a = view.point(along(place, direction, -view.space(half)))
     b = view.point(along(place, direction, view.space(half)))
@@ -162,6 +162,8 @@ def _hatched_line(
 def _hatches(a: Point, b: Point, down: Point) -> list[Path]:
     """Short slanted strokes under a line."""
     reach = math.dist(a, b)
+    if reach < 1.0:
+        return []
     drop = math.hypot(*down) or 1.0
     x, y = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
     slant = (down[0] / drop * 8.0 - x * 6.0, down[1] / drop * 8.0 - y * 6.0)
