@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.displays import Display, is_label
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
-from dynsolve.answers.reading.prepare import Macro
+from dynsolve.answers.reading.prepare import Macro, simplified
 from dynsolve.answers.reading.scan import Token, closing_brace, scan
-from dynsolve.answers.reading.session import Session, label_alone
+from dynsolve.answers.reading.session import Session
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.submission import Place
 from dynsolve.errors import ReadError
@@ -195,10 +195,20 @@ def _labelled(displays: list[tuple[int, Display]]) -> list[tuple[int, Display]]:
     """A display that holds a number alone is the number of the one before it."""
     found: list[tuple[int, Display]] = []
     for offset, display in displays:
-        label = label_alone(display.text)
+        label = _label_alone(display.text)
         if not label:
             found.append((offset, display))
         elif found and not found[-1][1].label:
             before = found[-1][1]
             found[-1] = (found[-1][0], Display(before.text, label, before.locate, before.plain))
     return found
+
+
+def _label_alone(text: str) -> str:
+    """The number of an equation, if the text of a display is nothing else."""
+    if len(text) > 40:
+        return ""
+    try:
+        return is_label(simplified(scan(text)))
+    except ReadError:
+        return ""

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.grids import Abstract, Value
 from dynsolve.answers.reading.lookup import rate
+from dynsolve.answers.reading.members import Read, read_member
 from dynsolve.answers.reading.prepare import expand, simplified
 from dynsolve.answers.reading.scan import scan
-from dynsolve.answers.reading.session import Read, Session
+from dynsolve.answers.reading.session import Session
 from dynsolve.answers.reading.vocabulary import Meaning, key, spellings
 from dynsolve.errors import ReadError
 from dynsolve.notation.names import split
@@ -24,7 +25,7 @@ def own_symbols(session: Session, display: Display, name: str, is_symbol: bool) 
     except ReadError as error:
         session.vocabulary.broken[key(name)] = error.message
         return error
-    found = session.member(tokens)
+    found = read_member(session.vocabulary, tokens)
     if isinstance(found, ReadError):
         session.vocabulary.broken[plain] = found.message
         return found
