@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from dynsolve.algebra.build import cost, negated, split_sign
+from dynsolve.algebra.build import cost, negated, split_sign, times, total
 from dynsolve.document import Block, Equations, Fold, Heading, Prose, Text
 from dynsolve.explain import letters
 from dynsolve.explain.abbreviations import Abbreviated, Definition
@@ -45,6 +45,8 @@ def in_names(steps: Iterable[Step], course: Course, short: Abbreviated) -> Itera
         change = names.changes.get(step.id)
         if change is not None:
             yield change(step)
+        elif step.stage == "vectorized" and not short.constants:
+            yield replace(step, result=tuple(map(names.swapped, step.result)))
         elif short.constants and names.is_too_long(step):
             kind = step.id.rstrip("0123456789")
             yield names.left_out(step, first=not told, again=kind in told)
@@ -91,12 +93,26 @@ class _Names:
         self.n = course.robot.n
         self.changes: dict[str, Callable[[Step], Step]] = {
             "D": self.inertia,
-            "christoffel": self.christoffel,
             "C": self.coriolis,
             "g": self.gravity,
         }
-        if short.constants:
-            self.changes |= {"K": self.kinetic, "L": self.lagrangian, "Cqd": self.coriolis_forces}
+        self.swaps: dict[Node, Node] = {}
+        if not short.constants:
+            forms = course.forms
+            self.swaps = {
+                **{forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()},
+                forms("D"): short.D,
+                forms("C"): short.C,
+                forms("g"): short.g,
+                forms("Cqd"): tree.column(*map(self.coriolis_force, range(self.n))),
+            }
+        else:
+            self.changes |= {
+                "christoffel": self.christoffel,
+                "K": self.kinetic,
+                "L": self.lagrangian,
+                "Cqd": self.coriolis_forces,
+            }
             for q in course.robot.coordinates:
                 self.changes |= {
                     f"dLdqd{q.index}": self.momentum(q),
@@ -244,11 +260,33 @@ class _Names:
     def coriolis(self, step: Step) -> Step:
         """C by its Christoffel symbols, where those are long."""
         C = self.short.C
-        results = list(step.result)
         if self.short.constants:
             C = tree.Matrix(tuple(tuple(self.entry(k, j) for j in range(self.n)) for k in range(self.n)))
-            results = results[:1]
-        return replace(step, result=(equation(letters.C, C), *results[1:]))
+        return replace(step, result=(equation(letters.C, C),))
+
+    def coriolis_force(self, k: int) -> Node:
+        """Row k of C q̇, the rates that have the same factor drawn together."""
+        shared: dict[Node, list[Node]] = {}
+        for i, j in self.pairs():
+            symbol = self.short.christoffel[i, j, k]
+            if symbol != ZERO:
+                rates = times(1 if i == j else 2, [(rate, 1) for rate in self.rates(i, j)])
+                shared.setdefault(symbol, []).append(rates)
+        return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])
+
+    def swapped(self, node: Node) -> Node:
+        """A formula with D, the Christoffel symbols, C, g and C q̇ in names."""
+        found = self.swaps.get(node)
+        if found is not None:
+            return found
+        match node:
+            case Relation(parts, signs):
+                return Relation(tuple(map(self.swapped, parts)), signs)
+            case Sum(parts):
+                return Sum(tuple(map(self.swapped, parts)))
+            case Product(parts):
+                return Product(tuple(map(self.swapped, parts)))
+        return node
 
     def entry(self, k: int, j: int) -> Node:
         """c_kj = Σ_i c_ijk q̇_i"""
