@@ -14,6 +14,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from dynsolve.answers.reading import brackets, calls, derivatives, functions, lookup
+from dynsolve.answers.reading.cursor import Cursor
+from dynsolve.answers.reading.exponents import bounded, constant, raise_to, raised_number
 from dynsolve.answers.reading.forms import Form, Scripts, index_text, is_angle
 from dynsolve.answers.reading.grids import (
     Abstract,
@@ -25,21 +27,16 @@ from dynsolve.answers.reading.grids import (
     total,
     transposed,
 )
-from dynsolve.answers.reading.limits import MAX_EXPONENT, MAX_NESTING
 from dynsolve.answers.reading.scan import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation import tokens as plain
 from dynsolve.notation.tree import (
     Degrees,
-    Function,
-    Negative,
     Node,
     Number,
-    Power,
     Product,
     Quotient,
-    Sum,
     Symbol,
 )
 
@@ -48,7 +45,7 @@ _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
 _TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
 
 
-class Reader:
+class Reader(Cursor):
     """Reads one list of prepared tokens; `token` is the one that is looked at.
 
     `naming` makes names of answers win over symbols, as on a left-hand side.
@@ -57,10 +54,6 @@ class Reader:
 
     __slots__ = (
         "vocabulary",
-        "tokens",
-        "position",
-        "token",
-        "nesting",
         "naming",
         "references",
         "symbols",
@@ -81,12 +74,8 @@ class Reader:
         owner: str = "",
         options: frozenset[str] = frozenset(),
     ) -> None:
-        end = tokens[-1].end if tokens else 0
-        self.tokens = tokens if tokens and tokens[-1].kind == "end" else [*tokens, Token("end", "", end, end)]
+        super().__init__(tokens)
         self.vocabulary = vocabulary
-        self.position = 0
-        self.token = self.tokens[0]
-        self.nesting = 0
         self.naming = naming
         self.owner = owner
         self.options = options
@@ -107,49 +96,6 @@ class Reader:
             raise self.unexpected()
         return found
 
-    # Moving about
-
-    def take(self) -> Token:
-        """The token that is looked at; the next one is looked at then."""
-        token = self.token
-        self.position += 1
-        self.token = self.tokens[self.position] if self.position < len(self.tokens) else self.tokens[-1]
-        return token
-
-    def peek(self, ahead: int = 1) -> Token:
-        """A token further on."""
-        at = self.position + ahead
-        return self.tokens[at] if at < len(self.tokens) else self.tokens[-1]
-
-    def expect(self, kind: str, opening: Token) -> Token:
-        """Take the token that closes a bracket."""
-        if self.token.kind == kind:
-            return self.take()
-        if self.token.kind == "end":
-            message = f"this `{opening.text}` is never closed"
-            raise ReadError(message, opening.start, 1, f"add the `{kind}` that it belongs to")
-        raise self.unexpected(f"`{kind}` is expected here")
-
-    def unexpected(self, help: str = "") -> ReadError:
-        """The error about the token that is looked at."""
-        token = self.token
-        if token.kind == "end":
-            return ReadError("the formula ends here too early", max(token.start - 1, 0), 1, help)
-        if token.kind in (")", "]", "}"):
-            help = help or "delete it, or add the bracket that it belongs to"
-            return ReadError(f"this `{token.text}` closes nothing", token.start, 1, help)
-        shown = "\\" + token.text if token.kind in ("command", "letter") else token.text
-        help = help or "a sum of products of numbers, names and functions is expected"
-        length = max(token.end - token.start, 1)
-        return ReadError(f"`{shown[:40]}` cannot stand here", token.start, length, help)
-
-    def enter(self) -> None:
-        """One level deeper."""
-        self.nesting += 1
-        if self.nesting > MAX_NESTING:
-            message = f"more than {MAX_NESTING} levels of brackets, fractions and signs"
-            raise ReadError(message, self.token.start, 1, "name a part of it with an abbreviation")
-
     def inner(self, tokens: list[Token], naming: bool | None = None) -> Value:
         """The value of tokens that stand inside this text."""
         self.enter()
@@ -163,30 +109,6 @@ class Reader:
         self.names_used += reader.names_used
         self.nesting -= 1
         return found
-
-    def group(self) -> list[Token]:
-        """The tokens of an argument: those between braces, or one token."""
-        opening = self.take()
-        if opening.kind == "end":
-            raise ReadError("an argument is missing here", max(opening.start - 1, 0), 1, "write it in { }")
-        if opening.kind not in ("{", "("):
-            return [opening]
-        if opening.kind == "(":
-            return [opening, *self.until(")", opening), Token(")", ")", opening.start, opening.start + 1)]
-        return self.until("}", opening)
-
-    def until(self, closing: str, opening: Token) -> list[Token]:
-        """The tokens up to the bracket that closes, which is taken too."""
-        level, start = 1, self.position
-        while self.token.kind != "end":
-            level += (self.token.kind == opening.kind != closing) - (self.token.kind == closing)
-            if level == 0:
-                found = self.tokens[start : self.position]
-                self.take()
-                return found
-            self.take()
-        message = f"this `{opening.text}` is never closed"
-        raise ReadError(message, opening.start, 1, f"add the `{closing}` that it belongs to")
 
     # The grammar
 
@@ -534,7 +456,7 @@ class Reader:
         token = self.token
         if token.kind == "raised":
             self.take()
-            scripts.powers.append(self.bounded(Fraction(_raised(token)), token))
+            scripts.powers.append(bounded(Fraction(raised_number(token)), token))
             return True
         if token.kind == "'" or token.kind == "''":
             self.take()
@@ -572,7 +494,7 @@ class Reader:
         elif len(tokens) == 1 and tokens[0].text in _TRANSPOSES:
             scripts.transposed = True
         else:
-            scripts.powers.append(self.bounded(self.exponent(tokens, sign), sign))
+            scripts.powers.append(bounded(self.exponent(tokens, sign), sign))
 
     def exponent(self, tokens: list[Token], sign: Token) -> Fraction:
         """The value of an exponent, a small constant."""
@@ -594,22 +516,6 @@ class Reader:
                 "an exponent is a small whole number",
             )
         return found
-
-    def bounded(self, value: Fraction, sign: Token) -> Fraction:
-        """The exponent, if it is one that is read."""
-        if (
-            value != Fraction(1, 2)
-            and value != Fraction(-1, 2)
-            and (value.denominator != 1 or abs(value) > MAX_EXPONENT)
-        ):
-            message = f"an exponent is a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}"
-            raise ReadError(
-                message,
-                sign.start,
-                max(sign.end - sign.start, 1),
-                "a square root is written \\sqrt{x} or sqrt(x)",
-            )
-        return value
 
     def scripted(self, value: Value) -> Value:
         """The value with the scripts that follow it."""
@@ -651,53 +557,9 @@ class Reader:
         return lookup.value_of(self, form)
 
 
-def raise_to(base: Node, power: Fraction) -> Node:
-    """base^power; a half is a root."""
-    if power.denominator == 2:
-        root = Function("sqrt", base)
-        return root if power > 0 else Quotient(Number(1), root)
-    whole = Number(abs(power.numerator))
-    return Power(base, Negative(whole) if power < 0 else whole)
-
-
-def constant(node: Node) -> Fraction | None:
-    """The value of a tree of small numbers, None for every other."""
-    match node:
-        case Number(p, q):
-            return Fraction(p, q)
-        case Negative(argument):
-            inner = constant(argument)
-            return None if inner is None else -inner
-        case Quotient(numerator, denominator):
-            top, bottom = constant(numerator), constant(denominator)
-            return top / bottom if top is not None and bottom else None
-        case Sum(terms):
-            values = [constant(term) for term in terms]
-            return sum((v for v in values if v is not None), Fraction(0)) if None not in values else None
-        case Product(factors):
-            product = Fraction(1)
-            for factor in factors[:4]:
-                value = constant(factor)
-                if value is None:
-                    return None
-                product *= value
-            return product if len(factors) <= 4 else None
-    return None
-
-
 def _with_scalars(scalars: list[Node], other: Value | None) -> Value:
     if other is None:
         return scalars[0] if len(scalars) == 1 else Product(tuple(scalars))
     if not scalars:
         return other
     return times(_with_scalars(scalars, None), other)
-
-
-_RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-
-
-def _raised(token: Token) -> int:
-    digits = token.text.translate(_RAISED)
-    if len(digits) > 4:
-        raise ReadError("an exponent is a small whole number", token.start, token.end - token.start, "")
-    return int(digits)
