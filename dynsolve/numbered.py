@@ -9,7 +9,7 @@ from dynsolve.errors import AlgebraError, UsageError
 from dynsolve.explain.forms import is_numeric
 from dynsolve.numbers import quantities, units
 from dynsolve.numbers.assignments import Assignment
-from dynsolve.numbers.beside import Numbers
+from dynsolve.numbers.beside import Numbers, needed
 from dynsolve.numbers.given import Given, parameters
 from dynsolve.numbers.given import state as read_state
 from dynsolve.numbers.robot import put_in
@@ -48,7 +48,7 @@ def beside(
     """The solution with numeric results beside the symbolic ones; see `Solution.beside`."""
     values = tuple(values)
     problem, robot = solution.problem, solution.robot
-    whole = bool(robot.parameters) and set(robot.parameters) <= problem.written.keys()
+    whole = bool(needed(robot)) and set(needed(robot)) <= problem.written.keys()
     if not (values or whole or state is not None):
         return solution
     given = parameters(problem, values)

@@ -10,11 +10,11 @@ from dynsolve.explain.course import children
 from dynsolve.explain.step import STAGES, Detail
 from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equation
 from dynsolve.numbers import quantities, units
-from dynsolve.numbers.beside import Numbers
+from dynsolve.numbers.beside import Numbers, needed
 from dynsolve.numbers.given import Entry
 from dynsolve.numbers.names import Shown, all_results, main_results
 from dynsolve.numbers.state import State
-from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.model import Robot
 
 
 def blocks(numbers: Numbers, detail: Detail, stages: Iterable[str] | None = None) -> Iterator[Block]:
@@ -33,10 +33,13 @@ def blocks(numbers: Numbers, detail: Detail, stages: Iterable[str] | None = None
 
 def _values(numbers: Numbers) -> Iterator[Block]:
     yield Heading("With numbers", 2)
-    yield Text((
-        "Lengths in m, masses in kg, times in s and angles in rad: torques are then in N m, forces in N "
-        "and energies in J.",
-    ))  # fmt: skip
+    words = "Lengths are in m, angles in rad."
+    if numbers.robot.bodies:
+        words = (
+            "Lengths in m, masses in kg, times in s and angles in rad: torques are then in N m, forces in N "
+            "and energies in J."
+        )
+    yield Text((words,))
     yield _table(
         (Symbol(name), entry, entry.unit)
         for name in numbers.robot.parameters
@@ -95,11 +98,11 @@ def _remark(robot: Robot, stage: str) -> Iterator[Block]:
     kinds = {q.type for q in robot.coordinates}
     if stage == "kinematics":
         yield Text(("The fourth column of H is a position, in m.",))
-    if stage == "jacobian":
-        mixed = " of an angle" if len(kinds) > 1 else ""
-        rest = "; those of a length are pure numbers" if len(kinds) > 1 else ""
-        if JointType.REVOLUTE in kinds:
-            yield Text((f"The columns of the linear part{mixed} are in m (per rad){rest}.",))
+    if stage == "jacobian" and len(kinds) > 1:
+        words = (
+            "The columns of the linear part that belong to an angle are in m, those of a length pure numbers."
+        )
+        yield Text((words,))
 
 
 def _with_unit(letter: Node, result: Node, unit: str | quantities.Units) -> Node:
@@ -147,8 +150,11 @@ def _state(numbers: Numbers, state: State, detail: Detail, stages: set[str] | No
         words: list[Inline] = []
         for i, symbol in enumerate(still):
             words += [", " if i else "", symbol]
+        if len(still) == 2 * robot.n:
+            words = ["All velocities and accelerations"]
         yield Text((*words, " is 0." if len(still) == 1 else " are 0."))
-    if state.free:
-        yield Text((*_names("Parameters without a value stay symbols: ", state.free), "."))
+    free = needed(state.robot)
+    if free:
+        yield Text((*_names("Parameters without a value stay symbols: ", free), "."))
     shown = main_results(robot) if detail is Detail.BRIEF else all_results(robot)
     yield from _results(robot, shown, state.shown, stages)

@@ -97,11 +97,6 @@ class State:
 
         return to_sympy(self(name))
 
-    @property
-    def free(self) -> tuple[str, ...]:
-        """The parameters that have no value and may stand in the results."""
-        return self.robot.parameters
-
 
 def _float(expr: Expr, name: str) -> float:
     plain = without_constants(expr)

@@ -120,3 +120,10 @@ def test_a_value_of_the_file_that_is_no_angle_has_its_place(tmp_path: Path) -> N
     )
     ran = dynsolve("solve", str(file), "--set", "m1=1")
     assert ran.code == 2 and ":3:16: the bare number 30 stands as an angle" in ran.err
+
+
+def test_without_masses_gravity_is_not_asked_for() -> None:
+    text = "dh: [{theta: q1*, a: l1}]\nvalues: {l1: 2}"
+    out = dynsolve("solve", "-", "--at", "q1=45deg", stdin=text).out
+    assert "With numbers" in out and "√2" in out and "still a symbol" not in out and "torques" not in out
+    assert "All velocities and accelerations are 0." in out
