@@ -93,7 +93,7 @@ class Diagnoser:
     @cached_property
     def words(self) -> Words:
         """Writes terms in messages."""
-        words = Words(self.ring, self.graph.robot)
+        words = Words(self.graph.field)
         words.problem_symbols({*self.problem.robot.ring.parameters, *self.ring.names, "pi"})
         return words
 

@@ -101,6 +101,7 @@ class Needs:
     radicands: tuple[Fraction, ...] = ()
     roots: tuple[Node, ...] = ()
     denominators: int = 0
+    opaque: tuple[tuple[str, Node], ...] = ()
 
 
 def opaque(node: Node) -> str:
@@ -123,6 +124,7 @@ class _Collector:
         self.radicands: dict[Fraction, None] = {}
         self.roots: dict[Node, None] = {}
         self.denominators = 0
+        self.opaque: dict[str, Node] = {}
         self.seen: set[Function] = set()
 
     def walk(self, node: Node) -> None:
@@ -155,12 +157,17 @@ class _Collector:
             return self.root(node)
         angle = expected_angle(node, self.known.names)
         if angle is None:
-            self.symbols.setdefault(opaque(node))
-            return []
+            return self.unexpected(node)
         self.angles.setdefault(angle)
         for name in names_of(angle):
             if not self.known.has_symbol(name):
                 self.symbols.setdefault(name)
+        return []
+
+    def unexpected(self, node: Function) -> list[Node]:
+        name = opaque(node)
+        self.symbols.setdefault(name)
+        self.opaque[name] = node
         return []
 
     def root(self, node: Function) -> list[Node]:
@@ -170,16 +177,19 @@ class _Collector:
                 self.radicands.setdefault(value)
             return []
         if not plain_radicand(node.argument, self.known.names):
-            self.symbols.setdefault(opaque(node))
-            return []
+            return self.unexpected(node)
         self.roots.setdefault(node.argument)
         return [node.argument]
 
     def needs(self) -> Needs:
         return Needs(
-            tuple(self.symbols), tuple(self.angles), tuple(self.radicands), tuple(self.roots),
+            tuple(self.symbols),
+            tuple(self.angles),
+            tuple(self.radicands),
+            tuple(self.roots),
             self.denominators,
-        )  # fmt: skip
+            tuple(self.opaque.items()),
+        )
 
 
 def dotted(name: str, dots: int) -> str:
@@ -262,6 +272,7 @@ class Plan:
     radicands: tuple[Fraction, ...] = ()
     roots: tuple[Node, ...] = ()
     denominators: int = 0
+    opaque: tuple[tuple[str, Node], ...] = ()
 
     def with_needs(self, needs: Needs) -> Plan:
         """The plan that holds one more tree.
@@ -275,6 +286,7 @@ class Plan:
             radicands=_joined(self.radicands, needs.radicands),
             roots=_joined(self.roots, needs.roots),
             denominators=min(self.denominators + needs.denominators, 12),
+            opaque=_joined(self.opaque, needs.opaque),
         )
         plan.check()
         return plan
@@ -355,6 +367,7 @@ class Field:
         self._robot = robot
         self.base = robot.ring
         self.same = plan.is_the_problems
+        self.opaque = dict(plan.opaque)
         self.ring: Ring = robot.ring if self.same else AnswerRing(robot.ring.coordinates, plan.survey)
         if not self.same:
             for node in plan.survey.denominators:

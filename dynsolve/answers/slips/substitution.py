@@ -7,6 +7,7 @@ from typing import Any
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.answers.field import is_opaque
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.slips.table import slip
 from dynsolve.answers.slips.words import Words
@@ -98,7 +99,9 @@ def _symbols(graph: Graph, words: Words, mine: Expr, expected: Expr) -> Iterator
                 continue
             x, y = ring.generator(a.index), ring.generator(b.index)
             if a.index not in have and b.index in have and _put(expected, {a.index: y.poly}) == mine:
-                if words.is_unknown(b):
+                if is_opaque(b.name):
+                    yield slip("odd_argument", yours=words.of(mine))
+                elif words.is_unknown(b):
                     yield slip("unknown_symbol", part=words.generator(b))
                 else:
                     yield slip(

@@ -216,6 +216,8 @@ class TermSlips:
             g for i, _ in part.monomial
             if (g := self.ring.generators[i]).kind == "symbol" and self.words.is_unknown(g)
         ]  # fmt: skip
+        if any(is_opaque(g.name) for g in unknown):
+            return _found(3, "odd_argument", yours=self._said(part))
         if unknown:
             return _found(4, "unknown_symbol", part=self.words.generator(unknown[0]))
         return _found(4, "extra_term", term=self._said(part))
@@ -288,6 +290,9 @@ class TermSlips:
                 other = self._monomial([(wanted.index, p), (written.index, present - q)])
             yield _found(1, code, yours=yours, part=part, other=other)
         elif p == q and wanted.kind == written.kind == "symbol":
+            if is_opaque(written.name):
+                yield _found(2, "odd_argument", yours=yours)
+                return
             if self.words.is_unknown(written):
                 yield _found(2, "unknown_symbol", part=part)
                 return

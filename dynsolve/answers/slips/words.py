@@ -7,13 +7,11 @@ from fractions import Fraction
 from dynsolve.algebra.build import power
 from dynsolve.algebra.compact import Compactor
 from dynsolve.algebra.expr import Expr, Generator
-from dynsolve.algebra.ring import Ring
-from dynsolve.answers.field import is_opaque
+from dynsolve.answers.field import Field
 from dynsolve.explain.forms import leading_names
 from dynsolve.explain.style import style_of
-from dynsolve.notation.tree import Node, Symbol, number
+from dynsolve.notation.tree import Negative, Node, Power, Product, Quotient, Sum, Symbol, number
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.robot.model import Robot
 
 LONGEST = 160
 
@@ -21,8 +19,10 @@ LONGEST = 160
 class Words:
     """Writes expressions of one field as a person reads them."""
 
-    def __init__(self, ring: Ring, robot: Robot) -> None:
+    def __init__(self, field: Field) -> None:
+        ring, robot = field.ring, field.robot
         self.ring = ring
+        self._opaque = field.opaque
         self._problem: set[str] = set()
         self.compactor = Compactor(ring, leading_names(robot))
         self._printer = UnicodePrinter(style_of(robot))
@@ -33,7 +33,25 @@ class Words:
 
     def form(self, expr: Expr) -> Node:
         """The compact tree."""
-        return self.compactor.form(expr)
+        made = self.compactor.form(expr)
+        return self._restored(made) if self._opaque else made
+
+    def _restored(self, node: Node) -> Node:
+        """The tree with the functions of unexpected arguments as they were written."""
+        match node:
+            case Symbol(name) if name in self._opaque:
+                return self._opaque[name]
+            case Sum(parts):
+                return Sum(tuple(map(self._restored, parts)))
+            case Product(parts):
+                return Product(tuple(map(self._restored, parts)))
+            case Quotient(numerator, denominator):
+                return Quotient(self._restored(numerator), self._restored(denominator))
+            case Power(base, exponent):
+                return Power(self._restored(base), exponent)
+            case Negative(argument):
+                return Negative(self._restored(argument))
+        return node
 
     def of(self, expr: Expr) -> str:
         """An expression in one line."""
@@ -50,9 +68,8 @@ class Words:
 
     def power(self, g: Generator, exponent: int) -> str:
         """A symbol's power."""
-        if g.kind == "symbol" and is_opaque(g.name):
-            return "a function of an argument that cannot be one"
-        node = Symbol(g.name, g.dots) if g.kind == "symbol" else self.form(self.ring.generator(g.index))
+        plain = g.kind == "symbol" and g.name not in self._opaque
+        node = Symbol(g.name, g.dots) if plain else self.form(self.ring.generator(g.index))
         return self._printer.text(power(node, exponent))
 
     def is_unknown(self, g: Generator) -> bool:
