@@ -101,3 +101,34 @@ def test_the_key_is_correct_in_every_name(stem: str) -> None:
     )
     report = check(problem(stem), Submission("", "", "", answers), key(stem))
     assert [a.name for a in report.answers if a.given and (a.verdict != "correct" or a.notes)] == []
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_two_slips_are_two_and_all_else_follows(seed: int) -> None:
+    draw = random.Random(1000 + seed)
+    stem = draw.choice(STEMS[:4])
+    g = graph(stem)
+    heads = [n for n in nodes(stem) if n.rstrip("0123456789") in START and n[0] != "P"]
+    first, second = sorted(draw.sample(heads, 2), key=g.place)
+    wrong = spoilt(g.key(first), draw)
+    if wrong is None:
+        return
+    worse = spoilt(Replaced(g, {first: wrong})(second), draw)
+    if worse is None or _same(worse, g.key(second)):
+        return
+    carried = Replaced(g, {first: wrong, second: worse})
+    answers = tuple(
+        Answer(g.answer(n), "", forms(stem).of(carried(n)), Place(i + 1, 1), "", occurrence=(i, 0))
+        for i, n in enumerate(nodes(stem))
+    )
+    report = check(problem(stem), Submission("", "", "", answers), key(stem))
+    for found in report.answers:
+        if not found.given:
+            continue
+        n = g.node(found.name)
+        if n in (first, second):
+            assert (found.verdict, n) == ("wrong", n)
+        elif _same(carried(n), g.key(n)):
+            assert (found.verdict, n) == ("correct", n)
+        else:
+            assert (found.verdict, n) == ("follows", n)
