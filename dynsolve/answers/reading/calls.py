@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 _MATRICES = frozenset("Matrix matrix MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix array".split())
 _DERIVATIVES = frozenset({"Derivative", "diff", "Diff"})
 _OTHERS = frozenset({"Rational", "transpose", "Transpose", "Integer"})
+_DOTS = {"dot": 1, "ddot": 2}
 
 
 def is_call(reader: Reader) -> bool:
@@ -28,7 +29,9 @@ def is_call(reader: Reader) -> bool:
         raise ReadError(
             f"unknown function `{token.text}`", token.start, length, "functions are sin, cos, tan and sqrt"
         )
-    return token.text in _MATRICES or token.text in _DERIVATIVES or token.text in _OTHERS
+    return (
+        token.text in _MATRICES or token.text in _DERIVATIVES or token.text in _OTHERS or token.text in _DOTS
+    )
 
 
 def read(reader: Reader) -> Value:
@@ -42,6 +45,13 @@ def read(reader: Reader) -> Value:
         found = _matrix(reader, opening)
     else:
         first = reader.sum()
+        if name.text in _DOTS:
+            dotted = lookup.rate(first, reader.vocabulary, _DOTS[name.text])
+            if dotted is None:
+                raise ReadError(
+                    "this has no derivative here", opening.start, 1, "write dot(q1) of a coordinate"
+                )
+            first = dotted
         if name.text == "Rational" and reader.token.kind == ",":
             reader.take()
             first = reader.placed(opening.start, divided, first, reader.sum())

@@ -48,6 +48,12 @@ class Cursor:
         if token.kind in (")", "]", "}"):
             help = help or "delete it, or add the bracket that it belongs to"
             return ReadError(f"this `{token.text}` closes nothing", token.start, 1, help)
+        if (
+            token.kind == ","
+            and self.peek().kind == "number"
+            and self.tokens[self.position - 1].kind == "number"
+        ):
+            help = "a decimal is written with a point: 9.81"
         shown = "\\" + token.text if token.kind in ("command", "letter") else token.text
         help = help or "a sum of products of numbers, names and functions is expected"
         length = max(token.end - token.start, 1)

@@ -169,6 +169,9 @@ def stands_here(reader: Reader) -> bool:
     if (token.kind == "name" and token.text == "d") or token.text == "partial":
         return _slash(reader) is not None
     if token.kind == "name" and len(token.text) > 1 and token.text[0] == "d" and reader.peek().kind == "/":
+        if reader.peek(2).text == "dt":
+            meaning = reader.vocabulary.symbol(key(token.text[1:]))
+            return meaning is not None and isinstance(meaning.value, Symbol)
         return _begins_with_d(reader.peek(2)) and key(token.text[1:]) in ("L", "K", "P", "T", "V", "U")
     return False
 

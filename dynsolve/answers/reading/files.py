@@ -14,8 +14,18 @@ from dynsolve.errors import Finding
 from dynsolve.explain.style import style_of
 from dynsolve.problem.model import Problem
 
-ENDINGS = (".yaml", ".yml", ".json", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm")
+ENDINGS = (".yaml", ".yml", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm")
 """The endings of files that are read."""
+
+
+_REPORTS = (".md", ".markdown", ".tex", ".txt")
+_ANSWER_FILES = (".yaml", ".yml")
+
+
+def _is_report(text: str) -> bool:
+    """Whether a text without a telling name, from standard input say, is a report."""
+    has_displays = any(sign in text for sign in ("$$", "\\[", "\\begin{"))
+    return has_displays and not any(line.startswith("answers:") for line in text.splitlines())
 
 
 def read_file(problem: Problem, content: bytes | str, file: str) -> Submission:
@@ -36,7 +46,7 @@ def read_file(problem: Problem, content: bytes | str, file: str) -> Submission:
         from dynsolve.answers.reading.web import read_page
 
         read_page(session, source)
-    elif ending in (".md", ".markdown", ".tex", ".txt"):
+    elif ending in _REPORTS or (ending not in _ANSWER_FILES and _is_report(source.text)):
         read_report(session, source, latex=ending == ".tex")
     else:
         from dynsolve.answers.reading.answer_file import read_answer_file

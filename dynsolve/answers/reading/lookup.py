@@ -102,12 +102,7 @@ def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
     short = vocabulary.short_angle(name)
     if short is not None:
         return Meaning(short)
-    if (
-        form.dots
-        and name.isascii()
-        and (angle := vocabulary.angle_of(form.index))
-        and form.base in ("q", "theta")
-    ):
+    if form.base in ("q", "theta") and len(form.index) > 1 and (angle := vocabulary.angle_of(form.index)):
         return Meaning(angle, f"{form.text} is read as a sum of coordinates")
     if "inertia" in reader.options and (meaning := vocabulary.inertia(name)):
         return meaning
@@ -219,6 +214,8 @@ def is_short_function(reader: Reader) -> bool:
     if reader.vocabulary.symbol(token.text) is not None or reader.naming:
         return False
     if after.kind == "(":
+        if reader.peek(2).kind == "number" and reader.peek(3).kind == ")":
+            return False
         return token.text in "cs" or not _only_coordinates(reader, reader.position + 1)
     if after.kind == "letter":
         return after.text in ("theta", "phi", "alpha", "beta", "psi", "gamma")

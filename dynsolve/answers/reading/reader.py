@@ -466,6 +466,12 @@ class Reader(Cursor):
             self.take(), self.take()
             scripts.transposed = True
             return True
+        if token.kind == "." and self.peek().text == "diff" and self.peek(2).kind == "(":
+            self.take(), self.take()
+            arguments = self.until(")", self.take())
+            numbers = [int(t.text) for t in arguments if t.kind == "number" and t.text in ("1", "2")]
+            scripts.primes += numbers[0] if numbers else sum(t.text == "t" for t in arguments)
+            return True
         if token.kind != "^":
             return False
         self.take()
