@@ -31,9 +31,10 @@ _GROUND = 30.0
 
 def solids(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
     """All of a robot's body, from back to front."""
-    found = [*link_pieces(parts, view)]
-    for part in parts.joints:
-        found.append(cylinder(part, view) if part.type is JointType.REVOLUTE else box(part, view, up))
+    turning = [part for part in parts.joints if part.type is JointType.REVOLUTE]
+    sliding = [part for part in parts.joints if part.type is JointType.PRISMATIC]
+    found = [*link_pieces(parts, view), *(cylinder(part, view) for part in turning)]
+    found += (box(part, view, up) for part in sliding)
     found.sort(key=lambda solid: round(solid.depth, 6))
     return (*ground(parts, view), *(path for solid in joined(found) for path in solid.paths))
 
