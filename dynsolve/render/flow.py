@@ -169,14 +169,14 @@ class Flow:
                 self._put(builder, inner, level)
 
     def _product(self, builder: _Builder, factors: Sequence[Node], level: int) -> None:
-        """Narrow factors together, wide ones taken apart."""
+        """Narrow factors together, wide ones taken apart; m_1 and ( are not parted."""
         narrow: list[Node] = []
         for i, factor in enumerate(factors):
             if holds_matrix(factor) or self._is_wide(factor):
                 self._together(builder, narrow)
-                narrow = []
-                if i:
+                if i and (not narrow or holds_matrix(factor)):
                     builder.gap(level + FACTOR_BREAK)
+                narrow = []
                 self._factor(builder, factor, level)
             else:
                 narrow.append(factor)
