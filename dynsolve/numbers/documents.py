@@ -8,13 +8,18 @@ from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
 from dynsolve.explain import letters
 from dynsolve.explain.course import children
 from dynsolve.explain.step import STAGES, Detail
+from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equation
+from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.numbers import quantities, units
 from dynsolve.numbers.beside import Numbers, needed
 from dynsolve.numbers.given import Entry
 from dynsolve.numbers.names import Shown, all_results, main_results
 from dynsolve.numbers.state import State
 from dynsolve.robot.model import Robot
+
+_WIDEST = 50
+"""A matrix that is wider, in characters, has its unit by itself."""
 
 
 def blocks(numbers: Numbers, detail: Detail, stages: Iterable[str] | None = None) -> Iterator[Block]:
@@ -78,11 +83,9 @@ def _results(
     """The results of each stage with their units."""
     for stage, results in shown.items():
         if results and (stages is None or stage in stages):
-            formulas = tuple(
-                Formula(_with_unit(letter, tree(name), quantities.of_result(robot, name)),
-                        entries=_entries(robot, name))
-                for name, letter in results
-            )  # fmt: skip
+            formulas = [
+                block for name, letter in results for block in _shown(robot, name, letter, tree(name))
+            ]
             yield Fold(STAGES[stage], (*_remark(robot, stage), *formulas), Detail.BRIEF)
 
 
@@ -105,28 +108,45 @@ def _remark(robot: Robot, stage: str) -> Iterator[Block]:
         yield Text((words,))
 
 
-def _with_unit(letter: Node, result: Node, unit: str | quantities.Units) -> Node:
-    """letter = result, in its unit: after a number, after `in` where a symbol is left."""
-    if isinstance(result, Matrix) and not isinstance(unit, str):
-        several = {entry for row in unit for entry in row}
-        if len(several) == 1:
-            (unit,) = several
-        elif len(unit[0]) == 1 or letter in (letters.D, letters.C):
-            return equation(letter, Row((result, Words(" in "), _unit_matrix(unit))))
-    if not unit or not isinstance(unit, str):
-        return equation(letter, result)
-    lead = " in " if any(isinstance(part, Symbol | Sum) for part in _walk(result)) else " "
-    return equation(letter, Row((result, units.node(unit, lead))))
+def _shown(robot: Robot, name: str, letter: Node, result: Node) -> Iterator[Block]:
+    """letter = result, in its unit: after a number, after `in` where a symbol is left.
+
+    A matrix that may be too wide for the page has its unit before it.
+    """
+    unit = _unit(quantities.of_result(robot, name), letter)
+    formula = equation(letter, result)
+    if unit is None:
+        yield Formula(formula, entries=_entries(robot, name))
+    elif isinstance(result, Matrix) and _is_wide(result):
+        yield Formula(Row((letter, Words(" in "), unit)))
+        yield Formula(formula, entries=_entries(robot, name))
+    else:
+        plain = not any(isinstance(part, Symbol | Sum) for part in _walk(result))
+        lead = " " if plain and not isinstance(unit, Matrix) else " in "
+        yield Formula(equation(letter, Row((result, Words(lead), unit))))
+
+
+def _unit(unit: str | quantities.Units, letter: Node) -> Node | None:
+    """The unit of a result, a matrix of units where entries differ; None where nothing is to be said."""
+    if isinstance(unit, str):
+        return units.node(unit) if unit else None
+    several = {entry for row in unit for entry in row}
+    if len(several) == 1:
+        return _unit(several.pop(), letter)
+    if len(unit[0]) == 1 or letter in (letters.D, letters.C):
+        return Matrix(tuple(tuple(units.node(entry or "1") for entry in row) for row in unit))
+    return None
+
+
+def _is_wide(matrix: Matrix) -> bool:
+    printed = UnicodePrinter(PLAIN)
+    return any(sum(len(printed.text(entry)) + 2 for entry in row) > _WIDEST for row in matrix.rows)
 
 
 def _walk(node: Node) -> Iterator[Node]:
     yield node
     for part in children(node):
         yield from _walk(part)
-
-
-def _unit_matrix(unit: quantities.Units) -> Matrix:
-    return Matrix(tuple(tuple(units.node(entry or "1") for entry in row) for row in unit))
 
 
 # -- a state ---------------------------------------------------------------------------------------

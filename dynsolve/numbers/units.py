@@ -117,10 +117,10 @@ def _raised(name: str, power: Fraction) -> str:
 _SQUARE = re.compile(r"([A-Za-z]+)(?:\^|\*\*)?([23²³])")
 
 
-def node(unit: str, lead: str = "") -> Node:
-    """A unit as a formula, upright and with its powers raised; `lead` are words before it."""
+def node(unit: str) -> Node:
+    """A unit as a formula, upright and with its powers raised."""
     parts: list[Node] = []
-    words, end = lead, 0
+    words, end = "", 0
     for found in _SQUARE.finditer(unit):
         words += unit[end : found.start()]
         parts += [Words(words)] if words else []
