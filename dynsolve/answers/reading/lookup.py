@@ -133,7 +133,7 @@ def _scripted(reader: Reader, form: Form, meaning: Meaning) -> Value:
     _note_use(reader, value)
     if isinstance(value, Symbol) and reader.vocabulary.coordinate(value):
         skip_time(reader)
-        if reader.token.kind in ("'", "''", "^", "raised"):
+        if reader.token.kind in ("'", "''", "^", "raised", "."):
             value_scripts = reader.scripted(value)
             if value_scripts is not value:
                 scripts = form.scripts
