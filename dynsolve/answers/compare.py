@@ -18,7 +18,7 @@ from math import cos, pi, radians, sqrt
 from typing import Any
 
 from dynsolve.algebra.expr import Expr, rational
-from dynsolve.answers.evaluate import Frac, equal, simplified
+from dynsolve.answers.frac import Frac, equal, simplified
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number
 
@@ -171,7 +171,7 @@ def moved_decimals(node: Node) -> Iterator[Node]:
 
 
 def _decimals(node: Node) -> Iterator[Number]:
-    from dynsolve.answers.field import children
+    from dynsolve.answers.needs import children
 
     waiting = [node]
     while waiting:

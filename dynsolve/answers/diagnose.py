@@ -33,8 +33,8 @@ from dynsolve.answers.dimensions import (
     dimension,
     times,
 )
-from dynsolve.answers.evaluate import as_expr
 from dynsolve.answers.follow import Follow
+from dynsolve.answers.frac import as_expr
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.slips.derivation import DerivationSlips
 from dynsolve.answers.slips.stage import variants

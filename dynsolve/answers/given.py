@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.evaluate import Evaluator, Frac, as_expr, equal
+from dynsolve.answers.evaluate import Evaluator
 from dynsolve.answers.field import Field, FieldBuilder
+from dynsolve.answers.frac import Frac, as_expr, equal
 from dynsolve.answers.graph import Entry, Graph
 from dynsolve.answers.submission import Answer, referred
 from dynsolve.errors import AlgebraError

@@ -8,7 +8,7 @@ from typing import Any
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.compare import Comparison, Written
-from dynsolve.answers.evaluate import Frac, as_expr
+from dynsolve.answers.frac import Frac, as_expr
 from dynsolve.answers.given import Given, fitted
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.slips.table import slip

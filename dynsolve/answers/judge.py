@@ -20,9 +20,9 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.compare import Comparison
 from dynsolve.answers.diagnose import Diagnoser, Question
 from dynsolve.answers.dimensions import Dimensions
-from dynsolve.answers.evaluate import Frac, as_expr
 from dynsolve.answers.field import Field, Plan
 from dynsolve.answers.follow import Candidate, Follow
+from dynsolve.answers.frac import Frac, as_expr
 from dynsolve.answers.given import Given, Hand, same
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.hold import Held, Holder, Target

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.evaluate import as_expr
 from dynsolve.answers.follow import Own
+from dynsolve.answers.frac import as_expr
 from dynsolve.answers.given import as_value
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.hold import Held

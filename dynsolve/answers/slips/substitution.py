@@ -7,8 +7,8 @@ from typing import Any
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
-from dynsolve.answers.field import is_opaque
 from dynsolve.answers.graph import Graph
+from dynsolve.answers.needs import is_opaque
 from dynsolve.answers.slips.table import slip
 from dynsolve.answers.slips.words import Words
 from dynsolve.answers.verdict import Diagnosis

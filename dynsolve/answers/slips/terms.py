@@ -15,7 +15,7 @@ from fractions import Fraction
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
 from dynsolve.answers.dimensions import INERTIA, MASS, Dimensions
-from dynsolve.answers.field import is_opaque
+from dynsolve.answers.needs import is_opaque
 from dynsolve.answers.slips.table import slip
 from dynsolve.answers.slips.waves import (
     Monomial,
