@@ -15,7 +15,8 @@ COURSE: dict[str, str | list[list[str]]] = {
            ["0", "1", "0", "L1"], _IDENTITY_ROW],  # (3)
     "A2": [["1", "0", "0", "0"], ["0", "1", "0", "0"], ["0", "0", "1", "L2"], _IDENTITY_ROW],  # (4)
     "H2": [["-sin(theta1)", "0", "cos(theta1)", "cos(theta1)*L2"],
-           ["cos(theta1)", "0", "sin(theta1)", "sin(theta1)*L2"], ["0", "1", "0", "L1"], _IDENTITY_ROW],  # (5)
+           ["cos(theta1)", "0", "sin(theta1)", "sin(theta1)*L2"],
+           ["0", "1", "0", "L1"], _IDENTITY_ROW],  # (5)
     "Jv": [["-sin(theta1)*L2", "cos(theta1)"], ["cos(theta1)*L2", "sin(theta1)"], ["0", "0"]],  # (9)
     "Jw": [["0", "0"], ["0", "0"], ["1", "0"]],  # (10)
     "I_body1": [["0", "0", "0"], ["0", "0", "0"], ["0", "0", "I1zz"]],  # (1)
@@ -42,7 +43,8 @@ COURSE: dict[str, str | list[list[str]]] = {
     "dLdq2": "m2*cos(2*theta1)*L2*theta1_dot^2",  # (42)
     "f2": "L2_ddot - m2*cos(2*theta1)*L2*theta1_dot^2",  # (43)
     "tau": [["theta1_ddot + m2*cos(2*theta1)*L2^2*theta1_ddot + 2*m2*cos(2*theta1)*L2_dot*theta1_dot"
-             " - m2*sin(2*theta1)*L2^2*theta1_dot^2"], ["L2_ddot - m2*cos(2*theta1)*L2*theta1_dot^2"]],  # (44)
+             " - m2*sin(2*theta1)*L2^2*theta1_dot^2"],
+            ["L2_ddot - m2*cos(2*theta1)*L2*theta1_dot^2"]],  # (44)
     "D": [["m2*cos(2*theta1)*L2^2 + 1", "0"], ["0", "1"]],  # (46)
     "C": [["-m2*sin(2*theta1)*L2^2*theta1_dot", "2*m2*cos(2*theta1)*theta1_dot"],
           ["-m2*cos(2*theta1)*L2*theta1_dot", "0"]],  # (46)

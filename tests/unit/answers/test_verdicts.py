@@ -146,8 +146,9 @@ def test_each_body_has_the_same_zero_level() -> None:
 
 
 def test_another_constant_is_wrong_and_the_forces_are_unaffected() -> None:
-    report = judge(RP, {"P": "m1*g*L1 + m2*g*L1", "tau": column(
-        "(I1zz + m2*L2^2)*theta1_ddot + 2*m2*L2*L2_dot*theta1_dot", "m2*L2_ddot - m2*L2*theta1_dot^2")})  # fmt: skip
+    tau1 = "(I1zz + m2*L2^2)*theta1_ddot + 2*m2*L2*L2_dot*theta1_dot"
+    tau = column(tau1, "m2*L2_ddot - m2*L2*theta1_dot^2")
+    report = judge(RP, {"P": "m1*g*L1 + m2*g*L1", "tau": tau})
     found = {a.name: a for a in report.answers}
     assert codes(found["P"])[0] == "constant_term"
     assert (found["tau"].verdict, found["tau"].notes) == ("correct", ())
