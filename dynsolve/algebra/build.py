@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import prod
 
-from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.angles import Angle, Atom
 from dynsolve.notation.tree import (
     ONE,
     ZERO,
@@ -126,7 +126,10 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
         return total([negated(term) for term in above[0].terms])
     size = coefficient if coefficient > 0 else -coefficient
-    node = _decimal(size, above) if decimal and not below else _fraction(size, above, below)
+    if decimal and not below and size.denominator != 1 and _ends(size.denominator):
+        node = _decimal(size, above)
+    else:
+        node = _fraction(size, above, below)
     return Negative(node) if coefficient < 0 else node
 
 
@@ -149,15 +152,22 @@ def _put_factor(node: Node, coefficient: Fraction | int, above: list[Node]) -> F
 
 
 def _decimal(coefficient: Fraction | int, above: list[Node]) -> Node:
-    """A number in front, as one decimal where that ends."""
-    denominator = coefficient.denominator
+    """A number in front, as one decimal."""
+    front = Number(coefficient.numerator, coefficient.denominator, decimal=True)
+    return Product((front, *above)) if above else front
+
+
+def _ends(denominator: int) -> bool:
+    """Whether a fraction with this denominator is a decimal that comes to an end."""
     for prime in (2, 5):
         while denominator % prime == 0:
             denominator //= prime
-    if denominator != 1 or coefficient.denominator == 1:
-        return _fraction(coefficient, above, [])
-    front = Number(coefficient.numerator, coefficient.denominator)
-    return Product((front, *above)) if above else front
+    return denominator == 1
+
+
+def _is_decimal(denominator: int) -> bool:
+    """Whether a fraction was surely written as a decimal: 981/200 is 4.905, but 2/5 and 3/8 are fractions."""
+    return denominator % 25 == 0 and _ends(denominator)
 
 
 def _fraction(coefficient: Fraction | int, above: list[Node], below: list[Node]) -> Node:
@@ -168,6 +178,8 @@ def _fraction(coefficient: Fraction | int, above: list[Node], below: list[Node])
     numerator = _product(above)
     if not below:
         return numerator
+    if below == [Number(coefficient.denominator)] and _is_decimal(coefficient.denominator):
+        return _decimal(coefficient, above[coefficient.numerator != 1 :])
     if isinstance(numerator, Number) and len(below) == 1 and isinstance(below[0], Number):
         return Number(numerator.p, below[0].p)
     return Quotient(numerator, _product(below))
@@ -181,9 +193,11 @@ def _product(factors: list[Node]) -> Node:
     return factors[0] if len(factors) == 1 else Product(tuple(factors))
 
 
-def angle_node(angle: Angle) -> Node:
-    """An angle as a tree: θ₁ + θ₂, 2θ₂ - β/2, positive terms first."""
-    terms = [times(rate, [(Symbol(name), e) for name, e in atom]) for atom, rate in angle.terms]
+def angle_node(angle: Angle, coordinates: Sequence[str] = ()) -> Node:
+    """An angle as a tree: θ₁ + θ₂, 2θ₂ - β/2, coordinates before symbols and positive terms first."""
+    moving: dict[Atom, int] = {((name, 1),): i for i, name in enumerate(coordinates)}
+    ordered = sorted(angle.terms, key=lambda term: (moving.get(term[0], len(moving)), term[0]))
+    terms = [times(rate, [(Symbol(name), e) for name, e in atom]) for atom, rate in ordered]
     if angle.degrees:
         constant = Degrees(abs(angle.degrees.numerator), angle.degrees.denominator)
         terms.append(negated(constant) if angle.degrees < 0 else constant)

@@ -14,7 +14,7 @@ from fractions import Fraction
 from math import gcd, lcm
 
 from dynsolve.algebra.build import cost, split_sign, times, total
-from dynsolve.algebra.terms import Factor, exact
+from dynsolve.algebra.terms import Factor, exact, primitive
 from dynsolve.notation.tree import (
     ZERO,
     Negative,
@@ -181,7 +181,7 @@ class Collector:
             ((mono, factor),) = poly.items()
             return factor, mono
         shared = whole_content(poly.values())
-        if self.decimal and any(abs(f / shared) > _SMALL_WHOLE for f in poly.values()):
+        if self.decimal and any(abs(Fraction(f) / shared) > _SMALL_WHOLE for f in poly.values()):
             shared = self.content(poly.values())  # 0.34 and 0.457 are no whole numbers that anyone reads
         factor, mono = self.decompose(self.form({mono: exact(f, shared) for mono, f in poly.items()}))
         return factor * shared, mono
@@ -351,37 +351,37 @@ class Collector:
         found = joined_pair(poly)
         if found is None:
             return None
-        x, y, sign = found
-        if self.atoms.ranks[y][0] is Rank.COORDINATE and sign < 0:
-            x, y = y, x
-        return join(poly, x, y, self.atoms.number(self._sum_node(x, y, sign)))
+        x, y, ratio = found
+        if self.atoms.ranks[y][0] is Rank.COORDINATE and ratio < 0:
+            x, y, ratio = y, x, exact(1, ratio)
+        return join(poly, x, y, self.atoms.number(self._sum_node(x, y, ratio)))
 
-    def _sum_node(self, x: int, y: int, sign: int) -> Node:
-        """x ± y as a tree, flat and in order; a difference starts with x."""
+    def _sum_node(self, x: int, y: int, ratio: Factor) -> Node:
+        """x + ratio·y as a tree, flat and in order; a difference starts with x."""
         poly: Poly = {}
-        for atom, factor in ((x, 1), (y, sign)):
+        for atom, factor in ((x, 1), (y, ratio)):
             node = self.atoms.nodes[atom]
             for term in node.terms if isinstance(node, Sum) else (node,):
                 own, mono = self.decompose(term)
                 poly[mono] = own * factor
         terms = [self.product(f, m, ()) for m, f in self.ordered(poly)]
-        if sign < 0 and not isinstance(self.atoms.nodes[x], Sum):
+        if ratio < 0 and not isinstance(self.atoms.nodes[x], Sum):
             terms.sort(key=lambda term: isinstance(term, Negative))
         return total(terms)
 
 
-def joined_pair(poly: Poly) -> tuple[int, int, int] | None:
-    """(x, y, ±1) where the polynomial is one in x ± y: ∂/∂x = ±∂/∂y, and not merely linear in them."""
-    slopes = {
-        atom: slope(poly, atom) for atom in sorted({atom for mono in poly for atom, e in mono if e > 0})
-    }
-    squares = [atom for atom, part in slopes.items() if len(part) > 1]
-    for i, x in enumerate(squares):
-        for y in squares[i + 1 :]:
-            if slopes[x] == slopes[y]:
-                return x, y, 1
-            if slopes[x] == {m: -f for m, f in slopes[y].items()}:
-                return x, y, -1
+def joined_pair(poly: Poly) -> tuple[int, int, Factor] | None:
+    """(x, y, r) where the polynomial is one in x + r·y: ∂/∂y = r ∂/∂x, and not merely linear in them."""
+    atoms = sorted({atom for mono in poly for atom, e in mono if e > 0})
+    slopes = {atom: slope(poly, atom) for atom in atoms}
+    candidates: dict[object, tuple[int, Factor]] = {}
+    for atom, part in slopes.items():
+        if len(part) > 1:
+            key, scale = primitive(part)
+            if key in candidates:
+                first, other = candidates[key]
+                return first, atom, exact(scale, other)
+            candidates[key] = atom, scale
     return None
 
 
@@ -396,7 +396,7 @@ def slope(poly: Poly, atom: int) -> Poly:
 
 
 def join(poly: Poly, x: int, y: int, whole: int) -> Poly:
-    """A polynomial in x ± y, with y put to 0 and x replaced by the atom `whole`."""
+    """A polynomial in x + r·y, with y put to 0 and x replaced by the atom `whole`."""
     result: Poly = {}
     for mono, f in poly.items():
         exponents = dict(mono)

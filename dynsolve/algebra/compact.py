@@ -154,7 +154,7 @@ class Compactor:
         return sign, tuple(sorted(parts))
 
     def _wave_atom(self, g: int, name: str, turns: Exponents) -> tuple[int, int]:
-        """(±1, atom); an angle is written with its last coordinate positive, q₂ - q₁ and not q₁ - q₂."""
+        """(±1, atom) of a wave; see `_points_back` for how its angle is written."""
         found = self._waves.get((g, name, turns))
         if found is None and name == "sqrt":
             found = 1, self.atoms.number(Function(name, Number(turns[0])), Rank.ROOT)
@@ -165,14 +165,23 @@ class Compactor:
                 angle, sign = -angle, (-1 if name == "sin" else 1)
             last = max(k for k, t in enumerate(turns) if t)
             order = (g, last, sum(map(abs, turns)), name != "sin")
-            found = sign, self.atoms.number(Function(name, angle_node(angle)), Rank.WAVE, order)
+            found = (
+                sign,
+                self.atoms.number(Function(name, angle_node(angle, self.ring.names)), Rank.WAVE, order),
+            )
         self._waves[g, name, turns] = found
         return found
 
     def _points_back(self, angle: Angle) -> bool:
+        """Whether the angle reads better with its sign turned.
+
+        Few minus signs, and of as many the last coordinate positive: q₁ + q₂ - q₄, and q₂ - q₁.
+        """
         rates = dict(angle.terms)
         moving = [rates[((name, 1),)] for name in self.ring.names if ((name, 1),) in rates]
-        return moving[-1] < 0 if moving else bool(angle.terms) and angle.terms[0][1] < 0
+        moving = moving or [rate for _, rate in angle.terms]
+        negative = sum(rate < 0 for rate in moving)
+        return 2 * negative > len(moving) or (2 * negative == len(moving) and bool(moving) and moving[-1] < 0)
 
     # -- the entrance ------------------------------------------------------------------------------
 

@@ -87,7 +87,7 @@ class Forms:
         if is_numeric(self.robot):
             return compact
         added = total([self(f"P{body.name}") for body in self.robot.bodies])
-        return added if cost(added) <= 1.5 * cost(compact) + 2 else compact
+        return added if cost(added) <= 1.5 * cost(compact) else compact
 
     # -- long values from their parts --------------------------------------------------------------
 
