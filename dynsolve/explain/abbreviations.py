@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 from itertools import count
 
 from dynsolve.algebra.build import cost, negated, times, total
@@ -55,6 +56,7 @@ class Abbreviated:
     """Definitions in the order in which they build on each other, and the forms that use them.
 
     `D`, `C` and `g` are matrices, `christoffel` holds c_ijk at (i, j, k) with i ≤ j and from 0.
+    A `long` model is one whose constants have names, or would have if they were no numbers.
     """
 
     constants: tuple[Definition, ...]
@@ -63,6 +65,7 @@ class Abbreviated:
     C: tree.Matrix
     g: tree.Matrix
     christoffel: Mapping[Index, Node]
+    long: bool = False
 
     @property
     def definitions(self) -> tuple[Definition, ...]:
@@ -114,6 +117,7 @@ def _with_constants(forms: Forms) -> Abbreviated:
         compactor.matrix(D),
         compactor.matrix(g),
         _forms_of(symbols, compactor),
+        long=True,
     )
 
 
@@ -137,7 +141,7 @@ def _without_constants(forms: Forms) -> Abbreviated:
     D, g = forms("D"), forms("g")
     assert isinstance(D, tree.Matrix) and isinstance(g, tree.Matrix)
     symbols = {(i, j, k): forms.christoffel(i, j, k) for i, j, k in forms.values["christoffel"]}
-    return _assembled(forms, (), D, g, symbols)
+    return _assembled(forms, (), D, g, symbols, long=False)
 
 
 def _assembled(
@@ -146,14 +150,16 @@ def _assembled(
     D: tree.Matrix,
     g: tree.Matrix,
     symbols: Mapping[Index, Node],
+    long: bool,
 ) -> Abbreviated:
     n = forms.robot.n
     upper = [(i, j) for i in range(n) for j in range(i, n)]
     entries = [*(D.rows[i][j] for i, j in upper), *(row[0] for row in g.rows), *symbols.values()]
     taken = {*forms.robot.ring.parameters, *forms.robot.ring.names}
-    sums, used = name_recurring(entries, _names(RECURRING, taken), whole=bool(constants))
+    name = partial(name_recurring, entries, whole=long, decimal=is_numeric(forms.robot))
+    sums, used = name(_names(RECURRING, taken))
     if len(sums) == 1 and SINGLE not in taken:
-        sums, used = name_recurring(entries, iter([Symbol(SINGLE)]), whole=bool(constants))
+        sums, used = name(iter([Symbol(SINGLE)]))
     d = dict(zip(upper, used, strict=False))
     short = dict(zip(symbols, used[len(upper) + n :], strict=True))
     return Abbreviated(
@@ -163,6 +169,7 @@ def _assembled(
         C=_coriolis(short, forms.robot.ring.names),
         g=tree.column(*used[len(upper) : len(upper) + n]),
         christoffel=short,
+        long=long,
     )
 
 

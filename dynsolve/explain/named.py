@@ -45,9 +45,9 @@ def in_names(steps: Iterable[Step], course: Course, short: Abbreviated) -> Itera
         change = names.changes.get(step.id)
         if change is not None:
             yield change(step)
-        elif step.stage == "vectorized" and not short.constants:
+        elif step.stage == "vectorized" and not short.long:
             yield replace(step, result=tuple(map(names.swapped, step.result)))
-        elif short.constants and names.is_too_long(step):
+        elif short.long and names.is_too_long(step):
             kind = step.id.rstrip("0123456789")
             yield names.left_out(step, first=not told, again=kind in told)
             told.add(kind)
@@ -97,7 +97,7 @@ class _Names:
             "g": self.gravity,
         }
         self.swaps: dict[Node, Node] = {}
-        if not short.constants:
+        if not short.long:
             forms = course.forms
             self.swaps = {
                 **{forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()},
@@ -249,7 +249,9 @@ class _Names:
 
     def coriolis_forces(self, step: Step) -> Step:
         """Of the forces nothing new is to be read off."""
-        return replace(step, result=(), why=(*step.why, " Above they have the factors c and g."))
+        return replace(
+            step, result=(), why=(*step.why, " In the forces above they are the terms with c and g.")
+        )
 
     def inertia(self, step: Step) -> Step:
         return replace(step, result=(equation(letters.D, self.short.D),))
@@ -260,7 +262,7 @@ class _Names:
     def coriolis(self, step: Step) -> Step:
         """C by its Christoffel symbols, where those are long."""
         C = self.short.C
-        if self.short.constants:
+        if self.short.long:
             C = tree.Matrix(tuple(tuple(self.entry(k, j) for j in range(self.n)) for k in range(self.n)))
         return replace(step, result=(equation(letters.C, C),))
 

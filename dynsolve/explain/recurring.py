@@ -35,12 +35,13 @@ class Definition:
 
 
 def name_recurring(
-    entries: Sequence[Node], names: Iterator[Symbol], *, whole: bool = True
+    entries: Sequence[Node], names: Iterator[Symbol], *, whole: bool = True, decimal: bool = False
 ) -> tuple[tuple[Definition, ...], list[Node]]:
     """(definitions in order of dependence, the entries in which they are used).
 
     Entries that are equal but for sign count once; with `whole` false they count each,
-    so that what several entries consist of gets a name.
+    so that what several entries consist of gets a name.  `decimal` says that numbers are
+    decimals.
 
     >>> from dynsolve.notation.python import to_python
     >>> m, l, r, q, I = map(Symbol, ("m", "l", "r", "q", "I"))
@@ -51,11 +52,11 @@ def name_recurring(
     >>> list(map(to_python, used))
     ['-h', 'I + h']
     """
-    sharing = _Sharing()
+    sharing = _Sharing(decimal)
     roots = [sharing.intern(entry) for entry in entries]
     sharing.share_parts()
     uses = sharing.uses(dict.fromkeys(split_sign(r)[1] for r in roots) if whole else roots)
-    writer = _Writer(sharing.terms, uses, names)
+    writer = _Writer(sharing.terms, uses, names, decimal)
     used = [writer.write(root) for root in roots]
     return tuple(writer.definitions), used
 
@@ -63,7 +64,8 @@ def name_recurring(
 class _Sharing:
     """Sums and products as nodes of a graph in which equal ones, but for sign, are one."""
 
-    def __init__(self) -> None:
+    def __init__(self, decimal: bool) -> None:
+        self.decimal = decimal
         self.sums: dict[_Key, Symbol] = {}
         self.terms: dict[Symbol, tuple[Node, ...]] = {}
         self._seen: dict[Node, Node] = {}
@@ -83,7 +85,7 @@ class _Sharing:
             case Sum(parts):
                 return self.placeholder([self.intern(part) for part in parts])
             case Product(parts):
-                return times(1, [(self.intern(part), 1) for part in parts])
+                return times(1, [(self.intern(part), 1) for part in parts], decimal=self.decimal)
             case Negative(part):
                 return negated(self.intern(part))
             case Power(base, exponent):
@@ -200,8 +202,9 @@ class _Writer:
         terms: Mapping[Symbol, tuple[Node, ...]],
         uses: Mapping[Node, int],
         names: Iterator[Symbol],
+        decimal: bool,
     ) -> None:
-        self.terms, self.uses, self.names = terms, uses, names
+        self.terms, self.uses, self.names, self.decimal = terms, uses, names, decimal
         self.definitions: list[Definition] = []
         self._done: dict[Node, Node] = {}
 
@@ -218,9 +221,9 @@ class _Writer:
                     return node
                 return self._named(node, total([self.write(t) for t in self.terms[node]]), SHORTEST_SUM)
             case Negative(part):
-                return times(-1, [(self.write(part), 1)])
+                return times(-1, [(self.write(part), 1)], decimal=self.decimal)
             case Product(parts):
-                whole = times(1, [(self.write(part), 1) for part in parts])
+                whole = times(1, [(self.write(part), 1) for part in parts], decimal=self.decimal)
                 return self._named(node, whole, SHORTEST_PRODUCT)
             case Power(base, exponent):
                 return Power(self.write(base), exponent)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import random
+import re
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -331,3 +333,19 @@ def test_nothing_fills_pages() -> None:
             for part in row:
                 if not isinstance(part, Derivative | Words):
                     assert len(to_unicode(part, style)) < 600
+
+
+def test_a_long_model_with_numbers_for_its_masses() -> None:
+    """Numbers need no names; what recurs does, and the steps say what they are made of all the same."""
+    draw = random.Random(1)
+    head, masses = (Path(__file__).parents[3] / "problems" / "puma560.yaml").read_text().split("masses:")
+    masses = masses.split("find:")[0]
+    numbers = re.sub(r"\b([mxyz]\d|I\d\w\w)\b", lambda _: f"{draw.uniform(0.1, 2):.2f}", masses)
+    solution = dynsolve.solve(f"{head}masses:{numbers}")
+    names = solution.abbreviated("auto")
+    assert names is not None and names.long and not names.constants
+    assert_means_the_same(solution, names)
+    style = solution.style
+    for node in displayed(solution_document(solution).blocks):
+        if not isinstance(node, Relation) or not isinstance(node.parts[-1], Matrix):
+            assert len(to_unicode(node, style)) < 800
