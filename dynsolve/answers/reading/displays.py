@@ -37,13 +37,31 @@ _ENDINGS = frozenset({",", ";", ".", ":"})
 def equations(tokens: list[Token], label: str) -> list[Equation]:
     """The equations of one display; `label` is the number that stands beside it."""
     found: list[Equation] = []
-    for row in _rows(tokens):
+    for row in _rows(_unwrapped(tokens)):
         own, row = _label(row)
         for piece in _pieces(row):
             members = _members(piece)
             if members:
                 found.append(Equation(members, own or label))
     return found
+
+
+def _unwrapped(tokens: list[Token]) -> list[Token]:
+    r"""The rows of a system in `\left\{ \begin{array}{l} ... \end{array} \right.`; other tokens as they are."""
+    inside = [t for t in tokens if t.kind not in ("end", "tag")]
+    if inside and inside[0].text in ("\\{", "\\lbrace"):
+        inside = inside[1:]
+        if inside and inside[-1].text in ("\\}", "\\rbrace"):
+            inside = inside[:-1]
+    if len(inside) < 3 or inside[0].kind != "begin" or inside[-1].kind != "close":
+        return tokens
+    level, holds = 0, False
+    for position, token in enumerate(inside):
+        level += (token.kind == "begin") - (token.kind == "close")
+        if level == 0 and position < len(inside) - 1:
+            return tokens
+        holds = holds or (level == 1 and token.kind == "=")
+    return [*inside[1:-1], *(t for t in tokens if t.kind in ("tag", "end"))] if holds else tokens
 
 
 def is_label(tokens: list[Token]) -> str:

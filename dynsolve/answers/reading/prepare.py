@@ -20,7 +20,7 @@ _FACES = frozenset(
 )
 _SCRIPT = frozenset("mathcal mathscr mathfrak cal script".split())
 _ENVIRONMENTS = frozenset(
-    "equation align aligned split gather gathered multline eqnarray alignat alignedat flalign "
+    "cases equation align aligned split gather gathered multline eqnarray alignat alignedat flalign "
     "displaymath math subequations dmath IEEEeqnarray".split()
 )
 _SINGLE = frozenset({"name", "letter", "number", "text"})
