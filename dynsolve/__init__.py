@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from dynsolve.answers.public import check as check
     from dynsolve.problem import Problem as Problem
     from dynsolve.solution import Solution as Solution
     from dynsolve.solution import load as load
@@ -18,9 +19,10 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-__all__ = ["Problem", "Solution", "load", "solve", "__version__"]
+__all__ = ["Problem", "Solution", "check", "load", "solve", "__version__"]
 
 _PLACES = {
+    "check": "dynsolve.answers.public",
     "Problem": "dynsolve.problem",
     "Solution": "dynsolve.solution",
     "load": "dynsolve.solution",
