@@ -120,7 +120,6 @@ def _run(
         read_roster(roster, lms)
     uploads = Uploads(submissions)
     with opened(folder) as record:
-        before = record.before()
         pool = make_pool()
         try:
             intake = take_in(problems, uploads)
@@ -136,7 +135,7 @@ def _run(
         write_outputs(folder, problems, record)
         warnings = export(lms, folder, problems, record, roster) if lms is not None else ()
         if diff:
-            for line in changes(before, record):
+            for line in changes(record):
                 typer.echo(line)
         record.finish()
         if not quiet:
@@ -166,7 +165,8 @@ def opened(folder: Path, new: bool = True) -> Iterator[Record]:
             record.close()
     except (sqlite3.Error, OSError) as error:
         said = getattr(error, "strerror", None) or str(error)
-        what = f"writing to {folder} failed: {said.lower()}"
+        file = getattr(error, "filename", None)
+        what = f"writing to {folder} failed: {said.lower()}" + (f" ({file})" if file else "")
         raise UsageError(f"{what}; what is done is kept, and the same command goes on") from error
 
 

@@ -10,13 +10,17 @@ from __future__ import annotations
 import base64
 import json
 import sqlite3
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from dynsolve.errors import UsageError
 from dynsolve.grading.hand_ins import Waiting
+
+Key = tuple[str, str]
+"""A hand-in: the student and the problem."""
 
 FILE = "grades.sqlite"
 FORMAT = "dynsolve-grades/1"
@@ -123,31 +127,38 @@ class Record:
         found = self.db.execute("SELECT value FROM run WHERE name = ?", (name,)).fetchone()
         return found[0] if found else ""
 
-    def write(self, key: tuple[str, str], fingerprint: str, causes: str, row: Mapping[str, Any]) -> None:
+    def write(self, key: Key, fingerprint: str, causes: str, row: Mapping[str, Any]) -> None:
         """Write one hand-in with its answers: all of it, or nothing."""
-        db = self.db
-        db.execute("BEGIN")
+        self.write_all([(key, fingerprint, causes, row)])
+
+    def write_all(self, rows: Iterable[tuple[Key, str, str, Mapping[str, Any]]]) -> None:
+        """Write several hand-ins at once: all of them, or nothing."""
+        self.db.execute("BEGIN")
         try:
-            db.execute("DELETE FROM answers WHERE student = ? AND problem = ?", key)
-            db.execute(
-                "INSERT OR REPLACE INTO hand_ins VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                (
-                    *key, fingerprint, causes, _text(row["files"]), _text(row["left"]), int(row["late"]),
-                    row["reason"], _text(row["notes"]),
-                    base64.b64decode(row["html"]), base64.b64decode(row["markdown"]),
-                ),
-            )  # fmt: skip
-            db.executemany(
-                f"INSERT INTO answers VALUES ({', '.join('?' * (3 + len(_ANSWER)))})",  # noqa: S608
-                [
-                    (*key, place, *(_cell(answer[column]) for column in _ANSWER))
-                    for place, answer in enumerate(row["answers"])
-                ],
-            )
-            db.execute("COMMIT")
+            for row in rows:
+                self._insert(*row)
+            self.db.execute("COMMIT")
         except BaseException:
-            db.execute("ROLLBACK")
+            self.db.execute("ROLLBACK")
             raise
+
+    def _insert(self, key: Key, fingerprint: str, causes: str, row: Mapping[str, Any]) -> None:
+        self.db.execute("DELETE FROM answers WHERE student = ? AND problem = ?", key)
+        self.db.execute(
+            "INSERT OR REPLACE INTO hand_ins VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            (
+                *key, fingerprint, causes, _text(row["files"]), _text(row["left"]), int(row["late"]),
+                row["reason"], _text(row["notes"]),
+                base64.b64decode(row["html"]), base64.b64decode(row["markdown"]),
+            ),
+        )  # fmt: skip
+        self.db.executemany(
+            f"INSERT INTO answers VALUES ({', '.join('?' * (3 + len(_ANSWER)))})",  # noqa: S608
+            [
+                (*key, place, *(_cell(answer[column]) for column in _ANSWER))
+                for place, answer in enumerate(row["answers"])
+            ],
+        )
 
     def set_intake(self, students: Mapping[str, str], waiting: tuple[Waiting, ...]) -> None:
         """Who there is, and what waits for a human."""
@@ -175,16 +186,13 @@ class Record:
 
     def finish(self) -> None:
         """Keep what stands as what the next run is compared with."""
-        now = {key: (causes, _text(answers)) for key, causes, answers in self.standing()}
-        before = {(s, p): (c, a) for s, p, c, a in self.db.execute("SELECT * FROM finished")}
-        if now == before:
-            return
         with self.db:
             self.db.execute("BEGIN")
-            self.db.execute("DELETE FROM finished")
-            self.db.executemany(
-                "INSERT INTO finished VALUES (?, ?, ?, ?)", [(*k, *v) for k, v in now.items()]
-            )
+            for key, causes, answers in self.standing():
+                now = (causes, _text(answers))
+                if self._finished(key) != now:
+                    self.db.execute("INSERT OR REPLACE INTO finished VALUES (?, ?, ?, ?)", (*key, *now))
+            self.db.executemany("DELETE FROM finished WHERE student = ? AND problem = ?", self.gone())
 
     # -- reading -----------------------------------------------------------------------------------
 
@@ -230,22 +238,34 @@ class Record:
             found["diagnosis"] = tuple(filter(None, found["diagnosis"].split(";")))
             yield Graded(s, p, name, **found)
 
-    def standing(self) -> Iterator[tuple[tuple[str, str], str, list[list[str]]]]:
+    def standing(self) -> Iterator[tuple[Key, str, list[list[str]]]]:
         """Every hand-in with what it was made from, and its answers' verdict, marks and why."""
         causes = {(s, p): c for s, p, c in self.db.execute("SELECT student, problem, causes FROM hand_ins")}
-        answers: dict[tuple[str, str], list[list[str]]] = {key: [] for key in causes}
-        for a in self.answers():
-            answers.setdefault((a.student, a.problem), []).append([a.answer, a.verdict, a.marks, a.why])
-        for key in sorted(answers):
-            yield key, causes.get(key, "{}"), answers[key]
+        for key, found in groupby(self.answers(), key=lambda a: (a.student, a.problem)):
+            yield key, causes[key], [[a.answer, a.verdict, a.marks, a.why] for a in found]
 
-    def before(self) -> dict[tuple[str, str], tuple[dict[str, str], dict[str, list[str]]]]:
-        """What stood when the last run was finished."""
-        found = self.db.execute("SELECT * FROM finished")
-        return {
-            (s, p): (json.loads(causes), {name: rest for name, *rest in json.loads(answers)})
-            for s, p, causes, answers in found
-        }
+    def finished(self, key: Key) -> tuple[dict[str, str], dict[str, list[str]]]:
+        """What stood of a hand-in when the last run was finished: causes and answers, or nothing."""
+        found = self._finished(key)
+        if found is None:
+            return {}, {}
+        return json.loads(found[0]), {name: rest for name, *rest in json.loads(found[1])}
+
+    def compared(self) -> bool:
+        """Whether a run has been finished before."""
+        return self.db.execute("SELECT 1 FROM finished LIMIT 1").fetchone() is not None
+
+    def gone(self) -> list[Key]:
+        """The hand-ins of the last finished run that are there no more."""
+        order = (
+            "SELECT student, problem FROM finished EXCEPT SELECT student, problem FROM hand_ins ORDER BY 1, 2"
+        )
+        return list(self.db.execute(order))
+
+    def _finished(self, key: Key) -> tuple[str, str] | None:
+        where = "SELECT causes, answers FROM finished WHERE student = ? AND problem = ?"
+        found: tuple[str, str] | None = self.db.execute(where, key).fetchone()
+        return found
 
 
 def _text(value: Any) -> str:

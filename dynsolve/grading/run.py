@@ -85,9 +85,7 @@ def grade_all(
     keys = {(h.student, h.problem) for h in intake.hand_ins}
     absent = dict(_absent(problems, intake, keys))
     record.keep_only(keys | absent.keys())
-    for key, rows in absent.items():
-        if known.get(key) != rows[0]:
-            record.write(key, *rows)
+    record.write_all((key, *row) for key, row in absent.items() if known.get(key) != row[0])
     due = [h for h in intake.hand_ins if known.get((h.student, h.problem)) != fingerprint(problems, h)]
     running: dict[Future[Data], HandIn] = {}
     waiting = iter(due)
