@@ -49,7 +49,7 @@ def grade_one(payload: Data) -> Data:
             for answer, marks in zip(report.answers, marked, strict=True)
         ],
         "not_recognized": [n.text[:200] for n in report.not_recognized][:50],
-        "faults": list(report.faults),
+        "faults": [fault.message for fault in report.faults],
         "html": html,
         "markdown": markdown,
     }
