@@ -47,7 +47,7 @@ def equations(tokens: list[Token], label: str) -> list[Equation]:
 
 
 def _unwrapped(tokens: list[Token]) -> list[Token]:
-    r"""The rows of a system in `\left\{ \begin{array}{l} ... \end{array} \right.`; other tokens as they are."""
+    r"""The rows of a system in `\left\{ \begin{array} ... \end{array} \right.`; others as they are."""
     inside = [t for t in tokens if t.kind not in ("end", "tag")]
     if inside and inside[0].text in ("\\{", "\\lbrace"):
         inside = inside[1:]

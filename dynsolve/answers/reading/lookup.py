@@ -36,6 +36,8 @@ _OWN = frozenset({"h", "c"})
 
 _POTENTIAL = re.compile(r"P.*|L")
 _LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*|[xyz],?[qt].*)")
+_OWNER_BODY = re.compile(r"[0-9]+$")
+_MOMENT = re.compile(r"[IJ][xyz]{1,2}")
 _HEIGHT = re.compile(r"h[1-9a-z][0-9]*")
 
 
@@ -110,6 +112,9 @@ def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
         return None
     if vocabulary.is_vector(name) or is_running(form.index or _index(form.base)):
         return None
+    body = _OWNER_BODY.search(reader.owner)
+    if body and _MOMENT.fullmatch(name) and (meaning := vocabulary.similar(name + body.group())):
+        return meaning
     return vocabulary.similar(name)
 
 

@@ -91,6 +91,10 @@ class Session:
                 read.append((index, read_member(self.vocabulary, member, owners)))
         if names and self._is_own_letter(members, names, read):
             self.define(key(members[0][0].text), next(f for _, f in read if isinstance(f, Read)))
+        elif names and self._is_constant(members, names, read):
+            place = display.locate(members[0][0].start, 1)
+            whole = display.text[members[0][0].start : members[-1][-1].end]
+            self.not_recognized.append(NotRecognized(shown(whole), equation.label, place))
         elif names:
             self._judged(names, read, equation, display)
         else:
@@ -154,6 +158,20 @@ class Session:
                 self._unreadable(candidates, display, found, label, where)
             else:
                 self._value([candidates], found, member, label, display, where)
+
+    def _is_constant(
+        self,
+        members: list[list[Token]],
+        names: list[tuple[str, ...]],
+        read: list[tuple[int, Read | ReadError]],
+    ) -> bool:
+        """Whether `g = 9.81 m/s^2` says what a symbol of the problem is, no value fitting the answer."""
+        if len(names) > 1 or len(members[0]) > 1 or key(members[0][0].text) not in self.vocabulary.symbols:
+            return False
+        if any(token.kind in ("begin", "[") for member in members for token in member):
+            return False
+        values = [found.value for _, found in read if isinstance(found, Read) and not found.is_definition]
+        return bool(read) and not any(fitted(self.vocabulary, names[0], value) for value in values)
 
     def _is_own_letter(
         self,

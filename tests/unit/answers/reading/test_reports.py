@@ -157,6 +157,18 @@ def test_a_zero_level_of_height_stays_a_symbol() -> None:
     assert answer.free == ("h0",)
 
 
+def test_what_a_symbol_of_the_problem_is_said_to_be_is_no_answer() -> None:
+    found = report("$$g = 9.81 m/s^2$$ $$I_1 = \\frac{1}{12} m_1 l_1^2$$ $$m_1 = 3\\,\\text{kg}$$")
+    assert found.answers == ()
+    assert len(found.not_recognized) == 3
+
+
+def test_a_moment_of_inertia_without_its_body_is_that_of_the_answer() -> None:
+    (answer,) = report("$$K_{\\omega_2} = \\frac12 I_{zz} \\dot\\theta_1^2$$", stem="elbow-3r").answers
+    assert "I_2zz" in shown(answer)
+    assert answer.notes
+
+
 def test_equations_without_a_name_are_listed() -> None:
     found = report("$$x + y = 3$$ $$v_2^2 = l_1^2$$ $$K = m_1$$")
     assert [refused.text for refused in found.not_recognized][:1] == ["x + y = 3"]
