@@ -139,7 +139,8 @@ class Record:
                 self._insert(*row)
             self.db.execute("COMMIT")
         except BaseException:
-            self.db.execute("ROLLBACK")
+            if self.db.in_transaction:  # a full disk ends it by itself
+                self.db.execute("ROLLBACK")
             raise
 
     def _insert(self, key: Key, fingerprint: str, causes: str, row: Mapping[str, Any]) -> None:

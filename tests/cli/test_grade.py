@@ -7,6 +7,7 @@ import io
 import json
 import os
 import random
+import shlex
 import signal
 import sqlite3
 import subprocess
@@ -250,6 +251,20 @@ def test_a_run_that_is_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
         assert run.wait() == 0
     assert _contents(tmp_path / "killed") == _contents(tmp_path / "whole")
     assert _dump(tmp_path / "killed") == _dump(tmp_path / "whole")
+
+
+def test_a_full_disk_is_said_and_the_same_command_goes_on(tmp_path: Path) -> None:
+    problem_set(tmp_path / "set")
+    course(tmp_path / "in", 12)
+    words = ("grade", str(tmp_path / "set"), str(tmp_path / "in"), "-o", str(tmp_path / "out"))
+    limited = f"ulimit -f 150; exec {shlex.join([sys.executable, '-m', 'dynsolve', *words])}"
+    full = subprocess.run(
+        ["bash", "-c", limited], cwd=ROOT, env=environment(), capture_output=True, text=True
+    )
+    assert full.returncode == 2
+    assert "what is done is kept, and the same command goes on" in full.stderr
+    assert dynsolve(*words).code == 0
+    assert len(_csv(tmp_path / "out" / "grades.csv")) == 12
 
 
 def test_ctrl_c_ends_cleanly_and_says_how_to_go_on(tmp_path: Path) -> None:

@@ -67,3 +67,19 @@ def test_a_fault_is_reported_at_its_place(
     finding = caught.value.findings[0]
     assert message in finding.message
     assert (finding.line, finding.column) == place
+
+
+def test_the_schema_knows_every_key_and_takes_what_the_reader_takes() -> None:
+    import jsonschema
+
+    from dynsolve.grading.problem_set import KEYS, POLICY_KEYS
+    from dynsolve.grading.set_schema import set_schema
+
+    schema = set_schema()
+    jsonschema.Draft202012Validator.check_schema(schema)
+    assert tuple(schema["properties"]) == KEYS
+    assert tuple(schema["properties"]["policy"]["properties"]) == POLICY_KEYS
+    given = {"title": "A", "problems": ["a.yaml"], "marks": {"a": {"P": 2, "K": "1/2"}}}
+    jsonschema.validate({**given, "policy": {"follow": "1/2", "caps": {"energy": 5}, "hints": 2}}, schema)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate({"policy": {"hints": 4}}, schema)
