@@ -35,12 +35,18 @@ from dynsolve.notation.tree import (
     Degrees,
     Node,
     Number,
+    Power,
     Product,
     Quotient,
     Symbol,
 )
 
 _BEGINS = frozenset({"number", "fraction", "name", "letter", "command", "(", "[", "{", "√", "begin", "|"})
+_SMALL = frozenset("23456789")
+_SCRIPTS = frozenset({"^", "raised", "'", "''", ".", "_"})
+_PLAIN_ENDS = frozenset(
+    {"+", "-", "/", "cdot", ")", "]", "}", "&", "\\\\", "end", "name", "letter", "command"}
+)
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
 _TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
 
@@ -298,6 +304,8 @@ class Reader(Cursor):
     def word(self, token: Token) -> Value:
         """A letter or a run of them: a function, a call, a derivative or a name."""
         if token.kind == "name":
+            if token.text in self.vocabulary.plain and (found := self.plain_name(token)) is not None:
+                return found
             if derivatives.stands_here(self):
                 return self.scripted(derivatives.read(self))
             if (function := functions.name_of(token)) is not None:
@@ -307,6 +315,27 @@ class Reader(Cursor):
         if lookup.is_short_function(self):
             return functions.read(self, "sin" if token.text in "sS" else "cos")
         return self.named(self.form())
+
+    def plain_name(self, token: Token) -> Node | None:
+        """A name met before, with a small power or without scripts; None for every other."""
+        after = self.peek()
+        value = self.vocabulary.plain[token.text]
+        if self.naming or token.dots:
+            return None
+        symbol = value.name if type(value) is Symbol else ""
+        if after.kind == "^":
+            power, behind = self.peek(2), self.peek(3).kind
+            if power.kind != "number" or power.text not in _SMALL or behind in _SCRIPTS:
+                return None
+            value = Power(value, Number(int(power.text)))
+            self.position += 3
+            self.token = self.tokens[self.position]
+        elif after.kind in _PLAIN_ENDS or (after.kind == "*" and self.peek(2).kind in _BEGINS):
+            self.take()
+        else:
+            return None
+        self.symbols.setdefault(symbol)
+        return value
 
     def command(self, token: Token) -> Value:
         """What a LaTeX command begins: an accent, a function, a fraction, a derivative."""

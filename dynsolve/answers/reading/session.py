@@ -364,7 +364,7 @@ class Session:
         """Keep a name for what follows."""
         if len(self.vocabulary.defined) >= MAX_DEFINITIONS or name in self.vocabulary.symbols:
             return
-        self.vocabulary.defined[name] = Meaning(found.value)
+        self.vocabulary.define(name, Meaning(found.value))
         self.vocabulary.broken.pop(name, None)
 
     # The end

@@ -36,7 +36,7 @@ def own_symbols(session: Session, display: Display, name: str, is_symbol: bool) 
     if is_symbol:
         _keep(session, plain, dots, found)
     else:
-        session.vocabulary.defined[plain] = Meaning(found.value)
+        session.vocabulary.define(plain, Meaning(found.value))
     return None
 
 
@@ -46,15 +46,16 @@ def _keep(session: Session, name: str, dots: int, found: Read) -> None:
     if dots:
         vocabulary.derived[(name, dots)] = found.value
         return
-    vocabulary.defined[name] = Meaning(found.value)
+    vocabulary.define(name, Meaning(found.value))
     rates: dict[int, Value] = {}
     for order in (1, 2):
         value = rate(found.value, vocabulary, order)
         if value is not None:
             rates[order] = value
     for spelling, order in spellings(name):
-        if order in rates and spelling not in vocabulary.symbols:
-            vocabulary.defined.setdefault(spelling, Meaning(rates[order]))
+        known = spelling in vocabulary.symbols or spelling in vocabulary.defined
+        if order in rates and not known:
+            vocabulary.define(spelling, Meaning(rates[order]))
     index = "".join(split(name)[1])
     if rates and index.isdigit() and isinstance(found.value, Node):
         vocabulary.angles[index] = found.value

@@ -51,7 +51,8 @@ class Vocabulary:
     `symbols` are those of the problem by key, `others` further spellings of them;
     `quantities` are canonical names by key, several where the notation allows several;
     `derived` are derivatives that were defined on their own, `broken` definitions that
-    could not be read, `angles` the student's own by subscript.
+    could not be read, `angles` the student's own by subscript, `plain` what names were
+    found to be where they stood without scripts.
     `shapes` are those of every canonical name; `masses` are the masses, the moments of inertia and g;
     `defined` is what the student defined.
     """
@@ -69,6 +70,12 @@ class Vocabulary:
     broken: dict[str, str] = field(default_factory=dict)
     angles: dict[str, Node] = field(default_factory=dict)
     subscripts: dict[str, Coordinate] = field(default_factory=dict)
+    plain: dict[str, Node] = field(default_factory=dict)
+
+    def define(self, name: str, meaning: Meaning) -> None:
+        """Keep what the student says a name is, from here on."""
+        self.defined[name] = meaning
+        self.plain.clear()
 
     def symbol(self, name: str) -> Meaning | None:
         """The symbol of the problem, or what the student defined, of that key."""
