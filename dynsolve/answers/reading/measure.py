@@ -12,11 +12,27 @@ from math import comb
 from dynsolve.answers.reading.limits import MAX_DEGREE, MAX_NODES, MAX_TERMS
 from dynsolve.errors import ReadError
 from dynsolve.notation.bounds import MAX_DEPTH
-from dynsolve.notation.tree import Function, Matrix, Negative, Node, Number, Power, Product, Quotient, Sum
+from dynsolve.notation.tree import (
+    Degrees,
+    Function,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
 
 _HELP = "write it shorter, or as a sum of its terms"
 _Measure = tuple[int, int, int, int]
 """Nodes, depth, terms, degree."""
+
+
+_LEAVES = frozenset({Symbol, Number, Degrees})
+_LEAF: _Measure = (1, 1, 1, 1)
 
 
 def check(node: Node, known: dict[int, _Measure] | None = None) -> None:
@@ -29,7 +45,8 @@ def check(node: Node, known: dict[int, _Measure] | None = None) -> None:
         if id(part) in measures:
             waiting.pop()
             continue
-        missing = [child for child in _children(part) if id(child) not in measures]
+        children = _children(part)
+        missing = [child for child in children if type(child) not in _LEAVES and id(child) not in measures]
         if missing:
             waiting += missing
             nodes += len(missing)
@@ -37,7 +54,7 @@ def check(node: Node, known: dict[int, _Measure] | None = None) -> None:
                 raise ReadError("this is too large", help=_HELP)
             continue
         waiting.pop()
-        measures[id(part)] = _checked(_measured(part, [measures[id(child)] for child in _children(part)]))
+        measures[id(part)] = _checked(_measured(part, [measures.get(id(child), _LEAF) for child in children]))
 
 
 def _checked(measure: _Measure) -> _Measure:
