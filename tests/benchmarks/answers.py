@@ -16,7 +16,7 @@ import sympy
 from sympy.simplify.fu import TR8
 
 import dynsolve
-from dynsolve.answers.judge import check
+from dynsolve.answers.judge import Checker
 from dynsolve.answers.submission import read_submission
 
 RUNS = 5
@@ -75,11 +75,11 @@ def main() -> None:
     print(f"{'pair':<44}{'verdict':>12}{'ms':>8}{'at most':>9}   simplify == 0 / equals")
     for what, stem, name, torque, answer, most in pairs():
         problem = dynsolve.load(stem)
-        key = dynsolve.solve(stem).values
+        checker = Checker(problem, dynsolve.solve(stem).values)
         source = f"answers:\n  {name}: {str(answer).replace('**', '^')}\n"
 
-        def judge(problem: Any = problem, source: str = source, key: Any = key) -> Any:
-            return check(problem, read_submission(problem, source, "answers.yaml"), key)
+        def judge(problem: Any = problem, source: str = source, checker: Any = checker) -> Any:
+            return checker(read_submission(problem, source, "answers.yaml"))
 
         verdict = next(a.verdict for a in judge().answers if a.name == name)
         took = best(judge)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.needs import is_opaque
 from dynsolve.answers.slips.table import slip
@@ -91,22 +91,33 @@ def _symbols(graph: Graph, words: Words, mine: Expr, expected: Expr) -> Iterator
         if g.kind == "symbol" and not g.dots and g.name not in ring.names and g.name != "pi"
     ]  # fmt: skip
     have, wanted = set(_used(mine)), set(_used(expected))
-    for a in parameters:
-        if a.index not in wanted:
+    changed = (mine - expected).poly.monoms()
+    for name in [g for g in parameters if g.index in wanted]:
+        yield from _symbol(words, name, parameters, (mine, expected), (have, wanted), changed)
+
+
+def _symbol(
+    words: Words,
+    a: Generator,
+    parameters: Sequence[Generator],
+    values: tuple[Expr, Expr],
+    used: tuple[set[int], set[int]],
+    changed: Sequence[Sequence[int]],
+) -> Iterator[Diagnosis]:
+    """Another parameter for `a`, or the two exchanged: every term that differs must hold one of them."""
+    (mine, expected), (have, wanted) = values, used
+    ring = mine.ring
+    for b in parameters:
+        if b is a or not all(m[a.index] or m[b.index] for m in changed):
             continue
-        for b in parameters:
-            if b is a:
-                continue
-            x, y = ring.generator(a.index), ring.generator(b.index)
-            if a.index not in have and b.index in have and _put(expected, {a.index: y.poly}) == mine:
-                if is_opaque(b.name):
-                    yield slip("odd_argument", yours=words.of(mine))
-                elif words.is_unknown(b):
-                    yield slip("unknown_symbol", part=words.generator(b))
-                else:
-                    yield slip(
-                        "symbol", yours=words.of(mine), part=words.generator(b), other=words.generator(a)
-                    )
-            both = {a.index: y.poly, b.index: x.poly}
-            if a.index < b.index and {a.index, b.index} <= have & wanted and _put(expected, both) == mine:
-                yield slip("symbols_swapped", part=words.generator(a), other=words.generator(b))
+        x, y = ring.generator(a.index), ring.generator(b.index)
+        if a.index not in have and b.index in have and _put(expected, {a.index: y.poly}) == mine:
+            if is_opaque(b.name):
+                yield slip("odd_argument", yours=words.of(mine))
+            elif words.is_unknown(b):
+                yield slip("unknown_symbol", part=words.generator(b))
+            else:
+                yield slip("symbol", yours=words.of(mine), part=words.generator(b), other=words.generator(a))
+        both = {a.index: y.poly, b.index: x.poly}
+        if a.index < b.index and {a.index, b.index} <= have & wanted and _put(expected, both) == mine:
+            yield slip("symbols_swapped", part=words.generator(a), other=words.generator(b))
