@@ -169,7 +169,7 @@ def _sorted(
             yield _Left(owner, owner.student, named, shown, error.findings[0].message)
             continue
         text = content[:_HEAD].decode("utf-8", errors="replace")
-        student = owner.student if owner.id else _said_student(text, ending) or owner.student
+        student = owner.student if owner.certain else _said_student(text, ending) or owner.student
         problem, reason = _problem(problems, text, owner.name, ending)
         if reason:
             yield _Left(owner, student, problem, shown, reason)

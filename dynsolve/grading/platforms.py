@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import Any
 
+from dynsolve.grading.uploads import printable
+
 METADATA = "submission_metadata.yml"
 MAX_METADATA = 30_000_000
 
@@ -22,7 +24,8 @@ class Owner:
 
     `delivery` is what was handed in at once: its files belong together, another delivery
     of the same student is another copy.  `order` grows with the delivery; `name` is the
-    file's own name.
+    file's own name.  A loose file's name is not `certain` to be a student's: what stands
+    in the file wins.
     """
 
     student: str
@@ -31,6 +34,7 @@ class Owner:
     name: str
     late: bool = False
     order: int = 0
+    certain: bool = True
 
 
 _CANVAS = re.compile(
@@ -90,7 +94,8 @@ class Owners:
                 return (owner,)
         if len(parts) > 1:
             return (Owner(parts[0], "", parts[0], "/".join(parts[1:])),)
-        return (Owner(PurePosixPath(parts[0]).stem, "", PurePosixPath(parts[0]).stem, parts[0]),)
+        stem = PurePosixPath(parts[0]).stem
+        return (Owner(stem, "", stem, parts[0], certain=False),)
 
     def _gradescope(self, submission: str, name: str) -> tuple[Owner, ...]:
         number = submission.removeprefix("submission_")
@@ -102,7 +107,7 @@ class Owners:
             if isinstance(one, dict):
                 student = next((one[key] for key in (":sid", ":email", ":name") if one.get(key)), "")
                 if isinstance(student, str) and student:
-                    owners.append(Owner(student, submission, submission, name, order=order))
+                    owners.append(Owner(printable(student), submission, submission, name, order=order))
         return tuple(owners) or (Owner(submission, submission, submission, name, order=order),)
 
 

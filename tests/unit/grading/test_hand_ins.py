@@ -96,8 +96,8 @@ def test_the_problem_comes_from_front_matter_then_name_then_heading(
 
 def test_the_platforms_student_wins(problems: ProblemSet, tmp_path: Path) -> None:
     text = "problem: in3140-rp\nstudent: s9\n" + ANSWER
-    intake = _intake(problems, tmp_path, {"ada_1_2_hw.yaml": text, "bob.yaml": text})
-    assert [h.student for h in intake.hand_ins] == ["ada_1", "s9"]
+    intake = _intake(problems, tmp_path, {"ada_1_2_hw.yaml": text, "bob.yaml": text, "eve/a.yaml": text})
+    assert [h.student for h in intake.hand_ins] == ["ada_1", "eve", "s9"]
 
 
 def test_the_newest_copy_counts_and_the_other_is_named(problems: ProblemSet, tmp_path: Path) -> None:
