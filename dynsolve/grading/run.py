@@ -83,9 +83,9 @@ def grade_all(
     record.set_intake(intake.students, intake.waiting)
     known = record.fingerprints()
     keys = {(h.student, h.problem) for h in intake.hand_ins}
-    absent = dict(_absent(problems, intake, keys))
-    record.keep_only(keys | absent.keys())
-    record.write_all((key, *row) for key, row in absent.items() if known.get(key) != row[0])
+    record.keep_only({(student, stem) for student in intake.students for stem in problems.stems})
+    absent = _absent(problems, intake, keys)
+    record.write_all((key, *row) for key, row in absent if known.get(key) != row[0])
     due = [h for h in intake.hand_ins if known.get((h.student, h.problem)) != fingerprint(problems, h)]
     running: dict[Future[Data], HandIn] = {}
     waiting = iter(due)

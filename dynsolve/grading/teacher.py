@@ -47,7 +47,7 @@ def teachers_page(problems: ProblemSet, record: Record) -> str:
             f"<h1>{title}</h1>\n",
             _summary(problems, cohort),
             _distribution(problems, cohort),
-            _verdicts(cohort),
+            _verdicts(problems, cohort),
             _slips(cohort),
             _alike(cohort),
             _queue(cohort),
@@ -174,9 +174,10 @@ def _cells(*cells: object) -> str:
     return "<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in cells) + "</tr>"
 
 
-def _verdicts(cohort: _Cohort) -> str:
+def _verdicts(problems: ProblemSet, cohort: _Cohort) -> str:
     def rows() -> Iterator[str]:
-        for (problem, answer), counts in cohort.verdicts.items():
+        order = {stem: place for place, stem in enumerate(problems.stems)}
+        for (problem, answer), counts in sorted(cohort.verdicts.items(), key=lambda kv: order[kv[0][0]]):
             total = sum(counts.values()) or 1
             heat = "".join(
                 f'<td class="heat {v}" style="--share:{counts[v] / total:.3f}">{counts[v]}</td>'
