@@ -51,6 +51,10 @@ def quotient(reader: Reader, above: list[Token], below: list[Token], start: int)
     of = reader.inner(rest, naming=True) if rest else _operand(reader)
     if time:
         return by_time(reader, of, order)
+    if not bottom:
+        raise ReadError(
+            "this derivative says not by what", start, 1, "write \\frac{\\partial L}{\\partial q_1}"
+        )
     return _by(reader, of, bottom)
 
 
