@@ -43,9 +43,7 @@ def with_numbers(
     """The solution with the numbers beside it that were asked for, or that the file gives in full."""
     if not (values or state or solution.problem.written):
         if digits is not None:
-            raise typer.BadParameter(
-                "--digits needs numbers: --set, --at, or values: in the file"
-            )
+            raise typer.BadParameter("--digits needs numbers: --set, --at, or values: in the file")
         return solution
     from dynsolve.numbers.assignments import of_option
 

@@ -27,8 +27,7 @@ _LONGEST_EXCERPT = 400
 # not show, the byte order mark inside a text, and code points that are no characters.
 # The marks U+200E and U+200F may stand in a Hebrew or Arabic title; they steer nothing beyond it.
 _UNSEEN = re.compile(
-    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff\ufffe\uffff"
-    "\ud800-\udfff]"
+    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff\ufffe\uffff\ud800-\udfff]"
 )
 
 

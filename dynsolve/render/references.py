@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import zip_longest
 
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Text, Uses
 
@@ -26,10 +27,9 @@ def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:
 
 def with_results(blocks: Sequence[Block]) -> list[Block]:
     """The blocks without a `Uses` that nothing follows which is computed from it."""
-    following = [*blocks[1:], None]
     return [
         block
-        for block, after in zip(blocks, following, strict=True)
+        for block, after in zip_longest(blocks, blocks[1:])
         if not isinstance(block, Uses) or isinstance(after, Formula | Equations)
     ]
 
@@ -37,7 +37,7 @@ def with_results(blocks: Sequence[Block]) -> list[Block]:
 def with_sources(blocks: Sequence[Block]) -> Iterator[Block]:
     """The same blocks, the source of a formula beside the paragraph that introduces it."""
     blocks = with_results(blocks)
-    for block, following in zip(blocks, [*blocks[1:], None], strict=True):
+    for block, following in zip_longest(blocks, blocks[1:]):
         if isinstance(block, Text) and isinstance(following, Formula) and not block.source:
             yield replace(block, source=following.source)
         else:
