@@ -196,7 +196,7 @@ def _progress(quiet: bool) -> Iterator[Callable[[int, int], None] | None]:
 
 def _say(folder: Path, done: Done, waiting: int) -> None:
     same = done.hand_ins - done.computed
-    parts = [f"{done.computed} hand-ins graded"]
+    parts = [f"{done.computed} hand-in{'s' if done.computed != 1 else ''} graded"]
     parts += [f"{same} as before"] if same else []
     parts += [f"{waiting} files wait for a human"] if waiting else []
     typer.echo(f"{', '.join(parts)}: see {folder / 'report.html'}", err=True)
