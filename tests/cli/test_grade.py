@@ -288,7 +288,7 @@ def test_regrade_computes_what_is_affected_and_tells_whose_marks_changed(
     assert "0 hand-ins graded, 2 as before" in again.err and again.out == ""
     _write(hand_ins, {"b/in3140-rp.yaml": RIGHT})
     changed = dynsolve(*words)
-    assert "1 hand-ins graded, 1 as before" in changed.err
+    assert "1 hand-in graded, 1 as before" in changed.err
     assert changed.out == "b in3140-rp K: 0 -> 4 (the hand-in changed; correct: 4 of 4)\n"
     (set_folder / "set.yaml").write_text("title: Assignment 2\nmarks: {in3140-rp: {K: 5, g: 2}}\n")
     remarked = dynsolve(*words)
