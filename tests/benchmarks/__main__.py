@@ -55,6 +55,7 @@ def times() -> None:
         ("solve in3140-rp", ["solve", problem("in3140-rp")], 2),
         ("solve puma560-first3", ["solve", problem("puma560-first3")], None),
         ("solve puma560 --json", ["solve", problem("puma560"), "--json"], 10),
+        ("solve puma560 --latex", ["solve", problem("puma560"), "--latex"], 20),
         ("solve panda-7r --json", ["solve", problem("panda-7r"), "--json"], 40),
     ]
     print(f"{'command':<24}{'seconds':>9}{'ratio':>8}{'at most':>9}{'peak MiB':>10}")

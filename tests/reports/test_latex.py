@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import re
-import time
 from pathlib import Path
 
 import pytest
 
-import dynsolve
-from dynsolve.reports import Format, report
+from dynsolve.reports import Format
 from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, text_of, typeset
-from tests.support import LIBRARY, TEXTBOOKS, solve_json
+from tests.support import LIBRARY, TEXTBOOKS
 
 RP = next(path for path in LIBRARY if path.stem == "in3140-rp")
 
@@ -80,15 +78,3 @@ def test_a_hostile_title_is_text(tmp_path: Path) -> None:
         assert part.replace("_", " ") in shown, "the fonts draw _ as a line"
     assert "root:" not in shown
     assert "[U+05D0][U+4E2D]" in shown
-
-
-def test_puma_in_at_most_twice_the_time_of_its_json() -> None:
-    puma = next(path for path in LIBRARY if path.stem == "puma560")
-    solve_json(puma)  # what is loaded once is loaded for both
-
-    def seconds(format: Format) -> float:
-        start = time.process_time()
-        report(dynsolve.solve(puma), format)
-        return time.process_time() - start
-
-    assert seconds(Format.LATEX) <= 2 * seconds(Format.JSON)
