@@ -40,7 +40,7 @@ def write_bytes(path: Path, data: bytes) -> None:
         if path.read_bytes() == data:
             return
     except OSError:
-        pass
+        pass  # there is none yet, or none that can be read: it is written anew
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.new")
     temporary.write_bytes(data)
