@@ -15,9 +15,6 @@ from dynsolve.notation.tree import Node, Row, Symbol, Words
 from dynsolve.pipeline import Agreement, Derivation
 from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
 
-SHV = "Spong, Hutchinson, Vidyasagar"
-"""M. W. Spong, S. Hutchinson, M. Vidyasagar, Robot Modeling and Control, Wiley, 2006."""
-
 LARGEST_WORKING = 260
 """Matrices whose entries have more parts than this are not put into a formula; it stays in letters."""
 
@@ -64,7 +61,7 @@ class Course:
 
 
 def shv(section: str) -> str:
-    """A reference to Robot Modeling and Control."""
+    """A reference to Spong, Hutchinson, Vidyasagar, Robot Modeling and Control, Wiley, 2006."""
     return f"Spong et al. {section}"
 
 

@@ -65,7 +65,6 @@ TAU = bold("tau")
 K = Letter("K", style="script")
 P = Letter("P", style="script")
 L = Letter("L", style="script")
-GRAVITY = Letter("g")
 
 
 def jv(body: Body) -> Letter:
@@ -150,9 +149,3 @@ def entries(letter: str, n: int, columns: int) -> tuple[tuple[Node, ...], ...]:
     if columns == 1:
         return tuple((entry(letter, i + 1),) for i in range(n))
     return tuple(tuple(entry(letter, i + 1, j + 1) for j in range(columns)) for i in range(n))
-
-
-def ordinal(i: int) -> str:
-    """1st, 2nd, 3rd, 4th."""
-    ending = "th" if 10 <= i % 100 <= 20 else {1: "st", 2: "nd", 3: "rd"}.get(i % 10, "th")
-    return f"{i}{ending}"

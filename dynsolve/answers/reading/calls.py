@@ -8,7 +8,7 @@ from dynsolve.answers.reading import functions, lookup
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
 from dynsolve.answers.reading.scan import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.tree import Symbol
 
 if TYPE_CHECKING:
     from dynsolve.answers.reading.reader import Reader
@@ -136,10 +136,3 @@ def running_sum(reader: Reader) -> Value:
         reader.position = len(reader.tokens) - 1
         reader.token = reader.tokens[-1]
     return Abstract("a sum over an index")
-
-
-def node_of(value: Value) -> Node | None:
-    """The value as a tree, None for what is abstract."""
-    if isinstance(value, Grid):
-        return value.node
-    return value if isinstance(value, Node) else None
