@@ -77,7 +77,7 @@ def _sound(checker: Checker, submission: Submission) -> tuple[Any, ...]:
     return tuple(answers)
 
 
-def limited(work: Callable[[], _T], seconds: int) -> _T:
+def limited(work: Callable[[], _T], seconds: float) -> _T:
     """What `work` gives, made in a child process with limits.
 
     Raises Stopped where the child was stopped, and whatever `work` raises.  Where
@@ -103,7 +103,7 @@ def limited(work: Callable[[], _T], seconds: int) -> _T:
     return result
 
 
-def _run(work: Callable[[], Any], writing: int, seconds: int) -> None:
+def _run(work: Callable[[], Any], writing: int, seconds: float) -> None:
     """The child: limits, work, result, end."""
     code = 1
     try:
@@ -121,11 +121,11 @@ def _run(work: Callable[[], Any], writing: int, seconds: int) -> None:
         os._exit(code)
 
 
-def _limit(seconds: int) -> None:
+def _limit(seconds: float) -> None:
     import resource
 
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+    signal.setitimer(signal.ITIMER_PROF, seconds)  # of the processor, not of the clock
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     size = _size() + MEMORY
     _, hard = resource.getrlimit(resource.RLIMIT_AS)

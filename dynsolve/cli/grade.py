@@ -66,7 +66,7 @@ def grade(
         bool, typer.Option("--diff", help="List whose marks are not those of the last run, and why.")
     ] = False,
     timeout: Annotated[
-        float, typer.Option("--timeout", min=0.1, help="Seconds that one hand-in may take.")
+        float, typer.Option("--timeout", min=0.1, help="Seconds of processor time that one hand-in may take.")
     ] = 20.0,
     memory: Annotated[
         int, typer.Option("--memory", min=64, help="MiB of memory that one hand-in may take.")

@@ -1,28 +1,40 @@
 """Workers on this machine, each with bounds on time and memory, behind the interface of futures.
 
 A thread a worker hands it one hand-in after the other.  A worker that goes over a bound
-is ended and replaced; the hand-in is `unreadable` with the reason, and the run goes on.
+is ended and replaced, and the hand-in is tried once more, answer by answer: those that
+are too much are `unreadable` with the reason.  Where that goes over the bound too, all of
+the hand-in is, and the run goes on.
 """
 
 from __future__ import annotations
 
 import json
+import os
+import signal
 import subprocess
 import sys
 import threading
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
+
+from dynsolve.grading.worker import patience
 
 Data = dict[str, Any]
 
 SERVES = 500
 """After so many hand-ins a worker is replaced, so that nothing it keeps can grow."""
 
+MODULE = "dynsolve.grading.worker"
+
+_OUT_OF_TIME = getattr(signal, "SIGPROF", 0)
+"""What ends a worker that has used up its time."""
+
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """What one hand-in may use: seconds, and bytes of memory."""
+    """What one hand-in may use: seconds of the processor, and bytes of memory."""
 
     seconds: float = 20.0
     memory: int = 1 << 30
@@ -38,59 +50,55 @@ class Worker:
         self.closed = False
 
     def __call__(self, payload: Data) -> Data:
-        """The result of a hand-in: {"result": ...} or {"reason": ...}."""
-        line = json.dumps(payload).encode() + b"\n"
-        fresh = self.process is None
-        said = self._ask(line)
-        if (
-            said is None and not fresh and not self.closed
-        ):  # what is wrong may be left over from another hand-in
-            said = self._ask(line)
-        if said is None:
-            return {
-                "reason": f"reading it took more than {_mebibytes(self.bounds.memory)} of memory, or failed"
-            }
-        return said
+        """The result of a hand-in: {"result": ...} or {"reason": ...}.
 
-    def _ask(self, line: bytes) -> Data | None:
-        """The worker's answer, None where it ended without one."""
+        Where there is none, a fresh worker tries its answers one by one: so one that is too
+        much spoils no other, nor does what another hand-in has left behind.
+        """
+        said = self._ask({**payload, "narrow": False})
+        if "result" in said or self.closed:
+            return said
+        self.end()
+        return self._ask({**payload, "narrow": True})
+
+    def _ask(self, payload: Data) -> Data:
+        """What the worker answers, or why it does not."""
         if self.process is None:
             self._start()
         process = self.process
         assert process is not None and process.stdin and process.stdout
+        wait = patience(self.bounds.seconds)
         late = threading.Event()
-        timer = threading.Timer(self.bounds.seconds, _end_late, (process, late))
+        timer = threading.Timer(wait, _end_late, (process, late))
         timer.daemon = True
         timer.start()
         try:
-            process.stdin.write(line)
+            process.stdin.write(json.dumps(payload).encode() + b"\n")
             process.stdin.flush()
             answer = process.stdout.readline()
         except OSError:
             answer = b""
         finally:
             timer.cancel()
-        if not answer.endswith(b"\n"):
-            self.end()
-            return (
-                {"reason": f"reading it took more than {self.bounds.seconds:g} s"} if late.is_set() else None
-            )
+        said: Data = json.loads(answer) if answer.endswith(b"\n") else {"stopped": "ended"}
         self.served += 1
-        said: Data = json.loads(answer)
-        if said.get("memory"):
-            self.end()
-            return None
-        if "error" in said:
-            return {"reason": f"the program failed on it ({said['error']})"}
-        if self.served >= SERVES:
-            self.end()
-        return said
+        if "stopped" not in said:
+            if self.served >= SERVES:
+                self.end()
+            return said
+        self.end()
+        if late.is_set():
+            return {"reason": f"reading it did not end within {wait:g} s"}
+        if said["stopped"] == "time" or process.returncode == -_OUT_OF_TIME:
+            return {"reason": f"reading it took more than {self.bounds.seconds:g} s"}
+        memory = f"{self.bounds.memory / (1 << 20):g} MiB"
+        return {"reason": f"reading it took more than {memory} of memory, or failed"}
 
     def _start(self) -> None:
-        module = [sys.executable, "-m", "dynsolve.grading.worker"]
         self.process = subprocess.Popen(  # noqa: S603  # this very Python, on this very package
-            [*module, str(self.bounds.seconds), str(self.bounds.memory)],
+            [sys.executable, "-m", MODULE, str(self.bounds.seconds), str(self.bounds.memory)],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+            start_new_session=True,  # so that its children end with it
         )  # fmt: skip
         self.served = 0
 
@@ -98,7 +106,7 @@ class Worker:
         """End the process; the next hand-in starts another."""
         process, self.process = self.process, None
         if process is not None:
-            process.kill()
+            _kill(process)
             process.communicate()
 
 
@@ -129,7 +137,7 @@ class LocalPool:
             worker.closed = True
             process = worker.process
             if process is not None:
-                process.kill()
+                _kill(process)
         self._threads.shutdown(wait=True)
         for worker in self._workers:
             worker.end()
@@ -137,8 +145,12 @@ class LocalPool:
 
 def _end_late(process: subprocess.Popen[bytes], late: threading.Event) -> None:
     late.set()
+    _kill(process)
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """End a worker and the children it has."""
+    if process.returncode is None and hasattr(os, "killpg"):
+        with suppress(OSError):
+            os.killpg(process.pid, signal.SIGKILL)
     process.kill()
-
-
-def _mebibytes(memory: int) -> str:
-    return f"{memory / (1 << 20):g} MiB"

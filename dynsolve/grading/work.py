@@ -21,6 +21,7 @@ from dynsolve.document import Document, Heading, Text
 from dynsolve.explain.style import style_of
 from dynsolve.grading.losses import losses
 from dynsolve.grading.marking import Marked, mark
+from dynsolve.grading.narrow import sound
 from dynsolve.grading.pages import MARKS_HERE, pack
 from dynsolve.grading.policy import from_data
 from dynsolve.problem.model import Problem
@@ -32,12 +33,26 @@ MOST_TEXT = 2000
 """So much is kept of how an answer was read."""
 
 
-def grade_one(payload: Data) -> Data:
-    """Judge and mark a hand-in; `payload` has problem, marks, policy, files, late and student."""
+def grade_one(payload: Data, narrow: float = 0.0) -> Data:
+    """Judge and mark a hand-in; `payload` has problem, marks, policy, files, late and student.
+
+    With `narrow` seconds every answer is tried by itself first, and what is too much is unreadable.
+    """
+    checker = checker_of(payload)
+    submission = _joined([_read(checker.problem, file) for file in payload["files"]])
+    if narrow:
+        submission = sound(submission, lambda one: _graded(checker, one, payload), narrow)
+    return _graded(checker, submission, payload)
+
+
+def checker_of(payload: Data) -> Checker:
+    """What judges the hand-ins to a payload's problem; it is made once a worker."""
     stated = payload["problem"]
-    checker = _checker(stated["file"], stated["text"], tuple(payload["marks"].items()))
+    return _checker(stated["file"], stated["text"], tuple(payload["marks"].items()))
+
+
+def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
     problem, policy = checker.problem, from_data(payload["policy"])
-    submission = _joined([_read(problem, file) for file in payload["files"]])
     judge = Judge(checker, submission)
     report = judge.report()
     lost = losses(judge, report)

@@ -214,12 +214,14 @@ def test_hostile_files_leave_the_good_ones_their_marks(tmp_path: Path, set_folde
 
 
 def test_a_bound_that_is_passed_is_unreadable_with_the_reason(tmp_path: Path, set_folder: Path) -> None:
-    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    long = "problem: in3140-rp\nanswers:\n" + "  P: (m1 + m2 + L1 + g + I1zz)^18*L2\n" * 100
+    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": long, "b/in3140-rp.yaml": RIGHT})
     out = tmp_path / "out"
-    ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(out), "--timeout", "0.1")
+    ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(out), "--timeout", "0.3")
     assert ran.code == 0, ran.err
-    assert [row["verdict"] for row in _csv(out / "answers.csv")] == ["unreadable"] * 2
-    assert "more than 0.1 s" in (out / "report.html").read_text()
+    verdicts = [(row["student"], row["verdict"]) for row in _csv(out / "answers.csv")]
+    assert verdicts == [("a", "unreadable")] * 2 + [("b", "correct")] * 2
+    assert "more than 0.3 s" in (out / "report.html").read_text()
 
 
 def test_a_second_run_on_one_folder_says_so_and_stops(tmp_path: Path) -> None:

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import base64
+import os
+import signal
+import threading
 from typing import Any
 
+import pytest
+
+from dynsolve.grading import pool as pool_module
 from dynsolve.grading.policy import Policy, to_data
 from dynsolve.grading.pool import Bounds, LocalPool, Worker
 from dynsolve.grading.work import grade_one
 from dynsolve.library import find
+from tests.support import ROOT
 
 MARKS = {"K": "4", "tau": "6"}
 
@@ -27,6 +34,13 @@ def payload(*texts: str, problem: str = "in3140-rp", **more: Any) -> dict[str, A
         "files": files,
         **more,
     }
+
+
+@pytest.fixture
+def heavy(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Workers on which some answers are too much."""
+    monkeypatch.setattr(pool_module, "MODULE", "tests.grading.heavy_worker")
+    monkeypatch.setenv("PYTHONPATH", str(ROOT), prepend=os.pathsep)
 
 
 def _answers(result: dict[str, Any]) -> dict[str, dict[str, Any]]:
@@ -77,13 +91,86 @@ def test_a_worker_is_replaced_when_it_goes_over_its_memory() -> None:
 
 
 def test_a_worker_that_takes_too_long_is_ended_and_the_next_hand_in_has_another() -> None:
-    worker = Worker(Bounds(0.05, 1 << 30))
+    worker = Worker(Bounds(0.01, 1 << 30))
     try:
-        assert worker(payload(RIGHT_K)) == {"reason": "reading it took more than 0.05 s"}
+        assert worker(payload(RIGHT_K)) == {"reason": "reading it took more than 0.01 s"}
         worker.bounds = Bounds(20, 1 << 30)
         assert "result" in worker(payload(RIGHT_K))
     finally:
         worker.end()
+
+
+def test_time_is_the_processors_so_that_no_verdict_depends_on_how_busy_the_machine_is() -> None:
+    worker = Worker(Bounds(1, 1 << 30))
+    try:
+        assert "result" in worker(payload(RIGHT_K))
+        process = worker.process
+        assert process is not None
+        os.kill(process.pid, signal.SIGSTOP)
+        threading.Timer(2, os.kill, (process.pid, signal.SIGCONT)).start()
+        assert "result" in worker(payload(RIGHT_K))
+        assert worker.process is process
+    finally:
+        worker.end()
+
+
+def test_what_hangs_without_working_is_ended_by_the_clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    worker = Worker(Bounds())
+    try:
+        assert "result" in worker(payload(RIGHT_K))
+        assert worker.process is not None
+        os.kill(worker.process.pid, signal.SIGSTOP)
+        waits = iter((1.0, 60.0))
+        monkeypatch.setattr(pool_module, "patience", lambda seconds: next(waits))
+        assert "result" in worker(payload(RIGHT_K))
+    finally:
+        worker.end()
+
+
+@pytest.mark.parametrize(
+    ("name", "fault"),
+    [
+        ("P1", "this takes more than 0.25 s, or more memory than there is, to work out"),
+        ("P2", "this takes more than 0.25 s, or more memory than there is, to work out"),
+        ("K1", "the program failed on it (ZeroDivisionError: no such thing)"),
+        ("K2", "this takes more than 0.25 s, or more memory than there is, to work out"),
+    ],
+)
+def test_one_answer_that_is_too_much_spoils_no_other(heavy: None, name: str, fault: str) -> None:
+    worker = Worker(Bounds(2, 1 << 30))
+    try:
+        found = _answers(worker(payload(f"answers:\n  {name}: 0\n{RIGHT_K[9:]}  g: [1, 0]\n"))["result"])
+    finally:
+        worker.end()
+    assert (found[name]["verdict"], found[name]["fault"]) == ("unreadable", fault)
+    assert (found["K"]["verdict"], found["K"]["marks"]) == ("correct", "4")
+    assert found["g"]["verdict"] == "wrong"
+
+
+def test_where_too_many_answers_are_too_much_all_of_the_hand_in_is(heavy: None) -> None:
+    worker = Worker(Bounds(0.5, 1 << 30))
+    text = "answers:\n" + "".join(f"  P1: {i}*m1\n" for i in range(20)) + RIGHT_K[9:]
+    try:
+        assert worker(payload(text)) == {"reason": "reading it took more than 0.5 s"}
+    finally:
+        worker.end()
+
+
+def test_a_worker_that_is_killed_takes_no_verdict_with_it() -> None:
+    worker = Worker(Bounds())
+    try:
+        first = worker(payload(RIGHT_TAU))
+        assert worker.process is not None
+        worker.process.kill()
+        worker.process.wait()
+        assert worker(payload(RIGHT_TAU)) == first
+    finally:
+        worker.end()
+
+
+def test_trying_answers_one_by_one_changes_nothing_where_none_is_too_much() -> None:
+    text = "answers:\n  K: m2*L2*theta1'^2 + m2*L2'^2\n  P: 0\n  L: 0\n  tau: [0, 0]\n  D: [[1, x(], [0]]\n"
+    assert grade_one(payload(text), narrow=20) == grade_one(payload(text))
 
 
 def test_a_pool_gives_what_this_process_gives() -> None:
