@@ -59,7 +59,7 @@ def _blocks(report: Report, title: str, view: View) -> Iterator[Block]:
     yield from _readings(report, view)
     if report.not_recognized:
         yield Heading("Not recognized")
-        yield List(tuple((f"line {n.place.line}: {_short(n.text)}",) for n in report.not_recognized))
+        yield List(tuple((f"{n.place}: {_short(n.text)}",) for n in report.not_recognized))
 
 
 def _opening(report: Report, view: View) -> Iterator[Block]:
@@ -89,7 +89,7 @@ def _named(answer: Judged) -> str:
 
 
 def _where(answer: Judged) -> str:
-    return f" (line {answer.place.line})" if answer.place and answer.place.line else ""
+    return f" ({answer.place})" if answer.place and answer.place.line else ""
 
 
 def _wrong(answer: Judged, report: Report, view: View) -> Iterator[Block]:
@@ -169,7 +169,7 @@ def _remarks(answer: Judged, view: View) -> Iterator[str]:
     if len(answer.occurrences) > 1:
         yield "given {} times: {}".format(
             len(answer.occurrences),
-            ", ".join(f"{o.label or f'line {o.place.line}'} {o.verdict}" for o in answer.occurrences),
+            ", ".join(f"{o.label or o.place} {o.verdict}" for o in answer.occurrences),
         )
 
 

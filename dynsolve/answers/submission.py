@@ -23,12 +23,19 @@ REFERENCE_MARK = "@"
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where something stands in its file: line and column from 1; `excerpt` is that line."""
+    """Where something stands in its file: line and column from 1; `excerpt` is that line.
+
+    `file` is its name where several were handed in together.
+    """
 
     line: int
     column: int
     length: int = 1
     excerpt: str = ""
+    file: str = ""
+
+    def __str__(self) -> str:
+        return f"line {self.line} of {self.file}" if self.file else f"line {self.line}"
 
 
 @dataclass(frozen=True, slots=True)

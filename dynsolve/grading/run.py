@@ -31,6 +31,9 @@ Key = tuple[str, str]
 AHEAD = 4
 """So many hand-ins a worker are under way or wait for one: memory does not grow with their number."""
 
+MOST_LOST = 3
+"""So many equations that were not recognized are named where nothing was."""
+
 Advance = Callable[[int, int], None]
 
 
@@ -182,11 +185,10 @@ def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
 
 
 def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data) -> None:
-    row = (
-        said["result"]
-        if "result" in said
-        else _unread(problems, hand_in.student, hand_in.problem, said["reason"])
-    )
+    row = said.get("result", {})
+    reason = said.get("reason", "") or _empty(row)
+    if reason:
+        row = _unread(problems, hand_in.student, hand_in.problem, reason)
     found = causes(problems, hand_in)
     record.write(
         (hand_in.student, hand_in.problem),
@@ -197,10 +199,18 @@ def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data) ->
             "files": [file.name for file in hand_in.files],
             "left": list(hand_in.left),
             "late": hand_in.late,
-            "reason": said.get("reason", ""),
+            "reason": reason,
             "notes": [*row.get("faults", ()), *row.get("not_recognized", ())],
         },
     )
+
+
+def _empty(row: Data) -> str:
+    """Why a hand-in is for a human to look at in which no answer was found; nothing where there is one."""
+    if any(answer["verdict"] != "missing" for answer in row["answers"]):
+        return ""
+    lost = [f"not recognized: {text}" for text in row["not_recognized"][:MOST_LOST]]
+    return "; ".join([*row["faults"], *lost]) or "no answer was found in it"
 
 
 def _unread(problems: ProblemSet, student: str, stem: str, reason: str) -> Data:

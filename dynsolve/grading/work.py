@@ -7,6 +7,7 @@ a worker on this machine or on a cluster alike; nothing in it depends on time.
 from __future__ import annotations
 
 import base64
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
@@ -17,7 +18,7 @@ from dynsolve.answers.feedback import View, feedback
 from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.submission import Submission, read_submission
 from dynsolve.answers.verdict import Judged, Report, Verdict
-from dynsolve.document import Document, Heading, Text
+from dynsolve.document import Document, Heading, Note, Text
 from dynsolve.explain.style import style_of
 from dynsolve.grading.losses import losses
 from dynsolve.grading.marking import Marked, mark
@@ -63,7 +64,7 @@ def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
             _answer(answer, marks, lost.get(answer.name, ""), _form(judge, answer))
             for answer, marks in zip(report.answers, marked, strict=True)
         ],
-        "not_recognized": [n.text[:200] for n in report.not_recognized][:50],
+        "not_recognized": [f"{n.place}: {n.text[:200]}" for n in report.not_recognized][:50],
         "faults": [fault.message for fault in report.faults],
         "html": html,
         "markdown": markdown,
@@ -81,18 +82,23 @@ def _read(problem: Problem, file: Data) -> Submission:
 
 
 def _joined(read: list[Submission]) -> Submission:
-    """Several files of one student as one hand-in, in their order."""
+    """Several files of one student as one hand-in, in their order; each place then says its file."""
+    if len(read) == 1:
+        return read[0]
     answers, chains = [], 0
     for one in read:
-        answers += [replace(a, occurrence=(a.occurrence[0] + chains, a.occurrence[1])) for a in one.answers]
+        for answer in one.answers:
+            chain, member = answer.occurrence
+            place = replace(answer.place, file=one.file)
+            answers.append(replace(answer, place=place, occurrence=(chain + chains, member)))
         chains += 1 + max((a.occurrence[0] for a in one.answers), default=0)
     return Submission(
         read[0].problem,
         read[0].student,
         ", ".join(one.file for one in read),
         tuple(answers),
-        tuple(n for one in read for n in one.not_recognized),
-        tuple(f for one in read for f in one.faults),
+        tuple(replace(n, place=replace(n.place, file=o.file)) for o in read for n in o.not_recognized),
+        tuple(replace(f, message=f"{o.file}: {f.message}") for o in read for f in o.faults),
     )
 
 
@@ -130,11 +136,17 @@ def _answer(answer: Judged, marked: Marked, loss: str, form: str) -> Data:
         "diagnosis": list(codes),
         "message": next((d.message for d in answer.diagnosis if d.message), "")[:MOST_TEXT],
         "read_as": answer.read_as[:MOST_TEXT],
-        "note": "; ".join(answer.notes)[:MOST_TEXT],
+        "note": "; ".join(_notes(answer))[:MOST_TEXT],
         "fault": answer.fault[:MOST_TEXT],
         "loss": loss,
         "form": form,
     }
+
+
+def _notes(answer: Judged) -> Iterator[str]:
+    if answer.place and answer.place.file:
+        yield str(answer.place)
+    yield from answer.notes
 
 
 def _form(judge: Judge, answer: Judged) -> str:
@@ -160,6 +172,7 @@ def _page(report: Report, problem: Problem, student: str, hints: int) -> tuple[s
     document = feedback(unmarked, f"{problem.title}: {student}", View(hints, readings=True))
     blocks = document.blocks
     title = 1 if blocks and isinstance(blocks[0], Heading) else 0
-    document = Document((*blocks[:title], Text((MARKS_HERE,)), *blocks[title:]))
+    faults = (Note((fault.message,)) for fault in report.faults)
+    document = Document((*blocks[:title], Text((MARKS_HERE,)), *faults, *blocks[title:]))
     style = style_of(problem.robot)
     return pack(render_html(document, style)), pack(render_markdown(document, style))

@@ -224,6 +224,32 @@ def test_a_bound_that_is_passed_is_unreadable_with_the_reason(tmp_path: Path, se
     assert "more than 0.3 s" in (out / "report.html").read_text()
 
 
+def test_a_hand_in_without_answers_is_unreadable_and_says_why(tmp_path: Path, set_folder: Path) -> None:
+    hand_ins = _write(
+        tmp_path / "in", {
+            "a/in3140-rp.ipynb": "{",
+            "b/in3140-rp.md": "I could not do it.\n",
+            "c/in3140-rp.md": "$$Q_5 = m_1$$\n",
+            "d/in3140-rp.yaml": "",
+            "good/in3140-rp.yaml": RIGHT,
+        }
+    )  # fmt: skip
+    out = tmp_path / "out"
+    ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(out))
+    assert ran.code == 0, ran.err
+    verdicts = {row["student"]: row["verdict"] for row in _csv(out / "answers.csv") if row["answer"] == "K"}
+    assert verdicts == {**dict.fromkeys("abcd", "unreadable"), "good": "correct"}
+    report = (out / "report.html").read_text()
+    for reason in (
+        "this is no notebook: its JSON cannot be read",
+        "no answer was found in it",
+        "not recognized: line 1: Q_5 = m_1",
+        "there are no answers in this file",
+    ):
+        assert reason in report
+    assert "this is no notebook" in (out / "feedback" / "a" / "in3140-rp.html").read_text()
+
+
 def test_a_second_run_on_one_folder_says_so_and_stops(tmp_path: Path) -> None:
     from dynsolve.grading.record import Record
 

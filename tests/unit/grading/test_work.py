@@ -60,6 +60,31 @@ def test_several_files_are_one_hand_in() -> None:
     assert (found["K"]["marks"], found["tau"]["verdict"]) == ("4", "missing")
 
 
+def test_of_several_files_a_line_says_which() -> None:
+    from dynsolve.grading.pages import unpack
+
+    texts = ("answers:\n  K2: m1\n  Kenetic: 0\n", "symbols: {z: z}\nanswers:\n  K: 0\n  K2: m2\n  D: (\n")
+    result = grade_one(payload(*texts))
+    page = unpack(base64.b64decode(result["markdown"]))
+    assert "It first went wrong at K2 (line 4 of part1.yaml)." in page
+    assert "given 2 times: line 2 of part0.yaml" in page
+    assert "line 3 of part0.yaml: Kenetic" in page
+    assert "(line 5 of part1.yaml)" in page
+    assert [(a["name"], a["line"], a["note"]) for a in result["answers"] if a["line"]] == [
+        ("K2", 4, "line 4 of part1.yaml"),
+        ("K", 3, "line 3 of part1.yaml"),
+        ("D", 5, "line 5 of part1.yaml"),
+    ]
+    assert result["not_recognized"][0].startswith("line 3 of part0.yaml: ")
+    assert result["faults"] and result["faults"][0].startswith("part1.yaml: z: ")
+    assert result["faults"][0] in page
+
+
+def test_of_one_file_a_line_is_enough() -> None:
+    result = grade_one(payload("answers:\n  K2: m1\n"))
+    assert next(a["note"] for a in result["answers"] if a["name"] == "K2") == ""
+
+
 def test_following_from_nothing_earns_half_and_waits_for_a_human() -> None:
     found = _answers(grade_one(payload("answers:\n  K: 0\n  P: 0\n  L: 0\n  tau: [0, 0]\n")))
     tau = found["tau"]
