@@ -21,7 +21,7 @@ _ENVIRONMENT = (
 )
 _OPENING = re.compile(
     rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|(?P<double>\\\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}(?:\{{[0-9]{{1,2}}\}})?"
-    r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$]))",
+    r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$])|(?<!\\)\\\()",
     re.MULTILINE,
 )
 _LABEL = re.compile(r"[ \t]*(?:\n[ \t]*){0,2}\(([0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?)\)[ \t]*(?=\n|$)")
@@ -145,7 +145,7 @@ def _closing(opening: re.Match[str]) -> str:
         return "\\\\]"
     if opening["fence"]:
         return "\n" + opening["fence"].strip()[:3]
-    return "$"
+    return "\\)" if opening["inline"] == "\\(" else "$"
 
 
 def _display(text: str, source: Source, start: int, end: int, label: str, plain: bool = False) -> Display:

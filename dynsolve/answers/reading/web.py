@@ -14,6 +14,9 @@ _BLOCKS = frozenset(
     "p div br li tr h1 h2 h3 h4 h5 h6 pre table ul ol section article blockquote hr td th".split()
 )
 _VOID = frozenset("area base br col embed hr img input link meta source track wbr".split())
+_PICTURES = {"equation_image": ("data-equation-content", "alt"), "texrender": ("alt",)}
+"""The classes of pictures that Canvas and Moodle make of formulas, and where their LaTeX stands."""
+
 _LONGEST_TAG_STACK = 5_000
 _HIDDEN = re.compile(r"[^\n]")
 
@@ -73,6 +76,16 @@ class _Page(HTMLParser):
             self._add("\n")
         if kind == "display":
             self._add("\n$$")
+        if tag == "img":
+            self._picture(classes, given)
+
+    def _picture(self, classes: list[str], given: dict[str, str]) -> None:
+        """A formula that an editor has made a picture of: an answer where it stands alone on its line."""
+        for place in (place for name in classes for place in _PICTURES.get(name, ())):
+            latex = given.get(place, "").removeprefix("LaTeX:").strip()
+            if latex:
+                self._add(f"\\({latex}\\)")
+                return
 
     def handle_endtag(self, tag: str) -> None:
         while self.open and any(name == tag for name, _ in self.open[-20:]):

@@ -37,6 +37,8 @@ DISPLAYS = [
     ("$$\nK = m_1\n$$", [("K", "")]),
     (r"\[ K = m_1 \]", [("K", "")]),
     (r"\\[ K = m_1 \\]", [("K", "")]),
+    (r"\(K = m_1\)", [("K", "")]),
+    (r"so \(K = m_1\) holds", []),
     (r"\begin{equation} K = m_1 \end{equation}", [("K", "")]),
     (r"\begin{equation*} K = m_1 \end{equation*}", [("K", "")]),
     (r"\begin{align} K &= m_1 \\ P &= m_2 \end{align}", [("K", ""), ("P", "")]),
@@ -226,6 +228,12 @@ PAGES = [
     "<script>var x = '$$P = 3$$';</script><p>$$K = m_1$$</p>",
     "<p>$$K = m_1 &amp; $$</p>".replace(" &amp;", ""),
     "<!-- $$P = 3$$ --><p>$$K = m_1$$</p>",
+    r"<p>so \(P = 3\) at rest</p><p><span class='nolink'>\(K = m_1\)</span></p>",
+    "<p><img class='equation_image' title='K = m_1' src='/equation_images/K' alt='LaTeX: K = m_1' "
+    "data-equation-content='K = m_1'></p>",
+    "<p><img class='equation_image' src='/equation_images/K' alt='LaTeX: K = m_1'></p>",
+    "<p><img class='texrender' title='K = m_1' alt='K = m_1' src='/filter/tex/pix.php/1.gif'></p>",
+    "<p>so <img class='equation_image' data-equation-content='P = 3'> holds, $$K = m_1$$ <img src='x'></p>",
 ]
 
 
