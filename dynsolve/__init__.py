@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from dynsolve.answers.public import check as check
+    from dynsolve.grading.public import grade as grade
+    from dynsolve.grading.public import override as override
     from dynsolve.problem import Problem as Problem
     from dynsolve.solution import Solution as Solution
     from dynsolve.solution import load as load
@@ -19,10 +21,12 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-__all__ = ["Problem", "Solution", "check", "load", "solve", "__version__"]
+__all__ = ["Problem", "Solution", "check", "grade", "load", "override", "solve", "__version__"]
 
 _PLACES = {
     "check": "dynsolve.answers.public",
+    "grade": "dynsolve.grading.public",
+    "override": "dynsolve.grading.public",
     "Problem": "dynsolve.problem",
     "Solution": "dynsolve.solution",
     "load": "dynsolve.solution",

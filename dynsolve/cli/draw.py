@@ -9,9 +9,9 @@ from typing import Annotated
 import typer
 
 from dynsolve.cli.common import Quiet, read, say
-from dynsolve.cli.files import check_place, write_whole
 from dynsolve.draw import SUFFIXES, PictureFormat
 from dynsolve.errors import UsageError
+from dynsolve.files import check_place, write_whole
 
 
 def draw(

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from dynsolve.cli.common import Quiet
-from dynsolve.errors import ExitCode, UsageError
+from dynsolve.errors import ExitCode
 
 if TYPE_CHECKING:
-    from dynsolve.grading.run import Done, Pool
+    from dynsolve.grading.public import Grades
 
 EVERY = 10.0
 """Seconds between two lines of progress where there is no terminal."""
@@ -29,48 +29,65 @@ class Platform(StrEnum):
     GRADESCOPE = "gradescope"
 
 
+ProblemsArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="PROBLEMS",
+        help="A problem file, the stem of a bundled one, or a folder of problem files with a set.yaml.",
+        show_default=False,
+    ),
+]
+SubmissionsArgument = Annotated[
+    Path,
+    typer.Argument(
+        metavar="SUBMISSIONS",
+        help="The download of Canvas, Moodle or Gradescope, a folder or its zip; "
+        "or a folder with a file or folder a student.",
+        show_default=False,
+    ),
+]
+FolderOption = Annotated[
+    Path,
+    typer.Option(
+        "-o", "--output", metavar="OUT", help="The folder that the results go to.", show_default=False
+    ),
+]
+JobsOption = Annotated[
+    int, typer.Option("--jobs", "-j", min=0, help="Processes on this machine; 0 for one a core.")
+]
+ClusterOption = Annotated[
+    str, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler, tcp://host:8786.")
+]
+PlatformOption = Annotated[
+    Platform | None,
+    typer.Option("--lms", help="Write the file that this platform imports, too; kept for later runs."),
+]
+RosterOption = Annotated[
+    Path | None,
+    typer.Option("--roster", metavar="CSV", help="The gradebook or worksheet that the platform exports."),
+]
+DiffOption = Annotated[
+    bool, typer.Option("--diff", help="List whose marks are not those of the last run, and why.")
+]
+TimeoutOption = Annotated[
+    float, typer.Option("--timeout", min=0.1, help="Seconds of processor time that one hand-in may take.")
+]
+MemoryOption = Annotated[
+    int, typer.Option("--memory", min=64, help="MiB of memory that one hand-in may take.")
+]
+
+
 def grade(
-    problems: Annotated[
-        str,
-        typer.Argument(
-            metavar="PROBLEMS",
-            help="A problem file, the stem of a bundled one, or a folder of problem files with a set.yaml.",
-        ),
-    ],
-    submissions: Annotated[
-        Path,
-        typer.Argument(
-            metavar="SUBMISSIONS",
-            help="The download of Canvas, Moodle or Gradescope, a folder or its zip; "
-            "or a folder with a file or folder a student.",
-        ),
-    ],
-    output: Annotated[
-        Path,
-        typer.Option("-o", "--output", metavar="OUT", help="The folder that the results go to."),
-    ],
-    jobs: Annotated[
-        int, typer.Option("--jobs", "-j", min=0, help="Processes on this machine; 0 for one a core.")
-    ] = 0,
-    cluster: Annotated[
-        str, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler, tcp://host:8786.")
-    ] = "",
-    lms: Annotated[
-        Platform | None, typer.Option("--lms", help="Write the file that this platform imports, too.")
-    ] = None,
-    roster: Annotated[
-        Path | None,
-        typer.Option("--roster", metavar="CSV", help="The gradebook or worksheet that the platform exports."),
-    ] = None,
-    diff: Annotated[
-        bool, typer.Option("--diff", help="List whose marks are not those of the last run, and why.")
-    ] = False,
-    timeout: Annotated[
-        float, typer.Option("--timeout", min=0.1, help="Seconds of processor time that one hand-in may take.")
-    ] = 20.0,
-    memory: Annotated[
-        int, typer.Option("--memory", min=64, help="MiB of memory that one hand-in may take.")
-    ] = 1024,
+    problems: ProblemsArgument,
+    submissions: SubmissionsArgument,
+    output: FolderOption,
+    jobs: JobsOption = 0,
+    cluster: ClusterOption = "",
+    lms: PlatformOption = None,
+    roster: RosterOption = None,
+    diff: DiffOption = False,
+    timeout: TimeoutOption = 20.0,
+    memory: MemoryOption = 1024,
     quiet: Quiet = False,
 ) -> int:
     """Grade everything that was handed in: marks, feedback for each student, a report for the teacher.
@@ -78,96 +95,23 @@ def grade(
     Run again, after a stop or a change, the same command goes on: what is in OUT already
     and has not changed is not computed again.
     """
-    import os
+    from dynsolve.grading.public import grade as grade_all
 
-    from dynsolve.grading.pool import Bounds, LocalPool
-
-    bounds = Bounds(timeout, memory << 20)
-
-    def pool() -> Pool:
-        if cluster:
-            from dynsolve.grading.cluster import ClusterPool
-
-            return ClusterPool(cluster, bounds)
-        return LocalPool(jobs or os.cpu_count() or 1, bounds)
-
-    if lms in (Platform.CANVAS, Platform.MOODLE) and roster is None:
-        raise UsageError(f"--lms {lms} needs --roster, the CSV that {str(lms).capitalize()} exports")
-    return _run(problems, submissions, output, pool, lms, roster, diff, quiet)
-
-
-def _run(
-    name: str,
-    submissions: Path,
-    folder: Path,
-    make_pool: Callable[[], Pool],
-    lms: Platform | None,
-    roster: Path | None,
-    diff: bool,
-    quiet: bool,
-) -> int:
-    from dynsolve.grading.changes import changes
-    from dynsolve.grading.exports import export, read_roster
-    from dynsolve.grading.hand_ins import take_in
-    from dynsolve.grading.outputs import write_outputs
-    from dynsolve.grading.problem_set import load_set
-    from dynsolve.grading.run import grade_all
-    from dynsolve.grading.stored import store_set
-    from dynsolve.grading.uploads import Uploads
-
-    problems = load_set(name)
-    if roster is not None and lms is not None:
-        read_roster(roster, lms)
-    uploads = Uploads(submissions)
-    with opened(folder) as record:
-        pool = make_pool()
-        try:
-            intake = take_in(problems, uploads)
-            store_set(record, problems)
-            with _progress(quiet) as advance:
-                done = grade_all(problems, uploads, intake, record, pool, advance)
-        except KeyboardInterrupt:
-            typer.echo(f"stopped: what is done is kept in {folder}; the same command goes on", err=True)
-            raise
-        finally:
-            pool.close()
-            uploads.close()
-        write_outputs(folder, problems, record)
-        warnings = export(lms, folder, problems, record, roster) if lms is not None else ()
-        if diff:
-            for line in changes(record):
-                typer.echo(line)
-        record.finish()
-        if not quiet:
-            for refused in uploads.refused:
-                typer.echo(f"refused: {refused.name}: {refused.reason}", err=True)
-            for warning in warnings:
-                typer.echo(f"warning: {warning}", err=True)
-            _say(folder, done, len(intake.waiting))
-    return ExitCode.DONE
-
-
-@contextmanager
-def opened(folder: Path, new: bool = True) -> Iterator[Record]:
-    """The record of a folder; a full disk and the like become a message that says how to go on."""
-    import sqlite3
-
-    from dynsolve.grading.record import FILE, Record
-
-    if not new and not (folder / FILE).is_file():
-        raise UsageError(f"there is no {FILE} in {folder}: `dynsolve grade` makes it")
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        record = Record(folder)
-        try:
-            yield record
-        finally:
-            record.close()
-    except (sqlite3.Error, OSError) as error:
-        said = getattr(error, "strerror", None) or str(error)
-        file = getattr(error, "filename", None)
-        what = f"writing to {folder} failed: {said.lower()}" + (f" ({file})" if file else "")
-        raise UsageError(f"{what}; what is done is kept, and the same command goes on") from error
+        with _progress(quiet) as advance:
+            grades = grade_all(
+                problems, submissions, output,
+                lms=str(lms) if lms else None, roster=roster, diff=diff,
+                jobs=jobs, cluster=cluster, timeout=timeout, memory=memory, progress=advance,
+            )  # fmt: skip
+    except KeyboardInterrupt:
+        typer.echo(f"stopped: what is done is kept in {output}; the same command goes on", err=True)
+        raise
+    for line in grades.changes:
+        typer.echo(line)
+    if not quiet:
+        _say(grades)
+    return ExitCode.DONE
 
 
 @contextmanager
@@ -194,13 +138,13 @@ def _progress(quiet: bool) -> Iterator[Callable[[int, int], None] | None]:
     yield line
 
 
-def _say(folder: Path, done: Done, waiting: int) -> None:
-    same = done.hand_ins - done.computed
-    parts = [f"{done.computed} hand-in{'s' if done.computed != 1 else ''} graded"]
+def _say(grades: Grades) -> None:
+    for refused in grades.refused:
+        typer.echo(f"refused: {refused.name}: {refused.reason}", err=True)
+    for warning in grades.warnings:
+        typer.echo(f"warning: {warning}", err=True)
+    done, same, waiting = grades.computed, grades.hand_ins - grades.computed, len(grades.waiting)
+    parts = [f"{done} hand-in{'s' if done != 1 else ''} graded"]
     parts += [f"{same} as before"] if same else []
-    parts += [f"{waiting} files wait for a human"] if waiting else []
-    typer.echo(f"{', '.join(parts)}: see {folder / 'report.html'}", err=True)
-
-
-if TYPE_CHECKING:
-    from dynsolve.grading.record import Record
+    parts += [f"{waiting} file{' waits' if waiting == 1 else 's wait'} for a human"] if waiting else []
+    typer.echo(f"{', '.join(parts)}: see {grades.folder / 'report.html'}", err=True)

@@ -15,8 +15,8 @@ from typing import Annotated
 import typer
 
 from dynsolve.cli.common import STDIN
-from dynsolve.cli.files import check_place, write_whole
 from dynsolve.errors import UsageError
+from dynsolve.files import check_place, write_whole
 from dynsolve.render.formats import SUFFIXES, Format, suffix_of
 
 JOINED = (Format.TEXT, Format.JSON)

@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from fractions import Fraction
 from hashlib import sha256
 from html import escape
+from itertools import groupby
 from pathlib import Path
 
+from dynsolve.files import temporary_of, write_changed
 from dynsolve.grading.ledger import most, standings
 from dynsolve.grading.pages import MARKS_HERE, unpack
 from dynsolve.grading.policy import shown
@@ -29,22 +31,9 @@ def write_outputs(folder: Path, problems: ProblemSet, record: Record) -> None:
     write(folder / "report.html", teachers_page(problems, record))
 
 
-def write(path: Path, text: str) -> None:
-    """A file whole or not at all, and only where something changes."""
-    write_bytes(path, text.encode("utf-8", errors="replace"))
-
-
-def write_bytes(path: Path, data: bytes) -> None:
-    """Bytes whole or not at all, and only where something changes."""
-    try:
-        if path.read_bytes() == data:
-            return
-    except OSError:
-        pass  # there is none yet, or none that can be read: it is written anew
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.new")
-    temporary.write_bytes(data)
-    temporary.replace(path)
+def write(path: Path, text: str, *, durable: bool = True) -> None:
+    """A text whole or not at all, and only where something changes."""
+    write_changed(path, text.encode("utf-8", errors="replace"), durable=durable)
 
 
 def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
@@ -83,24 +72,38 @@ def folder_name(student: str) -> str:
 
 
 def _feedback(folder: Path, record: Record) -> None:
-    expected: set[Path] = set()
+    written: set[Path] = set()
+    answers = groupby(record.answers(), key=lambda a: (a.student, a.problem))
+    waiting = next(answers, None)
     for row in record.rows():
+        own: list[Graded] = []
+        if waiting is not None and waiting[0] == (row.student, row.problem):
+            own = list(waiting[1])
+            waiting = next(answers, None)
         if not row.html:
             continue
-        answers = [a for a in record.answers(row.student) if a.problem == row.problem]
         place = folder / folder_name(row.student)
         for ending, packed, marks in (
-            (".html", row.html, _marks_html(row, answers)),
-            (".md", row.markdown, _marks_markdown(row, answers)),
+            (".html", row.html, _marks_html(row, own)),
+            (".md", row.markdown, _marks_markdown(row, own)),
         ):
             path = place / f"{row.problem}{ending}"
-            expected.add(path)
+            written.add(path)
             page = unpack(packed)
             here = rf"<p[^>]*>{MARKS_HERE}</p>" if ending == ".html" else rf"(?m)^{MARKS_HERE}$"
-            write(path, re.sub(here, marks.replace("\\", r"\\"), page, count=1))
-    for path in sorted(folder.glob("*/*")) if folder.is_dir() else ():
-        if path not in expected and path.suffix in (".html", ".md"):
+            write(path, re.sub(here, marks.replace("\\", r"\\"), page, count=1), durable=False)
+    remove_others(folder, written, (".html", ".md"))
+
+
+def remove_others(folder: Path, kept: set[Path], endings: tuple[str, ...]) -> None:
+    """Remove what earlier runs wrote for students who are there no more, and what a killed one left."""
+    own = (*endings, temporary_of(folder).suffix)
+    for path in sorted(folder.glob("*/*")):
+        if path not in kept and path.suffix in own:
             path.unlink()
+    for place in sorted(folder.glob("*/")):
+        if place.is_dir() and not any(place.iterdir()):
+            place.rmdir()
 
 
 def _total(answers: list[Graded]) -> str:

@@ -31,10 +31,10 @@ def _is_number(cell: str) -> bool:
     return digits.isascii() and digits.isdigit()
 
 
-def table(rows: Iterable[Sequence[str]]) -> str:
+def table(rows: Iterable[Sequence[str]], separator: str = ",") -> str:
     """Rows as CSV, every cell safe."""
     out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
+    writer = csv.writer(out, lineterminator="\n", delimiter=separator)
     writer.writerows([safe(cell) for cell in row] for row in rows)
     return out.getvalue()
 

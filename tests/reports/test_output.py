@@ -7,8 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.cli import files
-from dynsolve.errors import UsageError
 from tests.cli.running import dynsolve
 
 BEGINNINGS = {
@@ -89,20 +87,6 @@ def test_several_problems_go_into_a_folder(tmp_path: Path) -> None:
     assert titles == ["RP manipulator", "Planar elbow manipulator"]
 
 
-def test_a_failure_half_way_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "sol.tex"
-    path.write_text("old")
-
-    def full(_: int) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(files.os, "fsync", full)
-    with pytest.raises(UsageError, match="no space left on device"):
-        files.write_whole(path, b"new")
-    assert path.read_text() == "old"
-    assert names_in(tmp_path) == ["sol.tex"]
-
-
 def test_a_faulty_problem_leaves_the_old_file(tmp_path: Path) -> None:
     path = tmp_path / "sol.pdf"
     path.write_text("old")
@@ -115,17 +99,6 @@ def test_what_cannot_be_written_is_refused(tmp_path: Path) -> None:
     done = dynsolve("solve", "in3140-rp", "--html", "-o", "/proc/sol.html")
     assert done.code == 2
     assert "cannot be written" in done.err
-
-
-def test_links_and_permissions_are_kept(tmp_path: Path) -> None:
-    real = tmp_path / "real.md"
-    real.write_text("old")
-    real.chmod(0o640)
-    (tmp_path / "link.md").symlink_to(real)
-    files.write_whole(tmp_path / "link.md", b"new")
-    assert (tmp_path / "link.md").is_symlink()
-    assert real.read_text() == "new"
-    assert real.stat().st_mode & 0o777 == 0o640
 
 
 def test_star_marks_joint_variables_everywhere() -> None:

@@ -1,0 +1,69 @@
+"""The files that the learning platforms import, made from those that they hand out.
+
+To add a platform, write its function in a file of its own and put it into `PLATFORMS`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from dynsolve.errors import UsageError
+from dynsolve.grading.exports import canvas, gradescope, moodle
+from dynsolve.grading.exports.roster import Roster, from_text, read_roster, to_text
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Record
+
+
+@dataclass(frozen=True, slots=True)
+class Platform:
+    """How a platform's files are written; `check` tells, before anything is graded, a faulty roster.
+
+    A platform without a check needs no roster.
+    """
+
+    write: Callable[[Path, ProblemSet, Record, Roster], Iterator[str]]
+    check: Callable[[ProblemSet, Roster], object] | None = None
+
+
+PLATFORMS = {
+    "canvas": Platform(canvas.write, canvas.check),
+    "moodle": Platform(moodle.write, moodle.check),
+    "gradescope": Platform(gradescope.write),
+}
+
+_PLATFORM, _ROSTER = "platform", "roster"
+
+
+def chosen_roster(problems: ProblemSet, platform: str, path: Path | None) -> Roster:
+    """The roster of a platform, an empty one where it needs none.
+
+    Raises UsageError where the platform is not known or its roster is needed, InputError
+    where that is not what the platform exports.
+    """
+    known = PLATFORMS.get(platform)
+    if known is None:
+        raise UsageError(f"`{platform}` is no platform that is known: {', '.join(PLATFORMS)}")
+    if known.check is None:
+        return Roster("", ())
+    if path is None:
+        raise UsageError(f"--lms {platform} needs --roster, the CSV that {platform.capitalize()} exports")
+    roster = read_roster(path)
+    known.check(problems, roster)
+    return roster
+
+
+def keep_platform(record: Record, platform: str, roster: Roster) -> None:
+    """Keep in the record for which platform files are written: an override, too, writes them anew."""
+    record.set_run(_PLATFORM, platform)
+    record.set_run(_ROSTER, to_text(roster))
+
+
+def export(folder: Path, problems: ProblemSet, record: Record) -> tuple[str, ...]:
+    """Write the files of the platform that is kept, if one is; gives what deserves a look."""
+    platform = record.run(_PLATFORM)
+    if not platform:
+        return ()
+    roster = from_text(record.run(_ROSTER))
+    return tuple(PLATFORMS[platform].write(folder, problems, record, roster))

@@ -1,0 +1,111 @@
+"""Canvas: the gradebook with one assignment, as Grades > Import takes it.
+
+Canvas finds students by `ID` and an assignment by the number in parentheses after its
+title.  Only the columns about the student and this one assignment are written, so that
+an import changes nothing else; who handed in nothing, and who is excused, keeps what
+stands there.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+
+from dynsolve.grading.exports.roster import Roster, Row, number, unmatched
+from dynsolve.grading.ledger import Standing, most, standings
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Record
+from dynsolve.grading.tables import decimal
+
+_ABOUT_STUDENTS = (
+    "Student", "LastName", "FirstName", "ID", "SIS User ID", "SIS Login ID", "Integration ID",
+    "Root Account", "Section",
+)  # fmt: skip
+_NAMES = ("SIS User ID", "SIS Login ID", "Integration ID")
+_POINTS = "Points Possible"
+
+
+def check(problems: ProblemSet, roster: Roster) -> int | None:
+    """The assignment's column, None where Canvas will make one; raises InputError for no gradebook."""
+    header = roster.header
+    if "ID" not in header or not {"Student", "LastName"} & set(header[:1]):
+        raise roster.fault("this is no gradebook of Canvas", "in Canvas: Grades > Export")
+    return _assignment(roster, problems.title)
+
+
+def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) -> Iterator[str]:
+    """Write `canvas.csv`."""
+    header, column = roster.header, check(problems, roster)
+    kept = [place for place, name in enumerate(header) if name in _ABOUT_STUDENTS]
+    students = _Students(header, standings(record))
+    of = sum(most(problems).values(), Fraction(0))
+    title = header[column] if column is not None else problems.title
+    out: list[Row] = [(*(header[place] for place in kept), title)]
+    seen: set[str] = set()
+    without: list[str] = []
+    points = ""
+    for row in roster.rows[1:]:
+        row = row + ("",) * (len(header) - len(row))
+        stands = row[column].strip() if column is not None else ""
+        if row[0].strip() == _POINTS:
+            points = stands
+            stands = stands or roster.marks(of)
+        elif not _is_remark(row):
+            found = students.of(row)
+            if found is None:
+                without.append(row[0])
+            else:
+                seen.add(found.student)
+                stands = stands if stands.upper() == "EX" else roster.marks(found.total)
+        out.append((*(row[place] for place in kept), stands))
+    if not any(row[0].strip() == _POINTS for row in out):
+        out.insert(1, (f"    {_POINTS}", *("" for _ in kept[1:]), roster.marks(of)))
+    roster.write(folder / "canvas.csv", out)
+    if column is None:
+        yield f"{roster.file} has no assignment `{problems.title}`: Canvas will make a new one"
+    yield from _of_points(points, of)
+    yield from unmatched(students.all, seen, without, roster)
+
+
+def _of_points(points: str, of: Fraction) -> Iterator[str]:
+    if "read only" in points:
+        yield "the assignment is read only in this gradebook: Canvas will not import its marks"
+    elif points and number(points) != of:
+        yield f"the assignment has {points} points in Canvas, the problem set {decimal(of)}"
+
+
+def _assignment(roster: Roster, title: str) -> int | None:
+    """The assignment's column: of exactly this name, or of this title before the number in parentheses."""
+    named = [place for place, name in enumerate(roster.header) if name == title]
+    titled = [
+        place for place, name in enumerate(roster.header) if re.sub(r" \(\d+\)$", "", name).strip() == title
+    ]
+    if not named and len(titled) > 1:
+        which = " or ".join(f"`{roster.header[place]}`" for place in titled)
+        message = f"{len(titled)} assignments are called `{title}`"
+        raise roster.fault(message, f"write one of them as the title in set.yaml: {which}")
+    return next(iter(named or titled), None)
+
+
+def _is_remark(row: Row) -> bool:
+    """Whether a row is about the assignments, such as the one that names those posted by hand."""
+    return all(re.fullmatch(r"\s*(muted|manual posting.*)?\s*", cell, re.IGNORECASE) for cell in row)
+
+
+class _Students:
+    """Whose row it is: by Canvas's number where the hand-in has one, else by the names of the registry."""
+
+    def __init__(self, header: Row, found: Iterator[Standing]) -> None:
+        self.all = list(found)
+        self._id = header.index("ID")
+        self._names = [place for place, name in enumerate(header) if name in _NAMES]
+        self._by_id = {s.id: s for s in self.all if s.id}
+        self._by_name = {s.student: s for s in self.all if not s.id.isdigit()}
+
+    def of(self, row: Row) -> Standing | None:
+        """The standing of a row's student."""
+        found = self._by_id.get(row[self._id].strip()) or self._by_name.get(row[self._id].strip())
+        names = (self._by_name[row[place]] for place in self._names if row[place] in self._by_name)
+        return found or next(names, None)

@@ -1,0 +1,58 @@
+"""Gradescope: `results.json` of each submission, as an autograder writes it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from dynsolve.files import write_changed
+from dynsolve.grading.exports.roster import Roster
+from dynsolve.grading.ledger import Standing, standings
+from dynsolve.grading.outputs import folder_name, remove_others
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Record
+
+
+def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) -> Iterator[str]:
+    """Write `gradescope/<submission>/results.json`; a group's members share theirs."""
+    told: dict[Path, tuple[str, bytes]] = {}
+    for standing in standings(record):
+        path = folder / "gradescope" / folder_name(standing.id or standing.student) / "results.json"
+        text = json.dumps(_results(standing, problems), indent=1, ensure_ascii=False) + "\n"
+        data = text.encode("utf-8", errors="replace")
+        first, before = told.setdefault(path, (standing.student, data))
+        if before != data:
+            yield f"{standing.student} and {first} share {path.parent.name}, and their marks differ"
+        write_changed(path, told[path][1], durable=False)
+    remove_others(folder / "gradescope", set(told), (".json",))
+
+
+def _results(standing: Standing, problems: ProblemSet) -> dict[str, Any]:
+    alone = len(problems.items) == 1
+    numbers = dict.fromkeys(problems.stems, 0)
+    tests = []
+    for answer in standing.answers:
+        if answer.of == "0":
+            continue
+        numbers[answer.problem] += 1
+        tests.append(
+            {
+                "score": float(Fraction(answer.marks)),
+                "max_score": float(Fraction(answer.of)),
+                "status": "passed" if answer.verdict in ("correct", "follows") else "failed",
+                "name": answer.answer if alone else f"{answer.problem}: {answer.answer}",
+                "number": f"{problems.stems.index(answer.problem) + 1}.{numbers[answer.problem]}",
+                "output": answer.why,
+                "output_format": "text",
+                "visibility": "visible",
+            }
+        )
+    return {
+        "score": float(standing.total),
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": tests,
+    }

@@ -1,0 +1,126 @@
+"""Moodle: the offline grading worksheet, and a zip of feedback files.
+
+Moodle finds a column by its header in the site's language, so the worksheet is given
+back as it came, with Grade and Feedback comments filled in.  Headers are known in some
+languages; in others the columns are found by what stands in them.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+
+from dynsolve.files import write_changed
+from dynsolve.grading.exports.roster import Roster, number, unmatched
+from dynsolve.grading.ledger import Standing, most, standings
+from dynsolve.grading.outputs import folder_name
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Record
+from dynsolve.grading.tables import decimal
+
+_GRADE = ("Grade", "Bewertung")
+_COMMENTS = ("Feedback comments", "Feedback als Kommentar")
+_TIME = re.compile(r"\d{1,2}[:.]\d{2}")
+
+
+def check(problems: ProblemSet, roster: Roster) -> int:
+    """The column of the grade; raises InputError for what is no worksheet."""
+    if len(roster.header) < 4 or not all(re.search(r"\d$", row[0].strip()) for row in roster.rows[1:]):
+        help = "in the assignment in Moodle: Download grading worksheet"
+        raise roster.fault("this is no grading worksheet of Moodle", help)
+    return _grade(roster)
+
+
+def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) -> Iterator[str]:
+    """Write `moodle.csv` and `moodle-feedback.zip`."""
+    grade, comments = check(problems, roster), _comments(roster)
+    of = sum(most(problems).values(), Fraction(0))
+    all_of = list(standings(record))
+    by_id = {standing.id: standing for standing in all_of if standing.id}
+    out = [roster.header]
+    seen: set[str] = set()
+    without: list[str] = []
+    for row in roster.rows[1:]:
+        cells = [*row, *("" for _ in roster.header[len(row) :])]
+        digits = re.search(r"(\d+)\s*$", cells[0])
+        found = by_id.get(digits[1]) if digits else None
+        if found is None:
+            without.append(cells[0])
+        else:
+            seen.add(found.student)
+            cells[grade] = roster.marks(found.total)
+            if comments is not None and _is_free(cells[comments], problems):
+                cells[comments] = _comment(found, problems)
+        out.append(tuple(cells))
+    roster.write(folder / "moodle.csv", out)
+    write_changed(folder / "moodle-feedback.zip", _feedback_zip(folder, record))
+    maximum = next((number(row[grade + 1]) for row in roster.rows[1:] if len(row) > grade + 1), None)
+    if maximum not in (None, of):
+        assert maximum is not None
+        yield f"the maximum grade in Moodle is {decimal(maximum)}, the problem set has {decimal(of)}"
+    if comments is None:
+        yield "the worksheet has no column for comments: turn on Feedback comments in the assignment"
+    yield from unmatched(all_of, seen, without, roster)
+
+
+def _grade(roster: Roster) -> int:
+    """The column of the grade: by its name, else the one before the maximum, which is the same for all."""
+    for place, name in enumerate(roster.header):
+        if name in _GRADE:
+            return place
+    rows = [row for row in roster.rows[1:] if len(row) == len(roster.header)]
+    found = [
+        place
+        for place in range(1, len(roster.header) - 1)
+        if rows
+        and number(rows[0][place + 1])
+        and all(row[place + 1] == rows[0][place + 1] for row in rows)
+        and all(row[place].strip() in ("", "-") or number(row[place]) is not None for row in rows)
+    ]
+    if len(found) != 1:
+        message = "which column has the grade cannot be told in this language"
+        raise roster.fault(message, "set your language in Moodle to English, and download it again")
+    return found[0]
+
+
+def _comments(roster: Roster) -> int | None:
+    """The column of the comments: by its name, else the last one unless that holds times."""
+    for place, name in enumerate(roster.header):
+        if name in _COMMENTS:
+            return place
+    if any(name in _GRADE for name in roster.header):
+        return None  # the language is known, and there is no such column
+    last = len(roster.header) - 1
+    cells = [row[last].strip() for row in roster.rows[1:] if len(row) > last]
+    is_time = all(cell == "-" or _TIME.search(cell) for cell in cells)
+    return None if cells and is_time else last
+
+
+def _is_free(comment: str, problems: ProblemSet) -> bool:
+    """Whether a comment is empty or one of ours: what a teacher has written is kept."""
+    text = re.sub(r"<[^>]*>", "", comment).strip()
+    return not text or text.startswith(f"{problems.stems[0]}: ")
+
+
+def _comment(standing: Standing, problems: ProblemSet) -> str:
+    parts = [f"{stem}: {decimal(standing.marks.get(stem, Fraction(0)))}" for stem in problems.stems]
+    return "; ".join(parts)
+
+
+def _feedback_zip(folder: Path, record: Record) -> bytes:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        for student, id in record.students().items():
+            pages = sorted((folder / "feedback" / folder_name(student)).glob("*.html"))
+            for page in pages if id else ():
+                name = "feedback.html" if len(pages) == 1 else page.name
+                safe = re.sub(r"[/\\:*?\"<>|]", "_", student)
+                entry = zipfile.ZipInfo(f"{safe}_assignfeedback_file/{name}")  # dated 1980: the same bytes
+                entry.external_attr = 0o644 << 16
+                entry.compress_type = zipfile.ZIP_DEFLATED
+                archive.writestr(entry, page.read_bytes())
+    return out.getvalue()

@@ -1,0 +1,121 @@
+"""The table of students that a platform exports, and writing one like it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+from dynsolve.errors import Finding, InputError
+from dynsolve.files import write_changed
+from dynsolve.grading.ledger import Standing
+from dynsolve.grading.tables import decimal, table
+
+SEPARATORS = (",", ";", "\t")
+MOST_NAMED = 5
+
+Row = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Roster:
+    """The rows of a CSV, the header first, and how it was written.
+
+    `mark` tells whether it began with a byte order mark, `comma` whether its numbers
+    have a decimal comma.
+    """
+
+    file: str
+    rows: tuple[Row, ...]
+    separator: str = ","
+    mark: bool = False
+    comma: bool = False
+
+    @property
+    def header(self) -> Row:
+        """The names of the columns, nothing where there are none."""
+        return self.rows[0] if self.rows else ()
+
+    def write(self, path: Path, rows: Iterable[Row]) -> None:
+        """Write rows as this CSV is written, every cell safe."""
+        text = ("\ufeff" if self.mark else "") + table(rows, self.separator)
+        write_changed(path, text.encode("utf-8", errors="replace"))
+
+    def marks(self, marks: Fraction) -> str:
+        """Marks as this CSV writes numbers."""
+        text = decimal(marks)
+        return text.replace(".", ",") if self.comma else text
+
+    def fault(self, message: str, help: str) -> InputError:
+        """What is wrong with the file, at its first line."""
+        return InputError([Finding(message, help, self.file, 1, 1)])
+
+
+def read_roster(path: Path) -> Roster:
+    """The CSV of a path: its encoding, separator and numbers are found out.
+
+    Raises InputError where it cannot be read.
+    """
+    try:
+        data = path.read_bytes()
+        wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
+        text = data.decode("utf-16" if wide else "utf-8-sig")
+        first = text.partition("\n")[0]
+        separator = max(SEPARATORS, key=first.count)
+        rows = tuple(
+            tuple(row) for row in csv.reader(io.StringIO(text, newline=""), delimiter=separator) if any(row)
+        )
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        message = f"the roster cannot be read: {reason.lower()}"
+        raise InputError([Finding(message, "export it as CSV, in UTF-8", str(path))]) from None
+    numbers = [cell for row in rows for cell in row if _is_decimal(cell)]
+    comma = any("," in cell for cell in numbers) and not any("." in cell for cell in numbers)
+    return Roster(str(path), rows, separator, wide or data.startswith(b"\xef\xbb\xbf"), comma)
+
+
+def _is_decimal(cell: str) -> bool:
+    whole, _, rest = cell.strip().replace(",", ".").partition(".")
+    return whole.isdigit() and rest.isdigit()
+
+
+def to_text(roster: Roster) -> str:
+    """A roster as the record keeps it."""
+    fields = (roster.file, roster.rows, roster.separator, roster.mark, roster.comma)
+    return json.dumps(fields, ensure_ascii=False)
+
+
+def from_text(text: str) -> Roster:
+    """The roster that `to_text` wrote.
+
+    >>> from_text(to_text(Roster("a.csv", (("Student", "ID"),)))).header
+    ('Student', 'ID')
+    """
+    file, rows, *rest = json.loads(text)
+    return Roster(file, tuple(tuple(row) for row in rows), *rest)
+
+
+def number(text: str) -> Fraction | None:
+    """A number with a point or a comma, None for anything else.
+
+    >>> number("6,50"), number(" 6.00 "), number("-")
+    (Fraction(13, 2), Fraction(6, 1), None)
+    """
+    try:
+        return Fraction(text.strip().replace(",", "."))
+    except (ValueError, ZeroDivisionError):
+        return None
+
+
+def unmatched(standings: Iterable[Standing], seen: set[str], without: list[str], roster: Roster) -> list[str]:
+    """Who is in the hand-ins or in the roster alone."""
+    found = [f"{s.student} is not in {roster.file}" for s in standings if s.student not in seen]
+    if without:
+        named = ", ".join(without[:MOST_NAMED]) + (" and others" if len(without) > MOST_NAMED else "")
+        whom = "1 student" if len(without) == 1 else f"{len(without)} students"
+        found.append(f"{whom} of {roster.file} handed in nothing and keep what stands there: {named}")
+    return found

@@ -1,0 +1,188 @@
+"""`dynsolve.grade` and `dynsolve.override`: grading a course from Python."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+from dynsolve.errors import UsageError
+from dynsolve.grading.changes import changes
+from dynsolve.grading.exports import chosen_roster, export, keep_platform
+from dynsolve.grading.hand_ins import Waiting, take_in
+from dynsolve.grading.ledger import standings
+from dynsolve.grading.outputs import write_outputs
+from dynsolve.grading.policy import shown
+from dynsolve.grading.pool import Bounds, LocalPool
+from dynsolve.grading.problem_set import load_set
+from dynsolve.grading.record import FILE, Record
+from dynsolve.grading.run import Pool, grade_all
+from dynsolve.grading.stored import store_set, stored_set
+from dynsolve.grading.uploads import Refused, Uploads
+
+
+@dataclass(frozen=True, slots=True)
+class Grades:
+    """What a run has come to.
+
+    `totals` are the marks of each student, `hand_ins` how many hand-ins there are, and
+    `computed` how many of them were not in the record yet.  `waiting` is what a human
+    reads, `refused` are the files that were not taken.  `changes` are lines on whose
+    marks are not those of the last run, where they were asked for, and `warnings` lines
+    on the platform's file.
+    """
+
+    folder: Path
+    totals: dict[str, Fraction]
+    hand_ins: int
+    computed: int
+    waiting: tuple[Waiting, ...]
+    refused: tuple[Refused, ...]
+    changes: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+
+def grade(
+    problems: str | os.PathLike[str],
+    submissions: str | os.PathLike[str],
+    output: str | os.PathLike[str],
+    *,
+    lms: str | None = None,
+    roster: str | os.PathLike[str] | None = None,
+    diff: bool = False,
+    jobs: int = 0,
+    cluster: str = "",
+    timeout: float = 20.0,
+    memory: int = 1024,
+    progress: Callable[[int, int], None] | None = None,
+) -> Grades:
+    r"""Grade everything that was handed in, and write the folder `output`.
+
+    `problems` is a path of a problem file or of a folder of them, or the stem of a
+    bundled problem; `submissions` a folder or a zip.  With `lms` ("canvas", "moodle" or
+    "gradescope") and its `roster` the file that the platform imports is written too,
+    and from then on by every run and override.
+    `jobs` processes (0: one a core) of this machine do the work, or those of the Dask
+    scheduler `cluster`; each hand-in may take `timeout` seconds and `memory` MiB.
+    `progress` is told how many are done, and of how many.  Called again, after a stop
+    or a change, it computes only what is not in the record.
+
+    Raises ProblemError for a faulty problem or `set.yaml`, InputError for hand-ins or a
+    roster that cannot be read, UsageError where `output` cannot be written or is in use.
+
+    >>> import tempfile
+    >>> temporary = tempfile.TemporaryDirectory()
+    >>> folder = Path(temporary.name)
+    >>> (folder / "in").mkdir()
+    >>> _ = (folder / "in" / "anna.yaml").write_text("answers:\n  g: [0, 0]\n")
+    >>> grades = grade("in3140-rp", folder / "in", folder / "out", jobs=1)
+    >>> grades.totals, grades.computed
+    ({'anna': Fraction(1, 1)}, 1)
+    >>> grade("in3140-rp", folder / "in", folder / "out").computed
+    0
+    >>> override(folder / "out", "anna", "in3140-rp", "D", marks="1/2", why="correct on paper")
+    >>> grade("in3140-rp", folder / "in", folder / "out").totals
+    {'anna': Fraction(3, 2)}
+    >>> temporary.cleanup()
+    """
+    folder = Path(output)
+    chosen = load_set(os.fspath(problems))
+    listed = chosen_roster(chosen, lms, Path(roster) if roster is not None else None) if lms else None
+    uploads = Uploads(Path(submissions))
+    try:
+        with _opened(folder) as record:
+            if lms and listed:
+                keep_platform(record, lms, listed)
+            pool = _pool(jobs, cluster, Bounds(timeout, memory << 20))
+            try:
+                intake = take_in(chosen, uploads)
+                store_set(record, chosen)
+                done = grade_all(chosen, uploads, intake, record, pool, progress)
+            finally:
+                pool.close()
+            write_outputs(folder, chosen, record)
+            warnings = export(folder, chosen, record)
+            changed = tuple(changes(record)) if diff else ()
+            record.finish()
+            totals = {standing.student: standing.total for standing in standings(record)}
+    finally:
+        uploads.close()
+    refused = tuple(uploads.refused)
+    return Grades(folder, totals, done.hand_ins, done.computed, intake.waiting, refused, changed, warnings)
+
+
+def override(
+    output: str | os.PathLike[str],
+    student: str,
+    problem: str,
+    answer: str,
+    *,
+    marks: str | int | float | Fraction,
+    why: str,
+) -> None:
+    """Set the marks of one answer by hand; no later run changes them.
+
+    The names are those of `answers.csv`; `marks` is a number or a text such as "5/2",
+    `why` is what the student reads.
+
+    Raises UsageError for an answer that is not in the record, or marks that it cannot have.
+    """
+    folder = Path(output)
+    if not (folder / FILE).is_file():
+        raise UsageError(f"there is no {FILE} in {folder}: `dynsolve grade` makes it")
+    with _opened(folder) as record:
+        problems = stored_set(record)
+        points = _points(record, student, problem, answer, str(marks))
+        if not why.strip():
+            raise UsageError("the reason says nothing: the student reads it")
+        record.override(student, problem, answer, str(points), " ".join(why.split()))
+        write_outputs(folder, problems, record)
+        export(folder, problems, record)
+        record.finish()
+
+
+def _points(record: Record, student: str, problem: str, answer: str, marks: str) -> Fraction:
+    found = {(a.problem, a.answer): a for a in record.answers(student)}
+    if not found:
+        raise UsageError(f"there is no student `{student}` in grades.csv")
+    if (problem, answer) not in found:
+        known = ", ".join(f"{p} {a}" for p, a in found)
+        raise UsageError(f"{student} has no answer `{answer}` to `{problem}`; there are {known}")
+    try:
+        points = Fraction(marks)
+    except (ValueError, ZeroDivisionError):
+        raise UsageError(f"`{marks}` is no number of marks: write 3, 2.5 or 5/2") from None
+    of = Fraction(found[problem, answer].of)
+    if not 0 <= points <= of:
+        raise UsageError(f"{answer} has {shown(of)} marks: give it from 0 to {shown(of)}")
+    return points
+
+
+def _pool(jobs: int, cluster: str, bounds: Bounds) -> Pool:
+    if cluster:
+        from dynsolve.grading.cluster import ClusterPool
+
+        return ClusterPool(cluster, bounds)
+    return LocalPool(jobs or os.cpu_count() or 1, bounds)
+
+
+@contextmanager
+def _opened(folder: Path) -> Iterator[Record]:
+    """The record of a folder; a full disk and the like become a message that says how to go on."""
+    import sqlite3
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        record = Record(folder)
+        try:
+            yield record
+        finally:
+            record.close()
+    except (sqlite3.Error, OSError) as error:
+        said = getattr(error, "strerror", None) or str(error)
+        file = getattr(error, "filename", None)
+        what = f"writing to {folder} failed: {said.lower()}" + (f" ({file})" if file else "")
+        raise UsageError(f"{what}; what is done is kept, and the same command goes on") from error
