@@ -55,7 +55,7 @@ def report(
     document = solution_document(solution, shown, stages, Abbreviate(abbreviate))
     if format in PICTURED and (stages is None or "kinematics" in stages):
         document = _with_picture(document, solution, star)
-    return _rendered(document, style, format, detail, fragment)
+    return rendered(document, style, format, detail, fragment)
 
 
 PICTURED = (Format.LATEX, Format.PDF, Format.HTML)
@@ -81,7 +81,8 @@ def style_of(solution: Solution, star: bool = False) -> Style:
     return replace(solution.style, stars=frozenset(q.name for q in solution.robot.coordinates))
 
 
-def _rendered(document: Document, style: Style, format: Format, detail: Detail, fragment: bool) -> bytes:
+def rendered(document: Document, style: Style, format: Format, detail: Detail, fragment: bool) -> bytes:
+    """A document in a form other than JSON."""
     match format:
         case Format.LATEX:
             from dynsolve.render import latex

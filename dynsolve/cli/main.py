@@ -6,6 +6,7 @@ To add a command, write its file with one function and register it in `_app`.
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Sequence
 from typing import Annotated, Any, NoReturn
@@ -50,6 +51,7 @@ def _run(words: Sequence[str], traceback: bool) -> int:
     except typer.Exit as end:
         return _ended(int(end.exit_code))
     except _ClickError as error:
+        error.message = _plain(error.message)
         error.show()
         return ExitCode.USAGE
     except DynsolveError as error:
@@ -63,6 +65,20 @@ def _run(words: Sequence[str], traceback: bool) -> int:
         what = " ".join(f"{type(error).__name__}: {error}".split())
         _say(f"internal error: {what} (run again with {TRACEBACK} to see where)")
         return ExitCode.FAILED
+
+
+def _plain(message: str) -> str:
+    """A message of Typer's as people write it, with the choice that may have been meant.
+
+    >>> _plain("Value error, 'torqe' is not one of 'energy', 'torque'.")
+    "'torqe' is not one of 'energy', 'torque'; did you mean `torque`?"
+    """
+    from dynsolve.problem.fields import did_you_mean
+
+    message = message.removeprefix("Value error, ")
+    given, is_choice, choices = message.partition(" is not one of ")
+    meant = did_you_mean(given.strip("'"), re.findall("'([^']*)'", choices)) if is_choice else ""
+    return f"{message.rstrip('.')}; {meant}" if meant else message
 
 
 def _ended(code: int) -> int:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from dynsolve.cli.common import Problems, Quiet, read, say
-from dynsolve.cli.hint import print_hint
 from dynsolve.cli.numbers import AtOption, DigitsOption, SetOption, with_numbers
 from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer
 from dynsolve.cli.output import chosen as chosen_output
-from dynsolve.errors import ExitCode, ProblemError
+from dynsolve.errors import ExitCode, ProblemError, UsageError
 from dynsolve.render.formats import Format
 
 if TYPE_CHECKING:
@@ -47,42 +47,63 @@ class AbbreviateName(StrEnum):
     ALWAYS = "always"
 
 
+JsonOption = Annotated[bool, typer.Option("--json", help="JSON with everything, one object a line.")]
+StageOption = Annotated[
+    list[StageName] | None,
+    typer.Option(metavar="STAGE", help="Show this stage alone; may be given more than once."),
+]
+FromOption = Annotated[
+    StageName | None, typer.Option("--from", metavar="STAGE", help="Show from this stage on.")
+]
+ToOption = Annotated[StageName | None, typer.Option("--to", metavar="STAGE", help="Show up to this stage.")]
+DetailOption = Annotated[DetailName, typer.Option(help="How much is shown.")]
+LatexOption = Annotated[bool, typer.Option("--latex", help="A LaTeX document.")]
+FragmentOption = Annotated[bool, typer.Option("--fragment", help="LaTeX for another document's \\input.")]
+PdfOption = Annotated[bool, typer.Option("--pdf", help="PDF, without TeX; needs the extra [pdf].")]
+HtmlOption = Annotated[bool, typer.Option("--html", help="One HTML file that needs no network.")]
+MarkdownOption = Annotated[bool, typer.Option("--markdown", help="Markdown for GitHub and Jupyter.")]
+StarOption = Annotated[bool, typer.Option("--star", help="Mark joint variables with a star everywhere.")]
+AbbreviateOption = Annotated[
+    AbbreviateName, typer.Option(help="Write long results in names, which are defined first.")
+]
+HintOption = Annotated[
+    StageName | None,
+    typer.Option(metavar="STAGE", help="What to do in this stage, without its result or a later one."),
+]
+
+
+@dataclass(frozen=True, slots=True)
+class _View:
+    """What of a solution is shown, and how; a `hint` is shown instead of it."""
+
+    stages: list[str] | None
+    detail: DetailName
+    star: bool
+    abbreviate: str
+    fragment: bool
+    hint: str = ""
+
+
 def solve(
     problem: Problems,
-    json: Annotated[bool, typer.Option("--json", help="JSON with everything, one object a line.")] = False,
-    stage: Annotated[
-        list[StageName] | None,
-        typer.Option(metavar="STAGE", help="Show this stage alone; may be given more than once."),
-    ] = None,
-    first: Annotated[
-        StageName | None, typer.Option("--from", metavar="STAGE", help="Show from this stage on.")
-    ] = None,
-    last: Annotated[
-        StageName | None, typer.Option("--to", metavar="STAGE", help="Show up to this stage.")
-    ] = None,
-    detail: Annotated[DetailName, typer.Option(help="How much is shown.")] = DetailName.NORMAL,
+    json: JsonOption = False,
+    stage: StageOption = None,
+    first: FromOption = None,
+    last: ToOption = None,
+    detail: DetailOption = DetailName.NORMAL,
     output: OutputOption = None,
     format: FormatOption = None,
-    latex: Annotated[bool, typer.Option("--latex", help="A LaTeX document.")] = False,
-    fragment: Annotated[
-        bool, typer.Option("--fragment", help="LaTeX for another document's \\input.")
-    ] = False,
-    pdf: Annotated[bool, typer.Option("--pdf", help="PDF, without TeX; needs the extra [pdf].")] = False,
-    html: Annotated[bool, typer.Option("--html", help="One HTML file that needs no network.")] = False,
-    markdown: Annotated[bool, typer.Option("--markdown", help="Markdown for GitHub and Jupyter.")] = False,
-    star: Annotated[
-        bool, typer.Option("--star", help="Mark joint variables with a star everywhere.")
-    ] = False,
-    abbreviate: Annotated[
-        AbbreviateName, typer.Option(help="Write long results in names, which are defined first.")
-    ] = AbbreviateName.AUTO,
+    latex: LatexOption = False,
+    fragment: FragmentOption = False,
+    pdf: PdfOption = False,
+    html: HtmlOption = False,
+    markdown: MarkdownOption = False,
+    star: StarOption = False,
+    abbreviate: AbbreviateOption = AbbreviateName.AUTO,
     set_: SetOption = None,
     at: AtOption = None,
     digits: DigitsOption = None,
-    hint: Annotated[
-        StageName | None,
-        typer.Option(metavar="STAGE", help="What to do in this stage, without its result or a later one."),
-    ] = None,
+    hint: HintOption = None,
     quiet: Quiet = False,
 ) -> int:
     """Derive a robot's dynamics step by step, verified.
@@ -100,6 +121,10 @@ def solve(
     }
     asked = [form for form, is_asked in short.items() if is_asked]
     place_and_form = chosen_output(format, asked, output, problem, fragment)
+    if hint and (stages or place_and_form.format is Format.JSON):
+        what = "--json" if place_and_form.format is Format.JSON else "--stage, --from or --to"
+        raise UsageError(f"--hint is a text on one stage; it does not go with {what}")
+    view = _View(stages, detail, star, abbreviate.value, fragment, hint.value if hint else "")
     writer = Writer(place_and_form)
     code = ExitCode.DONE
     for place, name in enumerate(problem):
@@ -114,14 +139,12 @@ def solve(
         if not quiet:
             say(solution.warnings, "warning")
             say(solution.numbers.warnings if solution.numbers else (), "warning")
-        if hint:
-            print_hint(solution, hint.value)
-        elif place_and_form == Output(Format.TEXT, None):
-            _print_document(solution, detail, stages, star, abbreviate, place > 0)
+        if place_and_form == Output(Format.TEXT, None):
+            _print_document(solution, view, place > 0)
         elif place_and_form == Output(Format.JSON, None):
-            _print_json(solution, abbreviate)
+            _print_json(solution, view)
         else:
-            writer.write(name, _report(solution, place_and_form, detail, stages, star, abbreviate, fragment))
+            writer.write(name, _report(solution, place_and_form, view))
     writer.close()
     return code
 
@@ -152,46 +175,34 @@ def _solved(name: str, quiet: bool) -> Solution:
         return solve_problem(problem, progress=advance)
 
 
-def _print_json(solution: Solution, abbreviate: AbbreviateName) -> None:
+def _print_json(solution: Solution, view: _View) -> None:
     import sys
     from json import dump
 
-    dump(solution.to_json(abbreviate.value), sys.stdout, ensure_ascii=False)
+    dump(solution.to_json(view.abbreviate), sys.stdout, ensure_ascii=False)
     sys.stdout.write("\n")
 
 
-def _report(
-    solution: Solution,
-    output: Output,
-    detail: DetailName,
-    stages: list[str] | None,
-    star: bool,
-    abbreviate: AbbreviateName,
-    fragment: bool,
-) -> bytes:
+def _report(solution: Solution, output: Output, view: _View) -> bytes:
     from dynsolve.explain.step import Detail
-    from dynsolve.reports import report
+    from dynsolve.reports import rendered, report, style_of
 
-    level = Detail[detail.name]
+    detail = Detail[view.detail.name]
+    if view.hint:
+        style = style_of(solution, view.star)
+        return rendered(solution.hint(view.hint), style, output.format, detail, view.fragment)
     return report(
         solution,
         output.format,
-        detail=level,
-        stages=stages,
-        star=star,
-        fragment=fragment,
-        abbreviate=abbreviate.value,
+        detail=detail,
+        stages=view.stages,
+        star=view.star,
+        fragment=view.fragment,
+        abbreviate=view.abbreviate,
     )
 
 
-def _print_document(
-    solution: Solution,
-    detail: DetailName,
-    stages: list[str] | None,
-    star: bool,
-    abbreviate: AbbreviateName,
-    follows_another: bool,
-) -> None:
+def _print_document(solution: Solution, view: _View, follows_another: bool) -> None:
     from dynsolve.cli.page import print_document
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.documents import solution_document
@@ -200,5 +211,9 @@ def _print_document(
 
     if follows_another:
         typer.echo()
-    document = solution_document(solution, Detail[detail.name], stages, Abbreviate(abbreviate.value))
-    print_document(document, style_of(solution, star))
+    if view.hint:
+        document = solution.hint(view.hint)
+    else:
+        detail = Detail[view.detail.name]
+        document = solution_document(solution, detail, view.stages, Abbreviate(view.abbreviate))
+    print_document(document, style_of(solution, view.star))

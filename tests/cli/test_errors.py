@@ -126,6 +126,13 @@ def failing(kind: str, *words: str) -> subprocess.CompletedProcess[str]:
     )  # fmt: skip
 
 
+def test_a_choice_that_is_none_is_told_in_plain_words() -> None:
+    ran = dynsolve("solve", "in3140-rp", "--stage", "torqe")
+    assert ran.code == 2
+    assert "Invalid value for '--stage': 'torqe' is not one of 'kinematics'" in ran.err
+    assert ran.err.rstrip().endswith("did you mean `torque`?")
+
+
 def test_a_failed_verification_ends_with_three() -> None:
     done = failing("e.VerificationError('tau differs')")
     assert done.returncode == 3 and done.stderr == "error: tau differs\n"

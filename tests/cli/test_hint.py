@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
+from pathlib import Path
 
 import pytest
 
@@ -104,3 +105,19 @@ def test_a_robot_without_masses_has_no_energies() -> None:
 
 def test_an_unknown_stage_is_a_usage_error() -> None:
     assert dynsolve("solve", "in3140-rp", "--hint", "dynamics").code == 2
+
+
+def test_a_hint_goes_where_it_is_sent(tmp_path: Path) -> None:
+    page = tmp_path / "hint.html"
+    ran = dynsolve("solve", "in3140-rp", "--hint", "torque", "-o", str(page))
+    assert ran.code == 0 and not ran.out
+    text = page.read_text(encoding="utf-8")
+    assert "You have the Lagrangian" in text and "Verified" not in text
+    assert dynsolve("solve", "in3140-rp", "--hint", "torque", "--markdown").out.startswith("# RP manipulator")
+
+
+@pytest.mark.parametrize("words", [("--json",), ("--stage", "torque"), ("--from", "energy")])
+def test_a_hint_is_no_data_and_of_one_stage(words: tuple[str, ...]) -> None:
+    ran = dynsolve("solve", "in3140-rp", "--hint", "torque", *words)
+    assert ran.code == 2 and not ran.out
+    assert "--hint is a text on one stage; it does not go with" in ran.err
