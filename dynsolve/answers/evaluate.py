@@ -49,9 +49,16 @@ MOST_POWER = 20
 MOST_BITS = 6_000
 MOST_TURNS = 24
 
+MOST_TURNED = 4096
+"""So many sines and cosines are remembered."""
+
 
 Lookup = Callable[[str], Frac]
 """The value of an answer that occurs inside another, by its placeholder's name."""
+
+
+Turns = dict[Function, "Frac | tuple[int, int]"]
+"""What sines and cosines were found to be in a ring: a value, or (generator, ±1)."""
 
 
 def _nothing(name: str) -> Frac:
@@ -68,14 +75,18 @@ class _Term:
 
 
 class Evaluator:
-    """Values of trees in one ring; `work` is what the current tree has cost."""
+    """Values of trees in one ring; `work` is what the current tree has cost.
 
-    def __init__(self, ring: Ring, lookup: Lookup = _nothing) -> None:
+    `turns` are the sines and cosines that are known, for several hand-ins in one ring.
+    """
+
+    def __init__(self, ring: Ring, lookup: Lookup = _nothing, turns: Turns | None = None) -> None:
         self.ring = ring
         self.lookup = lookup
         self.work = 0
         self._width = len(ring.generators)
-        self._functions: dict[Function, Frac | tuple[int, int]] = {}
+        self._turns: Turns = {} if turns is None else turns
+        self._roots: dict[Function, Frac] = {}
 
     def value(self, node: Node) -> Frac:
         """The exact value of a scalar tree.
@@ -236,9 +247,7 @@ class Evaluator:
     # -- functions ---------------------------------------------------------------------------------
 
     def _function(self, node: Function, term: _Term, power: int) -> None:
-        found = self._functions.get(node)
-        if found is None:
-            found = self._functions[node] = self._function_value(node)
+        found = self._root(node) if node.name == "sqrt" else self._turn(node)
         if isinstance(found, Frac):
             term.others.append(self._power_of(found, power))
             return
@@ -247,10 +256,17 @@ class Evaluator:
         if sign < 0 and power % 2:
             term.coefficient = -term.coefficient
 
-    def _function_value(self, node: Function) -> Frac | tuple[int, int]:
-        """The value of a function, or (generator, ±1) where it is one."""
-        if node.name == "sqrt":
-            return self._root(node)
+    def _turn(self, node: Function) -> Frac | tuple[int, int]:
+        """The value of a sine, cosine or tangent, which no answer of the hand-in can change."""
+        found = self._turns.get(node)
+        if found is None:
+            if len(self._turns) >= MOST_TURNED:
+                self._turns.clear()
+            found = self._turns[node] = self._turn_value(node)
+        return found
+
+    def _turn_value(self, node: Function) -> Frac | tuple[int, int]:
+        """The value of a function of an angle, or (generator, ±1) where it is one."""
         angle = expected_angle(node, self.ring.names)
         if angle is None:
             return self._unknown(opaque(node)), 1
@@ -279,6 +295,12 @@ class Evaluator:
         return self.ring.cos(angle) if name == "cos" else self.ring.sin(angle)
 
     def _root(self, node: Function) -> Frac:
+        found = self._roots.get(node)
+        if found is None:
+            found = self._roots[node] = self._root_value(node)
+        return found
+
+    def _root_value(self, node: Function) -> Frac:
         value = rational_value(node.argument)
         if value is not None:
             if value < 0:

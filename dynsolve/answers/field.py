@@ -26,11 +26,11 @@ from dynsolve.algebra.lattice import Vector, lattice_basis, rational_gcd
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.survey import Survey
-from dynsolve.answers.needs import Needs, needs_of
+from dynsolve.answers.needs import Known, Needs, needs_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node, Number
-from dynsolve.pipeline import Derivation, course_rules, derive
+from dynsolve.notation.tree import Function, Node, Number
+from dynsolve.pipeline import Derivation, course_rules
 from dynsolve.robot.model import Robot
 
 MOST_NEW = 48
@@ -104,10 +104,12 @@ class Plan:
     opaque: tuple[tuple[str, Node], ...] = ()
 
     def with_needs(self, needs: Needs) -> Plan:
-        """The plan that holds one more tree.
+        """The plan that holds one more tree; itself where the problem's ring holds the tree as it is.
 
         Raises AlgebraError where that would refine the ring beyond its bounds.
         """
+        if not needs:
+            return self
         plan = replace(
             self,
             symbols=_joined(self.symbols, needs.symbols),
@@ -188,13 +190,15 @@ class Field:
     """A ring that holds the problem and its answers, with the robot and the key in it.
 
     `key` is the derivation of the problem carried over, `robot` the robot; `rules`
-    are the textbook's rules on that robot.
+    are the textbook's rules on that robot; `turns` remembers the values of sines and cosines.
+    Without a plan it is the problem's own.
     """
 
-    def __init__(self, robot: Robot, key: Derivation, plan: Plan) -> None:
+    def __init__(self, robot: Robot, key: Derivation, plan: Plan | None = None) -> None:
         self._key = key
         self._robot = robot
         self.base = robot.ring
+        self.plan = plan = Plan(robot.ring) if plan is None else plan
         self.same = plan.is_the_problems
         self.opaque = dict(plan.opaque)
         self.ring: Ring = robot.ring if self.same else AnswerRing(robot.ring.coordinates, plan.survey)
@@ -202,6 +206,16 @@ class Field:
             for node in plan.survey.denominators:
                 self.ring.expr(tree.Quotient(Number(1), node))
         self._moved: dict[str, Any] = {}
+        self.turns: dict[Function, Any] = {}
+
+    def refined(self, plan: Plan) -> Field:
+        """The field of another plan: this one where it holds everything."""
+        return self if plan is self.plan else Field(self._robot, self._key, plan)
+
+    @cached_property
+    def known(self) -> Known:
+        """What an answer need not bring."""
+        return Known(self.ring)
 
     @cached_property
     def robot(self) -> Robot:
@@ -287,18 +301,21 @@ class Field:
 
 @dataclass
 class FieldBuilder:
-    """Takes trees one by one; what goes over a bound is refused and leaves the others alone."""
+    """Takes trees one by one; what goes over a bound is refused and leaves the others alone.
 
-    robot: Robot
+    `base` is the field of the problem alone, `plan` what was admitted so far.
+    """
+
+    base: Field
     plan: Plan = field(init=False)
 
     def __post_init__(self) -> None:
-        self.plan = Plan(self.robot.ring)
+        self.plan = self.base.plan
 
     def admit(self, node: Node) -> None:
         """Make room for a tree; raises AlgebraError where there is none."""
-        self.plan = self.plan.with_needs(needs_of(node, self.robot.ring))
+        self.plan = self.plan.with_needs(needs_of(node, self.base.known))
 
-    def field(self, key: Derivation | None = None) -> Field:
+    def field(self) -> Field:
         """The field for all trees that were admitted."""
-        return Field(self.robot, key if key is not None else derive(self.robot), self.plan)
+        return self.base.refined(self.plan)

@@ -20,8 +20,6 @@ from dynsolve.answers.submission import Answer, referred
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node
-from dynsolve.pipeline import Derivation
-from dynsolve.robot.model import Robot
 
 Rows = tuple[tuple[Frac, ...], ...]
 
@@ -51,10 +49,10 @@ class Given:
 
 
 class Hand:
-    """All answers of one hand-in, valued."""
+    """All answers of one hand-in, valued in a field that refines `base`, the problem's."""
 
-    def __init__(self, robot: Robot, key: Derivation, answers: Sequence[Answer]) -> None:
-        builder = FieldBuilder(robot)
+    def __init__(self, base: Field, answers: Sequence[Answer]) -> None:
+        builder = FieldBuilder(base)
         self._faults: dict[int, tuple[str, str]] = {}
         for place, answer in enumerate(answers):
             if answer.node is None:
@@ -64,13 +62,13 @@ class Hand:
                 builder.admit(answer.node)
             except AlgebraError as error:
                 self._faults[place] = error.message, error.help
-        self.field: Field = builder.field(key)
+        self.field: Field = builder.field()
         self.graph = Graph(self.field)
         self.answers = tuple(answers)
         self._last = {a.name: place for place, a in enumerate(answers) if place not in self._faults}
         self._values: dict[int, Given] = {}
         self._busy: set[int] = set()
-        self.evaluator = Evaluator(self.field.ring, self.lookup)
+        self.evaluator = Evaluator(self.field.ring, self.lookup, self.field.turns)
         self.given: tuple[Given, ...] = tuple(self._given(place) for place in range(len(answers)))
 
     def _given(self, place: int) -> Given:

@@ -20,7 +20,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.compare import Comparison
 from dynsolve.answers.diagnose import Diagnoser, Question
 from dynsolve.answers.dimensions import Dimensions
-from dynsolve.answers.field import Field, Plan
+from dynsolve.answers.field import Field
 from dynsolve.answers.follow import Candidate, Follow
 from dynsolve.answers.frac import Frac, as_expr
 from dynsolve.answers.given import Given, Hand, same
@@ -28,6 +28,7 @@ from dynsolve.answers.graph import Graph
 from dynsolve.answers.hold import Held, Holder, Target
 from dynsolve.answers.level import find_level
 from dynsolve.answers.own import own_values
+from dynsolve.answers.reading.files import FileReader
 from dynsolve.answers.slips.derivation import DerivationSlips
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import (
@@ -61,12 +62,17 @@ class Checker:
     def __init__(self, problem: Problem, key: Derivation | None = None) -> None:
         self.problem = problem
         self.key = key if key is not None else derive(problem.robot)
+        self.field = Field(problem.robot, self.key)
+
+    @cached_property
+    def reader(self) -> FileReader:
+        """Reads what is handed in."""
+        return FileReader(self.problem)
 
     @cached_property
     def derivations(self) -> DerivationSlips:
         """The derivations with a rule replaced, in the problem's own ring."""
-        robot = self.problem.robot
-        return DerivationSlips(Graph(Field(robot, self.key, Plan(robot.ring))))
+        return DerivationSlips(Graph(self.field))
 
     def __call__(self, submission: Submission) -> Report:
         """Judge a hand-in."""
@@ -85,7 +91,7 @@ class Judge:
         self.checker = checker
         self.problem = problem = checker.problem
         self.submission = submission
-        self.hand = Hand(problem.robot, checker.key, submission.answers)
+        self.hand = Hand(checker.field, submission.answers)
         self.field = self.hand.field
         self.dimensions = Dimensions(self.field.ring, self.field.robot)
         self.compare = Comparison(problem.values)

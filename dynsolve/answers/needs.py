@@ -13,7 +13,7 @@ from dynsolve.algebra.survey import rational_value
 from dynsolve.answers.submission import referred
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Degrees, Function, Node, Symbol
+from dynsolve.notation.tree import Degrees, Function, Node, Number, Symbol
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +27,12 @@ class Needs:
     denominators: int = 0
     opaque: tuple[tuple[str, Node], ...] = ()
 
+    def __bool__(self) -> bool:
+        """Whether the tree brings anything."""
+        return bool(
+            self.symbols or self.angles or self.radicands or self.roots or self.denominators or self.opaque
+        )
+
 
 def opaque(node: Node) -> str:
     """The name of the generator that stands for a function of an argument nobody expects."""
@@ -38,11 +44,45 @@ def is_opaque(name: str) -> bool:
     return name.startswith("(")
 
 
+MOST_PLAIN = 4096
+"""So many functions are remembered that bring nothing."""
+
+
+class Known:
+    """What a ring holds already: `holds` says of an angle whether its sine and cosine are there.
+
+    Functions that bring nothing are remembered, for all hand-ins to one problem hold the same few.
+    """
+
+    def __init__(self, ring: Ring) -> None:
+        self.ring = ring
+        self._plain: set[Function] = set()
+
+    def brings_nothing(self, node: Function) -> bool:
+        """Whether this function was met before and is there as it is."""
+        return node in self._plain
+
+    def remember(self, node: Function) -> None:
+        """Note that a function brings nothing."""
+        if len(self._plain) >= MOST_PLAIN:
+            self._plain.clear()
+        self._plain.add(node)
+
+    def holds(self, angle: Angle) -> bool:
+        """Whether the ring has the sine and cosine of an angle as they are."""
+        try:
+            _, degrees = self.ring._plan.multiples(angle)
+        except AlgebraError:
+            return False
+        return degrees % 90 == 0
+
+
 class _Collector:
     """Walks a tree and notes what a ring must hold for it."""
 
-    def __init__(self, known: Ring) -> None:
-        self.known = known
+    def __init__(self, known: Known) -> None:
+        self.known = known.ring
+        self.turns = known
         self.symbols: dict[str, None] = {}
         self.angles: dict[Angle, None] = {}
         self.radicands: dict[Fraction, None] = {}
@@ -56,9 +96,13 @@ class _Collector:
         while waiting:
             here = waiting.pop()
             match here:
+                case tree.Sum(parts) | tree.Product(parts):
+                    waiting.extend(parts)
                 case Symbol(name, dots):
                     if not self.known.has_symbol(name, dots) and referred(name) is None:
                         self.symbols.setdefault(dotted(name, dots))
+                case Number():
+                    pass
                 case Degrees():
                     self.symbols.setdefault("pi")
                 case Function():
@@ -74,7 +118,7 @@ class _Collector:
 
     def function(self, node: Function) -> list[Node]:
         """Note a function; the nodes inside it that are still to be walked."""
-        if node in self.seen:
+        if node in self.seen or self.turns.brings_nothing(node):
             return []
         self.seen.add(node)
         if node.name == "sqrt":
@@ -82,10 +126,12 @@ class _Collector:
         angle = expected_angle(node, self.known.names)
         if angle is None:
             return self.unexpected(node)
+        new = [name for name in names_of(angle) if not self.known.has_symbol(name)]
+        if not new and self.turns.holds(angle):
+            self.turns.remember(node)
+            return []
         self.angles.setdefault(angle)
-        for name in names_of(angle):
-            if not self.known.has_symbol(name):
-                self.symbols.setdefault(name)
+        self.symbols.update(dict.fromkeys(new))
         return []
 
     def unexpected(self, node: Function) -> list[Node]:
@@ -179,8 +225,8 @@ def plain_radicand(node: Node, coordinates: Iterable[str]) -> bool:
     return True
 
 
-def needs_of(node: Node, known: Ring) -> Needs:
-    """What a ring must hold for a tree, beside what the problem's holds."""
+def needs_of(node: Node, known: Known) -> Needs:
+    """What a ring must hold for a tree, beside what is known."""
     collector = _Collector(known)
     collector.walk(node)
     return collector.needs()

@@ -117,8 +117,9 @@ def referred(symbol: str) -> tuple[str, int | None, int | None] | None:
 def read_submission(problem: Problem, source: bytes | str, file: str) -> Submission:
     """Read what a student handed in: an answer file (.yaml) or a report (.md, .tex, .txt, .ipynb, .html).
 
-    The ending of `file` says which; nothing that stands in `source` raises.
+    The ending of `file` says which; nothing that stands in `source` raises.  For many
+    files of one problem see `reading.files.FileReader`.
     """
-    from dynsolve.answers.reading.files import read_file
+    from dynsolve.answers.reading.files import FileReader
 
-    return read_file(problem, source, file)
+    return FileReader(problem)(source, file)

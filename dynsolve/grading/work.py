@@ -16,7 +16,7 @@ from typing import Any
 
 from dynsolve.answers.feedback import View, feedback
 from dynsolve.answers.judge import Checker, Judge
-from dynsolve.answers.submission import Submission, read_submission
+from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import Judged, Report, Verdict
 from dynsolve.document import Document, Heading, Note, Text
 from dynsolve.explain.style import style_of
@@ -40,7 +40,8 @@ def grade_one(payload: Data, narrow: float = 0.0) -> Data:
     With `narrow` seconds every answer is tried by itself first, and what is too much is unreadable.
     """
     checker = checker_of(payload)
-    submission = _joined([_read(checker.problem, file) for file in payload["files"]])
+    read = [checker.reader(base64.b64decode(file["content"]), file["name"]) for file in payload["files"]]
+    submission = _joined(read)
     if narrow:
         submission = sound(submission, lambda one: _graded(checker, one, payload), narrow)
     return _graded(checker, submission, payload)
@@ -75,10 +76,6 @@ def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
 def _checker(file: str, text: str, marks: tuple[tuple[str, str], ...]) -> Checker:
     problem = read_problem(text, file)
     return Checker(replace(problem, marks={name: Fraction(of) for name, of in marks}))
-
-
-def _read(problem: Problem, file: Data) -> Submission:
-    return read_submission(problem, base64.b64decode(file["content"]), file["name"])
 
 
 def _joined(read: list[Submission]) -> Submission:

@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 
 from dynsolve.notation.tree import (
     Function,
+    Letter,
     Negative,
     Node,
     Number,
@@ -48,7 +49,7 @@ PLAIN = Style()
 Rules = Mapping[type[Node], Callable[[Any, Any], str]]
 
 # Sub-trees that are shared come as these; leaves and short nodes cost less than their entry.
-_REMEMBERED = frozenset({Sum, Product, Quotient, Power, Function})
+_REMEMBERED = frozenset({Sum, Product, Quotient, Power, Function, Letter})
 
 
 class Printer:

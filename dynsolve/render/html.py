@@ -35,7 +35,7 @@ from dynsolve.render.boxes import holds_matrix
 from dynsolve.render.flow import Flow, Notation, together
 from dynsolve.render.references import numbered, with_results
 from dynsolve.render.setting import entry_name, listed
-from dynsolve.render.words import spoken, visible
+from dynsolve.render.words import Speech, visible
 
 PHONE = 16.5
 """What fits a phone, in em."""
@@ -115,6 +115,7 @@ class _Page:
 
     def __init__(self, style: Style, labels: dict[str, int]) -> None:
         self.printer = MathMLPrinter(style)
+        self.words = Speech(escape, self.inline)
         self.ruler = Ruler(style)
         self.flow = Flow(html_notation(self.printer), self.ruler, _FINE)
         self.labels = labels
@@ -167,10 +168,6 @@ class _Page:
         for block in with_results(fold.blocks):
             yield from self.block(block)
         yield "</details>\n"
-
-    def words(self, text: str) -> str:
-        parts = (escape(visible(p)) if isinstance(p, str) else self.inline(p) for p in spoken(text))
-        return "".join(parts)
 
     def prose(self, parts: Prose) -> str:
         return "".join(self.words(p) if isinstance(p, str) else self.sentence_part(p) for p in parts)

@@ -30,7 +30,7 @@ from dynsolve.render.flow import Notation
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.references import numbered, slug, with_sources
 from dynsolve.render.setting import Line, Setter
-from dynsolve.render.words import spoken
+from dynsolve.render.words import Speech
 
 PAGE = 42.8
 """The width of our own page, in em."""
@@ -138,6 +138,7 @@ class _Page:
 
     def __init__(self, style: Style, width: float, document: Document) -> None:
         self.printer = _Printer(style)
+        self.words = Speech(latex_text, self.inline)
         ruler, notation = Ruler(style), latex_notation(self.printer)
         self.plain = Setter(notation, ruler, width)
         self.with_number = Setter(notation, ruler, width - _NUMBER)
@@ -191,16 +192,13 @@ class _Page:
         words = f"{found[1]}\\quad {self.words(found[2])}" if found else self.words(text)
         return f"\\{command}*{{{words}}}"
 
-    def words(self, text: str) -> str:
-        """Words, with the mathematics in them."""
-        parts = (latex_text(p) if isinstance(p, str) else f"${self.printer.text(p)}$" for p in spoken(text))
-        return "".join(parts)
-
     def prose(self, parts: Prose) -> str:
         """A sentence with its formulas."""
-        return "".join(
-            self.words(part) if isinstance(part, str) else f"${self.printer.text(part)}$" for part in parts
-        )
+        return "".join(self.words(part) if isinstance(part, str) else self.inline(part) for part in parts)
+
+    def inline(self, node: Node) -> str:
+        """A formula in a sentence."""
+        return f"${self.printer.text(node)}$"
 
     def uses(self, labels: Sequence[str]) -> Iterator[str]:
         known = [label for label in labels if label in self.labels]

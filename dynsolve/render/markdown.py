@@ -32,7 +32,7 @@ from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.render.latex import latex_notation
 from dynsolve.render.references import numbered, with_sources
 from dynsolve.render.setting import Line, Setter
-from dynsolve.render.words import spoken, visible
+from dynsolve.render.words import Speech
 
 PAGE = 40.0
 """The width of a page on GitHub, in em."""
@@ -68,6 +68,7 @@ class _Page:
 
     def __init__(self, style: Style, labels: dict[str, int]) -> None:
         self.printer = _Printer(style)
+        self.words = Speech(escaped, self.inline)
         ruler, notation = Ruler(style), latex_notation(self.printer)
         self.plain = Setter(notation, ruler, PAGE)
         self.with_number = Setter(notation, ruler, PAGE - _NUMBER)
@@ -103,9 +104,6 @@ class _Page:
             case Fold(title, blocks):
                 yield f"### {self.words(title)}\n"
                 yield from self.blocks(with_sources(blocks))
-
-    def words(self, text: str) -> str:
-        return "".join(escaped(p) if isinstance(p, str) else self.inline(p) for p in spoken(visible(text)))
 
     def prose(self, parts: Prose) -> str:
         return "".join(self.words(part) if isinstance(part, str) else self.inline(part) for part in parts)

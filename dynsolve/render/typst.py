@@ -27,7 +27,7 @@ from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.flow import Notation
 from dynsolve.render.references import numbered, with_sources
 from dynsolve.render.setting import Line, Setter
-from dynsolve.render.words import spoken, visible
+from dynsolve.render.words import Speech, visible
 
 PAGE = 45.0
 """The width of the page, in em."""
@@ -106,6 +106,7 @@ class _Page:
 
     def __init__(self, style: Style, labels: dict[str, int]) -> None:
         self.printer = TypstPrinter(style)
+        self.words = Speech(_string, self.inline)
         ruler, notation = Ruler(style), typst_notation(self.printer)
         self.plain = Setter(notation, ruler, PAGE)
         self.with_number = Setter(notation, ruler, PAGE - _NUMBER)
@@ -142,12 +143,6 @@ class _Page:
             case Fold(title, blocks):
                 yield f"#heading(level: 3)[{self.words(title)}]"
                 yield from self.blocks(with_sources(blocks))
-
-    def words(self, text: str) -> str:
-        """Words as a string, so that nothing in them is markup; the mathematics in them as such."""
-        return "".join(
-            f"#{quoted(_known(p))};" if isinstance(p, str) else self.inline(p) for p in spoken(visible(text))
-        )
 
     def prose(self, parts: Prose) -> str:
         return "".join(self.words(part) if isinstance(part, str) else self.inline(part) for part in parts)
@@ -191,6 +186,11 @@ def _rows(lines: Sequence[Line]) -> str:
     if len(lines) == 1:
         return f"{lines[0].left} {lines[0].right}".strip()
     return " \\\n".join(f"{line.left} & {'#h(2em) ' if line.indented else ''}{line.right}" for line in lines)
+
+
+def _string(text: str) -> str:
+    """Words as a string, so that nothing in them is markup."""
+    return f"#{quoted(_known(text))};"
 
 
 def _known(text: str) -> str:

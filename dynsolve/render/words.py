@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import lru_cache
 
 from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS
 from dynsolve.notation.tree import Letter, Node, Number, Row, Symbol, Words
@@ -37,7 +38,8 @@ def visible(text: str) -> str:
     >>> visible("RP\u202e\tarm")
     'RP arm'
     """
-    text = unicodedata.normalize("NFC", text)
+    if not text.isascii():
+        text = unicodedata.normalize("NFC", text)
     if text.isprintable():
         return text
     return "".join(filter(None, map(_seen, text)))
@@ -58,24 +60,52 @@ def spoken(text: str) -> Iterator[str | Node]:
     >>> list(spoken("Row 1: A₁"))
     ['Row 1: ', Letter(base='A', sub=Number(...), sup=None, style='italic', dots=0)]
     """
+    if text.isascii():  # every formula in a text has a dot, an index or a Greek letter
+        if text:
+            yield text
+        return
     place = 0
     for found in _SPOKEN.finditer(text):
         if found["base"].isascii() and not (found["dots"] or found["sub"] or found["sup"]):
             continue
         if place < found.start():
             yield text[place : found.start()]
-        yield _formula(found)
+        yield _formula(*found.group("base", "dots", "sub", "sup"))
         place = found.end()
     if place < len(text):
         yield text[place:]
 
 
-def _formula(found: re.Match[str]) -> Node:
-    base = found["base"]
+class Speech:
+    """Writes words in one notation: `plain` writes text, `formula` the mathematics among it.
+
+    A letter is written once, however often it occurs.
+    """
+
+    def __init__(self, plain: Callable[[str], str], formula: Callable[[Node], str]) -> None:
+        self.plain, self.formula = plain, formula
+        self._written: dict[Node, str] = {}
+
+    def __call__(self, text: str) -> str:
+        """The text in the notation."""
+        return "".join(
+            self.plain(part) if isinstance(part, str) else self._letter(part)
+            for part in spoken(visible(text))
+        )
+
+    def _letter(self, node: Node) -> str:
+        found = self._written.get(node)
+        if found is None:
+            found = self._written[node] = self.formula(node)
+        return found
+
+
+@lru_cache(maxsize=2048)
+def _formula(base: str, dots: str, sub: str, sup: str) -> Node:
     style = "script" if base in _SCRIPTS else "italic"
-    dots = _DOTS.get(found["dots"], 1 if base in _DOTTED else 0)
+    count = _DOTS.get(dots, 1 if base in _DOTTED else 0)
     letter = _DOTTED.get(base) or _SCRIPTS.get(base) or _SPELLED.get(base) or base
-    return Letter(letter, _index(found["sub"], _SUBSCRIPTS), _index(found["sup"], _SUPERSCRIPTS), style, dots)
+    return Letter(letter, _index(sub, _SUBSCRIPTS), _index(sup, _SUPERSCRIPTS), style, count)
 
 
 def _index(text: str, table: dict[str, str]) -> Node | None:

@@ -28,21 +28,33 @@ def _is_report(text: str) -> bool:
     return has_displays and not any(line.startswith("answers:") for line in text.splitlines())
 
 
-def read_file(problem: Problem, content: bytes | str, file: str) -> Submission:
-    """Read what was handed in; what is wrong with the file as a whole is in `faults`."""
-    if len(content) > MAX_BYTES:
-        message = f"the file is larger than {MAX_BYTES // 1_000_000} MB"
-        return Submission("", "", file, (), (), (Finding(message, "hand in the text alone", file),))
-    session = Session(vocabulary(problem), style_of(problem.robot))
-    source = Source(decoded(content), file)
-    ending = PurePath(file.replace("\0", "")).suffix.lower()
-    head = ("", "")
-    faults: list[Finding] = []
-    if ending in (".ipynb",):
+class FileReader:
+    """Reads what is handed in for one problem; what all hand-ins share is made once."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.vocabulary = vocabulary(problem)
+        self.style = style_of(problem.robot)
+
+    def __call__(self, content: bytes | str, file: str) -> Submission:
+        """Read one file; what is wrong with it as a whole is in `faults`."""
+        if len(content) > MAX_BYTES:
+            message = f"the file is larger than {MAX_BYTES // 1_000_000} MB"
+            return Submission("", "", file, (), (), (Finding(message, "hand in the text alone", file),))
+        session = Session(self.vocabulary.fresh(), self.style)
+        problem, student, faults = _read(session, Source(decoded(content), file))
+        session.finish()
+        answers, refused = tuple(session.answers), tuple(session.not_recognized)
+        return Submission(problem, student, file, answers, refused, tuple(faults))
+
+
+def _read(session: Session, source: Source) -> tuple[str, str, list[Finding]]:
+    """Read a file by its ending; gives the problem and the student that it names, and its faults."""
+    ending = PurePath(source.file.replace("\0", "")).suffix.lower()
+    if ending == ".ipynb":
         from dynsolve.answers.reading.notebooks import read_notebook
 
-        faults = read_notebook(session, source)
-    elif ending in (".html", ".htm"):
+        return "", "", read_notebook(session, source)
+    if ending in (".html", ".htm"):
         from dynsolve.answers.reading.web import read_page
 
         read_page(session, source)
@@ -51,7 +63,6 @@ def read_file(problem: Problem, content: bytes | str, file: str) -> Submission:
     else:
         from dynsolve.answers.reading.answer_file import read_answer_file
 
-        head, faults = read_answer_file(session, source)
-    session.finish()
-    answers, refused = tuple(session.answers), tuple(session.not_recognized)
-    return Submission(head[0], head[1], file, answers, refused, tuple(faults))
+        (problem, student), faults = read_answer_file(session, source)
+        return problem, student, faults
+    return "", "", []

@@ -31,6 +31,7 @@ _MACRO = re.compile(
     r"|\\def\s{0,20}\\(?P<defined>[A-Za-z]{1,60})(?P<hash>#1)?\s{0,20}(?=\{)"
 )
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
+_MAYBE_LABEL = re.compile(r"[\s~]*[(\\]")
 _ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
 _PLAIN_LINE = re.compile(r"[^\n=]{1,200}=")
 _TRAILING = frozenset("=+-*/,([{&\\")
@@ -206,7 +207,7 @@ def _labelled(displays: list[tuple[int, Display]]) -> list[tuple[int, Display]]:
 
 def _label_alone(text: str) -> str:
     """The number of an equation, if the text of a display is nothing else."""
-    if len(text) > 40:
+    if len(text) > 40 or not _MAYBE_LABEL.match(text):
         return ""
     try:
         return is_label(simplified(scan(text)))

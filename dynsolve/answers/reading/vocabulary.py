@@ -72,6 +72,13 @@ class Vocabulary:
     subscripts: dict[str, Coordinate] = field(default_factory=dict)
     plain: dict[str, Node] = field(default_factory=dict)
 
+    def fresh(self) -> Vocabulary:
+        """The names of the problem alone, for another hand-in."""
+        return Vocabulary(
+            self.coordinates, self.symbols, self.others, self.quantities, self.shapes, self.families,
+            self.bodies, self.masses, subscripts=self.subscripts,
+        )  # fmt: skip
+
     def define(self, name: str, meaning: Meaning) -> None:
         """Keep what the student says a name is, from here on."""
         self.defined[name] = meaning

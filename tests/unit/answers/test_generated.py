@@ -9,7 +9,7 @@ import pytest
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.field import Field, Plan
+from dynsolve.answers.field import Field
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.judge import check
 from dynsolve.answers.slips.derivation import Replaced
@@ -25,7 +25,7 @@ START = ("rc", "v", "Kv", "Kw", "K", "P", "L", "dLdqd", "ddt", "dLdq", "tau")
 @lru_cache
 def graph(stem: str) -> Graph:
     robot = problem(stem).robot
-    return Graph(Field(robot, key(stem), Plan(robot.ring)))
+    return Graph(Field(robot, key(stem)))
 
 
 @lru_cache

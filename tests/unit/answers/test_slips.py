@@ -8,7 +8,7 @@ import pytest
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.field import Field, Plan
+from dynsolve.answers.field import Field
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.slips.derivation import DerivationSlips
 from dynsolve.answers.slips.stage import variants
@@ -33,7 +33,7 @@ def test_the_example_of_a_slip_shows_it(slip: Slip) -> None:
 @lru_cache
 def graph(stem: str) -> Graph:
     robot = problem(stem).robot
-    return Graph(Field(robot, key(stem), Plan(robot.ring)))
+    return Graph(Field(robot, key(stem)))
 
 
 def _equal(a: Expr | Matrix, b: Expr | Matrix) -> bool:
