@@ -9,10 +9,10 @@ terms costs one reduction.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from math import comb
-from typing import Any
+from typing import Any, NamedTuple
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr, rational
@@ -49,20 +49,36 @@ MOST_POWER = 20
 MOST_BITS = 6_000
 MOST_TURNS = 24
 
-MOST_TURNED = 4096
-"""So many sines and cosines are remembered."""
+MOST_KNOWN = 4096
+"""So many functions and terms are remembered."""
 
 
 Lookup = Callable[[str], Frac]
 """The value of an answer that occurs inside another, by its placeholder's name."""
 
 
-Turns = dict[Function, "Frac | tuple[int, int]"]
-"""What sines and cosines were found to be in a ring: a value, or (generator, ±1)."""
+@dataclass(slots=True)
+class Values:
+    """What functions and terms were found to be in one ring, whoever wrote them.
+
+    `turns` are sines and cosines: a value, or (generator, ±1).  `terms` are monomials
+    or unreduced products, each with the work that it cost.
+    """
+
+    turns: dict[Function, Frac | tuple[int, int]] = field(default_factory=dict)
+    terms: dict[Node, _Value] = field(default_factory=dict)
 
 
 def _nothing(name: str) -> Frac:
     raise AlgebraError(f"{name} stands for no answer")
+
+
+class _Value(NamedTuple):
+    """A term: coefficient · Π generator^exponent, or where it has no `exponents` a product multiplied out."""
+
+    exponents: tuple[int, ...] | None
+    value: Any
+    work: int
 
 
 @dataclass(slots=True)
@@ -77,15 +93,16 @@ class _Term:
 class Evaluator:
     """Values of trees in one ring; `work` is what the current tree has cost.
 
-    `turns` are the sines and cosines that are known, for several hand-ins in one ring.
+    `values` are those that are known already, for several hand-ins in one ring.
     """
 
-    def __init__(self, ring: Ring, lookup: Lookup = _nothing, turns: Turns | None = None) -> None:
+    def __init__(self, ring: Ring, lookup: Lookup = _nothing, values: Values | None = None) -> None:
         self.ring = ring
         self.lookup = lookup
         self.work = 0
         self._width = len(ring.generators)
-        self._turns: Turns = {} if turns is None else turns
+        self._values = Values() if values is None else values
+        self._asked = 0
         self._roots: dict[Function, Frac] = {}
 
     def value(self, node: Node) -> Frac:
@@ -121,21 +138,19 @@ class Evaluator:
         fractions: list[Frac] = []
         unreduced: Any = None
         for node in terms:
-            inner = _unwrapped(node)
+            inner, is_negative = _unwrapped(node)
             if isinstance(inner, Sum):
                 self._put(self._value(node), polys, fractions)
                 continue
-            term = _Term(Fraction(1), {}, [])
-            self._gather(node, term, 1)
-            if term.others:
-                raw = self._raw(term)
-                if raw is None:
-                    self._put(self._finish(term), polys, fractions)
-                else:
-                    unreduced = raw if unreduced is None else unreduced + raw
-            elif term.coefficient:
-                key = self._key(term)
-                flat[key] = flat.get(key, 0) + rational(term.coefficient)
+            value = self._term(inner)
+            if isinstance(value, Frac):
+                self._put(Frac(-value.above, value.below) if is_negative else value, polys, fractions)
+                continue
+            key, number = value.exponents, -value.value if is_negative else value.value
+            if key is None:
+                unreduced = number if unreduced is None else unreduced + number
+            elif number:
+                flat[key] = flat[key] + number if key in flat else number
         if unreduced is not None:
             flat_poly = self.ring.ctx.from_dict(flat) + unreduced
         else:
@@ -145,6 +160,29 @@ class Evaluator:
             total = total + poly.poly
         result = Frac(Expr(self.ring, total))
         return self._add_fractions(result, fractions)
+
+    def _term(self, node: Node) -> _Value | Frac:
+        """A term of a sum: known, multiplied out and not yet reduced, or finished where it is long."""
+        known = self._values.terms
+        found = known.get(node)
+        if found is not None:
+            self.work += found.work
+            return found
+        asked, work = self._asked, self.work
+        term = _Term(Fraction(1), {}, [])
+        self._gather(node, term, 1)
+        if not term.others:
+            found = _Value(self._key(term), rational(term.coefficient), self.work - work)
+        else:
+            raw = self._raw(term)
+            if raw is None:
+                return self._finish(term)
+            found = _Value(None, raw, self.work - work)
+        if self._asked == asked:  # nothing of the student's own stands in it
+            if len(known) >= MOST_KNOWN:
+                known.clear()
+            known[node] = found
+        return found
 
     def _raw(self, term: _Term) -> Any:
         """A term multiplied out and not yet reduced; None where it is no short product of polynomials."""
@@ -233,6 +271,7 @@ class Evaluator:
         index = self.ring._symbols.get((node.name, node.dots))
         if index is None:
             if node.name.startswith(REFERENCE_MARK):
+                self._asked += 1
                 term.others.append(self._power_of(self.lookup(node.name), power))
                 return
             index = self._unknown(dotted(node.name, node.dots))
@@ -258,11 +297,12 @@ class Evaluator:
 
     def _turn(self, node: Function) -> Frac | tuple[int, int]:
         """The value of a sine, cosine or tangent, which no answer of the hand-in can change."""
-        found = self._turns.get(node)
+        known = self._values.turns
+        found = known.get(node)
         if found is None:
-            if len(self._turns) >= MOST_TURNED:
-                self._turns.clear()
-            found = self._turns[node] = self._turn_value(node)
+            if len(known) >= MOST_KNOWN:
+                known.clear()
+            found = known[node] = self._turn_value(node)
         return found
 
     def _turn_value(self, node: Function) -> Frac | tuple[int, int]:
@@ -376,10 +416,13 @@ class Evaluator:
         return result
 
 
-def _unwrapped(node: Node) -> Node:
+def _unwrapped(node: Node) -> tuple[Node, bool]:
+    """What stands behind signs and parentheses, and whether it is negative."""
+    is_negative = False
     while isinstance(node, (Negative, Parenthesized)):
+        is_negative = is_negative != isinstance(node, Negative)
         node = node.argument
-    return node
+    return node, is_negative
 
 
 def _bits(expr: Expr) -> int:

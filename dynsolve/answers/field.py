@@ -26,10 +26,12 @@ from dynsolve.algebra.lattice import Vector, lattice_basis, rational_gcd
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.survey import Survey
+from dynsolve.answers.dimensions import Dimensions
+from dynsolve.answers.evaluate import Values
 from dynsolve.answers.needs import Known, Needs, needs_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Function, Node, Number
+from dynsolve.notation.tree import Node, Number
 from dynsolve.pipeline import Derivation, course_rules
 from dynsolve.robot.model import Robot
 
@@ -190,7 +192,7 @@ class Field:
     """A ring that holds the problem and its answers, with the robot and the key in it.
 
     `key` is the derivation of the problem carried over, `robot` the robot; `rules`
-    are the textbook's rules on that robot; `turns` remembers the values of sines and cosines.
+    are the textbook's rules on that robot; `values` remembers those of functions and terms.
     Without a plan it is the problem's own.
     """
 
@@ -206,7 +208,7 @@ class Field:
             for node in plan.survey.denominators:
                 self.ring.expr(tree.Quotient(Number(1), node))
         self._moved: dict[str, Any] = {}
-        self.turns: dict[Function, Any] = {}
+        self.values = Values()
 
     def refined(self, plan: Plan) -> Field:
         """The field of another plan: this one where it holds everything."""
@@ -215,7 +217,7 @@ class Field:
     @cached_property
     def known(self) -> Known:
         """What an answer need not bring."""
-        return Known(self.ring)
+        return Known(self.ring, self.values.terms)
 
     @cached_property
     def robot(self) -> Robot:
@@ -228,6 +230,11 @@ class Field:
         if found is None:
             found = self._moved[name] = self.move(self._key[name])
         return found
+
+    @cached_property
+    def dimensions(self) -> Dimensions:
+        """The dimensions of this ring's symbols."""
+        return Dimensions(self.ring, self.robot)
 
     @cached_property
     def rules(self) -> Mapping[str, Any]:

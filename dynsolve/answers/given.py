@@ -68,7 +68,7 @@ class Hand:
         self._last = {a.name: place for place, a in enumerate(answers) if place not in self._faults}
         self._values: dict[int, Given] = {}
         self._busy: set[int] = set()
-        self.evaluator = Evaluator(self.field.ring, self.lookup, self.field.turns)
+        self.evaluator = Evaluator(self.field.ring, self.lookup, self.field.values)
         self.given: tuple[Given, ...] = tuple(self._given(place) for place in range(len(answers)))
 
     def _given(self, place: int) -> Given:

@@ -19,7 +19,6 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.compare import Comparison
 from dynsolve.answers.diagnose import Diagnoser, Question
-from dynsolve.answers.dimensions import Dimensions
 from dynsolve.answers.field import Field
 from dynsolve.answers.follow import Candidate, Follow
 from dynsolve.answers.frac import Frac, as_expr
@@ -93,7 +92,7 @@ class Judge:
         self.submission = submission
         self.hand = Hand(checker.field, submission.answers)
         self.field = self.hand.field
-        self.dimensions = Dimensions(self.field.ring, self.field.robot)
+        self.dimensions = self.field.dimensions
         self.compare = Comparison(problem.values)
         self.graph = Graph(self.field)
         self.hold = Holder(self.graph, self.compare, self.hand.moved)

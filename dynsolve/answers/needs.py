@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from hashlib import sha256
@@ -51,11 +51,13 @@ MOST_PLAIN = 4096
 class Known:
     """What a ring holds already: `holds` says of an angle whether its sine and cosine are there.
 
-    Functions that bring nothing are remembered, for all hand-ins to one problem hold the same few.
+    Functions that bring nothing are remembered, for all hand-ins to one problem hold the
+    same few; `terms` are those that were evaluated in the ring as it is.
     """
 
-    def __init__(self, ring: Ring) -> None:
+    def __init__(self, ring: Ring, terms: Container[Node] = ()) -> None:
         self.ring = ring
+        self.terms = terms
         self._plain: set[Function] = set()
 
     def brings_nothing(self, node: Function) -> bool:
@@ -82,7 +84,7 @@ class _Collector:
 
     def __init__(self, known: Known) -> None:
         self.known = known.ring
-        self.turns = known
+        self.there = known
         self.symbols: dict[str, None] = {}
         self.angles: dict[Angle, None] = {}
         self.radicands: dict[Fraction, None] = {}
@@ -96,8 +98,11 @@ class _Collector:
         while waiting:
             here = waiting.pop()
             match here:
-                case tree.Sum(parts) | tree.Product(parts):
+                case tree.Sum(parts):
                     waiting.extend(parts)
+                case tree.Product(parts):
+                    if here not in self.there.terms:
+                        waiting.extend(parts)
                 case Symbol(name, dots):
                     if not self.known.has_symbol(name, dots) and referred(name) is None:
                         self.symbols.setdefault(dotted(name, dots))
@@ -118,7 +123,7 @@ class _Collector:
 
     def function(self, node: Function) -> list[Node]:
         """Note a function; the nodes inside it that are still to be walked."""
-        if node in self.seen or self.turns.brings_nothing(node):
+        if node in self.seen or self.there.brings_nothing(node):
             return []
         self.seen.add(node)
         if node.name == "sqrt":
@@ -127,8 +132,8 @@ class _Collector:
         if angle is None:
             return self.unexpected(node)
         new = [name for name in names_of(angle) if not self.known.has_symbol(name)]
-        if not new and self.turns.holds(angle):
-            self.turns.remember(node)
+        if not new and self.there.holds(angle):
+            self.there.remember(node)
             return []
         self.angles.setdefault(angle)
         self.symbols.update(dict.fromkeys(new))

@@ -82,6 +82,11 @@ class Printer:
             self._memory[id(node)] = (node, text)
         return text
 
+    @property
+    def remembered(self) -> int:
+        """How many parts are remembered."""
+        return len(self._memory)
+
     def parenthesized(self, text: str) -> str:
         """The text in parentheses as the notation writes them."""
         return f"({text})"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from html import escape
 from importlib.resources import files
 
@@ -55,17 +56,22 @@ def render(document: Document, style: Style = PLAIN, level: str = "normal") -> s
     page = _Page(style, numbered(document))
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
     body = "".join(page.document(document.blocks))
-    css = (files("dynsolve.render") / "report.css").read_text(encoding="utf-8")
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
         "style-src 'unsafe-inline'; img-src data:\">\n"
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
-        f"<title>{escape(title)}</title>\n<style>\n{css}{page.widths_css()}</style>\n</head>\n<body>\n"
+        f"<title>{escape(title)}</title>\n<style>\n{stylesheet()}{page.widths_css()}</style>\n</head>\n<body>\n"
         f"{_switch(level) if page.has_levels() else ''}{page.contents()}"
         f"<main>\n{body}</main>\n</body>\n</html>\n"
     )
+
+
+@cache
+def stylesheet() -> str:
+    """The styles that every page holds."""
+    return (files("dynsolve.render") / "report.css").read_text(encoding="utf-8")
 
 
 def _switch(level: str) -> str:

@@ -90,7 +90,7 @@ class Speech:
         """The text in the notation."""
         return "".join(
             self.plain(part) if isinstance(part, str) else self._letter(part)
-            for part in spoken(visible(text))
+            for part in _parts(visible(text))
         )
 
     def _letter(self, node: Node) -> str:
@@ -98,6 +98,12 @@ class Speech:
         if found is None:
             found = self._written[node] = self.formula(node)
         return found
+
+
+@lru_cache(maxsize=512)
+def _parts(text: str) -> tuple[str | Node, ...]:
+    """What is spoken, for one text is often written in several formats."""
+    return tuple(spoken(text))
 
 
 @lru_cache(maxsize=2048)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import PurePath
 
 from dynsolve.answers.reading.limits import MAX_BYTES
+from dynsolve.answers.reading.memory import MOST
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.session import Session
 from dynsolve.answers.reading.sources import Source, decoded
@@ -12,6 +13,7 @@ from dynsolve.answers.reading.vocabulary import vocabulary
 from dynsolve.answers.submission import Submission
 from dynsolve.errors import Finding
 from dynsolve.explain.style import style_of
+from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.problem.model import Problem
 
 ENDINGS = (".yaml", ".yml", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm")
@@ -34,13 +36,16 @@ class FileReader:
     def __init__(self, problem: Problem) -> None:
         self.vocabulary = vocabulary(problem)
         self.style = style_of(problem.robot)
+        self.printer = UnicodePrinter(self.style)
 
     def __call__(self, content: bytes | str, file: str) -> Submission:
         """Read one file; what is wrong with it as a whole is in `faults`."""
         if len(content) > MAX_BYTES:
             message = f"the file is larger than {MAX_BYTES // 1_000_000} MB"
             return Submission("", "", file, (), (), (Finding(message, "hand in the text alone", file),))
-        session = Session(self.vocabulary.fresh(), self.style)
+        if self.printer.remembered > MOST:
+            self.printer = UnicodePrinter(self.style)
+        session = Session(self.vocabulary.fresh(), self.printer)
         problem, student, faults = _read(session, Source(decoded(content), file))
         session.finish()
         answers, refused = tuple(session.answers), tuple(session.not_recognized)

@@ -80,7 +80,7 @@ def value_of(reader: Reader, form: Form) -> Value:
     if meaning.note:
         reader.notes.setdefault(meaning.note)
     elif _is_plain(reader, form, name) and isinstance(meaning.value, Node):
-        vocabulary.plain[form.base] = meaning.value
+        vocabulary.memory.plain[form.base] = meaning.value
     return _scripted(reader, form, meaning)
 
 

@@ -28,29 +28,29 @@ from dynsolve.notation.tree import (
 )
 
 _HELP = "write it shorter, or as a sum of its terms"
-_Measure = tuple[int, int, int, int]
+Measure = tuple[int, int, int, int]
 """Nodes, depth, terms, degree."""
 
 _LEAVES = frozenset({Symbol, Number, Degrees})
-_LEAF: _Measure = (1, 1, 1, 1)
+_LEAF: Measure = (1, 1, 1, 1)
 
 
-def check(node: Node) -> None:
-    """Raise ReadError for a value over the bounds of `limits`."""
-    _measured(node, {}, 1)
+def measured(
+    node: Node, known: dict[int, Measure], settled: Mapping[int, Measure], level: int = 1
+) -> Measure:
+    """The measure of a part; `known` and `settled` have measures by identity, `level` is how deep it was met.
 
-
-def _measured(node: Node, known: dict[int, _Measure], level: int) -> _Measure:
-    """The measure of a part, by its identity in `known`; `level` is how deep it was met."""
+    Raises ReadError for a value over the bounds of `limits`.
+    """
     kind = type(node)
     if kind in _LEAVES:
         return _LEAF
-    found = known.get(id(node))
+    found = known.get(id(node)) or settled.get(id(node))
     if found is None:
         if level > MAX_DEPTH:
             raise ReadError(f"this is nested over {MAX_DEPTH} levels deep", help=_HELP)
         rule = _RULES.get(kind, _leaf)
-        parts = [_measured(child, known, level + 1) for child in _CHILDREN.get(kind, _none)(node)]
+        parts = [measured(child, known, settled, level + 1) for child in _CHILDREN.get(kind, _none)(node)]
         found = known[id(node)] = _checked(
             1 + sum(part[0] for part in parts),
             1 + max((part[1] for part in parts), default=0),
@@ -59,7 +59,7 @@ def _measured(node: Node, known: dict[int, _Measure], level: int) -> _Measure:
     return found
 
 
-def _checked(nodes: int, depth: int, terms: int, degree: int) -> _Measure:
+def _checked(nodes: int, depth: int, terms: int, degree: int) -> Measure:
     if nodes > MAX_NODES:
         raise ReadError(
             f"this is too large: over {MAX_NODES} signs when its abbreviations are written out", help=_HELP
@@ -88,19 +88,19 @@ _CHILDREN: Mapping[type[Node], Callable[[Any], Iterable[Node]]] = {
 }
 
 
-def _leaf(node: Node, parts: list[_Measure]) -> tuple[int, int]:
+def _leaf(node: Node, parts: list[Measure]) -> tuple[int, int]:
     return 1, 1
 
 
-def _added(node: Node, parts: list[_Measure]) -> tuple[int, int]:
+def _added(node: Node, parts: list[Measure]) -> tuple[int, int]:
     return sum(part[2] for part in parts), max(part[3] for part in parts)
 
 
-def _beside(node: Node, parts: list[_Measure]) -> tuple[int, int]:
+def _beside(node: Node, parts: list[Measure]) -> tuple[int, int]:
     return max(part[2] for part in parts), max(part[3] for part in parts)
 
 
-def _multiplied(node: Node, parts: list[_Measure]) -> tuple[int, int]:
+def _multiplied(node: Node, parts: list[Measure]) -> tuple[int, int]:
     terms = 1
     for part in parts:
         if part[2] != 1:
@@ -108,14 +108,14 @@ def _multiplied(node: Node, parts: list[_Measure]) -> tuple[int, int]:
     return terms, sum(part[3] for part in parts)
 
 
-def _raised(node: Power, parts: list[_Measure]) -> tuple[int, int]:
+def _raised(node: Power, parts: list[Measure]) -> tuple[int, int]:
     exponent = node.exponent
     inner = exponent.argument if isinstance(exponent, Negative) else exponent
     count = inner.p if isinstance(inner, Number) else 1
     return (comb(parts[0][2] + count - 1, count) if count else 1), count * parts[0][3]
 
 
-_RULES: Mapping[type[Node], Callable[[Any, list[_Measure]], tuple[int, int]]] = {
+_RULES: Mapping[type[Node], Callable[[Any, list[Measure]], tuple[int, int]]] = {
     Sum: _added,
     Quotient: _added,
     Matrix: _beside,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dynsolve.answers.reading import measure
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
+from dynsolve.answers.reading.measure import measured
 from dynsolve.answers.reading.prepare import cut_names
 from dynsolve.answers.reading.reader import Reader
 from dynsolve.answers.reading.scan import Token
@@ -67,7 +67,7 @@ def _read(
         if not definition:
             _check_shape(vocabulary, value, owners)
         if not isinstance(value, Abstract):
-            measure.check(value.node if isinstance(value, Grid) else value)
+            measured(value.node if isinstance(value, Grid) else value, {}, vocabulary.memory.measures)
     except ReadError as error:
         return error
     except RecursionError:

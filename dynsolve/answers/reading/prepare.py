@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from dynsolve.answers.reading.limits import MAX_TOKENS
+from dynsolve.answers.reading.memory import recalled
 from dynsolve.answers.reading.scan import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
 from dynsolve.errors import ReadError
@@ -187,7 +189,7 @@ def _in_script(out: list[Token]) -> bool:
 def cut_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False) -> list[Token]:
     """Runs of letters cut into names: `m_2gL_1` into m_2, g and L_1."""
     out: list[Token] = []
-    known: dict[str, list[str]] = {}
+    known = vocabulary.memory.pieces
     script = 0
     for position, token in enumerate(tokens):
         if token.kind == "{" and out and out[-1].kind in ("_",):
@@ -199,10 +201,10 @@ def cut_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False)
             continue
         open_end = tokens[position + 1].kind == "_" if position + 1 < len(tokens) else False
         called = position + 1 < len(tokens) and tokens[position + 1].kind == "("
-        mark = f"{token.text}{'_' if open_end else ''}{'(' if called else ''}"
-        if mark not in known:
-            known[mark] = _pieces(token.text, vocabulary, open_end, called, naming)
-        pieces = known[mark]
+        mark = (token.text, open_end, called, naming)
+        pieces = known.get(mark)
+        if pieces is None:
+            pieces = recalled(known, mark, partial(_pieces, token.text, vocabulary, open_end, called, naming))
         if len(pieces) == 1:
             out.append(token)
             continue

@@ -158,6 +158,7 @@ def scan(text: str) -> list[Token]:
     offset, length = 0, len(text)
     spaced = broken = False
     match = _TOKEN.match
+    new = tuple.__new__  # a named tuple's own constructor is a call more for each token
     while offset < length:
         if len(found) > MAX_TOKENS:
             message = f"an equation of more than {MAX_TOKENS} signs"
@@ -172,7 +173,13 @@ def scan(text: str) -> list[Token]:
         else:
             text_of = piece.group()
             if kind == "number" or (kind == "name" and text_of.isascii() and end - offset <= MAX_IDENTIFIER):
-                found.append(Token(kind, text_of, offset, end, 0, spaced, broken))
+                found.append(new(Token, (kind, text_of, offset, end, 0, spaced, broken)))
+                spaced = broken = False
+                offset = end
+                continue
+            sign = _ONE_SIGN.get(text_of)
+            if sign is not None:
+                found.append(new(Token, (sign[0], sign[1], offset, end, 0, spaced, broken)))
                 spaced = broken = False
                 offset = end
                 continue
@@ -189,6 +196,15 @@ def scan(text: str) -> list[Token]:
         offset = end
     found.append(Token("end", "", length, length, 0, spaced, broken))
     return found
+
+
+_ONE_SIGN = (
+    {sign: (sign, sign) for sign in "+-*/^_=(){}[],;&|:"}
+    | {"\\" + name: ("letter", greek) for name, greek in _GREEK_COMMANDS.items()}
+    | {"\\" + name: (sign, "\\" + name) for name, sign in _SIGN_COMMANDS.items() if sign != "\\\\"}
+    | {"\\" + name: ("command", name) for name in ("frac", "dot", "ddot", "sin", "cos")}
+)
+"""The pieces that most formulas are made of, with kind and text: the others take a longer way."""
 
 
 def _token(kind: str, piece: str, start: int, end: int, spaced: bool, broken: bool) -> Token | None:

@@ -14,14 +14,14 @@ from dynsolve.answers.reading.fitting import fitted, misfit, model_parts, shown,
 from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.members import EXPECTED, Read, read_member
+from dynsolve.answers.reading.memory import Name, Side, Unknown, recalled
 from dynsolve.answers.reading.prepare import Macro, expand, simplified
 from dynsolve.answers.reading.scan import Token, scan
-from dynsolve.answers.reading.sides import Name, Unknown, side_of, sides
+from dynsolve.answers.reading.sides import side_of, sides
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, key
 from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
-from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.unicode import to_unicode
+from dynsolve.notation.unicode import UnicodePrinter
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +35,10 @@ class _Pending:
 
 
 class Session:
-    """Reads equation after equation of one hand-in."""
+    """Reads equation after equation of one hand-in; `printer` writes how each was read."""
 
-    def __init__(self, vocabulary: Vocabulary, style: Style = PLAIN) -> None:
-        self.vocabulary, self.style = vocabulary, style
+    def __init__(self, vocabulary: Vocabulary, printer: UnicodePrinter) -> None:
+        self.vocabulary, self.printer = vocabulary, printer
         self.macros: dict[str, Macro] = {}
         self.answers: list[Answer] = []
         self.pending: list[_Pending] = []
@@ -118,10 +118,13 @@ class Session:
             del self.answers[before:]
             self.pending.append(_Pending(family, made, refused, before))
 
-    def _key(self, name: str) -> Name | Unknown | None:
+    def _key(self, name: str) -> Side:
         """What a key of an answer file names."""
         if name.startswith("I") and name in self.vocabulary.shapes:
             return Name((name,))
+        return recalled(self.vocabulary.memory.keys, name, lambda: self._scanned_key(name))
+
+    def _scanned_key(self, name: str) -> Side:
         try:
             return side_of(self.vocabulary, simplified(scan(name))[:-1])
         except ReadError:
@@ -252,7 +255,7 @@ class Session:
                 node=node,
                 place=place,
                 text=shown(text),
-                read_as=to_unicode(with_names(node) if found.references else node, self.style),
+                read_as=self.printer.text(with_names(node) if found.references else node),
                 notes=notes,
                 alternatives=tuple(other for other, _, _ in fits[1:]),
                 references=found.references,
@@ -287,7 +290,7 @@ class Session:
 
     def _without_name(
         self,
-        named: list[Name | Unknown | None],
+        named: list[Side],
         read: list[tuple[int, Read | ReadError]],
         equation: Equation,
         display: Display,

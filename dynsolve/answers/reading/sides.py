@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from dynsolve.answers.reading.derivatives import UnknownVariable
 from dynsolve.answers.reading.forms import Form
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.lookup import UnknownName
+from dynsolve.answers.reading.memory import Name, Side, Unknown, recalled, signs
 from dynsolve.answers.reading.prepare import cut_names
 from dynsolve.answers.reading.reader import Reader
 from dynsolve.answers.reading.scan import Token
@@ -17,26 +16,9 @@ from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Negative, Sum, Symbol
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
-    """The answers that a side of an equation may name."""
-
-    candidates: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Unknown:
-    """A side that is a name which means nothing; `simple` where it is that name alone."""
-
-    key: str
-    family: tuple[str, ...]
-    simple: bool
-    message: str
-
-
-def sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[Name | Unknown | None]:
+def sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[Side]:
     """What each member names: the first one, those before the last, and the last if no other does."""
-    found: list[Name | Unknown | None] = []
+    found: list[Side] = []
     for index, member in enumerate(members):
         side = None
         last = index == len(members) - 1
@@ -60,10 +42,14 @@ def _is_symbol(vocabulary: Vocabulary, member: list[Token]) -> bool:
     return len(member) < 6 and not script and text in vocabulary.symbols
 
 
-def side_of(vocabulary: Vocabulary, member: list[Token]) -> Name | Unknown | None:
+def side_of(vocabulary: Vocabulary, member: list[Token]) -> Side:
     """The name that a side is, None where it is something else."""
     if len(member) > 200:
         return None
+    return recalled(vocabulary.memory.sides, signs(member), lambda: _read_side(vocabulary, member))
+
+
+def _read_side(vocabulary: Vocabulary, member: list[Token]) -> Side:
     tokens = cut_names(member, vocabulary, naming=True)
     reader = Reader(tokens, vocabulary, naming=True)
     try:

@@ -44,7 +44,7 @@ def _keep(session: Session, name: str, dots: int, found: Read) -> None:
     """A name for a coordinate is one for its derivatives, and for its sine and cosine too."""
     vocabulary = session.vocabulary
     if dots:
-        vocabulary.derived[(name, dots)] = found.value
+        vocabulary.derive(name, dots, found.value)
         return
     vocabulary.define(name, Meaning(found.value))
     rates: dict[int, Value] = {}
@@ -58,4 +58,4 @@ def _keep(session: Session, name: str, dots: int, found: Read) -> None:
             vocabulary.define(spelling, Meaning(rates[order]))
     index = "".join(split(name)[1])
     if rates and index.isdigit() and isinstance(found.value, Node):
-        vocabulary.angles[index] = found.value
+        vocabulary.turn(index, found.value)
