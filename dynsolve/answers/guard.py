@@ -17,7 +17,7 @@ from dataclasses import replace
 from typing import Any, TypeVar
 
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.submission import Submission, read_submission
+from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import Report
 from dynsolve.errors import Finding
 
@@ -41,7 +41,7 @@ class Stopped(Exception):
 def check_file(checker: Checker, source: bytes | str, file: str) -> Report:
     """Read a hand-in and judge it, within limits; nothing in `source` raises."""
     try:
-        submission = limited(lambda: read_submission(checker.problem, source, file), 5 * SECONDS)
+        submission = limited(lambda: checker.reader(source, file), 5 * SECONDS)
     except Stopped:
         fault = Finding("the file takes too much time or memory to read", "hand in a smaller file", file)
         submission = Submission("", "", file, (), faults=(fault,))
