@@ -64,7 +64,12 @@ PlatformOption = Annotated[
 ]
 RosterOption = Annotated[
     Path | None,
-    typer.Option("--roster", metavar="CSV", help="The gradebook or worksheet that the platform exports."),
+    typer.Option(
+        "--roster",
+        metavar="CSV",
+        help="The gradebook, worksheet or list of grades that the platform exports; "
+        "those of Moodle (in English) and Gradescope say who was late, too.",
+    ),
 ]
 DiffOption = Annotated[
     bool, typer.Option("--diff", help="List whose marks are not those of the last run, and why.")

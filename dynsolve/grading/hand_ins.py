@@ -8,13 +8,14 @@ what names no problem, waits for a human with its reason.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.errors import InputError
-from dynsolve.grading.platforms import Owner, Owners, is_metadata, read_metadata
+from dynsolve.grading.platforms import METADATA, Owner, Owners, Submitters, exports, read_metadata
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.uploads import Upload, Uploads, digest, printable
 
@@ -32,6 +33,7 @@ _KINDS = {
     ".webp": "a picture", ".tif": "a picture", ".tiff": "a picture", ".bmp": "a picture",
     ".svg": "a picture", ".zip": "an archive", ".rar": "an archive", ".7z": "an archive",
     ".gz": "an archive", ".tar": "an archive",
+    ".url": "an address", ".webloc": "an address",
     ".xlsx": "a spreadsheet", ".pptx": "slides", ".mp4": "a film", ".mov": "a film",
 }  # fmt: skip
 
@@ -95,14 +97,16 @@ class _Piece:
         return self.owner.order, self.file.upload.order, str(self.file.upload.path)
 
 
-def take_in(problems: ProblemSet, uploads: Uploads) -> Intake:
-    """Sort what was handed in by student and problem."""
-    owners = Owners([upload.path for upload in uploads.files], _metadata(uploads))
+def take_in(problems: ProblemSet, uploads: Uploads, late: Collection[str] = ()) -> Intake:
+    """Sort what was handed in by student and problem; `late` are the platform's ids of who was late."""
+    paths = [upload.path for upload in uploads.files]
+    lists = {root / METADATA for root in (PurePosixPath(*parts) for parts in exports(paths))}
+    owners = Owners(paths, _metadata(uploads, lists), late, lambda stem: bool(_folded(stem, problems)))
     students: dict[str, str] = {}
     waiting: set[Waiting] = set()
     pieces: dict[tuple[str, str], list[_Piece]] = {}
     for upload in uploads.files:
-        if is_metadata(upload.path):
+        if upload.path in lists:
             continue
         for piece in _sorted(problems, uploads, owners, upload):
             student = piece.student
@@ -123,14 +127,14 @@ def take_in(problems: ProblemSet, uploads: Uploads) -> Intake:
     return Intake(dict(sorted(students.items())), hand_ins, tuple(sorted(waiting)))
 
 
-def _metadata(uploads: Uploads) -> dict[str, object]:
+def _metadata(uploads: Uploads, lists: Collection[PurePosixPath]) -> Submitters:
+    """What Gradescope says of whose the submissions are; a list that cannot be read says nothing."""
+    found: Submitters = {}
     for upload in uploads.files:
-        if is_metadata(upload.path):
-            try:
-                return read_metadata(uploads.read(upload))
-            except InputError:
-                return {}
-    return {}
+        if upload.path in lists:
+            with suppress(InputError):
+                found |= read_metadata(uploads.read(upload))
+    return found
 
 
 def _owner_of_refused(owners: Owners, path: PurePosixPath) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from dynsolve.errors import UsageError
 from dynsolve.grading.changes import changes
-from dynsolve.grading.exports import chosen_roster, export, keep_platform
+from dynsolve.grading.exports import chosen_roster, export, keep_platform, late
 from dynsolve.grading.hand_ins import Waiting, take_in
 from dynsolve.grading.ledger import standings
 from dynsolve.grading.outputs import write_outputs
@@ -98,7 +98,7 @@ def grade(
                 keep_platform(record, lms, listed)
             pool = _pool(jobs, cluster, Bounds(timeout, memory << 20))
             try:
-                intake = take_in(chosen, uploads)
+                intake = take_in(chosen, uploads, late(record))
                 store_set(record, chosen)
                 done = grade_all(chosen, uploads, intake, record, pool, progress)
             finally:

@@ -24,7 +24,9 @@ def set_schema() -> dict[str, Any]:
             "description": "The most marks that the answers of a stage earn together.",
         },
         "rounding": _told("The step that the marks of an answer are rounded to. Default 0.01."),
-        "late": _told("The share that a late hand-in keeps. Default 1."),
+        "late": _told(
+            "The share that a late hand-in keeps, where the platform says who was late. Default 1."
+        ),
         "hints": {"enum": [1, 2, 3], "description": "1 says where, 2 what kind of slip, 3 how. Default 3."},
     }
     marks = {"type": "object", "additionalProperties": _NUMBER}

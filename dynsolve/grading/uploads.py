@@ -30,7 +30,15 @@ MAX_RATIO = 200
 
 _TRIFLE = 100_000
 _UNSEEN = re.compile("[\x00-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff]")
-_LEFT_ALONE = re.compile(r"(^|/)(\.DS_Store|Thumbs\.db|desktop\.ini|__MACOSX/.*|\._[^/]*)$")
+_LEFT_ALONE = re.compile(
+    r"(^|/)((\.DS_Store|Thumbs\.db|desktop\.ini|\._[^/]*|~\$[^/]*|\.~lock\.[^/]*)$"
+    r"|(__MACOSX|\.ipynb_checkpoints|__pycache__|\.git)/)"
+)
+"""What systems and editors leave behind."""
+
+_WHOSE = re.compile(r"([^/]+/)?submission_metadata\.yml")
+_MAX_WHOSE = 30_000_000
+"""Gradescope's list of whose the submissions are holds the output of its programs, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,17 +103,17 @@ class Uploads:
             self._zip.close()
 
     def read(self, upload: Upload) -> bytes:
-        """The bytes of a file, no more than shows that it is too large.
+        """The bytes of a file, no more than it may have.
 
         Raises InputError where it cannot be read.
         """
         try:
             if self._zip is not None:
                 with self._zip.open(self._members[upload.path]) as stream:
-                    return stream.read(MAX_FILE + 1)
+                    return stream.read(_most(str(upload.path)))
             flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
             with os.fdopen(os.open(self.path / upload.path, flags), "rb") as plain:
-                return plain.read(MAX_FILE + 1)
+                return plain.read(_most(str(upload.path)))
         except (
             OSError,
             zipfile.BadZipFile,
@@ -138,7 +146,7 @@ class Uploads:
                 if _LEFT_ALONE.search(relative):
                     continue
                 found = (here / name).lstat()
-                reason = _of_mode(found.st_mode) or _of_name(relative) or _of_size(found.st_size)
+                reason = _of_mode(found.st_mode) or _of_name(relative) or _of_size(relative, found.st_size)
                 if reason:
                     self._refuse(relative, reason)
                 else:
@@ -178,7 +186,7 @@ class Uploads:
             (_of_mode(mode) if stat.S_IFMT(mode) else "")
             or _of_name(getattr(member, "orig_filename", member.filename))
             or _of_name(member.filename)
-            or _of_size(member.file_size)
+            or _of_size(member.filename, member.file_size)
         )
 
 
@@ -208,5 +216,10 @@ def _of_name(name: str) -> str:
     return ""
 
 
-def _of_size(size: int) -> str:
-    return f"it is larger than {MAX_FILE // 1_000_000} MB" if size > MAX_FILE else ""
+def _of_size(name: str, size: int) -> str:
+    return f"it is larger than {_most(name) // 1_000_000} MB" if size > _most(name) else ""
+
+
+def _most(name: str) -> int:
+    """How many bytes a file may have."""
+    return _MAX_WHOSE if _WHOSE.fullmatch(name) else MAX_FILE

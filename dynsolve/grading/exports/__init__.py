@@ -20,17 +20,19 @@ from dynsolve.grading.record import Record
 class Platform:
     """How a platform's files are written; `check` tells, before anything is graded, a faulty roster.
 
-    A platform without a check needs no roster.
+    A platform without a check needs no roster.  `late` tells the platform's ids of those
+    who were late, where the roster says so; Canvas says it in the names of files.
     """
 
     write: Callable[[Path, ProblemSet, Record, Roster], Iterator[str]]
     check: Callable[[ProblemSet, Roster], object] | None = None
+    late: Callable[[Roster], frozenset[str]] = lambda roster: frozenset()
 
 
 PLATFORMS = {
     "canvas": Platform(canvas.write, canvas.check),
-    "moodle": Platform(moodle.write, moodle.check),
-    "gradescope": Platform(gradescope.write),
+    "moodle": Platform(moodle.write, moodle.check, moodle.late),
+    "gradescope": Platform(gradescope.write, late=gradescope.late),
 }
 
 _PLATFORM, _ROSTER = "platform", "roster"
@@ -45,12 +47,13 @@ def chosen_roster(problems: ProblemSet, platform: str, path: Path | None) -> Ros
     known = PLATFORMS.get(platform)
     if known is None:
         raise UsageError(f"`{platform}` is no platform that is known: {', '.join(PLATFORMS)}")
-    if known.check is None:
+    if path is None and known.check is None:
         return Roster("", ())
     if path is None:
         raise UsageError(f"--lms {platform} needs --roster, the CSV that {platform.capitalize()} exports")
     roster = read_roster(path)
-    known.check(problems, roster)
+    if known.check is not None:
+        known.check(problems, roster)
     return roster
 
 
@@ -58,6 +61,12 @@ def keep_platform(record: Record, platform: str, roster: Roster) -> None:
     """Keep in the record for which platform files are written: an override, too, writes them anew."""
     record.set_run(_PLATFORM, platform)
     record.set_run(_ROSTER, to_text(roster))
+
+
+def late(record: Record) -> frozenset[str]:
+    """Who was late by the roster that is kept, if one is."""
+    platform = record.run(_PLATFORM)
+    return PLATFORMS[platform].late(from_text(record.run(_ROSTER))) if platform else frozenset()
 
 
 def export(folder: Path, problems: ProblemSet, record: Record) -> tuple[str, ...]:

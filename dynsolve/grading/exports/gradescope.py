@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -14,6 +15,8 @@ from dynsolve.grading.ledger import Standing, standings
 from dynsolve.grading.outputs import folder_name, remove_others
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
+
+_ID, _LATENESS = "Submission ID", "Lateness (H:M:S)"
 
 
 def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) -> Iterator[str]:
@@ -28,6 +31,15 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
             yield f"{standing.student} and {first} share {path.parent.name}, and their marks differ"
         write_changed(path, told[path][1], durable=False)
     remove_others(folder / "gradescope", set(told), (".json",))
+
+
+def late(roster: Roster) -> frozenset[str]:
+    """The submissions whose lateness in the list of grades is not 00:00:00."""
+    if not {_ID, _LATENESS} <= set(roster.header):
+        return frozenset()
+    id, lateness = roster.header.index(_ID), roster.header.index(_LATENESS)
+    rows = (row for row in roster.rows[1:] if len(row) > max(id, lateness))
+    return frozenset(f"submission_{row[id].strip()}" for row in rows if re.search("[1-9]", row[lateness]))
 
 
 def _results(standing: Standing, problems: ProblemSet) -> dict[str, Any]:

@@ -24,6 +24,8 @@ from dynsolve.grading.tables import decimal
 
 _GRADE = ("Grade", "Bewertung")
 _COMMENTS = ("Feedback comments", "Feedback als Kommentar")
+_NUMBER = re.compile(r"(\d+)\s*$")
+_LATE = re.compile(r"(?:^| - )\d[^-]* late(?= - |$)")
 _TIME = re.compile(r"\d{1,2}[:.]\d{2}")
 
 
@@ -46,7 +48,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     without: list[str] = []
     for row in roster.rows[1:]:
         cells = [*row, *("" for _ in roster.header[len(row) :])]
-        digits = re.search(r"(\d+)\s*$", cells[0])
+        digits = _NUMBER.search(cells[0])
         found = by_id.get(digits[1]) if digits else None
         if found is None:
             without.append(cells[0])
@@ -65,6 +67,15 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     if comments is None:
         yield "the worksheet has no column for comments: turn on Feedback comments in the assignment"
     yield from unmatched(all_of, seen, without, roster)
+
+
+def late(roster: Roster) -> frozenset[str]:
+    """The participants whose Status says `1 day 2 hours late`: it does so in English."""
+    if "Status" not in roster.header:
+        return frozenset()
+    place = roster.header.index("Status")
+    rows = (row for row in roster.rows[1:] if len(row) > place and _LATE.search(row[place]))
+    return frozenset(digits[1] for row in rows if (digits := _NUMBER.search(row[0])))
 
 
 def _grade(roster: Roster) -> int:

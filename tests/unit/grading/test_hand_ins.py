@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 import pytest
 
 from dynsolve.grading.hand_ins import Intake, take_in
-from dynsolve.grading.platforms import Owners
+from dynsolve.grading.platforms import Owners, read_metadata
 from dynsolve.grading.problem_set import ProblemSet, load_set
 from dynsolve.grading.uploads import Uploads
 
@@ -56,8 +56,6 @@ def test_names_of_the_platforms(name: str, student: str, id: str, late: bool) ->
 
 
 def test_gradescope_names_the_members_of_a_group() -> None:
-    from dynsolve.grading.platforms import read_metadata
-
     metadata = read_metadata(
         b"submission_9:\n  :submitters:\n  - :name: Ada\n    :sid: s1\n  - :name: Bob\n    :email: b@x\n"
     )
@@ -65,11 +63,26 @@ def test_gradescope_names_the_members_of_a_group() -> None:
     assert [owner.student for owner in Owners([path], metadata).of(path)] == ["s1", "b@x"]
 
 
-def test_metadata_constructs_nothing() -> None:
-    from dynsolve.grading.platforms import read_metadata
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x: !!python/object/apply:os.system ['false']\n",
+        "x: !ruby/object:X {c: 1}\n",
+        "x: &a [*a, *a]\n",
+        "x:\n  :submitters: text\n",
+        "x:\n  :submitters:\n    :sid: s2\n",
+        "x:\n  :results:\n    :submitters:\n    - :sid: s3\n",
+        "? [x, {y: z}]\n: 1\n",
+    ],
+)
+def test_metadata_constructs_nothing(text: str) -> None:
+    good = "submission_1:\n  :submitters:\n  - :sid: s1\n"
+    assert read_metadata((text + good).encode()) == {"submission_1": ({":sid": "s1"},)}
 
-    found = read_metadata(b"a: !!python/object/apply:os.system ['false']\nb: !ruby/object:X {c: 1}\n")
-    assert found == {"a": ["false"], "b": {"c": "1"}}
+
+@pytest.mark.parametrize("text", ["[" * 500_000, "{a: " * 500_000, "- " * 500_000, "\0", "a: b: c"])
+def test_metadata_that_is_hostile_says_nothing(text: str) -> None:
+    assert read_metadata(text.encode()) == {}
 
 
 def test_the_problem_comes_from_front_matter_then_name_then_heading(
