@@ -15,6 +15,7 @@ _CAUSES = {
     "marks": "the marks changed",
     "policy": "the policy changed",
     "program": "the program changed",
+    "bounds": "the bounds changed",
 }
 
 

@@ -89,9 +89,11 @@ def grade(
     >>> temporary.cleanup()
     """
     folder = Path(output)
+    if folder.resolve() == Path(submissions).resolve():
+        raise UsageError(f"{folder} is the folder of the hand-ins: give another one for the results")
     chosen = load_set(os.fspath(problems))
     listed = chosen_roster(chosen, lms, Path(roster) if roster is not None else None) if lms else None
-    uploads = Uploads(Path(submissions))
+    uploads = Uploads(Path(submissions), besides=folder)
     try:
         with _opened(folder) as record:
             if lms and listed:

@@ -18,12 +18,13 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import dynsolve
-from dynsolve.errors import InputError
-from dynsolve.grading.hand_ins import HandIn, Intake
+from dynsolve.errors import Finding, InputError
+from dynsolve.grading.hand_ins import File, HandIn, Intake
 from dynsolve.grading.policy import to_data
+from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Record
-from dynsolve.grading.uploads import Uploads
+from dynsolve.grading.uploads import Uploads, digest
 
 Data = dict[str, Any]
 Key = tuple[str, str]
@@ -39,6 +40,10 @@ Advance = Callable[[int, int], None]
 
 class Pool(Protocol):
     """What runs the work, on this machine or on a cluster."""
+
+    @property
+    def bounds(self) -> Bounds:
+        """What one hand-in may use."""
 
     @property
     def jobs(self) -> int:
@@ -89,7 +94,7 @@ def grade_all(
     record.keep_only({(student, stem) for student in intake.students for stem in problems.stems})
     absent = _absent(problems, intake, keys)
     record.write_all((key, *row) for key, row in absent if known.get(key) != row[0])
-    due = [h for h in intake.hand_ins if known.get((h.student, h.problem)) != fingerprint(problems, h)]
+    due = [h for h in intake.hand_ins if known.get((h.student, h.problem)) not in _words(problems, h, pool)]
     running: dict[Future[Data], HandIn] = {}
     waiting = iter(due)
     done = 0
@@ -101,7 +106,7 @@ def grade_all(
         finished, _ = wait(running, return_when=FIRST_COMPLETED)
         for future in finished:
             hand_in = running.pop(future)
-            _write(record, problems, hand_in, future.result())
+            _write(record, problems, hand_in, future.result(), pool.bounds)
             done += 1
             if advance is not None:
                 advance(done, len(due))
@@ -111,9 +116,9 @@ def grade_all(
 def _submitted(pool: Pool, problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Future[Data]:
     try:
         return pool.submit(payload(problems, uploads, hand_in))
-    except InputError as error:  # a file that was there a moment ago
+    except InputError as error:  # a file that was there, or was another, a moment ago
         lost: Future[Data] = Future()
-        lost.set_result({"reason": error.findings[0].message})
+        lost.set_result({"reason": error.findings[0].message, "again": True})
         return lost
 
 
@@ -142,26 +147,36 @@ def _some(source: Iterator[HandIn], count: int) -> Iterator[HandIn]:
         yield hand_in
 
 
-def causes(problems: ProblemSet, hand_in: HandIn) -> dict[str, str]:
-    """What a result is made from, cause by cause, so that a change can be named."""
+def causes(problems: ProblemSet, hand_in: HandIn, bounds: Bounds | None = None) -> dict[str, str]:
+    """What a result is made from, cause by cause, so that a change can be named.
+
+    The `bounds` are one where the hand-in, or an answer of it, went over them.
+    """
     item = problems.item(hand_in.problem)
     files = [[file.name, file.digest] for file in hand_in.files]
-    return {
+    found = {
         "hand-in": _short([files, hand_in.late, list(hand_in.left)]),
         "problem": _short(item.text),
         "marks": _of_marks(item),
         "policy": _short(to_data(problems.policy)),
         "program": program(),
     }
+    return {**found, "bounds": _short([bounds.seconds, bounds.memory])} if bounds else found
 
 
 def _of_marks(item: Item) -> str:
     return _short({name: str(of) for name, of in item.problem.marks.items()})
 
 
-def fingerprint(problems: ProblemSet, hand_in: HandIn) -> str:
-    """One word for all causes."""
-    return _short(causes(problems, hand_in))
+def _word(found: dict[str, str]) -> str:
+    """One word for all causes: the fingerprint of a result."""
+    return _short(found)
+
+
+def _words(problems: ProblemSet, hand_in: HandIn, pool: Pool) -> Iterator[str | None]:
+    """The fingerprints of a result that still holds: within any bounds, or over these."""
+    for bounds in (None, pool.bounds):
+        yield _word(causes(problems, hand_in, bounds))
 
 
 def _short(data: Any) -> str:
@@ -178,21 +193,31 @@ def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
         "student": hand_in.student,
         "late": hand_in.late,
         "files": [
-            {"name": file.name, "content": base64.b64encode(uploads.read(file.upload)).decode()}
+            {"name": file.name, "content": base64.b64encode(_same(uploads, file)).decode()}
             for file in hand_in.files
         ],
     }
 
 
-def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data) -> None:
+def _same(uploads: Uploads, file: File) -> bytes:
+    """The bytes of a file; raises InputError where they are others than when it was listed."""
+    content = uploads.read(file.upload)
+    if digest(content) != file.digest:
+        message = "it was changed while it was graded: grade again"
+        raise InputError([Finding(message, "", str(file.upload.path))])
+    return content
+
+
+def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data, bounds: Bounds) -> None:
     row = said.get("result", {})
     reason = said.get("reason", "") or _empty(row)
+    over = "reason" in said or row.get("over", False)
     if reason:
         row = _unread(problems, hand_in.student, hand_in.problem, reason)
-    found = causes(problems, hand_in)
+    found = causes(problems, hand_in, bounds if over else None)
     record.write(
         (hand_in.student, hand_in.problem),
-        fingerprint(problems, hand_in),
+        "" if said.get("again") else _word(found),
         json.dumps(found, sort_keys=True),
         {
             **row,

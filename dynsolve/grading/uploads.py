@@ -13,8 +13,12 @@ import re
 import stat
 import zipfile
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 from pathlib import Path, PurePosixPath
+from typing import IO
 
 from dynsolve.errors import Finding, InputError
 
@@ -73,14 +77,15 @@ def digest(content: bytes) -> str:
 
 
 class Uploads:
-    """What was handed in: `files` that may be read, and `refused` ones.
+    """What was handed in: `files` that may be read, and `refused` ones; nothing that lies in `besides`.
 
     Raises InputError where there is neither a folder nor a zip.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, besides: Path | None = None) -> None:
         self.path = path
         self.refused: list[Refused] = []
+        self._besides = besides
         self._zip: zipfile.ZipFile | None = None
         self._members: dict[PurePosixPath, zipfile.ZipInfo] = {}
         try:
@@ -103,17 +108,14 @@ class Uploads:
             self._zip.close()
 
     def read(self, upload: Upload) -> bytes:
-        """The bytes of a file, no more than it may have.
+        """The bytes of a file.
 
-        Raises InputError where it cannot be read.
+        Raises InputError where it cannot be read, or is no more what it was when it was listed.
         """
+        most = _most(str(upload.path))
         try:
-            if self._zip is not None:
-                with self._zip.open(self._members[upload.path]) as stream:
-                    return stream.read(_most(str(upload.path)))
-            flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
-            with os.fdopen(os.open(self.path / upload.path, flags), "rb") as plain:
-                return plain.read(_most(str(upload.path)))
+            with self._opened(upload) as stream:
+                content: bytes = stream.read(most + 1)
         except (
             OSError,
             zipfile.BadZipFile,
@@ -128,6 +130,19 @@ class Uploads:
             if type(error).__module__ not in ("zlib", "lzma", "_lzma", "bz2"):
                 raise
             raise InputError([Finding("cannot be read: it is damaged", "", str(upload.path))]) from None
+        if len(content) > most:
+            raise InputError([Finding(_of_size(str(upload.path), len(content)), "", str(upload.path))])
+        return content
+
+    def _opened(self, upload: Upload) -> IO[bytes]:
+        if self._zip is not None:
+            return self._zip.open(self._members[upload.path])
+        flags = (getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))
+        number = os.open(self.path / upload.path, reduce(or_, flags, os.O_RDONLY))
+        if not stat.S_ISREG(os.fstat(number).st_mode):  # by now it is a pipe, say
+            os.close(number)
+            raise OSError("it is no ordinary file")
+        return os.fdopen(number, "rb")
 
     def _refuse(self, name: str, reason: str) -> None:
         self.refused.append(Refused(printable(name), reason))
@@ -135,22 +150,50 @@ class Uploads:
     # -- a folder ----------------------------------------------------------------------------------
 
     def _walk(self) -> Iterator[Upload]:
-        for folder, folders, files in os.walk(self.path, followlinks=False):
+        besides = self._besides.resolve() if self._besides is not None else None
+        count = 0
+        for folder, folders, files in os.walk(self.path, onerror=self._unread, followlinks=False):
             here = Path(folder)
-            for name in [n for n in folders if (here / n).is_symlink() or _UNSEEN.search(n)]:
-                folders.remove(name)
-                relative = (here / name).relative_to(self.path).as_posix()
-                self._refuse(relative, "a link" if (here / name).is_symlink() else _HIDDEN)
+            folders[:] = [name for name in folders if self._is_entered(here / name, besides)]
             for name in files:
                 relative = (here / name).relative_to(self.path).as_posix()
                 if _LEFT_ALONE.search(relative):
                     continue
-                found = (here / name).lstat()
-                reason = _of_mode(found.st_mode) or _of_name(relative) or _of_size(relative, found.st_size)
-                if reason:
-                    self._refuse(relative, reason)
-                else:
-                    yield Upload(PurePosixPath(relative), (found.st_mtime_ns,), found.st_size)
+                count += 1
+                if count > MAX_FILES:
+                    self._refuse(relative, f"the folder has more than {MAX_FILES} files")
+                    return
+                upload = self._taken(here / name, relative)
+                if upload is not None:
+                    yield upload
+
+    def _is_entered(self, folder: Path, besides: Path | None) -> bool:
+        relative = folder.relative_to(self.path).as_posix()
+        reason = "a link" if folder.is_symlink() else _HIDDEN if _UNSEEN.search(folder.name) else ""
+        if reason:
+            self._refuse(relative, reason)
+        return not reason and (besides is None or folder.resolve() != besides)
+
+    def _taken(self, path: Path, relative: str) -> Upload | None:
+        try:
+            found = path.lstat()
+        except OSError as error:  # it was there a moment ago
+            self._unread(error)
+            return None
+        reason = _of_mode(found.st_mode) or _of_name(relative) or _of_size(relative, found.st_size)
+        if reason:
+            self._refuse(relative, reason)
+            return None
+        return Upload(PurePosixPath(relative), (found.st_mtime_ns,), found.st_size)
+
+    def _unread(self, error: OSError) -> None:
+        """A folder or file that cannot be looked at; raises where it is all that there is."""
+        path = Path(os.fsdecode(error.filename))
+        if path == self.path:
+            raise error
+        self._refuse(
+            path.relative_to(self.path).as_posix(), f"cannot be read: {(error.strerror or '').lower()}"
+        )
 
     # -- a zip -------------------------------------------------------------------------------------
 
@@ -158,11 +201,11 @@ class Uploads:
         found: dict[PurePosixPath, Upload] = {}
         total = 0
         for place, member in enumerate(archive.infolist()):
-            name = member.filename
-            if member.is_dir() or _LEFT_ALONE.search(name):
+            name = _name(member)
+            if name.endswith("/") or _LEFT_ALONE.search(name):
                 continue
             total += min(member.file_size, MAX_FILE)
-            reason = self._of_member(member) or ("the zip holds too much" if total > MAX_TOTAL else "")
+            reason = self._of_member(member, name) or ("the zip holds too much" if total > MAX_TOTAL else "")
             if place >= MAX_FILES:
                 self._refuse(name, f"the zip has more than {MAX_FILES} files")
                 break
@@ -176,7 +219,7 @@ class Uploads:
             found[path] = Upload(path, (*member.date_time,), member.file_size)
         yield from found.values()
 
-    def _of_member(self, member: zipfile.ZipInfo) -> str:
+    def _of_member(self, member: zipfile.ZipInfo, name: str) -> str:
         mode = member.external_attr >> 16
         if member.flag_bits & 1:
             return "it is locked with a password"
@@ -184,10 +227,23 @@ class Uploads:
             return "it unpacks to far more than it is (a zip bomb)"
         return (
             (_of_mode(mode) if stat.S_IFMT(mode) else "")
-            or _of_name(getattr(member, "orig_filename", member.filename))
-            or _of_name(member.filename)
-            or _of_size(member.filename, member.file_size)
+            or _of_name(getattr(member, "orig_filename", name))
+            or _of_name(name)
+            or _of_size(name, member.file_size)
         )
+
+
+_UTF_8 = 0x800
+"""The bit of a zip's member that tells that its name is UTF-8."""
+
+
+def _name(member: zipfile.ZipInfo) -> str:
+    """The name of a member: macOS does not say that it is UTF-8, some programs write backslashes."""
+    name = member.filename
+    if not member.flag_bits & _UTF_8:
+        with suppress(UnicodeError):
+            name = name.encode("cp437").decode("utf-8")
+    return name.replace("\\", "/")
 
 
 _HIDDEN = "its name holds characters that cannot be seen"
@@ -209,6 +265,8 @@ def _of_name(name: str) -> str:
     if _UNSEEN.search(name):
         return _HIDDEN
     parts = name.replace("\\", "/").split("/")
+    if not PurePosixPath(name).parts:
+        return "it has no name"
     if ".." in parts or name.startswith(("/", "\\")) or re.match(r"[A-Za-z]:", name):
         return "its name leads out of the folder"
     if len(name) > 1000 or len(parts) > 30:

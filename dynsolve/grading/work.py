@@ -42,9 +42,10 @@ def grade_one(payload: Data, narrow: float = 0.0) -> Data:
     checker = checker_of(payload)
     read = [checker.reader(base64.b64decode(file["content"]), file["name"]) for file in payload["files"]]
     submission = _joined(read)
-    if narrow:
-        submission = sound(submission, lambda one: _graded(checker, one, payload), narrow)
-    return _graded(checker, submission, payload)
+    if not narrow:
+        return _graded(checker, submission, payload)
+    tried = sound(submission, lambda one: _graded(checker, one, payload), narrow)
+    return {**_graded(checker, tried, payload), **({"over": True} if tried != submission else {})}
 
 
 def checker_of(payload: Data) -> Checker:

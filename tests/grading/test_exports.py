@@ -21,7 +21,7 @@ import jsonschema
 import pytest
 
 from dynsolve.errors import InputError
-from dynsolve.grading.exports import chosen_roster, export, keep_platform
+from dynsolve.grading.exports import chosen_roster, export, keep_platform, late
 from dynsolve.grading.hand_ins import Intake
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Record
@@ -393,3 +393,51 @@ def test_what_is_left_of_a_student_who_is_gone_is_removed(
     _graded(record, {"s7": ("submission_7", "4", "2")})
     _exported(tmp_path, problems, record, "gradescope")
     assert sorted(path.name for path in (tmp_path / "gradescope").iterdir()) == ["submission_7"]
+
+
+# -- who was late ------------------------------------------------------------------------------------
+
+
+def test_moodles_status_says_who_was_late(tmp_path: Path, problems: ProblemSet, record: Record) -> None:
+    """As `col_status` of moodle/moodle, `mod/assign/gradingtable.php`, puts it together for a download."""
+    status = {
+        1: "Submitted for grading - ",
+        2: "Submitted for grading - 1 day 2 hours late - Graded",
+        3: "No submission - Assignment is overdue by: 3 days late",
+        4: "Draft (not submitted) - 5 mins late",
+        5: "Submitted for grading - Extension granted until: Friday, 1 May 2026, 12:00 PM",
+    }
+    rows = [f"Participant {i},Ada,a@x,{said},,6.00,Yes,-,-," for i, said in status.items()]
+    header = "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Grade can be changed,"
+    header += "Last modified (submission),Last modified (grade),Feedback comments"
+    assert _late(tmp_path, problems, record, "moodle", [header, *rows]) == {"2", "4"}
+
+
+def test_gradescopes_list_of_grades_says_who_was_late(
+    tmp_path: Path, problems: ProblemSet, record: Record
+) -> None:
+    """The header is that of Download Grades, in the review of an assignment's grades."""
+    header = "First Name,Last Name,SID,Email,Sections,Total Score,Max Points,Status,Submission ID,"
+    header += "Submission Time,Lateness (H:M:S),View Count,Submission Count"
+    rows = [
+        "Ada,L,s1,a@x,,,6,Ungraded,7,2026-05-01 11:59:00 +0200,00:00:00,0,1",
+        "Bob,B,s2,b@x,,,6,Ungraded,8,2026-05-03 12:00:10 +0200,48:00:10,0,1",
+        "Eve,E,s3,e@x,,,6,Missing,,,,,",
+    ]
+    assert _late(tmp_path, problems, record, "gradescope", [header, *rows]) == {"submission_8"}
+
+
+def test_without_a_roster_nobody_is_late(tmp_path: Path, problems: ProblemSet, record: Record) -> None:
+    assert late(record) == frozenset()
+    keep_platform(record, "gradescope", chosen_roster(problems, "gradescope", None))
+    assert late(record) == frozenset()
+    assert _late(tmp_path, problems, record, "gradescope", ["Name", "8"]) == frozenset()
+
+
+def _late(
+    tmp_path: Path, problems: ProblemSet, record: Record, platform: str, lines: list[str]
+) -> frozenset[str]:
+    path = tmp_path / "roster.csv"
+    path.write_text("\n".join(lines) + "\n")
+    keep_platform(record, platform, chosen_roster(problems, platform, path))
+    return late(record)

@@ -40,6 +40,24 @@ def _intake(problems: ProblemSet, folder: Path, files: dict[str, str]) -> Intake
         ("lovelaceada_LATE_1234_5678_hand_in.yaml", "lovelaceada_1234", "1234", True),
         ("lovelaceada_1234_text.html", "lovelaceada_1234", "1234", False),
         ("LATE_anon_77_5678_hw.md", "anon_77", "77", True),
+        ("anon_7xQ2z_5678_hw.md", "anon_7xQ2z", "7xQ2z", False),
+        ("anon_7xQ2z_text.html", "anon_7xQ2z", "7xQ2z", False),
+        ("lovelaceada_LATE_1234_text.html", "lovelaceada_1234", "1234", True),
+        ("lovelaceada_1234_link.html", "lovelaceada_1234", "1234", False),
+        ("van_der_bergåse_1234_5678_9_10_hw.yaml", "van_der_bergåse_1234", "1234", False),
+        ("group1_1234_5678_in3140-rp-1.yaml", "group1_1234", "1234", False),
+        ("r2d2_LATE_1234_5678_LATE_1_2_hw.yaml", "r2d2_1234", "1234", True),
+        (
+            "Åse Ærlig-Øst_43_assignsubmission_file/my home work/in3140-rp.yaml",
+            "Åse Ærlig-Øst_43",
+            "43",
+            False,
+        ),
+        ("Group A-Ada Lovelace_42_assignsubmission_file/x.yaml", "Group A-Ada Lovelace_42", "42", False),
+        ("Participant_42_assignsubmission_onlinetext_onlinetext.html", "Participant_42", "42", False),
+        ("A_42_assignsubmission_file_B_43_assignsubmission_file_x.yaml", "A_42", "42", False),
+        ("Ada_42_assignsubmission_file/submission_7/x.yaml", "Ada_42", "42", False),
+        ("s1/submission_7/x.yaml", "s1", "", False),
         ("Ada Lovelace_42_assignsubmission_file_/in3140-rp.yaml", "Ada Lovelace_42", "42", False),
         ("Ada Lovelace_42_assignsubmission_file/sub/in3140-rp.yaml", "Ada Lovelace_42", "42", False),
         ("Ada Lovelace_42_assignsubmission_onlinetext/onlinetext.html", "Ada Lovelace_42", "42", False),
@@ -55,12 +73,132 @@ def test_names_of_the_platforms(name: str, student: str, id: str, late: bool) ->
     assert (owner.student, owner.id, owner.late) == (student, id, late)
 
 
-def test_gradescope_names_the_members_of_a_group() -> None:
-    metadata = read_metadata(
-        b"submission_9:\n  :submitters:\n  - :name: Ada\n    :sid: s1\n  - :name: Bob\n    :email: b@x\n"
-    )
-    path = PurePosixPath("assignment_1_export/submission_9/a.yaml")
-    assert [owner.student for owner in Owners([path], metadata).of(path)] == ["s1", "b@x"]
+GRADESCOPE = """\
+submission_9:
+  :submitters:
+  - :name: Ada
+    :sid: s1
+    :email: a@x
+  - :name: Bob
+    :sid: ''
+    :email: b@x
+  :created_at: 2026-04-26 17:34:00.861687000 Z
+  :score: 2.0
+  :results:
+    output: |-
+      ====
+      Final: 2
+  :history: []
+submission_10:
+  :submitters:
+  - :name: Eve
+submission_11:
+  :submitters:
+  - :name: Eve
+submission_12.yaml:
+  :submitters:
+  - :sid: 12
+submission_13:
+  :submitters: []
+"""
+OWNERS = {
+    "submission_9/a.yaml": ["s1", "b@x"],
+    "submission_10/a.yaml": ["Eve (submission_10)"],
+    "submission_11/a.yaml": ["Eve (submission_11)"],
+    "submission_12.yaml": ["12"],
+    "submission_13/a.yaml": ["submission_13"],
+    "submission_14/a.yaml": ["submission_14"],
+}
+
+
+@pytest.mark.parametrize("folder", ["", "assignment_1_export/", "my download/"])
+def test_gradescope_names_those_who_handed_in(problems: ProblemSet, tmp_path: Path, folder: str) -> None:
+    text = "problem: in3140-rp\n" + ANSWER
+    files = {f"{folder}{name}": text for name in OWNERS}
+    files[f"{folder}submission_metadata.yml"] = GRADESCOPE
+    intake = _intake(problems, tmp_path, files)
+    assert sorted(intake.students) == sorted(name for names in OWNERS.values() for name in names)
+    assert not intake.waiting
+
+
+def test_two_exports_of_gradescope_beside_one_another(problems: ProblemSet, tmp_path: Path) -> None:
+    files = {}
+    for i in (1, 2):
+        files[f"assignment_{i}_export/submission_{i}/in3140-rp.yaml"] = ANSWER
+        files[f"assignment_{i}_export/submission_metadata.yml"] = (
+            f"submission_{i}:\n  :submitters:\n  - :sid: s{i}\n"
+        )
+    assert list(_intake(problems, tmp_path, files).students) == ["s1", "s2"]
+
+
+@pytest.mark.parametrize(
+    "place",
+    [
+        "assignment_1_export/submission_1/",
+        "assignment_1_export/submission_1/submission_2/",
+    ],
+)
+def test_a_students_own_list_says_nothing_of_the_others(
+    problems: ProblemSet, tmp_path: Path, place: str
+) -> None:
+    mine = "submission_2:\n  :submitters:\n  - :sid: thief\n"
+    good = "submission_1:\n  :submitters:\n  - :sid: s1\nsubmission_2:\n  :submitters:\n  - :sid: s2\n"
+    files = {
+        f"{place}submission_metadata.yml": mine,
+        "assignment_1_export/submission_2/in3140-rp.yaml": ANSWER,
+        "assignment_1_export/submission_metadata.yml": good,
+    }
+    assert list(_intake(problems, tmp_path, files).students) == ["s1", "s2"]
+
+
+def test_a_students_own_list_is_no_list_of_another_platform(problems: ProblemSet, tmp_path: Path) -> None:
+    files = {
+        "A_1_assignsubmission_file/submission_metadata.yml":
+            "B_2_assignsubmission_file:\n  :submitters:\n  - :sid: thief\n",
+        "B_2_assignsubmission_file/in3140-rp.yaml": ANSWER,
+    }  # fmt: skip
+    assert list(_intake(problems, tmp_path, files).students) == ["A_1", "B_2"]
+
+
+@pytest.mark.parametrize(
+    ("names", "students"),
+    [
+        (["w/a_1_2_in3140-rp.yaml", "w/b_3_4_in3140-rp.yaml", "w/readme.txt"], ["a_1", "b_3", "readme"]),
+        (["w/s1/in3140-rp.yaml", "w/s2/in3140-rp.yaml"], ["s1", "s2"]),
+        (["w/s1_in3140-rp.yaml", "w/s2_in3140-rp.yaml"], ["s1_in3140-rp", "s2_in3140-rp"]),
+        (["s1/in3140-rp.yaml", "s1/planar-2r.yaml"], ["s1"]),
+        (["s1/in3140-rp.yaml", "s1/notes.txt"], ["s1"]),
+        (["s1/in3140-rp.yaml"], ["s1"]),
+        (["w/A B_1_assignsubmission_file/in3140-rp.yaml", "w/x.txt"], ["A B_1", "w"]),
+    ],
+)
+def test_a_folder_around_everything(
+    problems: ProblemSet, tmp_path: Path, names: list[str], students: list[str]
+) -> None:
+    assert list(_intake(problems, tmp_path, dict.fromkeys(names, ANSWER)).students) == students
+
+
+def test_late_is_also_who_the_platform_says_elsewhere(problems: ProblemSet, tmp_path: Path) -> None:
+    for i in (1, 2):
+        place = tmp_path / f"A_{i}_assignsubmission_file"
+        place.mkdir()
+        (place / "in3140-rp.yaml").write_text(ANSWER)
+    intake = take_in(problems, Uploads(tmp_path), {"2"})
+    assert [(h.student, h.late) for h in intake.hand_ins] == [("A_1", False), ("A_2", True)]
+
+
+def test_one_student_whose_name_two_systems_spell_is_one(problems: ProblemSet, tmp_path: Path) -> None:
+    files = {
+        "\u00c5se/in3140-rp.yaml": ANSWER,
+        "A\u030ase/planar-2r.yaml": ANSWER,
+        "x/in3140-rp.yaml": ANSWER,
+    }
+    assert list(_intake(problems, tmp_path, files).students) == ["x", "\u00c5se"]
+
+
+def test_an_address_waits_for_a_human(problems: ProblemSet, tmp_path: Path) -> None:
+    (waiting,) = _intake(problems, tmp_path, {"a_1_link.html": "<a href='http://x'>in3140-rp</a>"}).waiting
+    assert waiting.reason == "an address: a human reads it"
 
 
 @pytest.mark.parametrize(

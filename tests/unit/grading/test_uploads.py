@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import InputError
+from dynsolve.grading import uploads as uploads_module
 from dynsolve.grading.uploads import MAX_FILE, Uploads
 
 
@@ -18,6 +19,17 @@ def _zip(path: Path, *members: tuple[zipfile.ZipInfo | str, bytes]) -> Uploads:
         for name, content in members:
             archive.writestr(name, content)
     return Uploads(path)
+
+
+class _Raw(zipfile.ZipInfo):
+    """A member whose name is written as these bytes, without the mark of UTF-8."""
+
+    def __init__(self, name: bytes) -> None:
+        super().__init__(repr(name))
+        self.raw = name
+
+    def _encodeFilenameFlags(self) -> tuple[bytes, int]:
+        return self.raw, self.flag_bits & ~0x800
 
 
 def _refused(uploads: Uploads) -> dict[str, str]:
@@ -85,3 +97,108 @@ def test_what_is_neither_folder_nor_zip_says_so(tmp_path: Path) -> None:
         Uploads(tmp_path / "a.txt")
     with pytest.raises(InputError, match="no such file"):
         Uploads(tmp_path / "nowhere")
+
+
+def test_names_that_windows_and_macos_write(tmp_path: Path) -> None:
+    names = ["Bjørn Ærlig/k.yaml", "windows\\sub\\x.yaml", "windows\\sub\\", "plain/y.yaml"]
+    uploads = _zip(tmp_path / "a.zip", *((_Raw(name.encode()), b"K: 0") for name in names))
+    assert [str(upload.path) for upload in uploads.files] == [
+        "Bjørn Ærlig/k.yaml", "plain/y.yaml", "windows/sub/x.yaml",
+    ]  # fmt: skip
+    assert all(uploads.read(upload) == b"K: 0" for upload in uploads.files)
+
+
+def test_a_name_in_the_old_code_page_stays_readable(tmp_path: Path) -> None:
+    uploads = _zip(tmp_path / "a.zip", (_Raw("ål/k.yaml".encode("cp437")), b"K: 0"))
+    assert [str(upload.path) for upload in uploads.files] == ["ål/k.yaml"]
+
+
+def test_what_systems_and_editors_leave_behind_is_left_alone(tmp_path: Path) -> None:
+    names = [
+        "__MACOSX/s1/._a.yaml", "s1/.DS_Store", "s1/._a.yaml", "s1/~$report.docx", "s1/.~lock.a.odt#",
+        "s1/.ipynb_checkpoints/a-checkpoint.ipynb", "s1/.git/config", "s1/a.yaml",
+    ]  # fmt: skip
+    uploads = _zip(tmp_path / "a.zip", *((name, b"") for name in names))
+    assert ([str(upload.path) for upload in uploads.files], uploads.refused) == (["s1/a.yaml"], [])
+    with zipfile.ZipFile(tmp_path / "a.zip") as archive:
+        archive.extractall(tmp_path / "folder")
+    uploads = Uploads(tmp_path / "folder")
+    assert ([str(upload.path) for upload in uploads.files], uploads.refused) == (["s1/a.yaml"], [])
+
+
+def test_the_folder_of_the_results_is_no_hand_in(tmp_path: Path) -> None:
+    for name in ("s1/a.yaml", "out/feedback/s1/a.html", "s2/out/b.yaml"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("K: 0")
+    uploads = Uploads(tmp_path, besides=tmp_path / "s1" / ".." / "out")
+    assert [str(upload.path) for upload in uploads.files] == ["s1/a.yaml", "s2/out/b.yaml"]
+
+
+def test_a_file_that_is_another_when_it_is_read_is_an_input_error(tmp_path: Path) -> None:
+    for name in ("gone", "pipe", "link", "grown"):
+        (tmp_path / f"{name}.yaml").write_text("K: 0")
+    uploads = Uploads(tmp_path)
+    for name in ("gone", "pipe", "link"):
+        (tmp_path / f"{name}.yaml").unlink()
+    os.mkfifo(tmp_path / "pipe.yaml")
+    (tmp_path / "link.yaml").symlink_to("/etc/passwd")
+    (tmp_path / "grown.yaml").write_bytes(b"x" * (MAX_FILE + 1))
+    for upload in uploads.files:
+        with pytest.raises(InputError):
+            uploads.read(upload)
+
+
+def test_a_folder_that_cannot_be_looked_at_is_refused_by_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("locked/a.yaml", "open/b.yaml"):
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).write_text("K: 0")
+    real = os.scandir
+
+    def scandir(path: str) -> object:
+        if str(path).endswith("locked"):
+            raise PermissionError(13, "Permission denied", str(path))
+        return real(path)
+
+    monkeypatch.setattr(os, "scandir", scandir)
+    uploads = Uploads(tmp_path)
+    assert [str(upload.path) for upload in uploads.files] == ["open/b.yaml"]
+    assert _refused(uploads) == {"locked": "cannot be read: permission denied"}
+
+
+def test_a_socket_and_a_device_are_refused(tmp_path: Path) -> None:
+    import socket
+
+    with socket.socket(socket.AF_UNIX) as one:
+        one.bind(os.fspath(tmp_path / "s.yaml"))
+    assert _refused(Uploads(tmp_path)) == {"s.yaml": "no ordinary file"}
+
+
+def test_no_more_files_than_may_be_are_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(uploads_module, "MAX_FILES", 3)
+    for i in range(9):
+        (tmp_path / f"{i}.yaml").write_text("K: 0")
+    uploads = Uploads(tmp_path)
+    assert len(uploads.files) == 3
+    assert list(_refused(uploads).values()) == ["the folder has more than 3 files"]
+
+
+@pytest.mark.parametrize("name", ["", ".", "./", "a\0b.yaml"])
+def test_a_member_without_a_name_harms_nothing(tmp_path: Path, name: str) -> None:
+    uploads = _zip(tmp_path / "a.zip", (zipfile.ZipInfo(name), b""), ("good.yaml", b"K: 0"))
+    assert "good.yaml" in [str(upload.path) for upload in uploads.files]
+    assert all(upload.path.parts for upload in uploads.files)
+
+
+def test_members_that_overlap_are_not_read_twice_over(tmp_path: Path) -> None:
+    path = tmp_path / "a.zip"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("a.yaml", os.urandom(100_000))
+        archive.writestr("b.yaml", b"K: 0")
+    with zipfile.ZipFile(path, "a") as archive:
+        archive.getinfo("b.yaml").header_offset = 0
+        archive._didModify = True  # type: ignore[attr-defined]
+    uploads = Uploads(path)
+    with pytest.raises(InputError):
+        uploads.read(next(upload for upload in uploads.files if upload.path.name == "b.yaml"))

@@ -1,0 +1,113 @@
+"""What a run makes of files that change, of bounds that are passed, and of folders within one another."""
+
+from __future__ import annotations
+
+import csv
+import os
+from concurrent.futures import Future
+from pathlib import Path
+
+import pytest
+
+import dynsolve
+from dynsolve.errors import UsageError
+from dynsolve.grading import pool as pool_module
+from dynsolve.grading.hand_ins import take_in
+from dynsolve.grading.pool import Bounds, Data
+from dynsolve.grading.problem_set import ProblemSet, load_set
+from dynsolve.grading.record import Record
+from dynsolve.grading.run import Done, grade_all
+from dynsolve.grading.uploads import Uploads
+from dynsolve.grading.work import grade_one
+from tests.support import ROOT
+
+RIGHT = "answers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n"
+WRONG = "answers:\n  K: 0\n"
+
+
+class Here:
+    """A pool that works in this process."""
+
+    jobs = 1
+    bounds = Bounds()
+
+    def submit(self, payload: Data) -> Future[Data]:
+        future: Future[Data] = Future()
+        future.set_result({"result": grade_one(payload)})
+        return future
+
+    def close(self) -> None:
+        pass
+
+
+@pytest.fixture
+def problems(tmp_path: Path) -> ProblemSet:
+    folder = tmp_path / "set"
+    folder.mkdir()
+    (folder / "in3140-rp.yaml").write_text((ROOT / "problems" / "in3140-rp.yaml").read_text())
+    (folder / "set.yaml").write_text("marks: {in3140-rp: {K: 4}}\n")
+    return load_set(str(folder))
+
+
+def _run(problems: ProblemSet, record: Record, folder: Path, between: str = "") -> tuple[Done, list[str]]:
+    """One run; `between` is what the file becomes after it was listed."""
+    uploads = Uploads(folder)
+    intake = take_in(problems, uploads)
+    if between:
+        (folder / "s1" / "a.yaml").write_text(between)
+    done = grade_all(problems, uploads, intake, record, Here())
+    return done, [f"{a.verdict} {a.fault}".strip() for a in record.answers("s1")]
+
+
+def test_a_file_that_changes_during_a_run_is_graded_by_the_next(tmp_path: Path, problems: ProblemSet) -> None:
+    folder = tmp_path / "in"
+    (folder / "s1").mkdir(parents=True)
+    (folder / "s1" / "a.yaml").write_text(RIGHT)
+    record = Record(tmp_path)
+    said = ["unreadable it was changed while it was graded: grade again"]
+    assert _run(problems, record, folder, between=WRONG)[1] == said
+    (folder / "s1" / "a.yaml").write_text(RIGHT)
+    assert _run(problems, record, folder) == (Done(1, 1), ["correct"])
+    assert _run(problems, record, folder) == (Done(1, 0), ["correct"])
+    record.close()
+
+
+def test_what_went_over_a_bound_is_tried_again_when_that_is_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pool_module, "MODULE", "tests.grading.heavy_worker")
+    monkeypatch.setenv("PYTHONPATH", str(ROOT), prepend=os.pathsep)
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "s1.yaml").write_text(RIGHT + "  P1: 0\n")
+    (tmp_path / "in" / "s2.yaml").write_text(RIGHT)
+    words = ("in3140-rp", tmp_path / "in", tmp_path / "out")
+    assert dynsolve.grade(*words, jobs=1, timeout=1).computed == 2
+    rows = csv.DictReader((tmp_path / "out" / "answers.csv").read_text().splitlines())
+    found = {(row["student"], row["answer"]): row["verdict"] for row in rows}
+    assert (found["s1", "P1"], found["s1", "K"], found["s2", "K"]) == ("unreadable", "correct", "correct")
+    assert dynsolve.grade(*words, jobs=1, timeout=1).computed == 0
+    monkeypatch.undo()
+    again = dynsolve.grade(*words, jobs=1, timeout=2, diff=True)
+    assert again.computed == 1
+
+
+def test_results_among_the_hand_ins_are_not_handed_in(tmp_path: Path) -> None:
+    (tmp_path / "s1.yaml").write_text(RIGHT)
+    for _ in range(2):
+        assert set(dynsolve.grade("in3140-rp", tmp_path, tmp_path / "results", jobs=1).totals) == {"s1"}
+    with pytest.raises(UsageError, match="is the folder of the hand-ins"):
+        dynsolve.grade("in3140-rp", tmp_path, tmp_path / "results" / "..", jobs=1)
+
+
+def test_nothing_handed_in_is_no_fault(tmp_path: Path) -> None:
+    (tmp_path / "in").mkdir()
+    grades = dynsolve.grade("in3140-rp", tmp_path / "in", tmp_path / "out", jobs=1)
+    assert (grades.hand_ins, grades.totals) == (0, {})
+    assert (tmp_path / "out" / "grades.csv").read_text() == "student,in3140-rp,total,of\n"
+
+
+def test_results_that_cannot_be_written_are_said(tmp_path: Path) -> None:
+    (tmp_path / "in").mkdir()
+    (tmp_path / "out").write_text("a file")
+    with pytest.raises(UsageError, match=r"writing to .*out failed: file exists"):
+        dynsolve.grade("in3140-rp", tmp_path / "in", tmp_path / "out", jobs=1)
