@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from dynsolve.document import Prose
+from dynsolve.document import Inline, Prose, Verbatim
 from dynsolve.explain.step import Step
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
@@ -179,4 +179,12 @@ class _Exporter:
         }
 
     def prose(self, parts: Prose) -> str:
-        return "".join(part if isinstance(part, str) else self.unicode.text(part) for part in parts)
+        return "".join(map(self.part, parts))
+
+    def part(self, part: Inline) -> str:
+        match part:
+            case str():
+                return part
+            case Verbatim(text):
+                return text
+        return self.unicode.text(part)

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -50,6 +51,9 @@ from dynsolve.robot.model import JointType
 
 MOST_NAMED = 4
 """More slips than this in one answer are told as the terms that differ."""
+
+MOST_OF_IT = Fraction(1, 2)
+"""What shares so much of its terms with the key was taken from it, not from a slip before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +118,18 @@ class Diagnoser:
         """The nearest value that the answer may be held against: one whose terms can be added.
 
         What follows from a term that cannot be added tells nobody how to mend this one.
+        Nor does what an answer was plainly not taken from: where most of it is the key's,
+        and less of it is what its own inputs lead to, it is held against the key.
         """
+        nearest, key = self._nearest_fit(question), question.expected[-1]
+        mine = question.mine
+        if mine is not None and nearest is not key:
+            likeness = _likeness(mine, key)
+            if likeness >= MOST_OF_IT and likeness > _likeness(mine, nearest):
+                return key
+        return nearest
+
+    def _nearest_fit(self, question: Question) -> Expr:
         wanted = self._dimension(question)
         if wanted is not None and not self.problem.values:
             for value in question.expected:
@@ -142,7 +157,7 @@ class Diagnoser:
         if one is not None:
             yield one
             return
-        yield from self._told(found or [])
+        yield from self._told(found or [], _in_common(mine, expected))
 
     def _first_of(
         self, values: Iterator[tuple[Any, Diagnosis]], question: Question, mine: Expr
@@ -156,18 +171,24 @@ class Diagnoser:
             return slip("gravity_sign")
         return one
 
-    def _told(self, found: list[Found]) -> Iterator[Diagnosis]:
-        """The slips where they are few; of many, which terms are written that should not be."""
+    def _told(self, found: list[Found], right: int) -> Iterator[Diagnosis]:
+        """The slips where they are few; of many, which terms are written that should not be.
+
+        Missing terms are named only beside as many right ones: who writes 0 is not told the answer.
+        """
         found = sorted(found, key=lambda f: f.weight)
-        if len(found) <= MOST_NAMED:
+        missing = sum(f.code == "missing_term" for f in found)
+        if len(found) <= MOST_NAMED and missing <= right:
             yield from (one.diagnosis for one in found)
+            return
+        if missing == len(found):
+            yield slip("terms_missing", yours=f"{missing} terms are" if missing > 1 else "A term is")
             return
         light = [one for one in found if one.weight < LIGHT]
         yield from (one.diagnosis for one in light[:MOST_NAMED])
         if len(light) < len(found):
             extra = [f for f in found if f.code == "extra_term"]
-            count = sum(f.code == "missing_term" for f in found)
-            yours = f"{count} {'is' if count == 1 else 'are'} missing. " if count else ""
+            yours = f"{missing} {'is' if missing == 1 else 'are'} missing. " if missing else ""
             if extra:
                 more = f", and {len(extra) - MOST_NAMED} more" if len(extra) > MOST_NAMED else ""
                 yours += (
@@ -329,6 +350,19 @@ class Diagnoser:
             return None
         difference = mine - self.expected(question)
         return self.words.form(difference) if is_small(difference) else None
+
+
+def _in_common(a: Expr, b: Expr) -> int:
+    """How many terms two values share."""
+    if not a.poly or not b.poly:
+        return 0
+    return len(a.poly.to_dict().items() & b.poly.to_dict().items())
+
+
+def _likeness(a: Expr, b: Expr) -> Fraction:
+    """The share of the terms of two values that they have in common."""
+    same = _in_common(a, b)
+    return Fraction(same, max(len(a) + len(b) - same, 1))
 
 
 def _same(a: Any, b: Matrix) -> bool:

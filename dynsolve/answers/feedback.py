@@ -7,14 +7,28 @@ never the solution; a teacher sees the differences too.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from dynsolve.answers.reading.fitting import with_names
 from dynsolve.answers.submission import Place
 from dynsolve.answers.verdict import Diagnosis, EntryVerdict, Judged, Report, Verdict
-from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Note, Prose, Table, Text
+from dynsolve.document import (
+    Block,
+    Document,
+    Fold,
+    Formula,
+    Heading,
+    List,
+    Note,
+    Prose,
+    Table,
+    Text,
+    Verbatim,
+)
 from dynsolve.errors import Finding
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Letter, Node, Number, Relation
 
 _SAID = {
     Verdict.CORRECT: "correct",
@@ -31,6 +45,14 @@ _NOTES = {
 }
 
 
+_NOTHING_FOUND = "No slip was found that explains it."
+
+_LETTER = re.compile(r"(?P<letter>tau|[A-Za-z])(?P<index>\d*)")
+
+_MOST = 2000
+"""So many characters of what a student wrote are shown."""
+
+
 @dataclass(frozen=True, slots=True)
 class View:
     """How much is shown: the rung of the ladder, whether differences are, whether every reading is."""
@@ -42,30 +64,28 @@ class View:
 
 def feedback(report: Report, title: str, view: View) -> Document:
     """The report as a document."""
-    return Document(tuple(_blocks(report, title, view)))
+    blocks = (
+        Heading(title, 1),
+        *opening(report),
+        *_marks(report),
+        *slips(report, view),
+        Heading("All answers"),
+        Table(("answer", "verdict", "note"), tuple(map(_row, report.answers))),
+        *readings(report, view),
+        *not_recognized(report),
+    )
+    return Document(blocks)
 
 
-def _blocks(report: Report, title: str, view: View) -> Iterator[Block]:
-    yield Heading(title, 1)
-    yield from _opening(report, view)
-    wrong = [a for a in report.answers if a.verdict is Verdict.WRONG and a.given]
-    for answer in wrong:
-        yield Fold(f"{_named(answer)}: wrong", tuple(_wrong(answer, report, view)))
-    unread = [a for a in report.answers if a.verdict is Verdict.UNREADABLE and a.given]
-    for answer in unread:
-        yield Fold(f"{_named(answer)}: could not be read", tuple(_unreadable(answer)))
-    yield Heading("All answers")
-    yield Table(("answer", "verdict", "note"), tuple(_row(a, view) for a in report.answers))
-    yield from _readings(report, view)
-    if report.not_recognized:
-        yield Heading("Not recognized")
-        yield List(tuple((f"{n.place}: {_short(n.text)}",) for n in report.not_recognized))
-
-
-def _opening(report: Report, view: View) -> Iterator[Block]:
+def opening(report: Report) -> Iterator[Block]:
+    """How it went, in a sentence or two."""
     count = sum(a.verdict is Verdict.CORRECT for a in report.answers)
-    if report.all_correct:
-        yield Text((f"All {count} answers are correct.",))
+    if not any(a.given for a in report.answers):
+        yield Text(
+            ("No answer was found in it. The name stands before the value: ", Verbatim("K = ..."), ".")
+        )
+    elif report.all_correct:
+        yield Text((f"All {count} answers are correct." if count > 1 else "The answer is correct.",))
     elif report.first_wrong:
         first = next(a for a in report.answers if a.name == report.first_wrong)
         resting = sum(a.verdict is Verdict.FOLLOWS for a in report.answers)
@@ -76,8 +96,28 @@ def _opening(report: Report, view: View) -> Iterator[Block]:
         yield Text((text,))
     else:
         yield Text((f"{count} of {len(report.answers)} answers are correct.",))
+
+
+def _marks(report: Report) -> Iterator[Block]:
     if report.of:
         yield Text((f"Marks: {_number(report.marks)} of {_number(report.of)}.",))
+
+
+def slips(report: Report, view: View) -> Iterator[Block]:
+    """What is wrong, the first slip first, then what could not be read."""
+    for answer in report.answers:
+        if answer.verdict is Verdict.WRONG and answer.given:
+            yield Fold(f"{_named(answer)}: wrong", tuple(_wrong(answer, view)))
+    for answer in report.answers:
+        if answer.verdict is Verdict.UNREADABLE and answer.given:
+            yield Fold(f"{_named(answer)}: could not be read", tuple(_unreadable(answer)))
+
+
+def not_recognized(report: Report) -> Iterator[Block]:
+    """Equations that name nothing known."""
+    if report.not_recognized:
+        yield Heading("Not recognized")
+        yield List(tuple((f"{n.place}: ", Verbatim(_short(n.text))) for n in report.not_recognized))
 
 
 def _number(value: object) -> str:
@@ -92,30 +132,33 @@ def _where(answer: Judged) -> str:
     return f" ({answer.place})" if answer.place and answer.place.line else ""
 
 
-def _wrong(answer: Judged, report: Report, view: View) -> Iterator[Block]:
-    if answer.read_as:
-        yield Text((f"Read as: {_short(answer.read_as)}",))
+def _wrong(answer: Judged, view: View) -> Iterator[Block]:
+    yield from _reading(f"Read{_where(answer)} as", answer)
     bad = [e for e in answer.entries if e.verdict is Verdict.WRONG]
     if bad:
         right = [e for e in answer.entries if e.verdict is not Verdict.WRONG]
-        places = ", ".join(map(_index, bad))
+        is_column = all(e.index[-1] == 1 for e in answer.entries)
+        places = ", ".join(str(e.index[0]) if is_column else _index(e) for e in bad)
         word = "row" if len(bad[0].index) == 1 else "entry"
         plural = {"row": "rows", "entry": "entries"}[word] if len(bad) > 1 else word
         text = f"Wrong in {plural} {places}"
         yield Text((text + ("; the others are right or follow." if right else "."),))
-    told = answer.diagnosis
     if view.level >= 2 or view.teacher:
-        yield from _slips(told, view)
+        yield from _slips(answer.diagnosis, view)
     if view.teacher:
-        if answer.difference is not None:
-            yield Text(("Yours minus what was expected:",))
-            yield Formula(answer.difference)
-        for entry in bad:
-            if entry.difference is not None:
-                yield Text((f"Entry {_index(entry)}, yours minus what was expected:",))
-                yield Formula(entry.difference)
-    for note in answer.notes:
-        yield Note((note,))
+        yield from _differences(answer, bad)
+    for note in (*answer.notes, *_times(answer)):
+        yield Note((_NOTES.get(note, note),))
+
+
+def _differences(answer: Judged, bad: Sequence[EntryVerdict]) -> Iterator[Block]:
+    if answer.difference is not None:
+        yield Text(("Yours minus what was expected:",))
+        yield Formula(answer.difference)
+    for entry in bad:
+        if entry.difference is not None:
+            yield Text((f"Entry {_index(entry)}, yours minus what was expected:",))
+            yield Formula(entry.difference)
 
 
 def _slips(told: Sequence[Diagnosis], view: View) -> Iterator[Block]:
@@ -123,10 +166,11 @@ def _slips(told: Sequence[Diagnosis], view: View) -> Iterator[Block]:
         items: list[Prose] = [(f"{d.message} {d.look}".strip(),) for d in told]
         if items:
             yield List(tuple(items))
+        else:
+            yield Text((_NOTHING_FOUND,))
     else:
-        kinds = tuple(dict.fromkeys(d.kind for d in told if d.kind))
-        if kinds:
-            yield List(tuple((f"What kind of slip: {kind}.",) for kind in kinds))
+        kinds = dict.fromkeys(d.kind for d in told if d.kind)
+        yield Text((f"What kind of slip: {'; '.join(kinds)}.",) if kinds else (_NOTHING_FOUND,))
 
 
 def _index(entry: EntryVerdict) -> str:
@@ -134,14 +178,15 @@ def _index(entry: EntryVerdict) -> str:
 
 
 def _unreadable(answer: Judged) -> Iterator[Block]:
-    yield Text((f"{answer.fault}{_where(answer)}.",))
     place = answer.place
+    where = f"{place}: " if place and place.line else ""
+    yield Text((f"{where[:1].upper()}{where[1:]}{answer.fault}.",))
     if place is not None and place.excerpt:
         start = place.column - 1
         end = start + max(place.length, 1)
         before, here, after = place.excerpt[max(start - 60, 0) : start], place.excerpt[start:end], ""
         after = place.excerpt[end : end + 30]
-        yield Text((f"{before} ▸{here}◂ {after}".strip(),))
+        yield Text((Verbatim(f"{before} ▸{here}◂ {after}".strip()),))
     if answer.expected:
         yield Note((answer.expected,))
 
@@ -157,37 +202,55 @@ def findings(report: Report) -> Iterator[Finding]:
             )  # fmt: skip
 
 
-def _row(answer: Judged, view: View) -> tuple[str | Node, ...]:
-    return _named(answer), _SAID[answer.verdict], "; ".join(_remarks(answer, view))
+def _row(answer: Judged) -> tuple[str | Node, ...]:
+    return _named(answer), _SAID[answer.verdict], "; ".join(_remarks(answer))
 
 
-def _remarks(answer: Judged, view: View) -> Iterator[str]:
+def _remarks(answer: Judged) -> Iterator[str]:
     if answer.follows_from:
         yield "from " + ", ".join(answer.follows_from)
-    if answer.verdict is not Verdict.WRONG:
+    if answer.verdict is not Verdict.WRONG:  # what is wrong has its remarks above, beside the slip
         yield from (_NOTES.get(note, note) for note in answer.notes)
+        yield from _times(answer)
+
+
+def _times(answer: Judged) -> Iterator[str]:
+    """Where an answer was given, if more than once."""
     if len(answer.occurrences) > 1:
-        yield "given {} times: {}".format(
-            len(answer.occurrences),
-            ", ".join(f"{o.label or o.place} {o.verdict}" for o in answer.occurrences),
-        )
+        each = ", ".join(f"{o.label or o.place} {o.verdict}" for o in answer.occurrences)
+        yield f"given {len(answer.occurrences)} times, the last counts: {each}"
 
 
-def _readings(report: Report, view: View) -> Iterator[Block]:
-    """How answers were read: those that are not correct, or all; wrong ones have it beside them already."""
-    silent = {Verdict.WRONG} if not view.readings else set()
-    if not view.readings:
-        silent.add(Verdict.CORRECT)
-    items = [
-        (f"{_named(a)}: {_short(a.read_as)}",)
-        for a in report.answers
-        if a.read_as and a.verdict not in silent
-    ]
-    if items:
+def readings(report: Report, view: View) -> Iterator[Block]:
+    """How answers were read: those that follow, or all; wrong ones have it beside them already."""
+    silent = {Verdict.WRONG} if view.readings else {Verdict.WRONG, Verdict.CORRECT}
+    read = [a for a in report.answers if a.read_as and a.verdict not in silent]
+    if read:
         yield Heading("How the answers were read")
-        yield List(tuple(items))
+    for answer in read:
+        remarks = "; ".join(_remarks(answer)) if view.readings else ""
+        told = f", {_SAID[answer.verdict]}" + (f" ({remarks})" if remarks else "")
+        yield from _reading(f"{_named(answer)}{_where(answer)}{told}", answer)
 
 
-def _short(text: str, most: int = 2000) -> str:
+def _reading(said: str, answer: Judged) -> Iterator[Block]:
+    """What was read: as a formula where it is to be looked at, else, or where it is too long, as text."""
+    if answer.verdict is not Verdict.CORRECT and answer.written is not None and len(answer.read_as) <= _MOST:
+        yield Text((f"{said}:",))
+        yield Formula(_equation(answer.name, with_names(answer.written)))
+    elif answer.read_as:
+        yield Text((f"{said}: ", Verbatim(_short(answer.read_as))))
+
+
+def _equation(name: str, value: Node) -> Node:
+    """The value with the letter that the answer has on paper, where it is one letter."""
+    found = _LETTER.fullmatch(name)
+    if found is None:
+        return value
+    index = Number(int(found["index"])) if found["index"] else None
+    return Relation((Letter(found["letter"], index), value), ("=",))
+
+
+def _short(text: str, most: int = _MOST) -> str:
     text = " ".join(text.split())
     return text if len(text) <= most else text[: most - 1] + "…"

@@ -188,6 +188,7 @@ class Judge:
             answer.notes,
             of=Fraction(self.problem.marks.get(name, 0)),
             occurrences=self._occurrences(name, chains),
+            written=answer.node,
         )
         if held.given.rows is None:
             return replace(

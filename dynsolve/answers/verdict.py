@@ -64,7 +64,7 @@ class Occurrence:
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """What is said of one answer."""
+    """What is said of one answer; `written` is the tree of what the student wrote."""
 
     name: str
     verdict: Verdict
@@ -83,6 +83,7 @@ class Judged:
     difference: Node | None = None
     key: Node | None = None
     given: bool = True
+    written: Node | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """What solutions, feedback and reports are made of: frozen data, no markup.
 
-Prose is a sequence of words and formulas; a block is a heading, a paragraph, a
+Prose is a sequence of words, formulas and what somebody typed; a block is a heading, a paragraph, a
 displayed formula, a list, a note, a table or a fold of further blocks.  Renderers
 in `dynsolve.render` turn documents into what a person sees.
 
@@ -13,8 +13,16 @@ from dataclasses import dataclass
 
 from dynsolve.notation.tree import Node
 
-Inline = str | Node
-"""A piece of a sentence: words, or a formula among them."""
+
+@dataclass(frozen=True, slots=True)
+class Verbatim:
+    """What somebody typed, shown as it is: nothing in it is taken for mathematics."""
+
+    text: str
+
+
+Inline = str | Node | Verbatim
+"""A piece of a sentence: words, a formula among them, or what somebody typed."""
 
 Prose = tuple[Inline, ...]
 """A sentence or several."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.document import Prose
+from dynsolve.document import Inline, Prose
 from dynsolve.explain import letters
 from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
@@ -107,7 +107,7 @@ def listed(parts: Sequence[Prose | Node | str], conjunction: str = "and") -> Pro
     >>> listed(["a", "b", "c"])
     ('a', ', ', 'b', ' and ', 'c')
     """
-    prose: list[str | Node] = []
+    prose: list[Inline] = []
     for i, part in enumerate(parts):
         if i:
             prose.append(f" {conjunction} " if i == len(parts) - 1 else ", ")

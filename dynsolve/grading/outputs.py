@@ -12,11 +12,13 @@ from pathlib import Path
 
 from dynsolve.files import temporary_of, write_changed
 from dynsolve.grading.ledger import most, standings
-from dynsolve.grading.pages import MARKS_HERE, unpack
+from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, unpack
 from dynsolve.grading.policy import shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record, Row
 from dynsolve.grading.tables import decimal, table
+from dynsolve.render.markdown import escaped
+from dynsolve.render.words import visible
 
 _ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "diagnosis")
 
@@ -83,15 +85,13 @@ def _feedback(folder: Path, record: Record) -> None:
         if not row.html:
             continue
         place = folder / folder_name(row.student)
-        for ending, packed, marks in (
-            (".html", row.html, _marks_html(row, own)),
-            (".md", row.markdown, _marks_markdown(row, own)),
+        for ending, page in (
+            (".html", _html(row, own, unpack(row.html))),
+            (".md", _markdown(row, own, unpack(row.markdown))),
         ):
             path = place / f"{row.problem}{ending}"
             written.add(path)
-            page = unpack(packed)
-            here = rf"<p[^>]*>{MARKS_HERE}</p>" if ending == ".html" else rf"(?m)^{MARKS_HERE}$"
-            write(path, re.sub(here, marks.replace("\\", r"\\"), page, count=1), durable=False)
+            write(path, page, durable=False)
     remove_others(folder, written, (".html", ".md"))
 
 
@@ -121,16 +121,48 @@ def _told(row: Row) -> Iterator[str]:
         yield f"The newest copy counts; left aside: {', '.join(row.left)}."
 
 
-def _marks_html(row: Row, answers: list[Graded]) -> str:
-    counted = [a for a in answers if a.of != "0"]
-    rows = "".join(f"<tr><th>{escape(a.answer)}</th><td>{escape(a.why)}</td></tr>\n" for a in counted)
-    told = "".join(f"<p>{escape(sentence)}</p>\n" for sentence in _told(row))
-    return f"<p><strong>{escape(_total(answers))}</strong></p>\n{told}<table>\n{rows}</table>"
+def _explained(row: Row, answers: list[Graded]) -> list[tuple[str, str, str]]:
+    """Each answer with its marks and why; nothing of a hand-in that was not judged but a teacher's words."""
+    unjudged = f"unreadable: {row.reason}" if row.reason else None
+    return [
+        (f"{a.answer} {a.label}".strip(), f"{shown(Fraction(a.marks))} of {shown(Fraction(a.of))}", a.why)
+        for a in answers
+        if a.of != "0" and a.why != unjudged
+    ]
 
 
-def _marks_markdown(row: Row, answers: list[Graded]) -> str:
-    from dynsolve.render.markdown import escaped
+def _html(row: Row, answers: list[Graded], page: str) -> str:
+    """The page with the marks in it."""
+    told = "".join(f"<p>{_escaped(sentence)}</p>\n" for sentence in _told(row))
+    rows = "".join(
+        "<tr>" + "".join(f"<td>{_escaped(cell)}</td>" for cell in cells) + "</tr>\n"
+        for cells in _explained(row, answers)
+    )
+    head = "<thead><tr><th>answer</th><th>marks</th><th>why</th></tr></thead>"
+    table = (
+        f'<div class="scroll"><table class="marks">{head}<tbody>\n{rows}</tbody></table></div>'
+        if rows
+        else ""
+    )
+    page = _put(page, f"<p[^>]*>{MARKS_HERE}</p>", f"<p><strong>{_total(answers)}</strong></p>\n{told}")
+    return _put(page, f"<p[^>]*>{TABLE_HERE}</p>", table)
 
-    lines = [f"**{_total(answers)}**", "", *(escaped(sentence) + "\n" for sentence in _told(row))]
-    lines += [f"- {escaped(a.answer)}: {escaped(a.why)}" for a in answers if a.of != "0"]
-    return "\n".join(lines) + "\n"
+
+def _markdown(row: Row, answers: list[Graded], page: str) -> str:
+    """The page in Markdown with the marks in it."""
+    told = [escaped(visible(sentence)) for sentence in _told(row)]
+    rows = [" | ".join(escaped(visible(cell)) for cell in cells) for cells in _explained(row, answers)]
+    lines = ["answer | marks | why", ":---: | :---: | :---", *rows]
+    table = "\n".join(f"| {line} |" for line in lines) if rows else ""
+    page = _put(page, f"(?m)^{MARKS_HERE}$", "\n\n".join([f"**{_total(answers)}**", *told]))
+    return _put(page, f"(?m)^{TABLE_HERE}$", table)
+
+
+def _put(page: str, place: str, text: str) -> str:
+    """The page with a text at the first place that fits, which stands before all that a student wrote."""
+    found = re.search(place, page)
+    return page if found is None else page[: found.start()] + text + page[found.end() :]
+
+
+def _escaped(text: str) -> str:
+    return escape(visible(text))

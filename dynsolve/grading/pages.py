@@ -5,9 +5,15 @@ from __future__ import annotations
 import base64
 import zlib
 
-from dynsolve.document import Document, Heading, Text
+from dynsolve.answers.feedback import View, not_recognized, opening, readings, slips
+from dynsolve.answers.verdict import Report
+from dynsolve.document import Block, Document, Heading, Note, Text
+from dynsolve.explain.style import style_of
+from dynsolve.notation.printing import PLAIN, Style
+from dynsolve.problem.model import Problem
 
 MARKS_HERE = "The marks stand here"
+TABLE_HERE = "The marks of each answer stand here"
 """Where the page gets its marks when it is written: a teacher may override them later."""
 
 
@@ -21,12 +27,32 @@ def unpack(packed: bytes) -> str:
     return zlib.decompress(packed).decode()
 
 
+def student_page(report: Report, problem: Problem, student: str, hints: int) -> tuple[str, str]:
+    """A student's page in HTML and Markdown, packed; the marks are put in when it is written."""
+    view = View(hints, readings=True)
+    blocks = (
+        Text((MARKS_HERE,)),
+        *(Note((fault.message,)) for fault in report.faults),
+        *opening(report),
+        *slips(report, view),
+        Heading("Marks"),
+        Text((TABLE_HERE,)),
+        *readings(report, view),
+        *not_recognized(report),
+    )
+    return _rendered(f"{problem.title}: {student}", blocks, style_of(problem.robot))
+
+
 def bare_page(title: str, student: str, reason: str) -> tuple[str, str]:
     """The page of a hand-in that could not be judged."""
+    said = f"The program could not judge this hand-in: {reason}. It is on your teacher's list."
+    blocks = (Text((MARKS_HERE,)), Text((said,)), Text((TABLE_HERE,)))
+    return _rendered(f"{title}: {student}", blocks, PLAIN)
+
+
+def _rendered(title: str, blocks: tuple[Block, ...], style: Style) -> tuple[str, str]:
     from dynsolve.render.html import render as render_html
     from dynsolve.render.markdown import render as render_markdown
 
-    said = f"This hand-in could not be judged by the program: {reason}. Your teacher has been told."
-    blocks = (Heading(f"{title}: {student}", 1), Text((MARKS_HERE,)), Text((said,)))
-    document = Document(blocks)
-    return pack(render_html(document)), pack(render_markdown(document))
+    document = Document((Heading(title, 1), *blocks))
+    return pack(render_html(document, style)), pack(render_markdown(document, style))

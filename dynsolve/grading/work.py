@@ -14,18 +14,14 @@ from functools import lru_cache
 from hashlib import sha256
 from typing import Any
 
-from dynsolve.answers.feedback import View, feedback
 from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import Judged, Report, Verdict
-from dynsolve.document import Document, Heading, Note, Text
-from dynsolve.explain.style import style_of
 from dynsolve.grading.losses import losses
 from dynsolve.grading.marking import Marked, mark
 from dynsolve.grading.narrow import sound
-from dynsolve.grading.pages import MARKS_HERE, pack
+from dynsolve.grading.pages import student_page
 from dynsolve.grading.policy import from_data
-from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import read_problem
 
 Data = dict[str, Any]
@@ -60,7 +56,7 @@ def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
     report = judge.report()
     lost = losses(judge, report)
     marked = mark(report.answers, policy, payload["late"], lost, _parts(judge, report))
-    html, markdown = _page(report, problem, payload["student"], policy.hints)
+    html, markdown = student_page(report, problem, payload["student"], policy.hints)
     return {
         "answers": [
             _answer(answer, marks, lost.get(answer.name, ""), _form(judge, answer))
@@ -159,18 +155,3 @@ def _form(judge: Judge, answer: Judged) -> str:
 def _terms(expr: Any) -> str:
     """The terms in an order that does not depend on what else the hand-in holds."""
     return "+".join(sorted(repr(expr).replace(" - ", " + -").split(" + ")))
-
-
-def _page(report: Report, problem: Problem, student: str, hints: int) -> tuple[str, str]:
-    """The student's page in HTML and Markdown, packed; the marks are put in when it is written."""
-    from dynsolve.render.html import render as render_html
-    from dynsolve.render.markdown import render as render_markdown
-
-    unmarked = replace(report, answers=tuple(replace(a, of=Fraction(0)) for a in report.answers))
-    document = feedback(unmarked, f"{problem.title}: {student}", View(hints, readings=True))
-    blocks = document.blocks
-    title = 1 if blocks and isinstance(blocks[0], Heading) else 0
-    faults = (Note((fault.message,)) for fault in report.faults)
-    document = Document((*blocks[:title], Text((MARKS_HERE,)), *faults, *blocks[title:]))
-    style = style_of(problem.robot)
-    return pack(render_html(document, style)), pack(render_markdown(document, style))

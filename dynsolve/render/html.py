@@ -20,6 +20,7 @@ from dynsolve.document import (
     Fold,
     Formula,
     Heading,
+    Inline,
     List,
     Note,
     Picture,
@@ -27,6 +28,7 @@ from dynsolve.document import (
     Table,
     Text,
     Uses,
+    Verbatim,
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
@@ -176,7 +178,16 @@ class _Page:
         yield "</details>\n"
 
     def prose(self, parts: Prose) -> str:
-        return "".join(self.words(p) if isinstance(p, str) else self.sentence_part(p) for p in parts)
+        return "".join(map(self.part, parts))
+
+    def part(self, part: Inline) -> str:
+        """A piece of a sentence."""
+        match part:
+            case str():
+                return self.words(part)
+            case Verbatim(text):
+                return f'<code dir="auto">{escape(visible(text))}</code>'
+        return self.sentence_part(part)
 
     def sentence_part(self, node: Node) -> str:
         """A formula in a sentence; a long one may be broken."""
@@ -204,8 +215,8 @@ class _Page:
             f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>\n'
         )
 
-    def cell(self, cell: str | Node) -> str:
-        return self.words(cell) if isinstance(cell, str) else self.inline(cell)
+    def cell(self, cell: Inline) -> str:
+        return self.inline(cell) if isinstance(cell, Node) else self.part(cell)
 
     # -- displayed formulas ------------------------------------------------------------------------
 

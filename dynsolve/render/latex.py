@@ -14,6 +14,7 @@ from dynsolve.document import (
     Fold,
     Formula,
     Heading,
+    Inline,
     List,
     Note,
     Picture,
@@ -21,6 +22,7 @@ from dynsolve.document import (
     Table,
     Text,
     Uses,
+    Verbatim,
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
@@ -194,7 +196,16 @@ class _Page:
 
     def prose(self, parts: Prose) -> str:
         """A sentence with its formulas."""
-        return "".join(self.words(part) if isinstance(part, str) else self.inline(part) for part in parts)
+        return "".join(map(self.part, parts))
+
+    def part(self, part: Inline) -> str:
+        """A piece of a sentence, or a cell of a table."""
+        match part:
+            case str():
+                return self.words(part)
+            case Verbatim(text):
+                return f"\\texttt{{{latex_text(text)}}}"
+        return self.inline(part)
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence."""
@@ -223,7 +234,7 @@ class _Page:
         yield from _gathered(rows)
 
     def table(self, table: Table) -> str:
-        rows = [" & ".join(map(self.cell, row)) for row in (table.header, *table.rows)]
+        rows = [" & ".join(map(self.part, row)) for row in (table.header, *table.rows)]
         head, *body = rows
         columns = "c" * len(table.header)
         return (
@@ -231,9 +242,6 @@ class _Page:
             + " \\\\\n".join(body)
             + " \\\\\n\\end{tabular}\n\\end{center}"
         )
-
-    def cell(self, cell: str | Node) -> str:
-        return self.words(cell) if isinstance(cell, str) else f"${self.printer.text(cell)}$"
 
 
 def _gathered(rows: Sequence[tuple[list[Line], str]]) -> Iterator[str]:

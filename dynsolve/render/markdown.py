@@ -17,6 +17,7 @@ from dynsolve.document import (
     Fold,
     Formula,
     Heading,
+    Inline,
     List,
     Note,
     Picture,
@@ -24,6 +25,7 @@ from dynsolve.document import (
     Table,
     Text,
     Uses,
+    Verbatim,
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
@@ -32,7 +34,7 @@ from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.render.latex import latex_notation
 from dynsolve.render.references import numbered, with_sources
 from dynsolve.render.setting import Line, Setter
-from dynsolve.render.words import Speech
+from dynsolve.render.words import Speech, visible
 
 PAGE = 40.0
 """The width of a page on GitHub, in em."""
@@ -106,7 +108,15 @@ class _Page:
                 yield from self.blocks(with_sources(blocks))
 
     def prose(self, parts: Prose) -> str:
-        return "".join(self.words(part) if isinstance(part, str) else self.inline(part) for part in parts)
+        return "".join(map(self.part, parts))
+
+    def part(self, part: Inline) -> str:
+        match part:
+            case str():
+                return self.words(part)
+            case Verbatim(text):
+                return code(text)
+        return self.inline(part)
 
     def inline(self, node: Node) -> str:
         return f"${self.printer.text(node)}$"
@@ -127,8 +137,8 @@ class _Page:
         rule = " | ".join([":---:"] * len(table.header))
         return "\n".join(f"| {row} |" for row in (rows[0], rule, *rows[1:])) + "\n"
 
-    def cell(self, cell: str | Node) -> str:
-        return self.words(cell) if isinstance(cell, str) else self.inline(cell)
+    def cell(self, cell: Inline) -> str:
+        return self.part(cell).replace("|", "\\|") if isinstance(cell, Verbatim) else self.part(cell)
 
 
 def escaped(text: str) -> str:
@@ -138,6 +148,19 @@ def escaped(text: str) -> str:
     50% of &lt;b&gt; &amp; a\_1, &#36;5
     """
     return _SPECIAL.sub(lambda found: _ENTITIES.get(found[0]) or "\\" + found[0], text)
+
+
+def code(text: str) -> str:
+    """Any text as it was typed, between more backticks than it holds.
+
+    >>> print(code("a_1 `*b*`"))
+    `` a_1 `*b*` ``
+    """
+    text = visible(text)
+    runs = [len(run) for run in re.findall("`+", text)]
+    fence = "`" * next(n for n in range(1, len(runs) + 2) if n not in runs)
+    space = " " if runs or text != text.strip() else ""
+    return f"{fence}{space}{text or ' '}{space}{fence}"
 
 
 def _begun(text: str) -> str:

@@ -16,11 +16,13 @@ from dynsolve.document import (
     Fold,
     Formula,
     Heading,
+    Inline,
     List,
     Note,
     Prose,
     Table,
     Text,
+    Verbatim,
 )
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
@@ -97,10 +99,16 @@ class _Page:
 
     def words(self, parts: Prose) -> str:
         """Prose as one text, its formulas unbroken."""
-        return "".join(
-            printable(part) if isinstance(part, str) else self.printer.text(part).replace(" ", HARD_SPACE)
-            for part in parts
-        )
+        return "".join(map(self.part, parts))
+
+    def part(self, part: Inline) -> str:
+        """A piece of a sentence, or a cell of a table."""
+        match part:
+            case str():
+                return printable(part)
+            case Verbatim(text):
+                return printable(text)
+        return self.printer.text(part).replace(" ", HARD_SPACE)
 
     def paragraph(self, parts: Prose) -> Iterator[Line]:
         room = min(self.columns, _PROSE)

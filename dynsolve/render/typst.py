@@ -11,6 +11,7 @@ from dynsolve.document import (
     Fold,
     Formula,
     Heading,
+    Inline,
     List,
     Note,
     Picture,
@@ -18,6 +19,7 @@ from dynsolve.document import (
     Table,
     Text,
     Uses,
+    Verbatim,
 )
 from dynsolve.errors import UsageError
 from dynsolve.notation.extent import Ruler
@@ -145,7 +147,16 @@ class _Page:
                 yield from self.blocks(with_sources(blocks))
 
     def prose(self, parts: Prose) -> str:
-        return "".join(self.words(part) if isinstance(part, str) else self.inline(part) for part in parts)
+        return "".join(map(self.part, parts))
+
+    def part(self, part: Inline) -> str:
+        """A piece of a sentence, or a cell of a table."""
+        match part:
+            case str():
+                return self.words(part)
+            case Verbatim(text):
+                return f"#raw({quoted(visible(text))});"
+        return self.inline(part)
 
     def inline(self, node: Node) -> str:
         return f"${self.printer.text(node)}$"
@@ -170,16 +181,13 @@ class _Page:
             yield display
 
     def table(self, table: Table) -> str:
-        cells = [f"[{self.cell(cell)}]" for row in (table.header, *table.rows) for cell in row]
+        cells = [f"[{self.part(cell)}]" for row in (table.header, *table.rows) for cell in row]
         columns = len(table.header)
         return (
             f"#align(center, table(columns: {columns}, stroke: none, align: center, "
             f"inset: (x: 0.8em, y: 0.35em), {', '.join(cells[:columns])}, table.hline(stroke: 0.5pt), "
             f"{', '.join(cells[columns:])}))"
         )
-
-    def cell(self, cell: str | Node) -> str:
-        return self.words(cell) if isinstance(cell, str) else self.inline(cell)
 
 
 def _rows(lines: Sequence[Line]) -> str:
