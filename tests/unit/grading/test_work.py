@@ -69,7 +69,7 @@ def test_of_several_files_a_line_says_which() -> None:
     assert "It first went wrong at K2 (line 4 of part1.yaml)." in page
     assert "given 2 times, the last counts: line 2 of part0.yaml" in page
     assert "line 3 of part0.yaml: `Kenetic: 0`" in page
-    assert "(line 5 of part1.yaml)" in page
+    assert "Line 5 of part1.yaml: " in page
     assert [(a["name"], a["line"], a["note"]) for a in result["answers"] if a["line"]] == [
         ("K2", 4, "line 4 of part1.yaml"),
         ("K", 3, "line 3 of part1.yaml"),
