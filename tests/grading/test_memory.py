@@ -34,7 +34,7 @@ DEEP = "answers:\n  K: " + "(" * 50 + "m1*lc1" + ")" * 50 + " + (((m1*lc1)))\n"
 def _files(problem: str, count: int = 24) -> list[tuple[str, str]]:
     chance = random.Random(problem)
     files = [hand_in(problem, f"s{i}", chance) for i in range(count)]
-    return [*files, ("own.yaml", OWN_NAMES), ("same.yaml", SAME_LETTERS), ("deep.yaml", DEEP)] + files[:4]
+    return [*files, ("own.yaml", OWN_NAMES), ("same.yaml", SAME_LETTERS), ("deep.yaml", DEEP), *files[:4]]
 
 
 @pytest.mark.parametrize("problem", PROBLEMS)
