@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import groupby
 
 from dynsolve.grading.marking import maximum
+from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record
 
@@ -38,7 +39,7 @@ def standings(record: Record) -> Iterator[Standing]:
             waiting = next(found, None)
         marks: dict[str, Fraction] = {}
         for answer in answers:
-            marks[answer.problem] = marks.get(answer.problem, Fraction(0)) + Fraction(answer.marks)
+            marks[answer.problem] = marks.get(answer.problem, Fraction(0)) + points(answer.marks)
         yield Standing(student, id, marks, answers)
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from dynsolve.files import temporary_of, write_changed
 from dynsolve.grading.ledger import most, standings
 from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, unpack
-from dynsolve.grading.policy import shown
+from dynsolve.grading.policy import points, shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record, Row
 from dynsolve.grading.tables import decimal, table
@@ -49,7 +49,7 @@ def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
 def _answers(record: Record) -> Iterator[tuple[str, ...]]:
     yield _ANSWERS
     for a in record.answers():
-        marks, of = decimal(Fraction(a.marks)), decimal(Fraction(a.of))
+        marks, of = decimal(points(a.marks)), decimal(points(a.of))
         line = str(a.line) if a.line else ""
         yield (a.student, a.problem, a.answer, a.verdict, marks, of, line, ";".join(a.diagnosis))
     for entry in record.waiting():
@@ -107,8 +107,8 @@ def remove_others(folder: Path, kept: set[Path], endings: tuple[str, ...]) -> No
 
 
 def _total(answers: list[Graded]) -> str:
-    marks = sum((Fraction(a.marks) for a in answers), Fraction(0))
-    of = sum((Fraction(a.of) for a in answers), Fraction(0))
+    marks = sum((points(a.marks) for a in answers), Fraction(0))
+    of = sum((points(a.of) for a in answers), Fraction(0))
     return f"Marks: {shown(marks)} of {shown(of)}"
 
 

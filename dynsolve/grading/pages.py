@@ -11,20 +11,26 @@ from dynsolve.document import Block, Document, Heading, Note, Text
 from dynsolve.explain.style import style_of
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.problem.model import Problem
+from dynsolve.render.html import stylesheet
 
 MARKS_HERE = "The marks stand here"
 TABLE_HERE = "The marks of each answer stand here"
 """Where the page gets its marks when it is written: a teacher may override them later."""
 
 
+STYLES_HERE = "/* The styles stand here */"
+"""Where a page gets its styles when it is written, for they are the same in all of them."""
+
+
 def pack(text: str) -> str:
     """A page as it travels and is kept."""
+    text = text.replace(stylesheet(), STYLES_HERE)
     return base64.b64encode(zlib.compress(text.encode("utf-8", errors="replace"), 6)).decode()
 
 
 def unpack(packed: bytes) -> str:
     """A page out of the record."""
-    return zlib.decompress(packed).decode()
+    return zlib.decompress(packed).decode().replace(STYLES_HERE, stylesheet(), 1)
 
 
 def student_page(report: Report, problem: Problem, student: str, hints: int) -> tuple[str, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 STAGES = ("kinematics", "jacobian", "inertia", "energy", "lagrangian", "torque", "vectorized")
@@ -55,6 +56,17 @@ def rounded(marks: Fraction, step: Fraction) -> Fraction:
     return (marks / step + Fraction(1, 2)).__floor__() * step if step else marks
 
 
+@lru_cache(maxsize=4096)
+def points(text: str) -> Fraction:
+    """Marks as the record keeps them, "5/2"; a cohort has few different ones.
+
+    >>> points("5/2")
+    Fraction(5, 2)
+    """
+    return Fraction(text)
+
+
+@lru_cache(maxsize=4096)
 def shown(marks: Fraction) -> str:
     """Marks as people write them: exact, as a decimal where there is a short one.
 

@@ -23,7 +23,7 @@ from dynsolve.grading.worker import patience
 
 Data = dict[str, Any]
 
-SERVES = 500
+SERVES = 4000
 """After so many hand-ins a worker is replaced, so that nothing it keeps can grow."""
 
 MODULE = "dynsolve.grading.worker"

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from dynsolve.errors import UsageError
 from dynsolve.grading.hand_ins import Waiting
@@ -51,8 +51,7 @@ CREATE TABLE IF NOT EXISTS finished (
 _ANSWER = "name label verdict marks of why line diagnosis message read_as note fault loss form".split()
 
 
-@dataclass(frozen=True, slots=True)
-class Graded:
+class Graded(NamedTuple):
     """One answer as it stands in the record; `override` is the teacher's word, where there is one."""
 
     student: str
@@ -229,15 +228,14 @@ class Record:
         overrides = self.overrides()
         where, values = ("WHERE student = ?", (student,)) if student is not None else ("", ())
         order = f"SELECT * FROM answers {where} ORDER BY student, problem, place"  # noqa: S608
-        for s, p, _, *cells in self.db.execute(order, values):
-            found = dict(zip(_ANSWER, cells, strict=True))
-            name = found.pop("name")
-            said = overrides.get((s, p, name))
+        for s, p, _, name, label, verdict, marks, of, why, line, codes, *rest in self.db.execute(
+            order, values
+        ):
+            said = overrides.get((s, p, name)) if overrides else None
             if said is not None:
-                found["why"] = f"set by the teacher: {said[1]} (the program: {found['why']})"
-                found["marks"] = said[0]
-            found["diagnosis"] = tuple(filter(None, found["diagnosis"].split(";")))
-            yield Graded(s, p, name, **found)
+                marks, why = said[0], f"set by the teacher: {said[1]} (the program: {why})"
+            diagnosis = tuple(filter(None, codes.split(";"))) if codes else ()
+            yield Graded(s, p, name, label, verdict, marks, of, why, line, diagnosis, *rest)
 
     def standing(self) -> Iterator[tuple[Key, str, list[list[str]]]]:
         """Every hand-in with what it was made from, and its answers' verdict, marks and why."""

@@ -6,6 +6,7 @@ import csv
 import io
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from functools import lru_cache
 
 from dynsolve.grading.policy import shown
 
@@ -39,6 +40,7 @@ def table(rows: Iterable[Sequence[str]], separator: str = ",") -> str:
     return out.getvalue()
 
 
+@lru_cache(maxsize=4096)
 def decimal(marks: Fraction) -> str:
     """Marks in a cell: a number that every spreadsheet reads.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import lru_cache
 from pathlib import PurePath
 
 from dynsolve.errors import Finding
@@ -25,6 +26,11 @@ class Place:
     column: int
     length: int
     excerpt: str
+
+
+@lru_cache(maxsize=256)
+def _stem(file: str) -> str:
+    return PurePath(file).stem
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +60,7 @@ class Problem:
     @property
     def stem(self) -> str:
         """The name of its file without folder and ending: what an answer file calls it."""
-        return PurePath(self.file).stem
+        return _stem(self.file)
 
     def finding(self, path: Path, message: str, help: str = "", code: str = "") -> Finding:
         """A finding at a part of the file, or at the nearest part around it that has a place."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from dynsolve.files import write_changed
 from dynsolve.grading.exports.roster import Roster
 from dynsolve.grading.ledger import Standing, standings
 from dynsolve.grading.outputs import folder_name, remove_others
+from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 
@@ -52,8 +52,8 @@ def _results(standing: Standing, problems: ProblemSet) -> dict[str, Any]:
         numbers[answer.problem] += 1
         tests.append(
             {
-                "score": float(Fraction(answer.marks)),
-                "max_score": float(Fraction(answer.of)),
+                "score": float(points(answer.marks)),
+                "max_score": float(points(answer.of)),
                 "status": "passed" if answer.verdict in ("correct", "follows") else "failed",
                 "name": answer.answer if alone else f"{answer.problem}: {answer.answer}",
                 "number": f"{problems.stems.index(answer.problem) + 1}.{numbers[answer.problem]}",
