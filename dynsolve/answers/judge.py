@@ -228,30 +228,22 @@ class Judge:
             return False
         if not self.follow.touched(held.target.node):
             return False
-        nearest = self.nearest(held.target)
-        if nearest is None:
-            return False
         key = self.hold.key(held.target)
-        ways = self._nearest_of_ways(held.target)
-        return bool(ways) and all(not _equal(value, key) for value in ways)
+        led = False
+        for value in self._nearest_of_ways(held.target):
+            if _equal(value, key):
+                return False
+            led = True
+        return led
 
-    def _nearest_of_ways(self, target: Target) -> list[Any]:
+    def _nearest_of_ways(self, target: Target) -> Iterator[Any]:
         """The value of each way from the nearest own answers."""
-        values = []
         for way in self.graph.ways(target.node):
             if not any(self.follow.own.get(i) or self.follow.touched(i) for i in way.inputs):
                 continue
             one = next(iter(self.follow._combinations(way)), None)
             if one is not None:
-                values.append(target.of(one.value))
-        return values
-
-    def nearest(self, target: Target) -> Any:
-        """The value expected from the student's own nearest answers; None where they lead nowhere."""
-        if not self.follow.touched(target.node):
-            return self.hold.key(target)
-        found = self.follow.derived(target.node)
-        return target.of(found[0].value) if found else None
+                yield target.of(one.value)
 
     def _entries(self, name: str, held: Held) -> Iterator[tuple[tuple[int, ...], int, int]]:
         """(index from 1, row, column) of the entries that are judged one by one; none of a scalar."""

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import random
 import re
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 from dynsolve.notation.latex import to_latex
 from dynsolve.notation.printing import PLAIN
+from dynsolve.notation.python import to_python
 from dynsolve.notation.text import read
+from dynsolve.notation.tree import Negative, Node, Parenthesized, Power, Product, Quotient, Sum
 from dynsolve.solution import solve
 
 PROBLEMS = ("in3140-rp", "planar-2r", "elbow-3r")
@@ -36,16 +38,41 @@ def _slipped(text: str, chance: random.Random) -> str:
     return f"{text[:place]} - {text[place + 3 :]}"
 
 
-@cache
+@lru_cache(maxsize=1000)
 def _latex(text: str) -> str:
     text = to_latex(read(text).tree, PLAIN)
     dotted = r"([A-Za-z]|\\[a-z]+)_\{(\w+),\\mathrm\{(d+)ot\}\}"
     return re.sub(dotted, lambda m: rf"\{m[3]}ot{{{m[1]}}}_{{{m[2]}}}", text)
 
 
-def hand_in(problem: str, student: str, chance: random.Random) -> tuple[str, str]:
-    """The name and the text of a hand-in."""
+def _shuffled(node: Node, chance: random.Random) -> Node:
+    """The same value with its terms and factors in another order."""
+    match node:
+        case Sum(parts) | Product(parts):
+            return type(node)(tuple(_shuffled(part, chance) for part in chance.sample(parts, len(parts))))
+        case Quotient(above, below):
+            return Quotient(_shuffled(above, chance), below)
+        case Negative(argument):
+            return Negative(_shuffled(argument, chance))
+        case Power(base, exponent):
+            return Power(_shuffled(base, chance), exponent)
+        case Parenthesized(argument):
+            return Parenthesized(_shuffled(argument, chance))
+    return node
+
+
+def _reordered(value: str | list, chance: random.Random) -> str | list:
+    """An answer as somebody else would write it."""
+    if isinstance(value, list):
+        return [_reordered(entry, chance) for entry in value]
+    return to_python(_shuffled(read(value).tree, chance))
+
+
+def hand_in(problem: str, student: str, chance: random.Random, own_order: bool = False) -> tuple[str, str]:
+    """The name and the text of a hand-in; in an order of its own, or as the key is printed."""
     answers = dict(key(problem))
+    if own_order:
+        answers = {name: _reordered(value, chance) for name, value in answers.items()}
     if chance.random() < SLIPS:
         name = chance.choice(sorted(answers))
         value = answers[name]
@@ -87,12 +114,12 @@ def _report(problem: str, answers: dict) -> str:
     return "\n".join(lines)
 
 
-def course(folder: Path, count: int, seed: int = 1) -> None:
+def course(folder: Path, count: int, seed: int = 1, own_order: bool = False) -> None:
     """A folder a student, a third of them each of the three problems."""
     chance = random.Random(seed)
     for i in range(count):
         student = f"s{i:05d}"
-        name, text = hand_in(PROBLEMS[i % len(PROBLEMS)], student, chance)
+        name, text = hand_in(PROBLEMS[i % len(PROBLEMS)], student, chance, own_order)
         place = folder / student
         place.mkdir(parents=True)
         (place / name).write_text(text)

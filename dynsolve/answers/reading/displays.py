@@ -34,15 +34,15 @@ _OPENS = {"(": 1, "[": 1, "{": 1, "begin": 1, ")": -1, "]": -1, "}": -1, "close"
 _ENDINGS = frozenset({",", ";", ".", ":"})
 
 
-def equations(tokens: list[Token], label: str) -> list[Equation]:
-    """The equations of one display; `label` is the number that stands beside it."""
+def equations(tokens: list[Token]) -> list[Equation]:
+    """The equations of one display, each with the number that stands in it."""
     found: list[Equation] = []
     for row in _rows(_unwrapped(tokens)):
         own, row = _label(row)
         for piece in _pieces(row):
             members = _members(piece)
             if members:
-                found.append(Equation(members, own or label))
+                found.append(Equation(members, own))
     return found
 
 

@@ -20,8 +20,8 @@ from dynsolve.notation.tree import Node
 MOST = 20_000
 """So much of a kind is remembered; then it is begun anew."""
 
-MOST_TOKENS = 300
-"""A longer term is read as it comes."""
+MOST_TOKENS = 40
+"""A longer term is read as it comes: it is seldom written twice."""
 
 Signs = tuple[tuple[Any, ...], ...]
 """What tokens say, without where they stand."""
@@ -94,7 +94,8 @@ class Memory:
 
     `plain` are names without scripts, `pieces` runs of letters with the names they are
     made of; `sides` and `keys` what the left sides of equations and the keys of answer
-    files name; `measures` the sizes of the remembered trees by their identity.
+    files name; `measures` the sizes of the remembered trees by their identity; `cuts` and
+    `members` the parts and the values of whole texts, for students copy.
     """
 
     terms: dict[Signs, Term] = field(default_factory=dict)
@@ -103,6 +104,8 @@ class Memory:
     pieces: dict[tuple[Any, ...], list[str]] = field(default_factory=dict)
     sides: dict[Signs, Side] = field(default_factory=dict)
     keys: dict[str, Side] = field(default_factory=dict)
+    cuts: dict[tuple[Any, str], Any] = field(default_factory=dict)
+    members: dict[tuple[str, int, tuple[str, ...]], Any] = field(default_factory=dict)
 
     def keep(self, key: Signs, term: Term) -> None:
         """Remember a term, unless it is too large to be read at all."""
@@ -117,12 +120,17 @@ class Memory:
         self.terms[key] = term
 
 
-def recalled(memory: dict[_K, _V], key: _K, make: Callable[[], _V]) -> _V:
+def recalled(memory: dict[_K, _V], key: _K, make: Callable[[], _V], most: int | None = None) -> _V:
     """What a bounded memory holds under a key, made where it holds nothing yet."""
     try:
         return memory[key]
     except KeyError:
-        if len(memory) >= MOST:
-            memory.clear()
-        found = memory[key] = make()
-        return found
+        return keep(memory, key, make(), most)
+
+
+def keep(memory: dict[_K, _V], key: _K, value: _V, most: int | None = None) -> _V:
+    """Put a value into a bounded memory."""
+    if len(memory) >= (MOST if most is None else most):
+        memory.clear()
+    memory[key] = value
+    return value

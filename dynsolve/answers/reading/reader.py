@@ -147,7 +147,7 @@ class Reader(Cursor):
 
     def known_term(self) -> Value:
         """A term, from memory where it was met before."""
-        if self.naming or self.options or self.rows_by_line:
+        if self.naming or self.options or self.rows_by_line or self.token.kind in ("[", "begin"):
             return self.term()
         start = self.position
         end = extent(self.tokens, start)

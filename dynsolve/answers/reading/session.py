@@ -7,14 +7,16 @@ to each of them, and what consists of names alone is left alone as a definition.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from dynsolve.answers.reading.displays import Display, Equation, chain, equations
 from dynsolve.answers.reading.fitting import fitted, misfit, model_parts, shown, with_names
 from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.members import EXPECTED, Read, read_member
-from dynsolve.answers.reading.memory import Name, Side, Unknown, recalled
+from dynsolve.answers.reading.memory import Name, Side, Unknown, keep, recalled
 from dynsolve.answers.reading.prepare import Macro, expand, simplified
 from dynsolve.answers.reading.scan import Token, scan
 from dynsolve.answers.reading.sides import side_of, sides
@@ -22,6 +24,12 @@ from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, key
 from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.unicode import UnicodePrinter
+
+_T = TypeVar("_T")
+
+MOST_CUTS = 500
+MOST_CHARACTERS = 2_000
+"""So many texts are remembered with their parts, none longer than this: copies are short."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,13 +59,35 @@ class Session:
     def display(self, display: Display) -> None:
         """Read the equations of one display."""
         try:
-            tokens = simplified(expand(scan(display.text), self.macros))
+            found = self._cut(display, equations)
         except ReadError as error:
             self._unscanned(display, error)
             return
-        for equation in equations(tokens, display.label):
+        for equation in found:
             if len(self.answers) < MAX_ANSWERS:
-                self._equation(equation, display)
+                self._equation(Equation(equation.members, equation.label or display.label), display)
+
+    def _cut(self, display: Display, cut: Callable[[list[Token]], _T]) -> _T:
+        """The text of a display cut into its parts; raises ReadError where it has no tokens."""
+        text = display.text
+        if self.macros or len(text) > MOST_CHARACTERS:
+            return cut(simplified(expand(scan(text), self.macros)))
+        cuts = self.vocabulary.memory.cuts
+        found: _T = recalled(cuts, (cut, text), lambda: cut(simplified(scan(text))), MOST_CUTS)
+        return found
+
+    def _member(self, display: Display, member: list[Token], owners: tuple[str, ...]) -> Read | ReadError:
+        """The value of a member, as one of these answers."""
+        if self.macros or not member or len(display.text) > MOST_CHARACTERS:
+            return read_member(self.vocabulary, member, owners)
+        key = (display.text, member[0].start, owners)
+        known = self.vocabulary.memory.members
+        found: Read | ReadError | None = known.get(key)
+        if found is None:
+            found = read_member(self.vocabulary, member, owners)
+            if isinstance(found, Read):  # an error may speak of what this student defined
+                keep(known, key, found, MOST_CUTS)
+        return found
 
     def _unscanned(self, display: Display, error: ReadError) -> None:
         """A display that has no tokens: its left side alone may still say what it answers."""
@@ -88,7 +118,7 @@ class Session:
         read: list[tuple[int, Read | ReadError]] = []
         for index, member in enumerate(members):
             if not isinstance(found_sides[index], (Name, Unknown)):
-                read.append((index, read_member(self.vocabulary, member, owners)))
+                read.append((index, self._member(display, member, owners)))
         if names and self._is_own_letter(members, names, read):
             self.define(key(members[0][0].text), next(f for _, f in read if isinstance(f, Read)))
         elif names and self._is_constant(members, names, read):
@@ -134,11 +164,10 @@ class Session:
         """The members of a value, each of them an answer."""
         label = display.label
         try:
-            tokens = simplified(expand(scan(display.text), self.macros))
+            members = self._cut(display, chain)
         except ReadError as error:
             self._unreadable(candidates, display, error, label, (self.chains, 0))
             return
-        members = chain(tokens)
         if len(members) > MAX_MEMBERS:
             fault = ReadError(f"more than {MAX_MEMBERS} members of one chain", 0, 1, "write the value alone")
             self._unreadable(candidates, display, fault, label, (self.chains, 0))
@@ -152,7 +181,7 @@ class Session:
                 fault = ReadError("nothing stands on one side of this `=`", 0, 1, "write the value alone")
                 self._unreadable(candidates, display, fault, label, where)
                 continue
-            found = read_member(self.vocabulary, member, candidates)
+            found = self._member(display, member, candidates)
             if isinstance(found, Read) and isinstance(found.value, Abstract):
                 found = ReadError(
                     found.value.why, member[0].start, 1, "write it in the symbols of the problem"
