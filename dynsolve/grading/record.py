@@ -52,7 +52,11 @@ _ANSWER = "name label verdict marks of why line diagnosis message read_as note f
 
 
 class Graded(NamedTuple):
-    """One answer as it stands in the record; `override` is the teacher's word, where there is one."""
+    """One answer as it stands in the record, the teacher's word put in where there is one.
+
+    `message` has what is said of each slip of `diagnosis`; `said` is why the teacher has
+    set the marks, empty where nobody has.
+    """
 
     student: str
     problem: str
@@ -64,12 +68,13 @@ class Graded(NamedTuple):
     why: str
     line: int
     diagnosis: tuple[str, ...]
-    message: str
+    message: tuple[str, ...]
     read_as: str
     note: str
     fault: str
     loss: str
     form: str
+    said: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,14 +233,17 @@ class Record:
         overrides = self.overrides()
         where, values = ("WHERE student = ?", (student,)) if student is not None else ("", ())
         order = f"SELECT * FROM answers {where} ORDER BY student, problem, place"  # noqa: S608
-        for s, p, _, name, label, verdict, marks, of, why, line, codes, *rest in self.db.execute(
+        for s, p, _, name, label, verdict, marks, of, why, line, codes, message, *rest in self.db.execute(
             order, values
         ):
+            diagnosis = tuple(filter(None, codes.split(";"))) if codes else ()
+            told = tuple(message.split("\n")) if codes else ()
+            graded = Graded(s, p, name, label, verdict, marks, of, why, line, diagnosis, told, *rest)
             said = overrides.get((s, p, name)) if overrides else None
             if said is not None:
-                marks, why = said[0], f"set by the teacher: {said[1]} (the program: {why})"
-            diagnosis = tuple(filter(None, codes.split(";"))) if codes else ()
-            yield Graded(s, p, name, label, verdict, marks, of, why, line, diagnosis, *rest)
+                by_hand = f"set by the teacher: {said[1]} (the program: {why})"
+                graded = graded._replace(marks=said[0], why=by_hand, said=said[1])
+            yield graded
 
     def standing(self) -> Iterator[tuple[Key, str, list[list[str]]]]:
         """Every hand-in with what it was made from, and its answers' verdict, marks and why."""

@@ -29,6 +29,9 @@ Data = dict[str, Any]
 MOST_TEXT = 2000
 """So much is kept of how an answer was read."""
 
+MOST_TOLD = 300
+"""So much is kept of what is said of a slip."""
+
 
 def grade_one(payload: Data, narrow: float = 0.0) -> Data:
     """Judge and mark a hand-in; `payload` has problem, marks, policy, files, late and student.
@@ -116,9 +119,10 @@ def _part(name: str, given: dict[str, Judged]) -> Judged | None:
 
 def _answer(answer: Judged, marked: Marked, loss: str, form: str) -> Data:
     place = answer.place
-    codes = dict.fromkeys(d.code for d in answer.diagnosis if d.code)
-    for entry in answer.entries:
-        codes.update(dict.fromkeys(d.code for d in entry.diagnosis if d.code))
+    slips: dict[str, str] = {}
+    for said in (*answer.diagnosis, *(d for entry in answer.entries for d in entry.diagnosis)):
+        if said.code:
+            slips.setdefault(said.code, " ".join(said.message.split())[:MOST_TOLD])
     return {
         "name": answer.name,
         "label": answer.label,
@@ -127,8 +131,8 @@ def _answer(answer: Judged, marked: Marked, loss: str, form: str) -> Data:
         "of": str(marked.of),
         "why": marked.why,
         "line": place.line if place else 0,
-        "diagnosis": list(codes),
-        "message": next((d.message for d in answer.diagnosis if d.message), "")[:MOST_TEXT],
+        "diagnosis": list(slips),
+        "message": "\n".join(slips.values()),
         "read_as": answer.read_as[:MOST_TEXT],
         "note": "; ".join(_notes(answer))[:MOST_TEXT],
         "fault": answer.fault[:MOST_TEXT],

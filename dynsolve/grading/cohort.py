@@ -1,0 +1,115 @@
+"""The cohort at a glance: what one pass over the record counts for the teacher's page."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from dynsolve.grading.ledger import standings
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Graded, Record
+
+VERDICTS = ("correct", "follows", "wrong", "unreadable", "missing")
+
+Slip = tuple[str, str, str]
+"""The problem, the answer and the code of a slip."""
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """Somebody's answer: how it was read, and what is said of it."""
+
+    student: str
+    text: str
+
+
+@dataclass
+class Alike:
+    """Those who wrote the same wrong expression."""
+
+    text: str
+    students: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """Something for a human to look at."""
+
+    student: str
+    problem: str
+    what: str
+    why: str
+
+
+@dataclass
+class Cohort:
+    """What is counted; `marks` has a student's marks by problem, and all."""
+
+    marks: list[tuple[str, dict[str, Fraction], Fraction]] = field(default_factory=list)
+    verdicts: dict[tuple[str, str], Counter[str]] = field(default_factory=dict)
+    slips: Counter[Slip] = field(default_factory=Counter)
+    examples: dict[Slip, Example] = field(default_factory=dict)
+    alike: dict[Slip, Alike] = field(default_factory=dict)
+    queue: list[Entry] = field(default_factory=list)
+    by_hand: list[Graded] = field(default_factory=list)
+    pages: set[tuple[str, str]] = field(default_factory=set)
+
+
+def counted(problems: ProblemSet, record: Record) -> Cohort:
+    """Everything that the teacher's page tells."""
+    cohort = Cohort()
+    for item in problems.items:
+        for name in item.problem.marks:
+            cohort.verdicts[item.stem, name] = Counter()
+    told: set[tuple[str, str]] = set()
+    unjudged: dict[tuple[str, str], str] = {}
+    for w in record.waiting():
+        cohort.queue.append(Entry(w.student, w.problem, w.file, w.reason))
+        told |= {(w.student, stem) for stem in ((w.problem,) if w.problem else problems.stems)}
+    for row in record.rows():
+        key = (row.student, row.problem)
+        if row.html:
+            cohort.pages.add(key)
+        if row.reason:
+            unjudged[key] = row.reason
+            if key not in told:
+                cohort.queue.append(Entry(*key, ", ".join(row.files), row.reason))
+        if row.left:
+            left = ", ".join(row.left)
+            cohort.queue.append(Entry(row.student, row.problem, left, "left aside: a newer copy counts"))
+    for standing in standings(record):
+        cohort.marks.append((standing.student, standing.marks, standing.total))
+        for answer in standing.answers:
+            _count(cohort, answer, unjudged.get((answer.student, answer.problem), ""))
+    return cohort
+
+
+def _count(cohort: Cohort, a: Graded, unjudged: str) -> None:
+    """One answer; `unjudged` is why none of its hand-in could be judged, which is told once."""
+    cohort.verdicts.setdefault((a.problem, a.answer), Counter())[a.verdict] += 1
+    if a.verdict == "wrong":
+        for code, message in zip(a.diagnosis, a.message, strict=False):
+            slip = (a.problem, a.answer, code)
+            cohort.slips[slip] += 1
+            cohort.examples.setdefault(slip, Example(a.student, message or a.read_as))
+    if a.form:
+        cohort.alike.setdefault((a.problem, a.answer, a.form), Alike(a.read_as, [])).students.append(
+            a.student
+        )
+    if a.said:
+        cohort.by_hand.append(a)
+        return
+    reason = _for_a_human(a)
+    if reason and reason != unjudged:
+        cohort.queue.append(Entry(a.student, a.problem, f"{a.answer} {a.label}".strip(), reason))
+
+
+def _for_a_human(a: Graded) -> str:
+    if a.verdict == "unreadable":
+        return a.fault or "it could not be read"
+    if a.loss:
+        return f"{a.verdict}, but {a.loss}"
+    if a.verdict == "wrong" and not a.diagnosis:
+        return "it is wrong, and no slip was found that explains it"
+    return ""
