@@ -80,6 +80,15 @@ class Graph:
             return None
         return Entry(whole, int(found[2]) - 1, int(found[3] or 1) - 1)
 
+    def whole(self, name: str) -> tuple[str, tuple[int, int]]:
+        """The matrix that an answer is an entry of, and its place there, from 1; an empty name for others."""
+        entry, node = self.entry(name), self.node(name)
+        if entry is not None:
+            return entry.whole, (entry.row + 1, entry.column + 1)
+        if node in self._forces.values():
+            return "tau", (int(node.removeprefix("tau")), 1)
+        return "", (0, 0)
+
     def christoffel(self, name: str) -> tuple[int, int, int] | None:
         """(i, j, k) from 0 of c121, with i ≤ j."""
         found = _SYMBOL.fullmatch(name)

@@ -50,6 +50,7 @@ MOST_EXPECTED = 4
 """From so many of the values that a student's own answers lead to a slip is looked for."""
 
 BY_PARTS = "judged by its parts"
+BY_MIRROR = "judged as the entry that it mirrors: D is symmetric"
 
 
 class Checker:
@@ -431,7 +432,8 @@ class Judge:
         of = Fraction(self.problem.marks.get(name, 0))
         parts = self._written_parts(name, answers)
         if parts is None:
-            return Judged(name, Verdict.MISSING, of=of, given=False)
+            base = Judged(name, Verdict.MISSING, of=of, given=False)
+            return self._scored(self._within_whole(base, answers) or base)
         verdict = worst([part.verdict for part in parts])
         used = [n for part in parts for n in part.follows_from] if verdict is Verdict.FOLLOWS else []
         return self._scored(
@@ -446,6 +448,23 @@ class Judge:
                 follows_from=self._sorted(used),
             )
         )
+
+    def _within_whole(self, base: Judged, answers: dict[str, Judged]) -> Judged | None:
+        """An entry that is not written by itself: judged in the matrix, or as the one it mirrors in D."""
+        name, place = self.graph.whole(base.name)
+        mirrored = answers.get(f"d{place[1]}{place[0]}") if name == "D" else None
+        if mirrored is not None and mirrored.given:
+            return replace(mirrored, name=base.name, of=base.of, given=False, notes=(BY_MIRROR,))
+        whole = answers.get(name)
+        if whole is None or not whole.given:
+            return None
+        found = next((e for e in whole.entries if place in (e.index, (*e.index, place[1]))), None)
+        return replace(
+            base, verdict=found.verdict if found else whole.verdict, label=whole.label, place=whole.place,
+            notes=(f"an entry of {whole.name}",), follows_from=found.follows_from if found else (),
+            diagnosis=found.diagnosis if found else whole.diagnosis, fault=whole.fault,
+            expected=whole.expected, difference=found.difference if found else None,
+        )  # fmt: skip
 
     def _written_parts(self, name: str, answers: dict[str, Judged]) -> list[Judged] | None:
         parts = self.graph.parts(name)

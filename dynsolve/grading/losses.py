@@ -12,8 +12,11 @@ from dynsolve.answers.verdict import Report, Verdict
 
 
 def losses(judge: Judge, report: Report) -> dict[str, str]:
-    """What each answer that follows, or has entries that do, has lost beside the key."""
-    found = {}
+    """What each answer that follows, or has entries that do, has lost beside the key.
+
+    What is not written has lost what the matrix has that it is an entry of, or its parts.
+    """
+    found: dict[str, str] = {}
     for answer in report.answers:
         held = judge.held.get(answer.name)
         following = answer.verdict is Verdict.FOLLOWS or any(
@@ -23,6 +26,10 @@ def losses(judge: Judge, report: Report) -> dict[str, str]:
             loss = _loss(judge, held)
             if loss:
                 found[answer.name] = loss
+    for answer in report.answers:
+        if not answer.given:
+            sources = (judge.graph.whole(answer.name)[0], *judge.graph.parts(answer.name))
+            found |= {answer.name: found[name] for name in sources if name in found}
     return found
 
 

@@ -45,9 +45,14 @@ def _one(answer: Judged, policy: Policy, loss: str, parts: tuple[Judged, ...]) -
         return Marked(answer.name, Fraction(0), Fraction(0), f"{answer.verdict}; it carries no marks")
     share, why = _share(answer, policy, loss, parts)
     exact = share * answer.of
-    marks = rounded(exact, policy.rounding)
+    marks = _rounded(exact, answer.of, policy)
     line = f"{why}: {shown(marks)} of {shown(answer.of)}"
     return Marked(answer.name, marks, answer.of, line + _rounding(exact, marks, policy))
+
+
+def _rounded(exact: Fraction, of: Fraction, policy: Policy) -> Fraction:
+    """Marks in steps; none is more than there is, and all of them are all."""
+    return exact if exact == of else min(rounded(exact, policy.rounding), of)
 
 
 def _rounding(exact: Fraction, marks: Fraction, policy: Policy) -> str:
@@ -58,55 +63,64 @@ def _share(answer: Judged, policy: Policy, loss: str, parts: tuple[Judged, ...])
     """The share of its marks that an answer earns, and why."""
     if answer.verdict is Verdict.CORRECT:
         return Fraction(1), "correct"
-    if answer.verdict is Verdict.FOLLOWS:
-        source = f"follows from {', '.join(answer.follows_from)}" if answer.follows_from else "follows"
-        if loss:
-            return HALF * policy.follow, f"{source}, but {loss}; {_percent(HALF * policy.follow)}"
-        return policy.follow, source if policy.follow == 1 else f"{source}, {_percent(policy.follow)}"
     pieces = [entry.verdict for entry in answer.entries] or [part.verdict for part in parts]
-    if answer.verdict is Verdict.WRONG and len(pieces) > 1:
-        right = pieces.count(Verdict.CORRECT)
-        follow = pieces.count(Verdict.FOLLOWS)
-        share = (right + follow * policy.follow) / len(pieces)
-        if loss:
-            share *= HALF
-        if right or follow:
-            word = "entries" if answer.entries else "parts"
-            count = f"{right} of {len(pieces)} {word} correct" + (f", {follow} following" if follow else "")
-            return share, count + (f", but {loss}; half" if loss else "")
-    return Fraction(0), str(answer.verdict)
+    right, following = pieces.count(Verdict.CORRECT), pieces.count(Verdict.FOLLOWS)
+    follow = policy.follow * (HALF if loss else 1)
+    earns = "" if follow == 1 else f"which earns {_percent(follow)}"
+    lost = f"but {loss}" if loss else ""
+    if answer.verdict is Verdict.FOLLOWS and not right:
+        source = f"follows from {', '.join(answer.follows_from)}" if answer.follows_from else "follows"
+        return follow, ", ".join(filter(None, (source, lost, earns)))
+    if len(pieces) < 2 or not right + following:
+        return Fraction(0), str(answer.verdict)
+    said = [f"{right} of {len(pieces)} {_word(answer)} correct"]
+    said += filter(None, (f"{following} following", lost, earns)) if following else ()
+    missing = pieces.count(Verdict.MISSING)
+    said += [f"{missing} missing"] if missing else []
+    return (right + following * follow) / len(pieces), ", ".join(said)
+
+
+def _word(answer: Judged) -> str:
+    if not answer.entries:
+        return "parts"
+    return "rows" if len(answer.entries[0].index) == 1 else "entries"
 
 
 def _percent(share: Fraction) -> str:
-    return f"which earns {shown(share * 100)} %"
+    return f"{shown(share * 100)} %"
 
 
 def _late(marked: Marked, policy: Policy) -> Marked:
-    marks = rounded(marked.marks * policy.late, policy.rounding)
+    marks = min(rounded(marked.marks * policy.late, policy.rounding), marked.marks)
     if marks == marked.marks:
         return marked
-    return replace(
-        marked, marks=marks, why=f"{marked.why}; late, {shown(policy.late * 100)} % of it: {shown(marks)}"
-    )
+    why = f"{marked.why}; late, {_percent(policy.late)} of it: {shown(marks)}"
+    return replace(marked, marks=marks, why=why)
 
 
 def _capped(found: Iterable[Marked], policy: Policy) -> Iterator[Marked]:
-    """No stage earns more than its cap; what an answer may earn shrinks with it."""
-    earned: dict[str, Fraction] = {}
-    offered: dict[str, Fraction] = {}
+    """No stage earns more than its cap, the first answers first; nor is it out of more.
+
+    What is left of the cap beside the marks that are earned goes to what could be earned,
+    in order, so that no answer has more marks than it is out of.
+    """
+    found, left = list(found), dict(policy.caps)
+    earned = []
     for marked in found:
         stage = stage_of(marked.name)
-        if stage not in policy.caps:
+        earned.append(min(marked.marks, left.get(stage, marked.marks)))
+        if stage in left:
+            left[stage] -= earned[-1]
+    for marked, marks in zip(found, earned, strict=True):
+        stage = stage_of(marked.name)
+        if stage not in left:
             yield marked
             continue
-        cap = policy.caps[stage]
-        marks = min(marked.marks, cap - earned.get(stage, Fraction(0)))
-        of = min(marked.of, cap - offered.get(stage, Fraction(0)))
-        earned[stage] = earned.get(stage, Fraction(0)) + marks
-        offered[stage] = offered.get(stage, Fraction(0)) + of
+        of = marks + min(marked.of - marks, left[stage])
+        left[stage] -= of - marks
         why = marked.why
-        if marks != marked.marks:
-            why += f"; {stage} is capped at {shown(cap)}: {shown(marks)}"
+        if (marks, of) != (marked.marks, marked.of):
+            why += f"; {stage} is capped at {shown(policy.caps[stage])}: {shown(marks)} of {shown(of)}"
         yield Marked(marked.name, marks, of, why)
 
 

@@ -18,8 +18,10 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import dynsolve
+from dynsolve.answers.verdict import Judged, Verdict
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.hand_ins import File, HandIn, Intake
+from dynsolve.grading.marking import mark
 from dynsolve.grading.policy import to_data
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import Item, ProblemSet
@@ -137,6 +139,7 @@ def _absent(
                 continue
             said = reasons.get(key, [])
             found = {"hand-in": _short(said), "marks": _of_marks(item), "program": program()}
+            found["policy"] = _short(to_data(problems.policy))
             row = _unread(problems, student, item.stem, "; ".join(said))
             rest = {"files": [], "left": [], "late": False, "reason": "; ".join(said), "notes": []}
             yield key, (_short(found), json.dumps(found, sort_keys=True), {**row, **rest})
@@ -244,13 +247,14 @@ def _unread(problems: ProblemSet, student: str, stem: str, reason: str) -> Data:
 
     item = problems.item(stem)
     html, markdown = bare_page(item.problem.title, student, reason) if reason else ("", "")
-    verdict = "unreadable" if reason else "missing"
+    verdict = Verdict.UNREADABLE if reason else Verdict.MISSING
     blank = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form"), "")
+    marked = mark((Judged(n, verdict, of=of) for n, of in item.problem.marks.items()), problems.policy)
     answers = [
         {
-            **blank, "name": name, "verdict": verdict, "marks": "0", "of": str(of), "line": 0,
-            "why": f"unreadable: {reason}" if reason else "missing", "diagnosis": [], "fault": reason,
+            **blank, "name": m.name, "verdict": str(verdict), "marks": "0", "of": str(m.of), "line": 0,
+            "why": f"{m.why} ({reason})" if reason else m.why, "diagnosis": [], "fault": reason,
         }
-        for name, of in item.problem.marks.items()
+        for m in marked
     ]  # fmt: skip
     return {"answers": answers, "html": html, "markdown": markdown}

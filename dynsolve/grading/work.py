@@ -100,15 +100,19 @@ def _joined(read: list[Submission]) -> Submission:
 
 
 def _parts(judge: Judge, report: Report) -> dict[str, tuple[Judged, ...]]:
-    """The parts of the wholes that are not written."""
+    """The parts of the wholes that are not written; of a matrix also where some of them are missing."""
     given = {answer.name: answer for answer in report.answers if answer.given}
     found = {}
     for answer in report.answers:
-        if answer.given or answer.verdict is Verdict.MISSING:
+        if answer.given:
             continue
-        pieces = [_part(name, given) for name in judge.graph.parts(answer.name)]
-        if pieces and all(pieces):
-            found[answer.name] = tuple(piece for piece in pieces if piece)
+        names = judge.graph.parts(answer.name)
+        pieces = [_part(name, given) for name in names]
+        written = [piece for piece in pieces if piece is not None]
+        of_matrix = all(judge.graph.whole(name)[0] == answer.name for name in names)
+        if written and (of_matrix or len(written) == len(pieces)):
+            missing = (Judged(name, Verdict.MISSING) for name in names)
+            found[answer.name] = tuple(p or m for p, m in zip(pieces, missing, strict=True))
     return found
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import os
 from concurrent.futures import Future
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,7 @@ from dynsolve.grading.record import Record
 from dynsolve.grading.run import Done, grade_all
 from dynsolve.grading.uploads import Uploads
 from dynsolve.grading.work import grade_one
+from tests.grading.generate import PROBLEMS, course, problem_set
 from tests.support import ROOT
 
 RIGHT = "answers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n"
@@ -111,3 +113,37 @@ def test_results_that_cannot_be_written_are_said(tmp_path: Path) -> None:
     (tmp_path / "out").write_text("a file")
     with pytest.raises(UsageError, match=r"writing to .*out failed: file exists"):
         dynsolve.grade("in3140-rp", tmp_path / "in", tmp_path / "out", jobs=1)
+
+
+def test_the_marks_of_answers_are_the_grades(tmp_path: Path) -> None:
+    problem_set(tmp_path / "set")
+    text = (
+        (tmp_path / "set" / "set.yaml")
+        .read_text()
+        .replace(
+            "policy: {follow: 1/2, hints: 2}",
+            "policy: {follow: 1/3, rounding: 0.25, late: 0.8, caps: {energy: 5, vectorized: 7/2}}",
+        )
+    )
+    (tmp_path / "set" / "set.yaml").write_text(text)
+    course(tmp_path / "in", 12, seed=3)
+    for i in range(0, 12, 4):  # as Canvas names them
+        for path in (tmp_path / "in" / f"s{i:05d}").iterdir():
+            path.rename(tmp_path / "in" / f"s{i}_LATE_{i}_7_{path.name.partition('_')[2]}")
+            path.parent.rmdir()
+    (tmp_path / "in" / "pdf").mkdir()
+    (tmp_path / "in" / "pdf" / "planar-2r.pdf").write_bytes(b"%PDF")
+    grades = dynsolve.grade(tmp_path / "set", tmp_path / "in", tmp_path / "out", jobs=2)
+    assert grades.computed == 12
+    rows = list(csv.DictReader((tmp_path / "out" / "grades.csv").read_text().splitlines()))
+    answers = list(csv.DictReader((tmp_path / "out" / "answers.csv").read_text().splitlines()))
+    assert {row["student"] for row in rows} == {row["student"] for row in answers}
+    for row in rows:
+        mine = [answer for answer in answers if answer["student"] == row["student"]]
+        for stem in PROBLEMS:
+            marks = [Fraction(a["marks"]) for a in mine if a["problem"] == stem]
+            assert sum(marks) == Fraction(row[stem])
+        assert sum(Fraction(row[stem]) for stem in PROBLEMS) == Fraction(row["total"])
+        assert sum(Fraction(answer["of"]) for answer in mine) == Fraction(row["of"])
+        assert all(0 <= Fraction(answer["marks"]) <= Fraction(answer["of"]) for answer in mine)
+    assert any("LATE" not in row["student"] and "." in row["total"] for row in rows)

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from fractions import Fraction
 
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from dynsolve.answers.verdict import EntryVerdict, Judged, Verdict
-from dynsolve.grading.marking import mark
-from dynsolve.grading.policy import Policy
+from dynsolve.grading.marking import mark, maximum
+from dynsolve.grading.policy import STAGES, Policy, rounded, shown, stage_of
 
 F = Fraction
 
@@ -31,7 +36,7 @@ def test_shares() -> None:
     assert [m.why for m in found] == [
         "correct: 4 of 4",
         "follows from K1, which earns 50 %: 2 of 4",
-        "2 of 4 entries correct, 1 following: 2.5 of 4",
+        "2 of 4 entries correct, 1 following, which earns 50 %: 2.5 of 4",
         "unreadable: 0 of 4",
         "missing: 0 of 4",
         "wrong; it carries no marks",
@@ -40,7 +45,7 @@ def test_shares() -> None:
 
 def test_what_follows_and_has_lost_something_earns_half() -> None:
     (found,) = mark([_answer("tau", Verdict.FOLLOWS)], Policy(), losses={"tau": "body 2 is lost on the way"})
-    assert (found.marks, found.why) == (2, "follows, but body 2 is lost on the way; which earns 50 %: 2 of 4")
+    assert (found.marks, found.why) == (2, "follows, but body 2 is lost on the way, which earns 50 %: 2 of 4")
 
 
 def test_late_and_rounding() -> None:
@@ -53,10 +58,103 @@ def test_a_cap_limits_what_a_stage_earns_and_what_it_is_out_of() -> None:
     answers = [_answer("P", Verdict.CORRECT), _answer("K", Verdict.CORRECT), _answer("D", Verdict.CORRECT)]
     found = mark(answers, Policy(caps={"energy": F(5)}))
     assert [(m.marks, m.of) for m in found] == [(4, 4), (1, 1), (4, 4)]
-    assert found[1].why == "correct: 4 of 4; energy is capped at 5: 1"
+    assert found[1].why == "correct: 4 of 4; energy is capped at 5: 1 of 1"
 
 
 def test_a_whole_by_its_parts() -> None:
     parts = {"K": (_answer("K1", Verdict.CORRECT), _answer("K2", Verdict.WRONG))}
     (found,) = mark([_answer("K", Verdict.WRONG)], Policy(), parts=parts)
     assert (found.marks, found.why) == (2, "1 of 2 parts correct: 2 of 4")
+
+
+def test_an_answer_that_follows_in_part_earns_what_is_right_in_full() -> None:
+    answers = [_answer("D", Verdict.FOLLOWS, entries="cfff", follows_from=("K",))]
+    (found,) = mark(answers, Policy(follow=F(1, 2)))
+    assert (found.marks, found.why) == (
+        F(5, 2), "1 of 4 entries correct, 3 following, which earns 50 %: 2.5 of 4",
+    )  # fmt: skip
+    (found,) = mark(answers, Policy(), losses={"D": "body 2 is lost on the way"})
+    assert found.marks == F(5, 2)
+    assert "3 following, but body 2 is lost on the way, which earns 50 %: 2.5 of 4" in found.why
+
+
+def test_a_matrix_that_is_written_in_part_earns_what_is_there() -> None:
+    parts = {"g": (_answer("g1", Verdict.CORRECT), _answer("g2", Verdict.MISSING))}
+    (found,) = mark([_answer("g", Verdict.MISSING)], Policy(), parts=parts)
+    assert (found.marks, found.why) == (2, "1 of 2 parts correct, 1 missing: 2 of 4")
+
+
+def test_rounding_takes_nothing_from_all_and_gives_no_more_than_all() -> None:
+    policy = Policy(rounding=F(1, 2), late=F(1, 2))
+    answers = [Judged("K", Verdict.CORRECT, of=F(1, 3)), _answer("D", Verdict.WRONG, 0, "cccw")]
+    answers[1] = replace(answers[1], of=F(1, 3))
+    assert [m.marks for m in mark(answers, policy)] == [F(1, 3), F(1, 3)]
+    assert [m.marks for m in mark(answers, policy, late=True)] == [0, 0]
+
+
+def test_a_cap_leaves_no_answer_more_than_it_is_out_of() -> None:
+    answers = [_answer("P", Verdict.WRONG), _answer("K", Verdict.CORRECT)]
+    found = mark(answers, Policy(caps={"energy": F(5)}))
+    assert [(m.marks, m.of) for m in found] == [(0, 1), (4, 4)]
+    assert found[0].why == "wrong: 0 of 4; energy is capped at 5: 0 of 1"
+
+
+_POINTS = st.fractions(0, 10, max_denominator=6)
+_SHARES = st.fractions(0, 1, max_denominator=10)
+_NAMES = ("A1", "Jv", "I1", "P", "K", "K1", "L", "tau", "f2", "D", "C", "g", "d12")
+
+
+@st.composite
+def _answers(draw: st.DrawFn) -> list[Judged]:
+    found = []
+    for name in draw(st.lists(st.sampled_from(_NAMES), unique=True)):
+        verdict = draw(st.sampled_from(Verdict))
+        size = draw(st.integers(0, 6)) if verdict in (Verdict.WRONG, Verdict.FOLLOWS) else 0
+        kinds = [Verdict.CORRECT, Verdict.FOLLOWS] + [Verdict.WRONG] * (verdict is Verdict.WRONG)
+        pieces = draw(st.lists(st.sampled_from(kinds), min_size=size, max_size=size))
+        entries = tuple(EntryVerdict((i, 1), piece) for i, piece in enumerate([*pieces, verdict], 1))
+        found.append(Judged(name, verdict, of=draw(_POINTS), entries=entries if size else ()))
+    return found
+
+
+_POLICIES = st.builds(
+    Policy,
+    follow=_SHARES,
+    late=_SHARES,
+    caps=st.dictionaries(st.sampled_from(STAGES), _POINTS),
+    rounding=st.sampled_from([F(1, 100), F(1, 4), F(1, 2), F(1), F(1, 3)]),
+)
+
+
+@given(_answers(), _POLICIES, st.booleans(), st.booleans())
+@settings(max_examples=300, deadline=None)
+def test_marks_hold_together_whatever_the_policy(
+    answers: list[Judged], policy: Policy, late: bool, lost: bool
+) -> None:
+    losses = {answer.name: "body 2 is lost on the way" for answer in answers if lost}
+    found = mark(answers, policy, late, losses)
+    assert [m.name for m in found] == [a.name for a in answers]
+    for marked, answer in zip(found, answers, strict=True):
+        assert 0 <= marked.marks <= marked.of <= answer.of
+        of_it = f": {shown(marked.marks)}"
+        said = re.sub(r" \([^()]*\)$", "", marked.why)  # how it was rounded
+        assert not answer.of or said.endswith((of_it, f"{of_it} of {shown(marked.of)}"))
+        if answer.verdict is Verdict.CORRECT and not late and stage_of(answer.name) not in policy.caps:
+            assert marked.marks == answer.of
+        if marked.marks not in (answer.of, rounded(marked.marks, policy.rounding)):
+            assert policy.caps or late
+    for stage, cap in policy.caps.items():
+        here = [m for m in found if stage_of(m.name) == stage]
+        uncapped = mark(answers, replace(policy, caps={}), late, losses)
+        earned = sum((m.marks for m in uncapped if stage_of(m.name) == stage), F(0))
+        assert sum((m.marks for m in here), F(0)) == min(cap, earned)
+    of = sum((m.of for m in found), F(0))
+    assert of == maximum(((a.name, a.of) for a in answers), policy)
+
+
+@given(_answers(), _POLICIES)
+@settings(max_examples=200, deadline=None)
+def test_what_is_right_earns_no_less_than_what_is_not(answers: list[Judged], policy: Policy) -> None:
+    before = sum((m.marks for m in mark(answers, policy)), F(0))
+    better = [replace(a, verdict=Verdict.CORRECT, entries=()) for a in answers]
+    assert sum((m.marks for m in mark(better, policy)), F(0)) >= before

@@ -92,6 +92,54 @@ def test_following_from_nothing_earns_half_and_waits_for_a_human() -> None:
     assert (tau["verdict"], tau["marks"]) == ("follows", "3")
 
 
+D = [["m1*lc1^2 + m2*(l1^2 + lc2^2 + 2*l1*lc2*cos(q2)) + I1 + I2", "m2*(lc2^2 + l1*lc2*cos(q2)) + I2"]]
+D += [[D[0][1], "m2*lc2^2 + I2"]]
+WHOLE = f"  D: [[{D[0][0]}, m1], [{D[1][0]}, {D[1][1]}]]\n"
+UPPER = f"  d11: {D[0][0]}\n  d12: {D[0][1]}\n  d22: {D[1][1]}\n"
+G2 = "m2*g*lc2*cos(q1 + q2)"
+
+
+@pytest.mark.parametrize(
+    ("marks", "text", "earned"),
+    [
+        ({"D": "4"}, WHOLE, {"D": "3"}),
+        ({"D": "4"}, UPPER, {"D": "4"}),
+        ({"D": "4"}, UPPER.replace(D[0][1], "m1"), {"D": "2"}),
+        ({"D": "4"}, f"{UPPER}  d21: m1\n", {"D": "3"}),
+        ({"D": "4"}, f"  d11: {D[0][0]}\n  d22: {D[1][1]}\n", {"D": "2"}),
+        ({"D": "4"}, f"  d12: {D[0][1]}\n", {"D": "2"}),
+        ({"D": "4"}, UPPER.replace(D[1][1], "x("), {"D": "3"}),
+        ({"d11": "2", "d12": "1", "d21": "1"}, WHOLE, {"d11": "2", "d12": "0", "d21": "1"}),
+        ({"d21": "2", "d22": "1"}, UPPER, {"d21": "2", "d22": "1"}),
+        ({"g1": "2", "g2": "2"}, f"  g: [0, {G2}]\n", {"g1": "0", "g2": "2"}),
+        ({"g": "2"}, f"  g2: {G2}\n", {"g": "1"}),
+        ({"tau1": "2", "tau2": "2"}, "  tau: [x(, 0]\n", {"tau1": "0", "tau2": "0"}),
+        ({"C11": "1", "C22": "1"}, "  C: [[m1*q1_dot, 0], [m2*l1*lc2*sin(q2)*q1_dot, 0]]\n",
+         {"C11": "0", "C22": "1"}),
+        ({"C": "4"}, "  C: [[m1*q1_dot, 0], [m2*l1*lc2*sin(q2)*q1_dot, 0]]\n", {"C": "2"}),
+        ({"C": "4"}, "  C21: m2*l1*lc2*sin(q2)*q1_dot\n  C22: 0\n", {"C": "2"}),
+        ({"H1": "16"}, "  H1: [[cos(q1), -sin(q1), 0, 0], [sin(q1), cos(q1), 0, l1*sin(q1)],"
+         " [0, 0, 1, 0], [0, 0, 0, 1]]\n", {"H1": "15"}),
+        ({"Jv1": "6"}, "  Jv1: [[-lc1*sin(q1), 1], [lc1*cos(q1), 0], [0, 0]]\n", {"Jv1": "5"}),
+    ],
+)  # fmt: skip
+def test_marks_of_a_matrix_go_entry_by_entry_however_it_is_given(
+    marks: dict[str, str], text: str, earned: dict[str, str]
+) -> None:
+    found = _answers(grade_one(payload(f"answers:\n{text}", problem="planar-2r", marks=marks)))
+    assert {name: found[name]["marks"] for name in marks} == earned
+    assert all(found[name]["of"] == of for name, of in marks.items())
+
+
+def test_an_entry_of_a_matrix_that_follows_has_lost_what_the_matrix_has() -> None:
+    text = "answers:\n  K: 0\n  P: 0\n  L: 0\n  tau: [0, 0]\n"
+    found = _answers(grade_one(payload(text, marks={"tau1": "4", "f2": "2"})))
+    assert (found["f2"]["verdict"], found["f2"]["marks"], found["f2"]["note"]) == (
+        "follows", "1", "an entry of tau",
+    )  # fmt: skip
+    assert found["f2"]["loss"] == found["tau"]["loss"] == "body 2 is lost on the way"
+
+
 def test_the_same_wrong_value_has_one_form_however_it_is_written() -> None:
     one = _answers(grade_one(payload("answers:\n  K: m2*L2*theta1'^2 + m2*L2'^2\n")))
     two = _answers(grade_one(payload("answers:\n  K: m2*(L2_dot^2 + theta1_dot^2*L2)\n  P: x*m1\n")))
