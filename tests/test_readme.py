@@ -1,8 +1,9 @@
 """The README's examples do what the README says.
 
 A block marked `console` holds commands after `$ ` and what they print; `...`
-stands for what is left out.  The blocks marked `sh` install and test, and are
-run by CI.  Python examples are doctests.
+stands for what is left out.  The commands of a section run one after the other in one
+folder.  The blocks marked `sh` install and test, and are run by CI.  Python examples
+are doctests.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import re
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -21,30 +23,73 @@ from tests.support import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 FILES = dict(re.findall(r"^`([\w.-]+)`:\n+```yaml\n(.*?)^```$", README, re.MULTILINE | re.DOTALL))
-CONSOLES = re.findall(r"^```console\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
-EXAMPLES = [
-    (command.strip(), expected)
-    for block in CONSOLES
-    for command, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", block, re.MULTILINE)
-]
+SECTIONS = dict(re.findall(r"^## ([^\n]+)\n(.*?)(?=^## |\Z)", "## The beginning\n" + README, re.M | re.S))
+SHELL = re.findall(r"^```sh\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+
+
+def _examples(section: str) -> list[tuple[str, str]]:
+    """The commands of a section, each with what it prints."""
+    blocks = re.findall(r"^```console\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
+    return [
+        (command.strip(), expected)
+        for block in blocks
+        for command, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", block, re.MULTILINE)
+    ]
+
+
+EXAMPLES = {name: found for name, section in SECTIONS.items() if (found := _examples(section))}
 
 
 def test_there_are_examples() -> None:
-    assert EXAMPLES
-    assert FILES
+    assert {"The beginning", "Commands", "Grade a course"} == EXAMPLES.keys()
+    assert {"rp.yaml", "answer.yaml", "set.yaml"} == FILES.keys()
 
 
-@pytest.mark.parametrize(("command", "expected"), EXAMPLES, ids=[command for command, _ in EXAMPLES])
-def test_the_example_prints_what_it_says(command: str, expected: str, tmp_path: Path) -> None:
+def test_two_lines_install_and_test_and_ci_runs_them() -> None:
+    install = "python3 -m venv .venv && .venv/bin/pip install ."
+    assert SHELL == [f"{install} && .venv/bin/dynsolve solve problems/in3140-rp.yaml\n", ".ci/run\n"]
+    assert "sed -n '/^```sh$/,/^```$/{/^```/!p;/^```$/q}' README.md" in (ROOT / ".ci" / "run").read_text()
+
+
+def _course(folder: Path) -> None:
+    """What a teacher has: the folder of the problems, a download of Canvas and its gradebook."""
+    import random
+
+    from tests.grading.generate import hand_in
+
+    (folder / "course").mkdir()
+    shutil.move(folder / "set.yaml", folder / "course" / "set.yaml")
+    people = {101: ("Lovelace, Ada", ""), 102: ("Babbage, Charles", "_LATE"), 103: ("Hopper, Grace", "")}
+    rows = ["Student,ID,SIS User ID,SIS Login ID,Section,Assignment 2 (555)", "    Points Possible,,,,,38"]
+    with zipfile.ZipFile(folder / "submissions.zip", "w") as packed:
+        for number, (name, late) in people.items():
+            rows.append(f'"{name}",{number},s{number},{number}@uni.example,A,')
+            who = re.sub(r"[^a-z]", "", name.lower())
+            for stem in ("in3140-rp", "planar-2r"):
+                file, text = hand_in(stem, who, random.Random(number))
+                packed.writestr(f"{who}{late}_{number}_9{number}_{stem}{Path(file).suffix}", text)
+        packed.writestr("hoppergrace_103_9999_scan.pdf", b"%PDF-1.7")
+    rows.append('"Else, Somebody",104,s104,104@uni.example,A,')
+    (folder / "gradebook.csv").write_text("\n".join(rows) + "\n")
+    for stem in ("in3140-rp", "planar-2r"):
+        shutil.copy(folder / "problems" / f"{stem}.yaml", folder / "course")
+
+
+@pytest.mark.parametrize("section", EXAMPLES)
+def test_the_examples_print_what_they_say(section: str, tmp_path: Path) -> None:
     shutil.copytree(ROOT / "problems", tmp_path / "problems")
     for name, text in FILES.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
+    if "submissions.zip" in SECTIONS[section]:
+        _course(tmp_path)
     here = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     environment = {**os.environ, "PATH": here, "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"}
-    done = subprocess.run(
-        ["bash", "-c", command], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0 or "help:" in expected, done.stderr
-    printed = done.stdout + done.stderr
-    options = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-    assert doctest.OutputChecker().check_output(expected, printed, options), printed
+    for command, expected in EXAMPLES[section]:
+        done = subprocess.run(
+            ["bash", "-c", command],
+            cwd=tmp_path, env=environment, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert done.returncode == 0 or "help:" in expected, f"{command}\n{done.stderr}"
+        printed = done.stdout + done.stderr
+        options = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+        assert doctest.OutputChecker().check_output(expected, printed, options), f"{command}\n{printed}"

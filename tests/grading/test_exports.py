@@ -109,8 +109,8 @@ def test_canvas_gets_its_gradebook_back_with_one_assignment(
         '"Else, Somebody",104,s104,else@uni.example,,IN3140,N/A\n'
         '"Student, Test",199,,0123456789abcdef,,IN3140,\n'
     )
-    handed_in_nothing = "2 students of roster.csv handed in nothing and keep what stands there"
-    assert warnings == (f"{handed_in_nothing}: Else, Somebody, Student, Test",)
+    handed_in_nothing = "2 students of roster.csv handed in nothing, and what stands there is kept"
+    assert warnings == (f"{handed_in_nothing}: Else, Somebody; Student, Test",)
 
 
 def test_semicolons_and_a_byte_order_mark_are_kept_as_canvas_has_them(
@@ -270,7 +270,7 @@ def test_moodle_gets_its_worksheet_back_in_any_language(
     assert back == expected
     assert warnings == (
         "Not Listed_44 is not in roster.csv",
-        f"1 student of roster.csv handed in nothing and keep what stands there: {word}43",
+        f"1 student of roster.csv handed in nothing, and what stands there is kept: {word}43",
     )
 
 

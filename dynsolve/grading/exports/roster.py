@@ -115,7 +115,7 @@ def unmatched(standings: Iterable[Standing], seen: set[str], without: list[str],
     """Who is in the hand-ins or in the roster alone."""
     found = [f"{s.student} is not in {roster.file}" for s in standings if s.student not in seen]
     if without:
-        named = ", ".join(without[:MOST_NAMED]) + (" and others" if len(without) > MOST_NAMED else "")
+        named = "; ".join(without[:MOST_NAMED]) + (" and others" if len(without) > MOST_NAMED else "")
         whom = "1 student" if len(without) == 1 else f"{len(without)} students"
-        found.append(f"{whom} of {roster.file} handed in nothing and keep what stands there: {named}")
+        found.append(f"{whom} of {roster.file} handed in nothing, and what stands there is kept: {named}")
     return found
