@@ -80,8 +80,8 @@ def counted(problems: ProblemSet, record: Record) -> Cohort:
             cohort.queue.append(Entry(row.student, row.problem, left, "left aside: a newer copy counts"))
     for standing in standings(record):
         cohort.marks.append((standing.student, standing.marks, standing.total))
-        for answer in standing.answers:
-            _count(cohort, answer, unjudged.get((answer.student, answer.problem), ""))
+    for answer in record.answers():
+        _count(cohort, answer, unjudged.get((answer.student, answer.problem), ""))
     return cohort
 
 

@@ -10,7 +10,7 @@ from itertools import groupby
 from dynsolve.grading.marking import maximum
 from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.record import Graded, Record
+from dynsolve.grading.record import Record
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +20,6 @@ class Standing:
     student: str
     id: str
     marks: dict[str, Fraction]
-    answers: tuple[Graded, ...]
 
     @property
     def total(self) -> Fraction:
@@ -30,17 +29,14 @@ class Standing:
 
 def standings(record: Record) -> Iterator[Standing]:
     """Every student, in the order of their names; one is in memory at a time."""
-    found = groupby(record.answers(), key=lambda a: a.student)
+    found = groupby(record.marks(), key=lambda entry: entry[0][0])
     waiting = next(found, None)
     for student, id in record.students().items():
-        answers: tuple[Graded, ...] = ()
-        if waiting is not None and waiting[0] == student:
-            answers = tuple(waiting[1])
-            waiting = next(found, None)
         marks: dict[str, Fraction] = {}
-        for answer in answers:
-            marks[answer.problem] = marks.get(answer.problem, Fraction(0)) + points(answer.marks)
-        yield Standing(student, id, marks, answers)
+        if waiting is not None and waiting[0] == student:
+            marks = {problem: points(*of_answers) for (_, problem), of_answers in waiting[1]}
+            waiting = next(found, None)
+        yield Standing(student, id, marks)
 
 
 def most(problems: ProblemSet) -> dict[str, Fraction]:

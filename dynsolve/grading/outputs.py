@@ -20,6 +20,9 @@ from dynsolve.grading.tables import decimal, table
 from dynsolve.render.markdown import escaped
 from dynsolve.render.words import visible
 
+_Explained = list[tuple[str, str, str]]
+"""Of each answer its name, its marks and why."""
+
 _ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "diagnosis")
 
 
@@ -85,9 +88,10 @@ def _feedback(folder: Path, record: Record) -> None:
         if not row.html:
             continue
         place = folder / folder_name(row.student)
+        total, explained = _total(own), _explained(row, own)
         for ending, page in (
-            (".html", _html(row, own, unpack(row.html))),
-            (".md", _markdown(row, own, unpack(row.markdown))),
+            (".html", _html(row, total, explained, unpack(row.html))),
+            (".md", _markdown(row, total, explained, unpack(row.markdown))),
         ):
             path = place / f"{row.problem}{ending}"
             written.add(path)
@@ -107,8 +111,7 @@ def remove_others(folder: Path, kept: set[Path], endings: tuple[str, ...]) -> No
 
 
 def _total(answers: list[Graded]) -> str:
-    marks = sum((points(a.marks) for a in answers), Fraction(0))
-    of = sum((points(a.of) for a in answers), Fraction(0))
+    marks, of = points(*(a.marks for a in answers)), points(*(a.of for a in answers))
     return f"Marks: {shown(marks)} of {shown(of)}"
 
 
@@ -121,22 +124,21 @@ def _told(row: Row) -> Iterator[str]:
         yield f"The newest copy counts; left aside: {', '.join(row.left)}."
 
 
-def _explained(row: Row, answers: list[Graded]) -> list[tuple[str, str, str]]:
+def _explained(row: Row, answers: list[Graded]) -> _Explained:
     """Each answer with its marks and why; nothing of a hand-in that was not judged but a teacher's words."""
     unjudged = f"unreadable: {row.reason}" if row.reason else None
     return [
-        (f"{a.answer} {a.label}".strip(), f"{shown(Fraction(a.marks))} of {shown(Fraction(a.of))}", a.why)
+        (f"{a.answer} {a.label}".strip(), f"{shown(points(a.marks))} of {shown(points(a.of))}", a.why)
         for a in answers
         if a.of != "0" and a.why != unjudged
     ]
 
 
-def _html(row: Row, answers: list[Graded], page: str) -> str:
+def _html(row: Row, total: str, explained: _Explained, page: str) -> str:
     """The page with the marks in it."""
     told = "".join(f"<p>{_escaped(sentence)}</p>\n" for sentence in _told(row))
     rows = "".join(
-        "<tr>" + "".join(f"<td>{_escaped(cell)}</td>" for cell in cells) + "</tr>\n"
-        for cells in _explained(row, answers)
+        "<tr>" + "".join(f"<td>{_escaped(cell)}</td>" for cell in cells) + "</tr>\n" for cells in explained
     )
     head = "<thead><tr><th>answer</th><th>marks</th><th>why</th></tr></thead>"
     table = (
@@ -144,17 +146,17 @@ def _html(row: Row, answers: list[Graded], page: str) -> str:
         if rows
         else ""
     )
-    page = _put(page, f"<p[^>]*>{MARKS_HERE}</p>", f"<p><strong>{_total(answers)}</strong></p>\n{told}")
+    page = _put(page, f"<p[^>]*>{MARKS_HERE}</p>", f"<p><strong>{total}</strong></p>\n{told}")
     return _put(page, f"<p[^>]*>{TABLE_HERE}</p>", table)
 
 
-def _markdown(row: Row, answers: list[Graded], page: str) -> str:
+def _markdown(row: Row, total: str, explained: _Explained, page: str) -> str:
     """The page in Markdown with the marks in it."""
     told = [escaped(visible(sentence)) for sentence in _told(row)]
-    rows = [" | ".join(escaped(visible(cell)) for cell in cells) for cells in _explained(row, answers)]
+    rows = [" | ".join(escaped(visible(cell)) for cell in cells) for cells in explained]
     lines = ["answer | marks | why", ":---: | :---: | :---", *rows]
     table = "\n".join(f"| {line} |" for line in lines) if rows else ""
-    page = _put(page, f"(?m)^{MARKS_HERE}$", "\n\n".join([f"**{_total(answers)}**", *told]))
+    page = _put(page, f"(?m)^{MARKS_HERE}$", "\n\n".join([f"**{total}**", *told]))
     return _put(page, f"(?m)^{TABLE_HERE}$", table)
 
 

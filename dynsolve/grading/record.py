@@ -13,6 +13,7 @@ import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -244,6 +245,14 @@ class Record:
                 by_hand = f"set by the teacher: {said[1]} (the program: {why})"
                 graded = graded._replace(marks=said[0], why=by_hand, said=said[1])
             yield graded
+
+    def marks(self) -> Iterator[tuple[Key, tuple[str, ...]]]:
+        """The marks of every hand-in's answers, the teacher's word put in."""
+        overrides = self.overrides()
+        order = "SELECT student, problem, answer, marks FROM answers ORDER BY student, problem, place"
+        for key, found in groupby(self.db.execute(order), key=itemgetter(0, 1)):
+            marks = ((overrides[s, p, a][0] if (s, p, a) in overrides else m) for s, p, a, m in found)
+            yield key, tuple(marks)
 
     def standing(self) -> Iterator[tuple[Key, str, list[list[str]]]]:
         """Every hand-in with what it was made from, and its answers' verdict, marks and why."""

@@ -24,7 +24,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     told: dict[Path, tuple[str, bytes]] = {}
     for standing in standings(record):
         path = folder / "gradescope" / folder_name(standing.id or standing.student) / "results.json"
-        text = json.dumps(_results(standing, problems), indent=1, ensure_ascii=False) + "\n"
+        text = json.dumps(_results(standing, record, problems), indent=1, ensure_ascii=False) + "\n"
         data = text.encode("utf-8", errors="replace")
         first, before = told.setdefault(path, (standing.student, data))
         if before != data:
@@ -42,11 +42,11 @@ def late(roster: Roster) -> frozenset[str]:
     return frozenset(f"submission_{row[id].strip()}" for row in rows if re.search("[1-9]", row[lateness]))
 
 
-def _results(standing: Standing, problems: ProblemSet) -> dict[str, Any]:
+def _results(standing: Standing, record: Record, problems: ProblemSet) -> dict[str, Any]:
     alone = len(problems.items) == 1
     numbers = dict.fromkeys(problems.stems, 0)
     tests = []
-    for answer in standing.answers:
+    for answer in record.answers(standing.student):
         if answer.of == "0":
             continue
         numbers[answer.problem] += 1
