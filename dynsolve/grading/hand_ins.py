@@ -7,25 +7,32 @@ what names no problem, waits for a human with its reason.
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from html import unescape
 from pathlib import PurePosixPath
 
 from dynsolve.answers.reading.files import ENDINGS
+from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import InputError
 from dynsolve.grading.platforms import METADATA, Owner, Owners, Submitters, exports, read_metadata
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.uploads import Upload, Uploads, digest, printable
 
 _HEAD = 20_000
-_FIELD = r"(?m)^[ \t]{{0,3}}[\"']?{}[\"']?[ \t]*:[ \t]*(.+?)[ \t]*(?:#.*)?$"
+_FIELD = r"(?m)^[ \t]{{0,3}}[\"']?{}[\"']?[ \t]{{0,9}}:[ \t]{{0,99}}(\S.{{0,300}}?)[ \t]*(?:#.*)?$"
 _STUDENT, _PROBLEM = (re.compile(_FIELD.format(key)) for key in ("student", "problem"))
 _HEADING = re.compile(
-    r"(?m)^#{1,3}[ \t]+(.+)$|\\(?:title|section|chapter)\*?\{([^}\n]+)\}|<h[1-3][^>]*>([^<\n]+)<"
+    r"(?m)^#{1,6}[ \t]+(.{1,300})$|^([^\n]{1,300})\n={3,}[ \t]*$"
+    r"|\\(?:title|section|chapter|subsection)\*?\{([^}\n]{1,300})\}|<h[1-6][^>]{0,300}>((?s:.{1,300}?))</h"
 )
-_FRONT = re.compile(r"\A\s*(?:---|<!--)\s*\n(.*?)\n\s*(?:---|\.\.\.|-->)", re.DOTALL)
+_TAG = re.compile(r"<[^>]{0,300}>")
+_FRONT, _BACK = ("---", "<!--"), ("---", "...", "-->")
+"""The lines that front matter stands between."""
+
 _KINDS = {
     ".pdf": "a PDF", ".doc": "a Word file", ".docx": "a Word file", ".odt": "a word processor's file",
     ".rtf": "a word processor's file", ".pages": "a word processor's file", ".png": "a picture",
@@ -172,7 +179,7 @@ def _sorted(
         except InputError as error:
             yield _Left(owner, owner.student, named, shown, error.findings[0].message)
             continue
-        text = content[:_HEAD].decode("utf-8", errors="replace")
+        text = _beginning(content, ending)
         student = owner.student if owner.certain else _said_student(text, ending) or owner.student
         problem, reason = _problem(problems, text, owner.name, ending)
         if reason:
@@ -181,16 +188,29 @@ def _sorted(
             yield _Piece(owner, student, problem, File(upload, owner.name, digest(content)))
 
 
+def _beginning(content: bytes, ending: str) -> str:
+    """The text that a file begins with, that of a notebook's first cells."""
+    text = decoded(content if ending == ".ipynb" else content[:_HEAD])
+    if ending == ".ipynb":
+        with suppress(ValueError, RecursionError):
+            book = json.loads(text)
+            cells = book.get("cells", ()) if isinstance(book, dict) else ()
+            sources = [cell.get("source") for cell in cells if isinstance(cell, dict)][:20]
+            text = "\n\n".join("".join(map(str, s)) if isinstance(s, list) else str(s) for s in sources)
+    return text[:_HEAD]
+
+
 def _front(text: str, ending: str) -> str:
     """Where a file may say whose it is: an answer file's own keys, a report's front matter."""
     if ending in (".yaml", ".yml", ".json"):
         return text
-    found = _FRONT.match(text.removeprefix("\ufeff"))
-    return found[1] if found else ""
+    first, *lines = text.lstrip().split("\n")
+    last = next((i for i, line in enumerate(lines) if line.strip().startswith(_BACK)), None)
+    return "\n".join(lines[:last]) if first.strip() in _FRONT and last is not None else ""
 
 
 def _said(pattern: re.Pattern[str], text: str, ending: str) -> str:
-    found = pattern.search(_front(text, ending).replace("\r", "\n"))
+    found = pattern.search(_front(text, ending))
     return printable(found[1].strip("\"', ")[:200]) if found else ""
 
 
@@ -210,7 +230,7 @@ def _problem(problems: ProblemSet, text: str, name: str, ending: str) -> tuple[s
     if named:
         return named, ""
     for heading in _HEADING.finditer(text):
-        found = _within(next(filter(None, heading.groups())), problems)
+        found = _within(unescape(_TAG.sub(" ", next(filter(None, heading.groups())))), problems)
         if found:
             return found, ""
     if len(problems.items) == 1:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from pathlib import Path, PurePosixPath
 
 import pytest
@@ -272,3 +273,56 @@ def test_files_of_one_delivery_belong_together(problems: ProblemSet, tmp_path: P
     files = {"ada_1_20_in3140-rp-a.yaml": ANSWER, "ada_1_21_in3140-rp-b.yaml": ANSWER, "bob.txt": "x"}
     hand_in = _intake(problems, tmp_path, files).hand_ins[0]
     assert [f.name for f in hand_in.files] == ["in3140-rp-a.yaml", "in3140-rp-b.yaml"]
+
+
+SAYS = {
+    "hw.md": "---\r\nauthor: x\r\nproblem: in3140-rp   # this\r\n---\r\n",
+    "html.md": "\ufeff<!--\nproblem: 'In3140 RP'\n-->\n",
+    "setext.md": "On the RP manipulator\n=====================\n",
+    "deep.md": "#### RP manipulator\n",
+    "tagged.html": "<p>x</p><h4 class='a'>\n<b>RP&nbsp;manipulator</b>\n</h4>",
+    "section.tex": "\\subsection*{The RP manipulator}\n",
+    "cells.ipynb": '{"cells": [{"cell_type": "markdown", "source": ["# RP manipulator\\n", "x"]}]}',
+    "front.ipynb": '{"cells": [{"cell_type": "raw", "source": "---\\nproblem: in3140-rp\\n---"}]}',
+    "wide.yaml": "\ufeffproblem: in3140-rp.yaml\n".encode("utf-16").decode("latin-1"),
+    "quoted.yml": '"problem" : "in3140-rp"\n',
+}
+
+
+@pytest.mark.parametrize("name", SAYS)
+def test_a_file_says_which_problem_it_is_for(problems: ProblemSet, tmp_path: Path, name: str) -> None:
+    (tmp_path / name).write_bytes(SAYS[name].encode("latin-1" if name == "wide.yaml" else "utf-8"))
+    intake = take_in(problems, Uploads(tmp_path))
+    assert [hand_in.problem for hand_in in intake.hand_ins] == ["in3140-rp"]
+
+
+HOSTILE = {
+    "fences.md": "---\n" + "\n" * 2_000_000,
+    "blanks.md": "---\n" + " " * 1_000_000 + "\n---",
+    "field.yaml": "problem:" + " \t" * 1_000_000,
+    "fields.yaml": "problem: " * 200_000,
+    "student.yaml": ("student" + " " * 30 + "\n") * 50_000,
+    "tags.html": "<h1" * 600_000,
+    "headings.html": "<h1>" * 500_000,
+    "attributes.html": ("<h1" + " a" * 100) * 9_000,
+    "setext.md": ("x" * 300 + "\n=") * 6_000,
+    "titles.tex": "\\title{" * 200_000,
+    "hashes.md": "#" * 2_000_000,
+    "spaces.md": "# " * 1_000_000,
+    "nested.ipynb": "[" * 2_000_000,
+    "cells.ipynb": '{"cells": [' + "{}," * 500_000 + "{}]}",
+    "sources.ipynb": '{"cells": [{"source": ' + "[" * 900 + "]" * 900 + "}]}",
+    "number.ipynb": "9" * 2_000_000,
+    "zeros.yaml": "\0" * 2_000_000,
+    "comment.html": "<!--" * 500_000,
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_file_is_sorted_quickly(problems: ProblemSet, tmp_path: Path, name: str) -> None:
+    (tmp_path / "good.yaml").write_text("problem: in3140-rp\n" + ANSWER)
+    (tmp_path / name).write_text(HOSTILE[name][:2_000_000])
+    start = time.process_time()
+    intake = take_in(problems, Uploads(tmp_path))
+    assert time.process_time() - start < 0.5
+    assert "good" in {hand_in.student for hand_in in intake.hand_ins}
