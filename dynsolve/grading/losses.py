@@ -29,7 +29,9 @@ def losses(judge: Judge, report: Report) -> dict[str, str]:
     for answer in report.answers:
         if not answer.given:
             sources = (judge.graph.whole(answer.name)[0], *judge.graph.parts(answer.name))
-            found |= {answer.name: found[name] for name in sources if name in found}
+            loss = next((found[name] for name in sources if name in found), "")
+            if loss:
+                found[answer.name] = loss
     return found
 
 
