@@ -17,8 +17,10 @@ import threading
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
+import dynsolve
 from dynsolve.grading.worker import patience
 
 Data = dict[str, Any]
@@ -96,8 +98,8 @@ class Worker:
 
     def _start(self) -> None:
         self.process = subprocess.Popen(  # noqa: S603  # this very Python, on this very package
-            [sys.executable, "-m", MODULE, str(self.bounds.seconds), str(self.bounds.memory)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+            [sys.executable, "-P", "-m", MODULE, str(self.bounds.seconds), str(self.bounds.memory)],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=_environment(),
             start_new_session=True,  # so that its children end with it
         )  # fmt: skip
         self.served = 0
@@ -141,6 +143,16 @@ class LocalPool:
         self._threads.shutdown(wait=True)
         for worker in self._workers:
             worker.end()
+
+
+def _environment() -> dict[str, str]:
+    """A worker finds this very package, and never a module in the folder that it is started in.
+
+    That may hold what was handed in.
+    """
+    own = str(Path(dynsolve.__file__).parent.parent)
+    others = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, (own, *others)))}
 
 
 def _end_late(process: subprocess.Popen[bytes], late: threading.Event) -> None:

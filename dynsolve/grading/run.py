@@ -11,6 +11,7 @@ import base64
 import json
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import sha256
@@ -74,7 +75,8 @@ def program() -> str:
     for path in sorted(root.rglob("*.py")):
         name = path.relative_to(root).as_posix()
         if not name.startswith(("cli/", "draw/")):
-            found.update(name.encode() + b"\0" + path.read_bytes())
+            with suppress(FileNotFoundError):  # the program is changed just now
+                found.update(name.encode() + b"\0" + path.read_bytes())
     return found.hexdigest()[:16]
 
 

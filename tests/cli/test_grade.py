@@ -171,6 +171,23 @@ def test_a_bound_that_is_passed_is_unreadable_with_the_reason(tmp_path: Path, se
     assert "more than 0.3 s" in (out / "report.html").read_text()
 
 
+def test_modules_among_the_hand_ins_are_never_imported(tmp_path: Path, set_folder: Path) -> None:
+    """The program is started as its script starts it, in the folder that a teacher has unpacked."""
+    hand_ins = _write(tmp_path / "in", {"s1_in3140-rp.yaml": RIGHT})
+    for name in ("json", "base64", "resource", "flint", "yaml", "dynsolve", "sitecustomize"):
+        _write(hand_ins, {f"{name}.py": f"open({str(tmp_path / 'hacked')!r}, 'w')\n"})
+    script = "import sys; from dynsolve.cli.main import main; sys.argv[0] = 'dynsolve'; main()"
+    words = ("grade", str(set_folder), ".", "-o", str(tmp_path / "out"), "--jobs", "1")
+    ran = subprocess.run(
+        [sys.executable, "-P", "-c", script, *words],
+        cwd=hand_ins, env=environment(PYTHONPATH=str(ROOT)), capture_output=True, text=True,
+    )  # fmt: skip
+    assert ran.returncode == 0, ran.stderr
+    assert not (tmp_path / "hacked").exists()
+    totals = {row["student"]: row["total"] for row in _csv(tmp_path / "out" / "grades.csv")}
+    assert totals["s1_in3140-rp"] == "6"
+
+
 def test_a_hand_in_without_answers_is_unreadable_and_says_why(tmp_path: Path, set_folder: Path) -> None:
     hand_ins = _write(
         tmp_path / "in", {
