@@ -61,10 +61,10 @@ def _shuffled(node: Node, chance: random.Random) -> Node:
     return node
 
 
-def _reordered(value: str | list, chance: random.Random) -> str | list:
+def reordered(value: str | list, chance: random.Random) -> str | list:
     """An answer as somebody else would write it."""
     if isinstance(value, list):
-        return [_reordered(entry, chance) for entry in value]
+        return [reordered(entry, chance) for entry in value]
     return to_python(_shuffled(read(value).tree, chance))
 
 
@@ -72,7 +72,7 @@ def hand_in(problem: str, student: str, chance: random.Random, own_order: bool =
     """The name and the text of a hand-in; in an order of its own, or as the key is printed."""
     answers = dict(key(problem))
     if own_order:
-        answers = {name: _reordered(value, chance) for name, value in answers.items()}
+        answers = {name: reordered(value, chance) for name, value in answers.items()}
     if chance.random() < SLIPS:
         name = chance.choice(sorted(answers))
         value = answers[name]

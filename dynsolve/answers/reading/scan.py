@@ -38,18 +38,18 @@ _INDEX = f"0-9{SUBSCRIPT_DIGITS}"
 _BRACED = r"_\{[ ]?[A-Za-z0-9]{1,20}(?:(?:,[ ]?|[ ])[A-Za-z0-9]{1,20}){0,5}[ ]?\}"
 _NAME_PART = rf"[{_LETTER}{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9])|{_BRACED}"
 _TOKEN = re.compile(
-    rf"""
-      (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200a\u202f~]|%(?!pi\b)[^\n]*(?:\n|$)
+    rf"""[ ]*(?:
+      (?P<name>[{_LETTER}](?![\u0307\u0308])(?:{_NAME_PART})*)
+    | (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200a\u202f~]|%(?!pi\b)[^\n]*(?:\n|$)
           |\\(?:[,;:!\ >]|\n)|\\(?:left|right)[ ]?\.)+)
-    | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
     | (?P<number>(?:[0-9]+(?:\.[0-9]+|\.(?![A-Za-z.*/^\\']))?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?![A-Za-z_]))?)
-    | (?P<dotted>[{_LETTER}][\u0307\u0308]{{1,2}}(?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*)
-    | (?P<name>[{_LETTER}](?![\u0307\u0308])(?:{_NAME_PART})*)
     | (?P<command>\\(?:[A-Za-z]+\*?|[\\{{}}()\[\]|&\#%$_]))
+    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|==|[-+*/^_=(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″]|[ẋẏżḋṗ])
+    | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
+    | (?P<dotted>[{_LETTER}][\u0307\u0308]{{1,2}}(?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*)
     | (?P<percent>%pi)
     | (?P<fraction>[½⅓⅔¼¾⅙⅚⅛⅜⅝⅞])
-    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|==|[-+*/^_=(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″]|[ẋẏżḋṗ])
-    """,
+    )""",
     re.VERBOSE,
 )
 _SIGNS = {
@@ -167,11 +167,13 @@ def scan(text: str) -> list[Token]:
         if piece is None:
             raise character_error(text[offset], offset)
         kind, end = piece.lastgroup, piece.end()
+        text_of = piece[kind]
+        if offset + len(text_of) < end:
+            spaced, offset = True, end - len(text_of)
         if kind == "space":
             spaced = True
-            broken = broken or "\n" in piece.group()
+            broken = broken or "\n" in text_of
         else:
-            text_of = piece.group()
             if kind == "number" or (kind == "name" and text_of.isascii() and end - offset <= MAX_IDENTIFIER):
                 found.append(new(Token, (kind, text_of, offset, end, 0, spaced, broken)))
                 spaced = broken = False
