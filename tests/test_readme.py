@@ -47,7 +47,7 @@ def test_there_are_examples() -> None:
 
 def test_two_lines_install_and_test_and_ci_runs_them() -> None:
     install = "python3 -m venv .venv && .venv/bin/pip install ."
-    assert SHELL == [f"{install} && .venv/bin/dynsolve solve problems/in3140-rp.yaml\n", ".ci/run\n"]
+    assert [f"{install} && .venv/bin/dynsolve solve problems/in3140-rp.yaml\n", ".ci/run\n"] == SHELL
     assert "sed -n '/^```sh$/,/^```$/{/^```/!p;/^```$/q}' README.md" in (ROOT / ".ci" / "run").read_text()
 
 

@@ -148,8 +148,10 @@ def _say(grades: Grades) -> None:
         typer.echo(f"refused: {refused.name}: {refused.reason}", err=True)
     for warning in grades.warnings:
         typer.echo(f"warning: {warning}", err=True)
-    done, same, waiting = grades.computed, grades.hand_ins - grades.computed, len(grades.waiting)
+    done, anew, waiting = grades.computed, grades.remarked, len(grades.waiting)
+    same = grades.hand_ins - done - anew
     parts = [f"{done} hand-in{'s' if done != 1 else ''} graded"]
+    parts += [f"{anew} marked anew"] if anew else []
     parts += [f"{same} as before"] if same else []
     parts += [f"{waiting} file{' waits' if waiting == 1 else 's wait'} for a human"] if waiting else []
     typer.echo(f"{', '.join(parts)}: see {grades.folder / 'report.html'}", err=True)

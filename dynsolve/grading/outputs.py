@@ -126,11 +126,10 @@ def _told(row: Row) -> Iterator[str]:
 
 def _explained(row: Row, answers: list[Graded]) -> _Explained:
     """Each answer with its marks and why; nothing of a hand-in that was not judged but a teacher's words."""
-    unjudged = f"unreadable: {row.reason}" if row.reason else None
     return [
         (f"{a.answer} {a.label}".strip(), f"{shown(points(a.marks))} of {shown(points(a.of))}", a.why)
         for a in answers
-        if a.of != "0" and a.why != unjudged
+        if a.of != "0" and (a.said or not row.reason or a.fault != row.reason)
     ]
 
 

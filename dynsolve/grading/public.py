@@ -28,8 +28,9 @@ from dynsolve.grading.uploads import Refused, Uploads
 class Grades:
     """What a run has come to.
 
-    `totals` are the marks of each student, `hand_ins` how many hand-ins there are, and
-    `computed` how many of them were not in the record yet.  `waiting` is what a human
+    `totals` are the marks of each student, `hand_ins` how many hand-ins there are,
+    `computed` how many of them had to be judged, and `remarked` how many had only to be
+    marked anew; the others stood in the record.  `waiting` is what a human
     reads, `refused` are the files that were not taken.  `changes` are lines on whose
     marks are not those of the last run, where they were asked for, and `warnings` lines
     on the platform's file.
@@ -39,6 +40,7 @@ class Grades:
     totals: dict[str, Fraction]
     hand_ins: int
     computed: int
+    remarked: int
     waiting: tuple[Waiting, ...]
     refused: tuple[Refused, ...]
     changes: tuple[str, ...] = ()
@@ -113,7 +115,17 @@ def grade(
     finally:
         uploads.close()
     refused = tuple(uploads.refused)
-    return Grades(folder, totals, done.hand_ins, done.computed, intake.waiting, refused, changed, warnings)
+    return Grades(
+        folder,
+        totals,
+        done.hand_ins,
+        done.computed,
+        done.remarked,
+        intake.waiting,
+        refused,
+        changed,
+        warnings,
+    )
 
 
 def override(
@@ -143,7 +155,6 @@ def override(
         record.override(student, problem, answer, str(points), " ".join(why.split()))
         write_outputs(folder, problems, record)
         export(folder, problems, record)
-        record.finish()
 
 
 def _points(record: Record, student: str, problem: str, answer: str, marks: str) -> Fraction:

@@ -19,12 +19,14 @@ from typing import Any, NamedTuple
 
 from dynsolve.errors import UsageError
 from dynsolve.grading.hand_ins import Waiting
+from dynsolve.grading.marking import Marked
+from dynsolve.grading.remark import Kept
 
 Key = tuple[str, str]
 """A hand-in: the student and the problem."""
 
 FILE = "grades.sqlite"
-FORMAT = "dynsolve-grades/1"
+FORMAT = "dynsolve-grades/2"
 
 _TABLES = """
 CREATE TABLE IF NOT EXISTS run (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -37,7 +39,7 @@ CREATE TABLE IF NOT EXISTS answers (
   student TEXT, problem TEXT, place INTEGER, answer TEXT NOT NULL, label TEXT NOT NULL,
   verdict TEXT NOT NULL, marks TEXT NOT NULL, of TEXT NOT NULL, why TEXT NOT NULL, line INTEGER NOT NULL,
   diagnosis TEXT NOT NULL, message TEXT NOT NULL, read_as TEXT NOT NULL, note TEXT NOT NULL,
-  fault TEXT NOT NULL, loss TEXT NOT NULL, form TEXT NOT NULL,
+  fault TEXT NOT NULL, loss TEXT NOT NULL, form TEXT NOT NULL, basis TEXT NOT NULL,
   PRIMARY KEY (student, problem, place)) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS waiting (
   student TEXT, problem TEXT, file TEXT, reason TEXT,
@@ -49,14 +51,14 @@ CREATE TABLE IF NOT EXISTS finished (
   student TEXT, problem TEXT, causes TEXT NOT NULL, answers TEXT NOT NULL,
   PRIMARY KEY (student, problem)) WITHOUT ROWID;
 """
-_ANSWER = "name label verdict marks of why line diagnosis message read_as note fault loss form".split()
+_ANSWER = "name label verdict marks of why line diagnosis message read_as note fault loss form basis".split()
 
 
 class Graded(NamedTuple):
     """One answer as it stands in the record, the teacher's word put in where there is one.
 
-    `message` has what is said of each slip of `diagnosis`; `said` is why the teacher has
-    set the marks, empty where nobody has.
+    `message` has what is said of each slip of `diagnosis`, `basis` what the marks are made
+    from; `said` is why the teacher has set the marks, empty where nobody has.
     """
 
     student: str
@@ -75,6 +77,7 @@ class Graded(NamedTuple):
     fault: str
     loss: str
     form: str
+    basis: str
     said: str = ""
 
 
@@ -166,6 +169,18 @@ class Record:
             ],
         )
 
+    def remark(self, key: Key, fingerprint: str, causes: str, marks: Iterable[Marked]) -> None:
+        """Write the marks of a hand-in anew: all of them, or nothing."""
+        with self.db:
+            self.db.execute("BEGIN")
+            place = "WHERE student = ? AND problem = ?"
+            change = f"UPDATE hand_ins SET fingerprint = ?, causes = ? {place}"  # noqa: S608
+            self.db.execute(change, (fingerprint, causes, *key))
+            self.db.executemany(
+                f"UPDATE answers SET marks = ?, of = ?, why = ? {place} AND answer = ?",  # noqa: S608
+                [(str(m.marks), str(m.of), m.why, *key, m.name) for m in marks],
+            )
+
     def set_intake(self, students: Mapping[str, str], waiting: tuple[Waiting, ...]) -> None:
         """Who there is, and what waits for a human."""
         with self.db:
@@ -206,6 +221,13 @@ class Record:
         """What each hand-in of the record was made from."""
         found = self.db.execute("SELECT student, problem, fingerprint FROM hand_ins")
         return {(student, problem): fingerprint for student, problem, fingerprint in found}
+
+    def kept(self, key: Key) -> tuple[dict[str, str], list[Kept]]:
+        """What a hand-in was made from, and what the marks of its answers are made from."""
+        place = "WHERE student = ? AND problem = ?"
+        found = self.db.execute(f"SELECT causes FROM hand_ins {place}", key).fetchone()  # noqa: S608
+        columns = f"SELECT answer, verdict, loss, basis FROM answers {place} ORDER BY place"  # noqa: S608
+        return json.loads(found[0]) if found else {}, [Kept(*row) for row in self.db.execute(columns, key)]
 
     def students(self) -> dict[str, str]:
         """Every student, with the platform's id."""

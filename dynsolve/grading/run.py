@@ -23,10 +23,11 @@ from dynsolve.answers.verdict import Judged, Verdict
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.hand_ins import File, HandIn, Intake
 from dynsolve.grading.marking import mark
-from dynsolve.grading.policy import to_data
+from dynsolve.grading.policy import Policy, to_data
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.remark import is_cheap, remarked
 from dynsolve.grading.uploads import Uploads, digest
 
 Data = dict[str, Any]
@@ -61,10 +62,11 @@ class Pool(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Done:
-    """How much a run had to do: all hand-ins, and those that were computed."""
+    """How much a run had to do: all hand-ins, those that were judged, and those only marked anew."""
 
     hand_ins: int
     computed: int
+    remarked: int
 
 
 @lru_cache(maxsize=1)
@@ -98,7 +100,8 @@ def grade_all(
     record.keep_only({(student, stem) for student in intake.students for stem in problems.stems})
     absent = _absent(problems, intake, keys)
     record.write_all((key, *row) for key, row in absent if known.get(key) != row[0])
-    due = [h for h in intake.hand_ins if known.get((h.student, h.problem)) not in _words(problems, h, pool)]
+    other = [h for h in intake.hand_ins if known.get((h.student, h.problem)) not in _words(problems, h, pool)]
+    due = [hand_in for hand_in in other if not _remarked(record, problems, hand_in, pool.bounds)]
     running: dict[Future[Data], HandIn] = {}
     waiting = iter(due)
     done = 0
@@ -114,7 +117,20 @@ def grade_all(
             done += 1
             if advance is not None:
                 advance(done, len(due))
-    return Done(len(intake.hand_ins), done)
+    return Done(len(intake.hand_ins), done, len(other) - len(due))
+
+
+def _remarked(record: Record, problems: ProblemSet, hand_in: HandIn, bounds: Bounds) -> bool:
+    """Mark a hand-in anew where its verdicts still hold; False where it must be judged."""
+    key = (hand_in.student, hand_in.problem)
+    old, kept = record.kept(key)
+    new = causes(problems, hand_in, bounds if "bounds" in old else None)
+    if not old or not is_cheap(old, new) or not all(answer.basis for answer in kept):
+        return False
+    points = problems.item(hand_in.problem).problem.marks
+    marks = remarked(kept, points, problems.policy, hand_in.late)
+    record.remark(key, _word(new), json.dumps(new, sort_keys=True), marks)
+    return True
 
 
 def _submitted(pool: Pool, problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Future[Data]:
@@ -141,7 +157,7 @@ def _absent(
                 continue
             said = reasons.get(key, [])
             found = {"hand-in": _short(said), "marks": _of_marks(item), "program": program()}
-            found["policy"] = _short(to_data(problems.policy))
+            found["policy"] = _of_policy(problems.policy)
             row = _unread(problems, student, item.stem, "; ".join(said))
             rest = {"files": [], "left": [], "late": False, "reason": "; ".join(said), "notes": []}
             yield key, (_short(found), json.dumps(found, sort_keys=True), {**row, **rest})
@@ -163,10 +179,16 @@ def causes(problems: ProblemSet, hand_in: HandIn, bounds: Bounds | None = None) 
         "hand-in": _short([files, hand_in.late, list(hand_in.left)]),
         "problem": _short(item.text),
         "marks": _of_marks(item),
-        "policy": _short(to_data(problems.policy)),
+        "asked": _short(sorted(item.problem.marks)),
+        "hints": str(problems.policy.hints),
+        "policy": _of_policy(problems.policy),
         "program": program(),
     }
     return {**found, "bounds": _short([bounds.seconds, bounds.memory])} if bounds else found
+
+
+def _of_policy(policy: Policy) -> str:
+    return _short({name: value for name, value in to_data(policy).items() if name != "hints"})
 
 
 def _of_marks(item: Item) -> str:
@@ -250,7 +272,7 @@ def _unread(problems: ProblemSet, student: str, stem: str, reason: str) -> Data:
     item = problems.item(stem)
     html, markdown = bare_page(item.problem.title, student, reason) if reason else ("", "")
     verdict = Verdict.UNREADABLE if reason else Verdict.MISSING
-    blank = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form"), "")
+    blank = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form", "basis"), "")
     marked = mark((Judged(n, verdict, of=of) for n, of in item.problem.marks.items()), problems.policy)
     answers = [
         {

@@ -22,6 +22,7 @@ from dynsolve.grading.marking import Marked, mark
 from dynsolve.grading.narrow import sound
 from dynsolve.grading.pages import student_page
 from dynsolve.grading.policy import from_data
+from dynsolve.grading.remark import basis
 from dynsolve.problem.reader import read_problem
 
 Data = dict[str, Any]
@@ -58,11 +59,17 @@ def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
     judge = Judge(checker, submission)
     report = judge.report()
     lost = losses(judge, report)
-    marked = mark(report.answers, policy, payload["late"], lost, _parts(judge, report))
+    parts = _parts(judge, report)
+    marked = mark(report.answers, policy, payload["late"], lost, parts)
     html, markdown = student_page(report, problem, payload["student"], policy.hints)
     return {
         "answers": [
-            _answer(answer, marks, lost.get(answer.name, ""), _form(judge, answer))
+            {
+                **_answer(answer, marks),
+                "loss": lost.get(answer.name, ""),
+                "form": _form(judge, answer),
+                "basis": basis(answer, parts.get(answer.name, ())),
+            }
             for answer, marks in zip(report.answers, marked, strict=True)
         ],
         "not_recognized": [f"{n.place}: {n.text[:200]}" for n in report.not_recognized][:50],
@@ -121,7 +128,7 @@ def _part(name: str, given: dict[str, Judged]) -> Judged | None:
     return given.get(name) or given.get(mirrored)
 
 
-def _answer(answer: Judged, marked: Marked, loss: str, form: str) -> Data:
+def _answer(answer: Judged, marked: Marked) -> Data:
     place = answer.place
     slips: dict[str, str] = {}
     for said in (*answer.diagnosis, *(d for entry in answer.entries for d in entry.diagnosis)):
@@ -140,8 +147,6 @@ def _answer(answer: Judged, marked: Marked, loss: str, form: str) -> Data:
         "read_as": answer.read_as[:MOST_TEXT],
         "note": "; ".join(_notes(answer))[:MOST_TEXT],
         "fault": answer.fault[:MOST_TEXT],
-        "loss": loss,
-        "form": form,
     }
 
 

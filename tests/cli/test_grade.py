@@ -270,11 +270,10 @@ def test_ctrl_c_ends_cleanly_and_says_how_to_go_on(tmp_path: Path) -> None:
     assert b"the same command goes on" in err and b"Traceback" not in err
 
 
-def test_regrade_computes_what_is_affected_and_tells_whose_marks_changed(
-    tmp_path: Path, set_folder: Path
-) -> None:
+def test_regrade_tells_whose_marks_changed_and_why(tmp_path: Path, set_folder: Path) -> None:
     hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT, "b/in3140-rp.yaml": WRONG})
-    words = ("grade", str(set_folder), str(hand_ins), "-o", str(tmp_path / "out"), "--diff")
+    out = tmp_path / "out"
+    words = ("grade", str(set_folder), str(hand_ins), "-o", str(out), "--diff")
     assert "2 hand-ins graded" in dynsolve(*words).err
     again = dynsolve(*words)
     assert "0 hand-ins graded, 2 as before" in again.err and again.out == ""
@@ -284,7 +283,12 @@ def test_regrade_computes_what_is_affected_and_tells_whose_marks_changed(
     assert changed.out == "b in3140-rp K: 0 -> 4 (the hand-in changed; correct: 4 of 4)\n"
     (set_folder / "set.yaml").write_text("title: Assignment 2\nmarks: {in3140-rp: {K: 5, g: 2}}\n")
     remarked = dynsolve(*words)
+    assert "0 hand-ins graded, 2 marked anew" in remarked.err
     assert "a in3140-rp K: 4 -> 5 (the marks changed; correct: 5 of 5)" in remarked.out
+    dynsolve("override", str(out), "a", "in3140-rp", "g", "--marks", "1", "--why", "copied")
+    told = dynsolve(*words)
+    assert told.out == "a in3140-rp g: 2 -> 1 (set by the teacher: copied (the program: correct: 2 of 2))\n"
+    assert dynsolve(*words).out == ""
 
 
 def test_an_override_is_kept_and_shown(tmp_path: Path, set_folder: Path) -> None:

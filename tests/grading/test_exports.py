@@ -30,7 +30,7 @@ from tests.support import ROOT
 
 TEXT = (ROOT / "problems" / "in3140-rp.yaml").read_text(encoding="utf-8")
 MARKS = {"K": Fraction(4), "g": Fraction(2)}
-BLANK = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form", "fault"), "")
+BLANK = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form", "basis", "fault"), "")
 
 
 @pytest.fixture

@@ -69,8 +69,8 @@ def test_a_file_that_changes_during_a_run_is_graded_by_the_next(tmp_path: Path, 
     said = ["unreadable it was changed while it was graded: grade again"]
     assert _run(problems, record, folder, between=WRONG)[1] == said
     (folder / "s1" / "a.yaml").write_text(RIGHT)
-    assert _run(problems, record, folder) == (Done(1, 1), ["correct"])
-    assert _run(problems, record, folder) == (Done(1, 0), ["correct"])
+    assert _run(problems, record, folder) == (Done(1, 1, 0), ["correct"])
+    assert _run(problems, record, folder) == (Done(1, 0, 0), ["correct"])
     record.close()
 
 
