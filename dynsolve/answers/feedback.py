@@ -20,6 +20,7 @@ from dynsolve.document import (
     Fold,
     Formula,
     Heading,
+    Inline,
     List,
     Note,
     Prose,
@@ -28,7 +29,7 @@ from dynsolve.document import (
     Verbatim,
 )
 from dynsolve.errors import Finding
-from dynsolve.notation.tree import Letter, Node, Number, Relation
+from dynsolve.notation.tree import Letter, Node, Number, Power, Relation, Symbol
 
 _SAID = {
     Verdict.CORRECT: "correct",
@@ -48,6 +49,12 @@ _NOTES = {
 _NOTHING_FOUND = "No slip was found that explains it."
 
 _LETTER = re.compile(r"(?P<letter>tau|[A-Za-z])(?P<index>\d*)")
+
+_POWERS = {"²": 2, "³": 3, "⁴": 4}
+_WRITTEN = re.compile(
+    r"(?<![^\W_])(?:(?P<number>\d+)(?=[^\W\d_]\W*[₀-₉])"
+    rf"|(?P<letter>[^\W\d_])_(?P<index>[A-Za-z0-9]+)(?P<power>[{''.join(_POWERS)}]?))"
+)
 
 _MOST = 2000
 """So many characters of what a student wrote are shown."""
@@ -163,7 +170,7 @@ def _differences(answer: Judged, bad: Sequence[EntryVerdict]) -> Iterator[Block]
 
 def _slips(told: Sequence[Diagnosis], view: View) -> Iterator[Block]:
     if view.level >= 3 or view.teacher:
-        items: list[Prose] = [(f"{d.message} {d.look}".strip(),) for d in told]
+        items = [typeset(f"{d.message} {d.look}".strip()) for d in told]
         if items:
             yield List(tuple(items))
         else:
@@ -171,6 +178,26 @@ def _slips(told: Sequence[Diagnosis], view: View) -> Iterator[Block]:
     else:
         kinds = dict.fromkeys(d.kind for d in told if d.kind)
         yield Text((f"What kind of slip: {'; '.join(kinds)}.",) if kinds else (_NOTHING_FOUND,))
+
+
+def typeset(text: str) -> Prose:
+    """A message of ours with its symbols as formulas, which it has in Unicode: 2m₂ l_c2² and I_1zz too.
+
+    >>> typeset("2m₂ l_c2² is wrong")
+    ('2', 'm₂ ', Power(base=Symbol(name='lc2', ...), exponent=Number(...)), ' is wrong')
+    """
+    parts: list[Inline] = []
+    place = 0
+    for found in _WRITTEN.finditer(text):
+        parts.append(text[place : found.start()])
+        place = found.end()
+        if found["number"]:
+            parts.append(found["number"])
+            continue
+        symbol: Node = Symbol(found["letter"] + found["index"])
+        power = _POWERS.get(found["power"])
+        parts.append(symbol if power is None else Power(symbol, Number(power)))
+    return tuple(part for part in (*parts, text[place:]) if part != "")
 
 
 def _index(entry: EntryVerdict) -> str:
