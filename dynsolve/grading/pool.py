@@ -28,6 +28,9 @@ Data = dict[str, Any]
 SERVES = 4000
 """After so many hand-ins a worker is replaced, so that nothing it keeps can grow."""
 
+TRIES = 3
+"""So often a hand-in is tried again whose worker was killed: by a system short of memory, say."""
+
 MODULE = "dynsolve.grading.worker"
 
 _OUT_OF_TIME = getattr(signal, "SIGPROF", 0)
@@ -57,11 +60,21 @@ class Worker:
         Where there is none, a fresh worker tries its answers one by one: so one that is too
         much spoils no other, nor does what another hand-in has left behind.
         """
-        said = self._ask({**payload, "narrow": False})
+        said = self._tried({**payload, "narrow": False})
         if "result" in said or self.closed:
             return said
         self.end()
-        return self._ask({**payload, "narrow": True})
+        return self._tried({**payload, "narrow": True})
+
+    def _tried(self, payload: Data) -> Data:
+        """The answer to a payload; a worker that something else has killed is none."""
+        said = self._ask(payload)
+        for _ in range(TRIES):
+            if not said.get("killed") or self.closed:
+                break
+            said = self._ask(payload)
+        said.pop("killed", None)
+        return said
 
     def _ask(self, payload: Data) -> Data:
         """What the worker answers, or why it does not."""
@@ -94,7 +107,8 @@ class Worker:
         if said["stopped"] == "time" or process.returncode == -_OUT_OF_TIME:
             return {"reason": f"reading it took more than {self.bounds.seconds:g} s"}
         memory = f"{self.bounds.memory / (1 << 20):g} MiB"
-        return {"reason": f"reading it took more than {memory} of memory, or failed"}
+        killed = process.returncode == -getattr(signal, "SIGKILL", 0)
+        return {"reason": f"reading it took more than {memory} of memory, or failed", "killed": killed}
 
     def _start(self) -> None:
         self.process = subprocess.Popen(  # noqa: S603  # this very Python, on this very package

@@ -6,6 +6,7 @@ import base64
 import os
 import signal
 import threading
+import time
 from typing import Any
 
 import pytest
@@ -237,6 +238,31 @@ def test_a_worker_that_is_killed_takes_no_verdict_with_it() -> None:
         worker.process.kill()
         worker.process.wait()
         assert worker(payload(RIGHT_TAU)) == first
+    finally:
+        worker.end()
+
+
+def test_a_worker_that_is_killed_again_and_again_is_not_the_hand_ins_fault(heavy: None) -> None:
+    worker = Worker(Bounds())
+    kills = 0
+
+    def kill() -> None:
+        nonlocal kills
+        deadline = time.monotonic() + 20
+        while kills < 3 and time.monotonic() < deadline:
+            process = worker.process
+            if process is not None:
+                kills += 1
+                process.kill()
+                while worker.process is process:
+                    time.sleep(0.01)
+
+    thread = threading.Thread(target=kill)
+    thread.start()
+    try:
+        found = worker(payload(f"{RIGHT_K}  P: 0\n"))
+        thread.join()
+        assert (kills, "result" in found, "over" in found["result"]) == (3, True, False)
     finally:
         worker.end()
 
