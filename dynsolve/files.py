@@ -5,7 +5,11 @@ from __future__ import annotations
 import os
 import stat
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from filecmp import cmp
 from pathlib import Path
+from typing import IO
 
 from dynsolve.errors import UsageError
 
@@ -57,6 +61,27 @@ def write_changed(path: Path, data: bytes, *, durable: bool = True) -> None:
         pass  # there is none yet, or none that can be read: it is written anew
     path.parent.mkdir(parents=True, exist_ok=True)
     _by_way_of(temporary_of(path), path, data, durable=durable)
+
+
+@contextmanager
+def changed(path: Path) -> Iterator[IO[bytes]]:
+    """A stream to write such a file to piece by piece, for what is too large to be held at once.
+
+    Raises OSError where it cannot be written.
+    """
+    temporary = temporary_of(path)
+    try:
+        with temporary.open("wb") as stream:
+            yield stream
+            stream.flush()
+            os.fsync(stream.fileno())
+        if path.is_file() and cmp(temporary, path, shallow=False):
+            temporary.unlink()
+        else:
+            temporary.replace(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
 
 
 def temporary_of(path: Path) -> Path:

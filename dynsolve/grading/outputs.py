@@ -139,12 +139,9 @@ def _html(row: Row, total: str, explained: _Explained, page: str) -> str:
     rows = "".join(
         "<tr>" + "".join(f"<td>{_escaped(cell)}</td>" for cell in cells) + "</tr>\n" for cells in explained
     )
-    head = "<thead><tr><th>answer</th><th>marks</th><th>why</th></tr></thead>"
-    table = (
-        f'<div class="scroll"><table class="marks">{head}<tbody>\n{rows}</tbody></table></div>'
-        if rows
-        else ""
-    )
+    head = "".join(f'<th scope="col">{name}</th>' for name in ("answer", "marks", "why"))
+    body = f"<thead><tr>{head}</tr></thead><tbody>\n{rows}</tbody>"
+    table = f'<div class="scroll"><table class="marks">{body}</table></div>' if rows else ""
     page = _put(page, f"<p[^>]*>{MARKS_HERE}</p>", f"<p><strong>{total}</strong></p>\n{told}")
     return _put(page, f"<p[^>]*>{TABLE_HERE}</p>", table)
 

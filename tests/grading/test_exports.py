@@ -20,6 +20,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
+import dynsolve
 from dynsolve.errors import InputError
 from dynsolve.grading.exports import chosen_roster, export, keep_platform, late
 from dynsolve.grading.hand_ins import Intake
@@ -441,3 +442,57 @@ def _late(
     path.write_text("\n".join(lines) + "\n")
     keep_platform(record, platform, chosen_roster(problems, platform, path))
     return late(record)
+
+
+# -- from the download to the import -----------------------------------------------------------------
+
+RIGHT = "answers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n  g: [0, 0]\n"
+
+
+@pytest.fixture
+def set_folder(tmp_path: Path) -> Path:
+    folder = tmp_path / "set"
+    folder.mkdir()
+    (folder / "in3140-rp.yaml").write_text(TEXT)
+    (folder / "set.yaml").write_text("title: Assignment 2\nmarks: {in3140-rp: {K: 4, g: 2}}\n")
+    return folder
+
+
+def _write(folder: Path, files: dict[str, str]) -> Path:
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    return folder
+
+
+def test_a_moodle_download_goes_back_as_a_worksheet_and_pages(tmp_path: Path, set_folder: Path) -> None:
+    names = {41: "Ada Lovelace", 42: "Grace Hopper"}
+    files = {f"{name}_{id}_assignsubmission_file/hw.yaml": RIGHT for id, name in names.items()}
+    roster = tmp_path / "Grades-IN3140-Assignment 2-1234.csv"
+    lines = [f"Participant {id},{name},x@y,Submitted,,6.00,Yes,1 May,-," for id, name in names.items()]
+    roster.write_text("\n".join([ENGLISH, *lines]) + "\n")
+    hand_ins = _write(tmp_path / "in", files)
+    dynsolve.grade(set_folder, hand_ins, tmp_path / "out", lms="moodle", roster=roster)
+    dynsolve.override(tmp_path / "out", "Ada Lovelace_41", "in3140-rp", "K", marks=3, why="late idea")
+    written = (tmp_path / "out" / "moodle.csv").read_text().splitlines()
+    assert [line.split(",")[4] for line in written] == ["Grade", "5", "6"]
+    with zipfile.ZipFile(tmp_path / "out" / "moodle-feedback.zip") as packed:
+        pages = {name: packed.read(name).decode() for name in packed.namelist()}
+    assert list(pages) == [f"{name}_{id}_assignfeedback_file/feedback.html" for id, name in names.items()]
+    assert "set by the teacher: late idea" in pages["Ada Lovelace_41_assignfeedback_file/feedback.html"]
+
+
+def test_a_gradescope_export_goes_out_as_results(tmp_path: Path, set_folder: Path) -> None:
+    people = "submission_7:\n  :submitters:\n  - :name: Ada\n    :sid: s7\n  - :name: Grace\n    :sid: s8\n"
+    files = {
+        "assignment_1_export/submission_7/in3140-rp.yaml": RIGHT,
+        "assignment_1_export/submission_metadata.yml": people,
+    }
+    hand_ins = _write(tmp_path / "in", files)
+    grades = dynsolve.grade(set_folder, hand_ins, tmp_path / "out", lms="gradescope")
+    assert grades.totals == {"s7": 6, "s8": 6} and grades.warnings == ()
+    paths = list((tmp_path / "out" / "gradescope").rglob("results.json"))
+    assert [path.parent.name for path in paths] == ["submission_7"]
+    results = json.loads(paths[0].read_text())
+    jsonschema.validate(results, RESULTS)
+    assert results["score"] == 6

@@ -62,6 +62,20 @@ def test_what_does_not_change_is_not_written(tmp_path: Path) -> None:
     assert path.read_bytes() == b"two"
 
 
+def test_a_file_in_pieces_is_whole_or_not_at_all(tmp_path: Path) -> None:
+    path = tmp_path / "pages.zip"
+    for _ in range(2):
+        with files.changed(path) as stream:
+            stream.write(b"one")
+            stream.write(b"two")
+        before = path.stat().st_ino if path.exists() else 0
+    assert path.read_bytes() == b"onetwo" and path.stat().st_ino == before
+    with pytest.raises(KeyError), files.changed(path) as stream:
+        stream.write(b"half")
+        raise KeyError
+    assert path.read_bytes() == b"onetwo" and _names(tmp_path) == ["pages.zip"]
+
+
 def test_what_a_killed_run_left_is_taken_away(tmp_path: Path) -> None:
     path = tmp_path / "grades.csv"
     files.temporary_of(path).write_bytes(b"half")

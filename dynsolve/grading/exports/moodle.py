@@ -7,14 +7,13 @@ languages; in others the columns are found by what stands in them.
 
 from __future__ import annotations
 
-import io
 import re
 import zipfile
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
-from dynsolve.files import write_changed
+from dynsolve.files import changed
 from dynsolve.grading.exports.roster import Roster, number, unmatched
 from dynsolve.grading.ledger import Standing, most, standings
 from dynsolve.grading.outputs import folder_name
@@ -59,7 +58,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
                 cells[comments] = _comment(found, problems)
         out.append(tuple(cells))
     roster.write(folder / "moodle.csv", out)
-    write_changed(folder / "moodle-feedback.zip", _feedback_zip(folder, record))
+    _write_feedback(folder, record)
     maximum = next((number(row[grade + 1]) for row in roster.rows[1:] if len(row) > grade + 1), None)
     if maximum not in (None, of):
         assert maximum is not None
@@ -122,9 +121,9 @@ def _comment(standing: Standing, problems: ProblemSet) -> str:
     return "; ".join(parts)
 
 
-def _feedback_zip(folder: Path, record: Record) -> bytes:
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w") as archive:
+def _write_feedback(folder: Path, record: Record) -> None:
+    """A folder a participant, named as Moodle names them, with the pages."""
+    with changed(folder / "moodle-feedback.zip") as stream, zipfile.ZipFile(stream, "w") as archive:
         for student, id in record.students().items():
             pages = sorted((folder / "feedback" / folder_name(student)).glob("*.html"))
             for page in pages if id else ():
@@ -134,4 +133,3 @@ def _feedback_zip(folder: Path, record: Record) -> bytes:
                 entry.external_attr = 0o644 << 16
                 entry.compress_type = zipfile.ZIP_DEFLATED
                 archive.writestr(entry, page.read_bytes())
-    return out.getvalue()
