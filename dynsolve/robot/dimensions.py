@@ -33,6 +33,10 @@ ACCELERATION = dimension(length=1, time=-2)
 ENERGY = dimension(mass=1, length=2, time=-2)
 
 
+MOST_REMEMBERED = 10_000
+"""Of so many terms the dimension is remembered."""
+
+
 class Dimensions:
     """The dimensions of the generators of a ring; `known` is False where the problem has bare numbers."""
 
@@ -41,11 +45,13 @@ class Dimensions:
         self.robot = robot
         self.known = True
         self._of: dict[int, Dimension] = {}
+        self._products: dict[tuple[int, ...], Dimension | None] = {}
         self._coordinates()
         roles = [(e, d) for e, d in _roles(robot) if not e.is_zero]
         for _ in range(3):
             for expr, role in roles:
                 self._learn(expr, role)
+        self._products.clear()
         self.known = all(self._sound(expr, role) for expr, role in roles)
 
     def _coordinates(self) -> None:
@@ -103,7 +109,18 @@ class Dimensions:
     def terms(self, expr: Expr) -> Iterator[Dimension | None]:
         """The dimension of every term, None where a symbol's is unknown."""
         for exponents, _ in _terms(expr):
-            yield self._product((i, e) for i, e in enumerate(exponents) if e)
+            yield self._of_term(exponents)
+
+    def _of_term(self, exponents: tuple[int, ...]) -> Dimension | None:
+        """The dimension of a term, which is remembered: a cohort has few different ones."""
+        try:
+            return self._products[exponents]
+        except KeyError:
+            if len(self._products) >= MOST_REMEMBERED:
+                self._products.clear()
+            found = self._product((i, e) for i, e in enumerate(exponents) if e)
+            self._products[exponents] = found
+            return found
 
     def of(self, expr: Expr) -> Dimension | None:
         """The dimension of an expression, None where it is unknown or its terms differ."""

@@ -166,7 +166,7 @@ def scan(text: str) -> list[Token]:
         piece = match(text, offset)
         if piece is None:
             raise character_error(text[offset], offset)
-        kind, end = piece.lastgroup, piece.end()
+        kind, end = str(piece.lastgroup), piece.end()
         text_of = piece[kind]
         if offset + len(text_of) < end:
             spaced, offset = True, end - len(text_of)
@@ -185,7 +185,7 @@ def scan(text: str) -> list[Token]:
                 spaced = broken = False
                 offset = end
                 continue
-            token = _token(str(kind), text_of, offset, end, spaced, broken)
+            token = _token(kind, text_of, offset, end, spaced, broken)
             if token is None:
                 spaced = True
             else:

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from flint import fmpq
+
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.ring import Ring
 from dynsolve.answers.graph import Graph
 from dynsolve.answers.needs import is_opaque
 from dynsolve.answers.slips.table import slip
@@ -16,13 +19,47 @@ from dynsolve.answers.verdict import Diagnosis
 MOST_TERMS = 400
 
 
+class _Pair:
+    """An answer and what was expected; `becomes` tells whether a substitution leads to the answer.
+
+    Most do not, which a look at one point tells: sines and cosines are rational points
+    of a circle there, so that what is equal in the ring is equal at the point.
+    """
+
+    def __init__(self, mine: Expr, expected: Expr) -> None:
+        self.mine, self.expected = mine, expected
+        self.ring = mine.ring
+        used = {*_used(mine), *_used(expected)}
+        kinds = {self.ring.generators[i].kind for i in used}
+        self.point = _point(self.ring) if kinds <= {"symbol", "sin", "cos"} else []
+        self.value = mine.poly(*self.point) if self.point else None
+
+    def becomes(self, images: dict[int, Any]) -> bool:
+        """Whether the answer is what was expected with polynomials for some generators."""
+        if self.point:
+            moved = [images[i](*self.point) if i in images else x for i, x in enumerate(self.point)]
+            if self.expected.poly(*moved) != self.value:
+                return False
+        return _put(self.expected, images) == self.mine
+
+
+def _point(ring: Ring) -> list[fmpq]:
+    """A rational point on every circle sin² + cos² = 1."""
+    point = [fmpq(7 * i + 3) for i in range(len(ring.generators))]
+    for k, pair in enumerate(ring.pairs):
+        t = fmpq(k + 2, k + 5)
+        point[pair.sine], point[pair.cosine] = 2 * t / (1 + t * t), (1 - t * t) / (1 + t * t)
+    return point
+
+
 def substitutions(graph: Graph, words: Words, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
     """The substitutions that turn what was expected into the answer."""
     if max(len(mine), len(expected)) > MOST_TERMS or mine.is_zero or expected.is_zero:
         return
-    yield from _gravity(graph, mine, expected)
-    yield from _angles(graph, words, mine, expected)
-    yield from _symbols(graph, words, mine, expected)
+    pair = _Pair(mine, expected)
+    yield from _gravity(graph, pair)
+    yield from _angles(graph, words, pair)
+    yield from _symbols(graph, words, pair)
 
 
 def _put(expr: Expr, images: dict[int, Any]) -> Expr:
@@ -35,28 +72,29 @@ def _used(expr: Expr) -> list[int]:
     return [i for i, degree in enumerate(expr.poly.degrees()) if degree > 0]
 
 
-def _gravity(graph: Graph, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
-    ring = graph.field.ring
+def _gravity(graph: Graph, values: _Pair) -> Iterator[Diagnosis]:
+    ring, expected = values.ring, values.expected
     strength = {i for entry in graph.robot.gravity.entries if entry.poly for i in _used(entry)}
     symbols = [i for i in strength if ring.generators[i].kind == "symbol"]
     for index in symbols:
-        without = _put(expected, {index: ring.zero.poly})
-        if without != expected and mine == _put(expected, {index: -ring.generator(index).poly}):
+        if _put(expected, {index: ring.zero.poly}) == expected:
+            continue
+        if values.becomes({index: -ring.generator(index).poly}):
             yield slip("gravity_sign")
-        elif without != expected and mine == without:
+        elif values.becomes({index: ring.zero.poly}):
             yield slip("gravity_missing")
 
 
-def _angles(graph: Graph, words: Words, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
+def _angles(graph: Graph, words: Words, values: _Pair) -> Iterator[Diagnosis]:
     """An angle for another throughout, or sine and cosine of one exchanged."""
-    ring = graph.field.ring
+    ring, mine, expected = values.ring, values.mine, values.expected
     used = set(_used(expected))
     angles = [*(pair.angle for pair in ring.pairs), *(Angle.of(n) for n in ring.names)]
     for pair in ring.pairs:
         if not used & {pair.sine, pair.cosine}:
             continue
         s, c = ring.generator(pair.sine), ring.generator(pair.cosine)
-        if _put(expected, {pair.sine: c.poly, pair.cosine: s.poly}) == mine:
+        if values.becomes({pair.sine: c.poly, pair.cosine: s.poly}):
             yield _function(words, expected, s, c)
         for angle in dict.fromkeys(angles):
             if angle == pair.angle:
@@ -65,7 +103,7 @@ def _angles(graph: Graph, words: Words, mine: Expr, expected: Expr) -> Iterator[
                 images = {pair.sine: ring.sin(angle).poly, pair.cosine: ring.cos(angle).poly}
             except Exception:  # noqa: BLE001, S112  an angle that the ring does not hold
                 continue
-            if _put(expected, images) == mine:
+            if values.becomes(images):
                 product = any(len(atom) > 1 for atom, _ in angle.terms)
                 function = "cos" if pair.cosine in used else "sin"
                 right = c if function == "cos" else s
@@ -83,9 +121,9 @@ def _function(words: Words, expected: Expr, s: Expr, c: Expr) -> Diagnosis:
     return slip("sin_for_cos", yours="your answer", part=words.of(written), other=words.of(right))
 
 
-def _symbols(graph: Graph, words: Words, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
+def _symbols(graph: Graph, words: Words, values: _Pair) -> Iterator[Diagnosis]:
     """One parameter for another throughout, or two exchanged."""
-    ring = graph.field.ring
+    ring, mine, expected = values.ring, values.mine, values.expected
     parameters = [
         g for g in ring.generators
         if g.kind == "symbol" and not g.dots and g.name not in ring.names and g.name != "pi"
@@ -93,25 +131,25 @@ def _symbols(graph: Graph, words: Words, mine: Expr, expected: Expr) -> Iterator
     have, wanted = set(_used(mine)), set(_used(expected))
     changed = (mine - expected).poly.monoms()
     for name in [g for g in parameters if g.index in wanted]:
-        yield from _symbol(words, name, parameters, (mine, expected), (have, wanted), changed)
+        yield from _symbol(words, name, parameters, values, (have, wanted), changed)
 
 
 def _symbol(
     words: Words,
     a: Generator,
     parameters: Sequence[Generator],
-    values: tuple[Expr, Expr],
+    values: _Pair,
     used: tuple[set[int], set[int]],
     changed: Sequence[Sequence[int]],
 ) -> Iterator[Diagnosis]:
     """Another parameter for `a`, or the two exchanged: every term that differs must hold one of them."""
-    (mine, expected), (have, wanted) = values, used
-    ring = mine.ring
+    ring, mine = values.ring, values.mine
+    have, wanted = used
     for b in parameters:
         if b is a or not all(m[a.index] or m[b.index] for m in changed):
             continue
         x, y = ring.generator(a.index), ring.generator(b.index)
-        if a.index not in have and b.index in have and _put(expected, {a.index: y.poly}) == mine:
+        if a.index not in have and b.index in have and values.becomes({a.index: y.poly}):
             if is_opaque(b.name):
                 yield slip("odd_argument", yours=words.of(mine))
             elif words.is_unknown(b):
@@ -119,5 +157,5 @@ def _symbol(
             else:
                 yield slip("symbol", yours=words.of(mine), part=words.generator(b), other=words.generator(a))
         both = {a.index: y.poly, b.index: x.poly}
-        if a.index < b.index and {a.index, b.index} <= have & wanted and _put(expected, both) == mine:
+        if a.index < b.index and {a.index, b.index} <= have & wanted and values.becomes(both):
             yield slip("symbols_swapped", part=words.generator(a), other=words.generator(b))

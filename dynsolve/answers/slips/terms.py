@@ -22,6 +22,7 @@ from dynsolve.answers.slips.waves import (
     Part,
     Wave,
     angle_of,
+    differing,
     is_small,
     monomial_expr,
     part_expr,
@@ -87,9 +88,7 @@ class TermSlips:
         """The slips that lead from what was expected to the answer; None where there are too many terms."""
         if not (is_small(mine) and is_small(expected)):
             return None
-        ours, theirs = parts(mine), parts(expected)
-        for monomial in [m for m in ours if theirs.get(m) == ours[m]]:
-            del ours[monomial], theirs[monomial]
+        ours, theirs = differing(mine, expected)
         found: list[Found] = []
         for monomial in [m for m in ours if m in theirs]:
             found += self._same_monomial(ours.pop(monomial), theirs.pop(monomial))

@@ -67,16 +67,33 @@ def is_small(expr: Expr) -> bool:
 
 def parts(expr: Expr) -> dict[Monomial, Part]:
     """The parts of an expression, by monomial."""
+    width = len(expr.ring.pairs)
+    return {m: Part(m, _waves(terms, width)) for m, terms in _groups(expr).items()}
+
+
+def differing(a: Expr, b: Expr) -> tuple[dict[Monomial, Part], dict[Monomial, Part]]:
+    """The parts in which two expressions differ; what is equal, which is most, is not taken apart."""
+    width = len(a.ring.pairs)
+    ours, theirs = _groups(a), _groups(b)
+    found: tuple[dict[Monomial, Part], dict[Monomial, Part]] = {}, {}
+    for into, groups, others in zip(found, (ours, theirs), (theirs, ours), strict=True):
+        for monomial, terms in groups.items():
+            if others.get(monomial) != terms:
+                into[monomial] = Part(monomial, _waves(terms, width))
+    return found
+
+
+def _groups(expr: Expr) -> dict[Monomial, dict[tuple[int, ...], Fraction]]:
+    """The terms by monomial, and by the powers of sines and cosines."""
     ring = expr.ring
     turning = _turning(ring)
+    places = [i for pair in ring.pairs for i in (pair.sine, pair.cosine)]
     groups: dict[Monomial, dict[tuple[int, ...], Fraction]] = {}
     for exponents, value in expr.poly.to_dict().items():
-        powers = [int(e) for e in exponents]
-        monomial = tuple((i, e) for i, e in enumerate(powers) if e and i not in turning)
-        trig = tuple(powers[i] for pair in ring.pairs for i in (pair.sine, pair.cosine))
-        group = groups.setdefault(monomial, {})
-        group[trig] = group.get(trig, Fraction(0)) + Fraction(int(value.p), int(value.q))
-    return {monomial: Part(monomial, _waves(terms, len(ring.pairs))) for monomial, terms in groups.items()}
+        monomial = tuple((i, int(e)) for i, e in enumerate(exponents) if e and i not in turning)
+        trig = tuple(int(exponents[i]) for i in places)
+        groups.setdefault(monomial, {})[trig] = Fraction(int(value.p), int(value.q))
+    return groups
 
 
 def _turning(ring: Ring) -> frozenset[int]:
