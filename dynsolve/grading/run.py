@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import suppress
 from dataclasses import dataclass
@@ -98,8 +98,7 @@ def grade_all(
     known = record.fingerprints()
     keys = {(h.student, h.problem) for h in intake.hand_ins}
     record.keep_only({(student, stem) for student in intake.students for stem in problems.stems})
-    absent = _absent(problems, intake, keys)
-    record.write_all((key, *row) for key, row in absent if known.get(key) != row[0])
+    record.write_all(_absent(problems, intake, keys, known))
     other = [h for h in intake.hand_ins if known.get((h.student, h.problem)) not in _words(problems, h, pool)]
     due = [hand_in for hand_in in other if not _remarked(record, problems, hand_in, pool.bounds)]
     running: dict[Future[Data], HandIn] = {}
@@ -143,9 +142,9 @@ def _submitted(pool: Pool, problems: ProblemSet, uploads: Uploads, hand_in: Hand
 
 
 def _absent(
-    problems: ProblemSet, intake: Intake, keys: set[Key]
-) -> Iterator[tuple[Key, tuple[str, str, Data]]]:
-    """The rows of what was not handed in, or only in a form that waits for a human."""
+    problems: ProblemSet, intake: Intake, keys: set[Key], known: Mapping[Key, str]
+) -> Iterator[tuple[Key, str, str, Data]]:
+    """The new rows of what was not handed in, or only in a form that waits for a human."""
     reasons: dict[Key, list[str]] = {}
     for entry in intake.waiting:
         for stem in (entry.problem,) if entry.problem else problems.stems:
@@ -158,9 +157,11 @@ def _absent(
             said = reasons.get(key, [])
             found = {"hand-in": _short(said), "marks": _of_marks(item), "program": program()}
             found["policy"] = _of_policy(problems.policy)
+            if known.get(key) == _short(found):
+                continue
             row = _unread(problems, student, item.stem, "; ".join(said))
             rest = {"files": [], "left": [], "late": False, "reason": "; ".join(said), "notes": []}
-            yield key, (_short(found), json.dumps(found, sort_keys=True), {**row, **rest})
+            yield key, _short(found), json.dumps(found, sort_keys=True), {**row, **rest}
 
 
 def _some(source: Iterator[HandIn], count: int) -> Iterator[HandIn]:
