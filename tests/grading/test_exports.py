@@ -280,13 +280,25 @@ def test_a_teachers_comment_in_moodle_is_kept_and_ours_is_replaced(
 ) -> None:
     _graded(record, PARTICIPANTS)
     text = (
-        f"{ENGLISH}\nParticipant 41,A,a@x,S,,6.00,Yes,1 May,-,<p>Come and see me</p>\n"
+        f"{ENGLISH}\nParticipant 41,A,a@x,S,,6.00,Yes,1 May,-,- come and see me\n"
         "Participant 42,G,g@x,S,1.00,6.00,Yes,1 May,-,<p>in3140-rp: 1</p>\n"
     )
     _exported(tmp_path, problems, record, "moodle", text)
     lines = (tmp_path / "moodle.csv").read_text().splitlines()
-    assert lines[1].endswith(",-,<p>Come and see me</p>")
+    assert lines[1].endswith(",-,- come and see me")
     assert lines[2].endswith(",-,in3140-rp: 2.5")
+
+
+def test_a_long_text_that_was_typed_online_is_no_obstacle(
+    tmp_path: Path, problems: ProblemSet, record: Record
+) -> None:
+    _graded(record, PARTICIPANTS)
+    long = '"' + "x, y\n" * 40_000 + '"'
+    text = f"{WITH_GROUPS}\nParticipant 41,=A,1,a@x,S,G,,6.00,Yes,1 May,{long},-,\n"
+    _exported(tmp_path, problems, record, "moodle", text)
+    written = (tmp_path / "moodle.csv").read_text()
+    assert written.startswith(f"{WITH_GROUPS}\nParticipant 41,'=A,1,a@x,S,G,6,6.00,Yes,1 May,")
+    assert written.endswith(f"{long},-,in3140-rp: 6\n")
 
 
 def test_a_worksheet_without_comments_loses_no_date(

@@ -57,7 +57,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
             if comments is not None and _is_free(cells[comments], problems):
                 cells[comments] = _comment(found, problems)
         out.append(tuple(cells))
-    roster.write(folder / "moodle.csv", out)
+    roster.write(folder / "moodle.csv", out, trusted=comments)
     _write_feedback(folder, record)
     maximum = next((number(row[grade + 1]) for row in roster.rows[1:] if len(row) > grade + 1), None)
     if maximum not in (None, of):

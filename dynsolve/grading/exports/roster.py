@@ -40,9 +40,9 @@ class Roster:
         """The names of the columns, nothing where there are none."""
         return self.rows[0] if self.rows else ()
 
-    def write(self, path: Path, rows: Iterable[Row]) -> None:
-        """Write rows as this CSV is written, every cell safe."""
-        text = ("\ufeff" if self.mark else "") + table(rows, self.separator)
+    def write(self, path: Path, rows: Iterable[Row], trusted: int | None = None) -> None:
+        """Write rows as this CSV is written, every cell safe but those of the column `trusted`."""
+        text = ("\ufeff" if self.mark else "") + table(rows, self.separator, trusted)
         write_changed(path, text.encode("utf-8", errors="replace"))
 
     def marks(self, marks: Fraction) -> str:
@@ -66,9 +66,7 @@ def read_roster(path: Path) -> Roster:
         text = data.decode("utf-16" if wide else "utf-8-sig")
         first = text.partition("\n")[0]
         separator = max(SEPARATORS, key=first.count)
-        rows = tuple(
-            tuple(row) for row in csv.reader(io.StringIO(text, newline=""), delimiter=separator) if any(row)
-        )
+        rows = _rows(text, separator)
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         message = f"the roster cannot be read: {reason.lower()}"
@@ -76,6 +74,15 @@ def read_roster(path: Path) -> Roster:
     numbers = [cell for row in rows for cell in row if _is_decimal(cell)]
     comma = any("," in cell for cell in numbers) and not any("." in cell for cell in numbers)
     return Roster(str(path), rows, separator, wide or data.startswith(b"\xef\xbb\xbf"), comma)
+
+
+def _rows(text: str, separator: str) -> tuple[Row, ...]:
+    before = csv.field_size_limit(len(text) + 1)  # a text that a student typed online may be long
+    try:
+        lines = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
+        return tuple(tuple(row) for row in lines if any(row))
+    finally:
+        csv.field_size_limit(before)
 
 
 def _is_decimal(cell: str) -> bool:
