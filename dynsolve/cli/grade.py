@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 EVERY = 10.0
 """Seconds between two lines of progress where there is no terminal."""
 
+MOST_REFUSED = 20
+"""So many files that are not taken are named on the terminal; the report names them all."""
+
 
 class Platform(StrEnum):
     """The learning platforms whose files are written."""
@@ -144,8 +147,10 @@ def _progress(quiet: bool) -> Iterator[Callable[[int, int], None] | None]:
 
 
 def _say(grades: Grades) -> None:
-    for refused in grades.refused:
+    for refused in grades.refused[:MOST_REFUSED]:
         typer.echo(f"refused: {refused.name}: {refused.reason}", err=True)
+    if len(grades.refused) > MOST_REFUSED:
+        typer.echo(f"refused: {len(grades.refused) - MOST_REFUSED} more, which the report names", err=True)
     for warning in grades.warnings:
         typer.echo(f"warning: {warning}", err=True)
     done, anew, waiting = grades.computed, grades.remarked, len(grades.waiting)

@@ -160,6 +160,16 @@ def test_hostile_files_leave_the_good_ones_their_marks(tmp_path: Path, set_folde
     assert "<img src=x" not in pages and "<script>alert" not in pages
 
 
+def test_of_many_refused_files_the_report_names_the_rest(tmp_path: Path, set_folder: Path) -> None:
+    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    for i in range(23):
+        (hand_ins / f"link{i:02}.yaml").symlink_to("/etc/passwd")
+    ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(tmp_path / "out"))
+    assert ran.err.count("refused: link") == 20
+    assert "refused: 3 more, which the report names" in ran.err
+    assert (tmp_path / "out" / "report.html").read_text().count(".yaml</td><td>a link") == 23
+
+
 def test_a_bound_that_is_passed_is_unreadable_with_the_reason(tmp_path: Path, set_folder: Path) -> None:
     long = "problem: in3140-rp\nanswers:\n" + "  P: (m1 + m2 + L1 + g + I1zz)^18*L2\n" * 100
     hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": long, "b/in3140-rp.yaml": RIGHT})

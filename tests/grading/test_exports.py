@@ -139,7 +139,7 @@ def test_a_number_of_the_registry_is_not_taken_for_one_of_canvas(
     text = 'Student,ID,SIS User ID,SIS Login ID,Section,Assignment 2 (555)\n"B, Bob",205,101,bob,A,\n'
     warnings = _exported(tmp_path, problems, record, "canvas", text)
     assert (tmp_path / "canvas.csv").read_text().splitlines()[-1] == '"B, Bob",205,101,bob,A,'
-    assert warnings[0] == "lovelaceada_101 is not in roster.csv"
+    assert warnings[0] == "1 student is not in roster.csv: lovelaceada_101"
 
 
 def test_students_of_another_kind_of_download_are_found_by_what_the_registry_calls_them(
@@ -183,6 +183,15 @@ def test_two_assignments_of_one_name_are_asked_about(
     text = CANVAS.replace("Assignment 1 (554)", "Assignment 2 (554)")
     with pytest.raises(InputError, match=r"`Assignment 2 \(554\)` or `Assignment 2 \(555\)`"):
         _exported(tmp_path, problems, record, "canvas", text)
+
+
+def test_of_many_that_are_not_in_the_roster_a_few_are_named(
+    tmp_path: Path, problems: ProblemSet, record: Record
+) -> None:
+    _graded(record, {f"s{i}_{i}": (str(i), "4", "2") for i in range(1, 9)})
+    warnings = _exported(tmp_path, problems, record, "canvas", CANVAS)
+    assert warnings[0] == "8 students are not in roster.csv: s1_1; s2_2; s3_3; s4_4; s5_5 and others"
+    assert warnings[1].startswith("5 students of roster.csv handed in nothing")
 
 
 def test_names_run_nothing_in_a_spreadsheet(tmp_path: Path, problems: ProblemSet, record: Record) -> None:
@@ -270,7 +279,7 @@ def test_moodle_gets_its_worksheet_back_in_any_language(
         row[place], row[-1] = given, f"in3140-rp: {given.replace(',', '.')}"
     assert back == expected
     assert warnings == (
-        "Not Listed_44 is not in roster.csv",
+        "1 student is not in roster.csv: Not Listed_44",
         f"1 student of roster.csv handed in nothing, and what stands there is kept: {word}43",
     )
 

@@ -120,9 +120,21 @@ def number(text: str) -> Fraction | None:
 
 def unmatched(standings: Iterable[Standing], seen: set[str], without: list[str], roster: Roster) -> list[str]:
     """Who is in the hand-ins or in the roster alone."""
-    found = [f"{s.student} is not in {roster.file}" for s in standings if s.student not in seen]
+    lost = [standing.student for standing in standings if standing.student not in seen]
+    found = []
+    if lost:
+        found.append(
+            f"{_count(lost)} {'is' if len(lost) == 1 else 'are'} not in {roster.file}: {_named(lost)}"
+        )
     if without:
-        named = "; ".join(without[:MOST_NAMED]) + (" and others" if len(without) > MOST_NAMED else "")
-        whom = "1 student" if len(without) == 1 else f"{len(without)} students"
-        found.append(f"{whom} of {roster.file} handed in nothing, and what stands there is kept: {named}")
+        nothing = "handed in nothing, and what stands there is kept"
+        found.append(f"{_count(without)} of {roster.file} {nothing}: {_named(without)}")
     return found
+
+
+def _count(students: list[str]) -> str:
+    return "1 student" if len(students) == 1 else f"{len(students)} students"
+
+
+def _named(students: list[str]) -> str:
+    return "; ".join(students[:MOST_NAMED]) + (" and others" if len(students) > MOST_NAMED else "")
