@@ -7,19 +7,24 @@ is Dask's to replace: its hand-ins are computed again elsewhere.
 
 from __future__ import annotations
 
+import logging
 import threading
-from concurrent.futures import Future
+from concurrent.futures import CancelledError, Future
 from importlib import import_module
 from typing import Any
 
 from dynsolve.errors import UsageError
 from dynsolve.grading.pool import Bounds, Data, Worker
 
+GOES_ON = "what is done is kept, and the same command goes on"
+PATIENCE = 6
+"""So often in a row a cluster without workers is looked at before it is given up."""
+
 _own = threading.local()
 
 
 class ClusterPool:
-    """The workers of a Dask scheduler."""
+    """The workers of a Dask scheduler; a cluster that is lost on the way raises UsageError."""
 
     def __init__(self, address: str, bounds: Bounds) -> None:
         try:
@@ -27,7 +32,11 @@ class ClusterPool:
         except ImportError:
             message = "--cluster needs Dask: install it with `pip install dynsolve[cluster]`"
             raise UsageError(message) from None
+        for name in [name for name in logging.root.manager.loggerDict if name.startswith("distributed")]:
+            logging.getLogger(name).setLevel(logging.CRITICAL)  # what is wrong is said here
         self.bounds = bounds
+        self.address = address
+        self._alone = 0
         try:
             self._client: Any = distributed.Client(address, timeout="10s", set_as_default=False)
         except (OSError, ValueError) as error:
@@ -37,15 +46,53 @@ class ClusterPool:
     @property
     def jobs(self) -> int:
         """The threads of all workers there are now, at least one."""
-        threads: dict[str, int] = self._client.nthreads()
-        return max(1, sum(threads.values()))
+        return max(1, self._threads())
+
+    def _threads(self) -> int:
+        try:
+            threads: dict[str, int] = self._client.nthreads()
+        except (OSError, RuntimeError, CancelledError):
+            raise self._gone() from None
+        return sum(threads.values())
+
+    def check(self) -> None:
+        """Called where nothing is done for a while; raises UsageError where nobody is there to do it."""
+        self._alone = 0 if self._threads() else self._alone + 1
+        if self._alone >= PATIENCE:
+            raise UsageError(f"the Dask scheduler at {self.address} has no workers; {GOES_ON}")
 
     def submit(self, payload: Data) -> Future[Data]:
         """A future of {"result": ...} or {"reason": ...}."""
-        future: Future[Data] = self._executor.submit(
-            run_bounded, payload, self.bounds.seconds, self.bounds.memory
-        )
+        future: Future[Data] = Future()
+        bounds = (self.bounds.seconds, self.bounds.memory)
+        try:
+            work = self._executor.submit(run_bounded, payload, *bounds, _program())
+        except (OSError, RuntimeError):
+            raise self._gone() from None
+        work.add_done_callback(lambda done: self._pass_on(done, future))
         return future
+
+    def _pass_on(self, done: Future[Data], future: Future[Data]) -> None:
+        """What has come of a hand-in, or why nothing has."""
+        try:
+            said = done.result()
+        except CancelledError:
+            future.set_exception(self._gone())
+        except Exception as error:  # noqa: BLE001  # theirs, of many kinds
+            if type(error).__name__ == "KilledWorker":
+                future.set_result({"reason": "every worker of the cluster that had it ended"})
+            else:
+                message = f"the cluster's workers failed: {type(error).__name__}: {error}"
+                future.set_exception(UsageError(f"{message}; {GOES_ON}"))
+        else:
+            if said.pop("stranger", False):
+                message = "the cluster's workers have another version of dynsolve: install this one there"
+                future.set_exception(UsageError(message))
+            else:
+                future.set_result(said)
+
+    def _gone(self) -> UsageError:
+        return UsageError(f"the Dask scheduler at {self.address} is gone; {GOES_ON}")
 
     def close(self) -> None:
         """Leave the scheduler; what is under way is given up."""
@@ -53,10 +100,19 @@ class ClusterPool:
         self._client.close()
 
 
-def run_bounded(payload: Data, seconds: float, memory: int) -> Data:
-    """One hand-in, in a worker process of this thread's."""
+def run_bounded(payload: Data, seconds: float, memory: int, version: str) -> Data:
+    """One hand-in, in a worker process of this thread's, by the same program as there."""
+    if version != _program():
+        return {"stranger": True}
     bounds = Bounds(seconds, memory)
     worker: Worker | None = getattr(_own, "worker", None)
     if worker is None or worker.bounds != bounds:
         worker = _own.worker = Worker(bounds)
     return worker(payload)
+
+
+def _program() -> str:
+    """What identifies the program; the run knows it."""
+    from dynsolve.grading.run import program
+
+    return program()

@@ -139,6 +139,9 @@ class LocalPool:
         """A future of {"result": ...} or {"reason": ...}."""
         return self._threads.submit(self._run, payload)
 
+    def check(self) -> None:
+        """Nothing: the workers of this machine end by themselves."""
+
     def _run(self, payload: Data) -> Data:
         worker: Worker | None = getattr(self._own, "worker", None)
         if worker is None:

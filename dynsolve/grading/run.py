@@ -36,6 +36,9 @@ Key = tuple[str, str]
 AHEAD = 4
 """So many hand-ins a worker are under way or wait for one: memory does not grow with their number."""
 
+PATIENCE = 10.0
+"""Seconds in which nothing is done before the pool is asked whether it is still there."""
+
 MOST_LOST = 3
 """So many equations that were not recognized are named where nothing was."""
 
@@ -55,6 +58,9 @@ class Pool(Protocol):
 
     def submit(self, payload: Data) -> Future[Data]:
         """A future of {"result": ...} or {"reason": ...}."""
+
+    def check(self) -> None:
+        """Called where nothing was done for a while; raises UsageError where nothing will be."""
 
     def close(self) -> None:
         """End all work."""
@@ -109,7 +115,9 @@ def grade_all(
             running[_submitted(pool, problems, uploads, hand_in)] = hand_in
         if not running:
             break
-        finished, _ = wait(running, return_when=FIRST_COMPLETED)
+        finished, _ = wait(running, timeout=PATIENCE, return_when=FIRST_COMPLETED)
+        if not finished:
+            pool.check()
         for future in finished:
             hand_in = running.pop(future)
             _write(record, problems, hand_in, future.result(), pool.bounds)

@@ -208,6 +208,9 @@ REPORTS = {
     "lines": "K = \n" * 50_000,
     "open lines": "K = (\n" * 20_000,
     "percent signs": "%" * 300_000,
+    "equations in a row": "$K=1$ " * 300_000,
+    "equations below one another": "$K=1$\n" * 200_000,
+    "brackets in a row": r"\(K=1\) " * 200_000,
 }
 
 
@@ -219,6 +222,9 @@ def test_a_hostile_report_is_read_quickly(content: str, file: str) -> None:
 
 
 NOTEBOOKS = {
+    "lines that are written otherwise in the file": '{"cells": [{"cell_type": "markdown", "source": "'
+    + r"\u00E9\/ x\n" * 150_000
+    + '"}]}',
     "nested": "[" * 100_000,
     "no cells": "{}",
     "cells of another kind": '{"cells": [1, null, {"cell_type": "markdown", "source": 5}, '
@@ -242,6 +248,17 @@ def test_a_hostile_notebook_is_read_quickly(content: str) -> None:
         "<!--" * 20_000,
         "</p>" * 50_000,
         "<a " + "b=" * 50_000,
+        "<a" * 500_000,
+        "<a " * 500_000,
+        "<a b=" * 300_000,
+        '<a b="' * 300_000,
+        "</a" * 500_000,
+        "<!" * 500_000,
+        "<![" * 500_000,
+        "<?" * 500_000,
+        "&#x" * 500_000,
+        "<a" * 500_000 + ">",
+        "<a b='c" * 200_000 + ">",
     ],
 )
 def test_a_hostile_page_is_read_quickly(content: str) -> None:

@@ -11,6 +11,8 @@ from dynsolve.answers.reading.sources import Source
 from dynsolve.errors import Finding
 
 MAX_CELLS = 2_000
+MAX_LOST = 50
+"""After so many lines that are not found in the file as they are no place is looked for."""
 
 
 def read_notebook(session: Session, source: Source) -> list[Finding]:
@@ -24,11 +26,13 @@ def read_notebook(session: Session, source: Source) -> list[Finding]:
     lines: list[str] = []
     origins: list[tuple[int, int, int]] = []
     offset, position, line = 0, 0, 1
+    lost = 0
     for text in _lines(content):
-        if text.strip():
+        if text.strip() and lost < MAX_LOST:
             found = source.text.find(json.dumps(text.rstrip("\n"), ensure_ascii=False)[1:-1], position)
             if found < 0:
                 found = source.text.find(json.dumps(text.rstrip("\n"))[1:-1], position)
+            lost += found < 0
             if found >= 0:
                 line += source.text.count("\n", position, found)
                 position = found

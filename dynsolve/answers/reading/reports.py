@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 from dynsolve.answers.reading.displays import Display, is_label
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
@@ -33,6 +34,9 @@ _MACRO = re.compile(
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 _MAYBE_LABEL = re.compile(r"[\s~]*[(\\]")
 _ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
+_MARGIN = 200
+"""So far from an equation it is seen whether it stands alone on its line."""
+
 _PLAIN_LINE = re.compile(r"[^\n=]{1,200}=")
 _TRAILING = frozenset("=+-*/,([{&\\")
 
@@ -51,9 +55,9 @@ def read_report(session: Session, source: Source, latex: bool = False) -> None:
     text = _COMMENT.sub(lambda found: " " * len(found.group()), source.text) if latex else source.text
     text, macros = _macros(text)
     waiting = list(reversed(macros))
-    displays = _labelled(list(_displays(text, source)))
+    displays = _labelled(list(islice(_displays(text, source), 2 * MAX_EQUATIONS)))
     if not displays:
-        displays = [(offset, display) for offset, display in _plain_lines(text, source, 0, len(text), True)]
+        displays = list(islice(_plain_lines(text, source, 0, len(text), True), MAX_EQUATIONS))
     for offset, display in displays[:MAX_EQUATIONS]:
         while waiting and waiting[-1].offset <= offset:
             found = waiting.pop()
@@ -114,25 +118,21 @@ def _displays(text: str, source: Source) -> Iterator[tuple[int, Display]]:
             yield from _fenced(opening.group(), text, source, start, end)
             continue
         if kind == "inline":
-            line = text.rfind("\n", 0, opening.start()) + 1
-            stop = text.find("\n", position)
-            after = text[position : stop if stop >= 0 else len(text)]
             if end - start > 5_000 or "\n\n" in text[start:end]:
                 position = start
                 continue
-            if (
-                not _ALONE.fullmatch(text[line : opening.start()])
-                or not _ends(after)
-                or "=" not in text[start:end]
-            ):
+            if not _stands_alone(text, opening.start(), position) or "=" not in text[start:end]:
                 continue
         label = _LABEL.match(text, position)
         yield start, _display(text, source, start, end, f"({label[1]})" if label else "")
 
 
-def _ends(after: str) -> bool:
-    """Whether nothing but a number or a full stop follows an equation on its line."""
-    return not after.strip(" \t.,;()0123456789")
+def _stands_alone(text: str, start: int, end: int) -> bool:
+    """Whether nothing but a list's mark stands before an equation on its line, and a number after it."""
+    before = text[max(start - _MARGIN, 0) : start].rpartition("\n")
+    after = text[end : end + _MARGIN].partition("\n")[0]
+    at_start = before[1] or start <= _MARGIN
+    return bool(at_start and _ALONE.fullmatch(before[2]) and not after.strip(" \t.,;()0123456789"))
 
 
 def _closing(opening: re.Match[str]) -> str:

@@ -24,7 +24,7 @@ _HIDDEN = re.compile(r"[^\n]")
 def read_page(session: Session, source: Source) -> None:
     """Read the displayed equations of a web page."""
     page = _Page()
-    page.feed(_without_comments(source.text))
+    page.feed(_closed(_without_comments(source.text)))
     page.close()
     read_report(session, Source("".join(page.pieces), source.file, tuple(page.origins) or ((0, 1, 1),)))
 
@@ -41,6 +41,12 @@ def _without_comments(text: str) -> str:
         pieces.append(_HIDDEN.sub(" ", text[start : end + 3]))
         position = end + 3
     return "".join([*pieces, text[position:]])
+
+
+def _closed(text: str) -> str:
+    """The text with blanks for what opens tags that never close: a parser looks for their end again and again."""
+    last = text.rfind(">") + 1
+    return text[:last] + text[last:].replace("<", " ")
 
 
 class _Page(HTMLParser):
