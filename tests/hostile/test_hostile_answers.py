@@ -12,7 +12,7 @@ from dynsolve.library import find
 from dynsolve.problem import Problem, load
 
 LIMIT = 2.0
-"""Seconds for any single answer."""
+"""Seconds of the processor for any single answer: no verdict on how busy the machine is."""
 
 
 @cache
@@ -21,9 +21,9 @@ def problem() -> Problem:
 
 
 def hand_in(content: str | bytes, file: str = "answer.yaml") -> Submission:
-    started = time.perf_counter()
+    started = time.process_time()
     found = read_submission(problem(), content, file)
-    assert time.perf_counter() - started < LIMIT
+    assert time.process_time() - started < LIMIT
     return found
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from dynsolve.answers.reading.forms import Form
@@ -27,8 +26,6 @@ from dynsolve.robot.model import JointType
 
 if TYPE_CHECKING:
     from dynsolve.answers.reading.reader import Reader
-
-ACCENTS: Mapping[str, int] = {"dot": 1, "ddot": 2, "dddot": 3}
 
 _FREE = frozenset("h0 H0 z0 y0 h href hzero hb P0h zref".split())
 # Letters that name an answer on the left alone: on the right they are the student's own.

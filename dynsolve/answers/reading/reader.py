@@ -14,9 +14,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from dynsolve.answers.reading import brackets, calls, derivatives, functions, lookup
-from dynsolve.answers.reading.cursor import Cursor
-from dynsolve.answers.reading.exponents import bounded, constant, raise_to, raised_number
-from dynsolve.answers.reading.forms import Form, Scripts, index_text, is_angle
+from dynsolve.answers.reading.exponents import raise_to
+from dynsolve.answers.reading.forms import Form, Scripts
 from dynsolve.answers.reading.grids import (
     Abstract,
     Grid,
@@ -29,6 +28,7 @@ from dynsolve.answers.reading.grids import (
 )
 from dynsolve.answers.reading.limits import MAX_NESTING
 from dynsolve.answers.reading.memory import Signs, Term, extent, signs
+from dynsolve.answers.reading.naming import ACCENTS, BEGINS, NameCursor
 from dynsolve.answers.reading.scan import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
@@ -43,17 +43,15 @@ from dynsolve.notation.tree import (
     Symbol,
 )
 
-_BEGINS = frozenset({"number", "fraction", "name", "letter", "command", "(", "[", "{", "√", "begin", "|"})
 _SMALL = frozenset("23456789")
 _SCRIPTS = frozenset({"^", "raised", "'", "''", ".", "_"})
 _PLAIN_ENDS = frozenset(
     {"+", "-", "/", "cdot", ")", "]", "}", "&", "\\\\", "end", "name", "letter", "command"}
 )
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
-_TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
 
 
-class Reader(Cursor):
+class Reader(NameCursor):
     """Reads one list of prepared tokens; `token` is the one that is looked at.
 
     `naming` makes names of answers win over symbols, as on a left-hand side.
@@ -61,7 +59,6 @@ class Reader(Cursor):
     """
 
     __slots__ = (
-        "vocabulary",
         "naming",
         "references",
         "symbols",
@@ -82,8 +79,7 @@ class Reader(Cursor):
         owner: str = "",
         options: frozenset[str] = frozenset(),
     ) -> None:
-        super().__init__(tokens)
-        self.vocabulary = vocabulary
+        super().__init__(tokens, vocabulary)
         self.naming = naming
         self.owner = owner
         self.options = options
@@ -221,9 +217,9 @@ class Reader(Cursor):
             return False
         if self.rows_by_line and self.token.broken:
             return False
-        if "spaces" in self.options and self.token.spaced and kind in _BEGINS:
+        if "spaces" in self.options and self.token.spaced and kind in BEGINS:
             return False
-        return kind in _BEGINS or kind in _PRODUCT_SIGNS
+        return kind in BEGINS or kind in _PRODUCT_SIGNS
 
     def factor(self, seed: Form | None = None) -> Value:
         """Signs, then an atom with its scripts."""
@@ -312,7 +308,7 @@ class Reader(Cursor):
         if self.token.kind == "{":
             opening = self.take()
             if self.token.kind in ("name", "letter") or (
-                self.token.kind == "command" and self.token.text in lookup.ACCENTS
+                self.token.kind == "command" and self.token.text in ACCENTS
             ):
                 if not self.special():
                     form = self.form()
@@ -369,7 +365,7 @@ class Reader(Cursor):
             value = Power(value, Number(int(power.text)))
             self.position += 3
             self.token = self.tokens[self.position]
-        elif after.kind in _PLAIN_ENDS or (after.kind == "*" and self.peek(2).kind in _BEGINS):
+        elif after.kind in _PLAIN_ENDS or (after.kind == "*" and self.peek(2).kind in BEGINS):
             self.take()
         else:
             return None
@@ -379,7 +375,7 @@ class Reader(Cursor):
     def command(self, token: Token) -> Value:
         """What a LaTeX command begins: an accent, a function, a fraction, a derivative."""
         name = token.text
-        if name in lookup.ACCENTS or name == "script":
+        if name in ACCENTS or name == "script":
             return self.named(self.form())
         if (function := functions.name_of(token)) is not None:
             return functions.read(self, function)
@@ -439,156 +435,6 @@ class Reader(Cursor):
         if found is None:
             found = self.placed(start, divided, self.inner(above), self.inner(below))
         self.nesting -= 1
-        return found
-
-    # Names and what stands beside them
-
-    def form(self) -> Form:
-        """A name with its accents and scripts, before it is looked up."""
-        self.enter()
-        token = self.take()
-        if token.kind == "command" and token.text in lookup.ACCENTS:
-            form = self.accented(token)
-        elif token.kind == "command" and token.text == "script":
-            form = self.under(token)
-            form.script = True
-        elif token.kind in ("name", "letter"):
-            form = Form(token.text, token.start, token.end, dots=token.dots)
-        else:
-            self.position -= 1
-            self.token = token
-            raise self.unexpected("a name is expected here")
-        form.start = token.start
-        self.beside(form)
-        self.nesting -= 1
-        return form
-
-    def accented(self, accent: Token) -> Form:
-        """A name under a dot."""
-        form = self.under(accent)
-        form.dots += lookup.ACCENTS[accent.text]
-        if form.scripts.powers:
-            form.repaired = True
-        return form
-
-    def under(self, command: Token) -> Form:
-        """The name that an accent or a face stands over."""
-        if self.token.kind == "{":
-            opening = self.take()
-            form = self.form()
-            if self.token.kind != "}":
-                message = f"more than one name stands under `\\{command.text}`"
-                raise ReadError(
-                    message, opening.start, max(self.token.start - opening.start, 1), "one name is read there"
-                )
-            self.take()
-            return form
-        token = self.token
-        if token.kind in ("name", "letter"):
-            self.take()
-            return Form(token.text, token.start, token.end, dots=token.dots)
-        if token.kind == "command":
-            return self.form()
-        raise self.unexpected(f"a name is expected under `\\{command.text}`")
-
-    def beside(self, form: Form) -> None:
-        """The indices and scripts that follow a name."""
-        while True:
-            kind = self.token.kind
-            if kind == "_":
-                self.take()
-                tokens = self.group()
-                form.index += index_text(tokens)
-                if is_angle(tokens):
-                    form.angle = tokens
-            elif kind == "*" and self.star_is_mark(form):
-                self.take()
-                form.scripts.mark = True
-            elif not self.script(form.scripts):
-                break
-        form.end = self.tokens[max(self.position - 1, 0)].end
-
-    def star_is_mark(self, form: Form) -> bool:
-        """Whether the star here touches a coordinate's name and no factor follows."""
-        if self.token.spaced or self.peek().kind in _BEGINS:
-            return False
-        meaning = self.vocabulary.symbol(form.key)
-        return (
-            meaning is not None
-            and isinstance(meaning.value, Symbol)
-            and self.vocabulary.coordinate(meaning.value) is not None
-        )
-
-    def script(self, scripts: Scripts) -> bool:
-        """Take one script, if one stands here."""
-        token = self.token
-        if token.kind == "raised":
-            self.take()
-            scripts.powers.append(bounded(Fraction(raised_number(token)), token))
-            return True
-        if token.kind == "'" or token.kind == "''":
-            self.take()
-            scripts.primes += len(token.kind)
-            return True
-        if token.kind == "." and self.peek().text == "T" and not self.peek().spaced:
-            self.take(), self.take()
-            scripts.transposed = True
-            return True
-        if token.kind == "." and self.peek().text == "diff" and self.peek(2).kind == "(":
-            self.take(), self.take()
-            arguments = self.until(")", self.take())
-            numbers = [int(t.text) for t in arguments if t.kind == "number" and t.text in ("1", "2")]
-            scripts.primes += numbers[0] if numbers else sum(t.text == "t" for t in arguments)
-            return True
-        if token.kind != "^":
-            return False
-        self.take()
-        self.enter()
-        self.superscript(scripts, token)
-        self.nesting -= 1
-        return True
-
-    def superscript(self, scripts: Scripts, sign: Token) -> None:
-        """What stands after `^`."""
-        if self.token.kind in ("-", "+"):
-            tokens = [self.take(), *self.group()]
-        else:
-            tokens = self.group()
-        tokens = [t for t in tokens if t.kind not in ("command",) or t.text not in ("quad", "qquad")]
-        if tokens and tokens[0].kind == "*":
-            scripts.mark = True
-            tokens = [t for t in tokens[1:] if t.kind not in ("^", "{", "}")]
-        elif tokens and tokens[-1].kind == "*":
-            scripts.mark = True
-            tokens = tokens[:-1]
-        if not tokens:
-            return
-        if all(t.kind in ("'", "''") for t in tokens):
-            scripts.primes += sum(len(t.kind) for t in tokens)
-        elif len(tokens) == 1 and tokens[0].text in _TRANSPOSES:
-            scripts.transposed = True
-        else:
-            scripts.powers.append(bounded(self.exponent(tokens, sign), sign))
-
-    def exponent(self, tokens: list[Token], sign: Token) -> Fraction:
-        """The value of an exponent, a small constant."""
-        if (
-            len(tokens) == 1
-            and tokens[0].kind == "number"
-            and tokens[0].text.isdigit()
-            and len(tokens[0].text) < 4
-        ):
-            return Fraction(int(tokens[0].text))
-        value = self.inner(tokens)
-        found = constant(value) if isinstance(value, Node) else None
-        if found is None:
-            end = tokens[-1].end
-            raise ReadError(
-                "this exponent is no number",
-                sign.start,
-                max(end - sign.start, 1),
-                "an exponent is a small whole number",
-            )
         return found
 
     def scripted(self, value: Value) -> Value:

@@ -69,9 +69,9 @@ REFUSED = {
 @pytest.mark.parametrize("name", REFUSED)
 def test_a_hostile_text_is_refused_in_a_moment(name: str) -> None:
     text, message = REFUSED[name]
-    start = time.perf_counter()
+    start = time.process_time()
     found = errors(text)
-    assert time.perf_counter() - start < SECONDS
+    assert time.process_time() - start < SECONDS
     assert any(message in finding.message for finding in found), [finding.message for finding in found][:5]
     assert len(found) <= 101
 

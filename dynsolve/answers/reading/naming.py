@@ -1,0 +1,185 @@
+r"""Names as they are written, and the scripts behind them: `\dot{L}_2^{\star 2}`, theta1'', q^T."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from fractions import Fraction
+
+from dynsolve.answers.reading.cursor import Cursor
+from dynsolve.answers.reading.exponents import bounded, constant, raised_number
+from dynsolve.answers.reading.forms import Form, Scripts, index_text, is_angle
+from dynsolve.answers.reading.grids import Value
+from dynsolve.answers.reading.scan import Token
+from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.errors import ReadError
+from dynsolve.notation.tree import Node, Symbol
+
+ACCENTS: Mapping[str, int] = {"dot": 1, "ddot": 2, "dddot": 3}
+
+BEGINS = frozenset({"number", "fraction", "name", "letter", "command", "(", "[", "{", "√", "begin", "|"})
+"""The tokens that a factor begins with."""
+
+_TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
+
+
+class NameCursor(Cursor):
+    """Takes names and scripts; what they mean is for who derives from it."""
+
+    __slots__ = ("vocabulary",)
+
+    def __init__(self, tokens: list[Token], vocabulary: Vocabulary) -> None:
+        super().__init__(tokens)
+        self.vocabulary = vocabulary
+
+    @abstractmethod
+    def inner(self, tokens: list[Token]) -> Value:
+        """The value of tokens that stand inside this text."""
+
+    def form(self) -> Form:
+        """A name with its accents and scripts, before it is looked up."""
+        self.enter()
+        token = self.take()
+        if token.kind == "command" and token.text in ACCENTS:
+            form = self.accented(token)
+        elif token.kind == "command" and token.text == "script":
+            form = self.under(token)
+            form.script = True
+        elif token.kind in ("name", "letter"):
+            form = Form(token.text, token.start, token.end, dots=token.dots)
+        else:
+            self.position -= 1
+            self.token = token
+            raise self.unexpected("a name is expected here")
+        form.start = token.start
+        self.beside(form)
+        self.nesting -= 1
+        return form
+
+    def accented(self, accent: Token) -> Form:
+        """A name under a dot."""
+        form = self.under(accent)
+        form.dots += ACCENTS[accent.text]
+        if form.scripts.powers:
+            form.repaired = True
+        return form
+
+    def under(self, command: Token) -> Form:
+        """The name that an accent or a face stands over."""
+        if self.token.kind == "{":
+            opening = self.take()
+            form = self.form()
+            if self.token.kind != "}":
+                message = f"more than one name stands under `\\{command.text}`"
+                raise ReadError(
+                    message, opening.start, max(self.token.start - opening.start, 1), "one name is read there"
+                )
+            self.take()
+            return form
+        token = self.token
+        if token.kind in ("name", "letter"):
+            self.take()
+            return Form(token.text, token.start, token.end, dots=token.dots)
+        if token.kind == "command":
+            return self.form()
+        raise self.unexpected(f"a name is expected under `\\{command.text}`")
+
+    def beside(self, form: Form) -> None:
+        """The indices and scripts that follow a name."""
+        while True:
+            kind = self.token.kind
+            if kind == "_":
+                self.take()
+                tokens = self.group()
+                form.index += index_text(tokens)
+                if is_angle(tokens):
+                    form.angle = tokens
+            elif kind == "*" and self.star_is_mark(form):
+                self.take()
+                form.scripts.mark = True
+            elif not self.script(form.scripts):
+                break
+        form.end = self.tokens[max(self.position - 1, 0)].end
+
+    def star_is_mark(self, form: Form) -> bool:
+        """Whether the star here touches a coordinate's name and no factor follows."""
+        if self.token.spaced or self.peek().kind in BEGINS:
+            return False
+        meaning = self.vocabulary.symbol(form.key)
+        return (
+            meaning is not None
+            and isinstance(meaning.value, Symbol)
+            and self.vocabulary.coordinate(meaning.value) is not None
+        )
+
+    def script(self, scripts: Scripts) -> bool:
+        """Take one script, if one stands here."""
+        token = self.token
+        if token.kind == "raised":
+            self.take()
+            scripts.powers.append(bounded(Fraction(raised_number(token)), token))
+            return True
+        if token.kind == "'" or token.kind == "''":
+            self.take()
+            scripts.primes += len(token.kind)
+            return True
+        if token.kind == "." and self.peek().text == "T" and not self.peek().spaced:
+            self.take(), self.take()
+            scripts.transposed = True
+            return True
+        if token.kind == "." and self.peek().text == "diff" and self.peek(2).kind == "(":
+            self.take(), self.take()
+            arguments = self.until(")", self.take())
+            numbers = [int(t.text) for t in arguments if t.kind == "number" and t.text in ("1", "2")]
+            scripts.primes += numbers[0] if numbers else sum(t.text == "t" for t in arguments)
+            return True
+        if token.kind != "^":
+            return False
+        self.take()
+        self.enter()
+        self.superscript(scripts, token)
+        self.nesting -= 1
+        return True
+
+    def superscript(self, scripts: Scripts, sign: Token) -> None:
+        """What stands after `^`."""
+        if self.token.kind in ("-", "+"):
+            tokens = [self.take(), *self.group()]
+        else:
+            tokens = self.group()
+        tokens = [t for t in tokens if t.kind not in ("command",) or t.text not in ("quad", "qquad")]
+        if tokens and tokens[0].kind == "*":
+            scripts.mark = True
+            tokens = [t for t in tokens[1:] if t.kind not in ("^", "{", "}")]
+        elif tokens and tokens[-1].kind == "*":
+            scripts.mark = True
+            tokens = tokens[:-1]
+        if not tokens:
+            return
+        if all(t.kind in ("'", "''") for t in tokens):
+            scripts.primes += sum(len(t.kind) for t in tokens)
+        elif len(tokens) == 1 and tokens[0].text in _TRANSPOSES:
+            scripts.transposed = True
+        else:
+            scripts.powers.append(bounded(self.exponent(tokens, sign), sign))
+
+    def exponent(self, tokens: list[Token], sign: Token) -> Fraction:
+        """The value of an exponent, a small constant."""
+        if (
+            len(tokens) == 1
+            and tokens[0].kind == "number"
+            and tokens[0].text.isdigit()
+            and len(tokens[0].text) < 4
+        ):
+            return Fraction(int(tokens[0].text))
+        value = self.inner(tokens)
+        found = constant(value) if isinstance(value, Node) else None
+        if found is None:
+            end = tokens[-1].end
+            raise ReadError(
+                "this exponent is no number",
+                sign.start,
+                max(end - sign.start, 1),
+                "an exponent is a small whole number",
+            )
+        return found
