@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import io
 import os
@@ -238,19 +239,64 @@ def test_a_second_run_on_one_folder_says_so_and_stops(tmp_path: Path) -> None:
     assert "another run is at work on" in ran.err
 
 
+def _parents() -> dict[int, int]:
+    """The processes that are there, each with the one that started it."""
+    found = {}
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            state, parent = status.read_text().rpartition(")")[2].split()[:2]
+            if state != "Z":
+                found[int(status.parent.name)] = int(parent)
+    return found
+
+
+def _at_work(run: subprocess.Popen[bytes]) -> list[int]:
+    """The workers of a run, as soon as there are some."""
+    deadline = time.monotonic() + 30
+    while time.monotonic() < deadline and run.poll() is None:
+        found = [process for process, parent in _parents().items() if parent == run.pid]
+        if found:
+            return found
+        time.sleep(0.02)
+    return []
+
+
 def test_a_run_that_is_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
     problem_set(tmp_path / "set")
-    course(tmp_path / "in", 30)
+    course(tmp_path / "in", 60)
     words = (tmp_path / "set", tmp_path / "in")
+    start = time.monotonic()
     with _grade(*words, tmp_path / "whole") as whole:
         assert whole.wait() == 0
+    took = time.monotonic() - start
     chance = random.Random(5)
     for _ in range(10):
         with _grade(*words, tmp_path / "killed") as run:
-            time.sleep(chance.uniform(0.1, 1.5))
+            time.sleep(chance.uniform(0.1, took / 2))
             run.send_signal(signal.SIGKILL)
     with _grade(*words, tmp_path / "killed") as run:
         assert run.wait() == 0
+    assert _contents(tmp_path / "killed") == _contents(tmp_path / "whole")
+    assert _dump(tmp_path / "killed") == _dump(tmp_path / "whole")
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_a_run_whose_workers_are_killed_comes_to_the_same_bytes(tmp_path: Path) -> None:
+    problem_set(tmp_path / "set")
+    course(tmp_path / "in", 60)
+    words = (tmp_path / "set", tmp_path / "in")
+    with _grade(*words, tmp_path / "whole") as whole:
+        assert whole.wait() == 0
+    killed = 0
+    with _grade(*words, tmp_path / "killed", "--jobs", "1") as run:
+        while run.poll() is None and killed < 4:
+            for worker in _at_work(run):
+                time.sleep(0.3)
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(worker, signal.SIGKILL)
+                    killed += 1
+        assert run.wait() == 0
+    assert killed
     assert _contents(tmp_path / "killed") == _contents(tmp_path / "whole")
     assert _dump(tmp_path / "killed") == _dump(tmp_path / "whole")
 
@@ -269,15 +315,32 @@ def test_a_full_disk_is_said_and_the_same_command_goes_on(tmp_path: Path) -> Non
     assert len(_csv(tmp_path / "out" / "grades.csv")) == 12
 
 
-def test_ctrl_c_ends_cleanly_and_says_how_to_go_on(tmp_path: Path) -> None:
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_ctrl_c_ends_cleanly_leaves_no_process_and_says_how_to_go_on(tmp_path: Path) -> None:
     problem_set(tmp_path / "set")
     course(tmp_path / "in", 200)
     with _grade(tmp_path / "set", tmp_path / "in", tmp_path / "out") as run:
-        time.sleep(2)
+        workers = _at_work(run)
+        time.sleep(0.5)
         run.send_signal(signal.SIGINT)
         _, err = run.communicate()
     assert run.returncode == 130
     assert b"the same command goes on" in err and b"Traceback" not in err
+    assert workers and not _parents().keys() & set(workers)
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_workers_do_not_outlive_a_run_that_is_killed(tmp_path: Path) -> None:
+    problem_set(tmp_path / "set")
+    course(tmp_path / "in", 60)
+    with _grade(tmp_path / "set", tmp_path / "in", tmp_path / "out") as run:
+        workers = _at_work(run)
+        run.send_signal(signal.SIGKILL)
+    deadline = time.monotonic() + 30
+    while _parents().keys() & set(workers):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    assert workers
 
 
 def test_regrade_tells_whose_marks_changed_and_why(tmp_path: Path, set_folder: Path) -> None:
