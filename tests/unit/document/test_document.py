@@ -100,3 +100,23 @@ def test_in_brief_every_stage_has_its_result(solution: dynsolve.Solution) -> Non
             isinstance(block, Formula)
             for block in blocks_of(solution_document(solution, Detail.BRIEF, [stage]))
         )
+
+
+TYPED = r"2m₁ q_1 $x$ `b` <i> \frac{1}{2} | # 50%"
+
+
+@pytest.mark.parametrize("form", ["html", "latex", "markdown", "terminal", "typst"])
+def test_what_somebody_typed_stays_as_it_was_typed(form: str) -> None:
+    from importlib import import_module
+
+    renderer = import_module(f"dynsolve.render.{form}")
+    render = renderer.to_typst_document if form == "typst" else renderer.render
+    shown = render(Document((Heading("Title", 1), Text(("Read: ", document.Verbatim(TYPED))))))
+    page = "\n".join(line.text for line in shown) if form == "terminal" else shown
+    assert {
+        "html": '<code dir="auto">2m₁ q_1 $x$ `b` &lt;i&gt; \\frac{1}{2} | # 50%</code>',
+        "latex": r"\texttt{2m1 q\_1 \$x\$ ",
+        "markdown": f"`` {TYPED} ``",
+        "terminal": f"Read: {TYPED}",
+        "typst": '#raw("2m₁ q_1 $x$ `b` <i> \\\\frac{1}{2} | # 50%");',
+    }[form] in page
