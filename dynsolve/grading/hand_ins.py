@@ -184,8 +184,11 @@ def _sorted(
         problem, reason = _problem(problems, text, owner.name, ending)
         if reason:
             yield _Left(owner, student, problem, shown, reason)
-        else:
-            yield _Piece(owner, student, problem, File(upload, owner.name, digest(content)))
+            continue
+        yield _Piece(owner, student, problem, File(upload, owner.name, digest(content)))
+        for other in _also(problems, text, owner.name, ending):
+            reason = f"it was read as an answer to {problem}; its headings name {other}, too"
+            yield _Left(owner, student, other, shown, reason)
 
 
 def _beginning(content: bytes, ending: str) -> str:
@@ -229,13 +232,26 @@ def _problem(problems: ProblemSet, text: str, name: str, ending: str) -> tuple[s
     named = _by_name(problems, name)
     if named:
         return named, ""
-    for heading in _HEADING.finditer(text):
-        found = _within(unescape(_TAG.sub(" ", next(filter(None, heading.groups())))), problems)
-        if found:
-            return found, ""
+    for found in _headed(problems, text):
+        return found, ""
     if len(problems.items) == 1:
         return problems.items[0].stem, ""
     return "", "neither its front matter, its name nor its heading says which problem it is for"
+
+
+def _headed(problems: ProblemSet, text: str) -> Iterator[str]:
+    """The problems that headings name."""
+    for heading in _HEADING.finditer(text):
+        found = _within(unescape(_TAG.sub(" ", next(filter(None, heading.groups())))), problems)
+        if found:
+            yield found
+
+
+def _also(problems: ProblemSet, text: str, name: str, ending: str) -> list[str]:
+    """The further problems of a file whose problem is that of its first heading."""
+    if _said(_PROBLEM, text, ending) or _by_name(problems, name):
+        return []
+    return list(dict.fromkeys(_headed(problems, text)))[1:]
 
 
 def _by_name(problems: ProblemSet, name: str) -> str:
