@@ -132,3 +132,16 @@ def test_light_and_dark_can_be_read(page: Page, out: Path) -> None:
         assert (sum(ink[:3]) > 380) is dark
         link = page.ask("getComputedStyle(document.querySelector('a')).color.match(/\\d+/g).map(Number)")
         assert (sum(link[:3]) > 380) is dark
+
+
+def test_students_pages_fit_a_phone_and_fetch_nothing(page: Page, out: Path) -> None:
+    pages = sorted((out / "feedback").glob("*/*.html"))
+    for path in (*pages[:4], *(out / "feedback" / "twin1").glob("*.html")):
+        for width in (400, 1200):
+            page.open(path, width, "dark")
+            assert page.requests == [path.as_uri()]
+            assert page.complaints == []
+            assert page.ask("document.documentElement.scrollWidth <= innerWidth") is True, path
+            assert page.ask("document.querySelectorAll('script').length") == 0
+    assert page.ask("document.querySelector('.marks').textContent").count("set by the teacher") == 1
+    assert page.ask("document.querySelectorAll('b').length") == 0
