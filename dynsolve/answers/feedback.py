@@ -29,7 +29,7 @@ from dynsolve.document import (
     Verbatim,
 )
 from dynsolve.errors import Finding
-from dynsolve.notation.tree import Letter, Node, Number, Power, Relation, Symbol
+from dynsolve.notation.tree import Letter, Node, Number, Power, Relation, Row, Symbol
 
 _SAID = {
     Verdict.CORRECT: "correct",
@@ -185,6 +185,8 @@ def typeset(text: str) -> Prose:
 
     >>> typeset("2m₂ l_c2² is wrong")
     ('2', 'm₂ ', Power(base=Symbol(name='lc2', ...), exponent=Number(...)), ' is wrong')
+    >>> [type(part).__name__ for part in typeset("c_ijk = ½")]
+    ['Letter', 'str']
     """
     parts: list[Inline] = []
     place = 0
@@ -194,10 +196,17 @@ def typeset(text: str) -> Prose:
         if found["number"]:
             parts.append(found["number"])
             continue
-        symbol: Node = Symbol(found["letter"] + found["index"])
         power = _POWERS.get(found["power"])
+        symbol = _symbol(found["letter"], found["index"])
         parts.append(symbol if power is None else Power(symbol, Number(power)))
     return tuple(part for part in (*parts, text[place:]) if part != "")
+
+
+def _symbol(letter: str, index: str) -> Node:
+    """l_c2 is the problem's symbol lc2, c_ijk a letter with running indices."""
+    if index.isalpha():
+        return Letter(letter, Row(tuple(map(Symbol, index))))
+    return Symbol(letter + index)
 
 
 def _index(entry: EntryVerdict) -> str:
