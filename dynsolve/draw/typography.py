@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.names import split
-from dynsolve.notation.printing import Rules, Style
+from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
 
@@ -59,17 +58,12 @@ class Line:
 class _MarkedPrinter(UnicodePrinter):
     """Unicode with marks where indices begin and end."""
 
-    rules: ClassVar[Rules] = UnicodePrinter.rules
-
     def _symbol(self, node: Symbol) -> str:
         base, groups = split(node.name)
         text = GREEK.get(base, base)
         if groups:
             text += _DOWN + ",".join(_index(group) for group in groups) + _BACK
         return text + (_UP + _STAR + _BACK if self.style.starred(node) else "")
-
-
-_MarkedPrinter.rules = {**UnicodePrinter.rules, Symbol: _MarkedPrinter._symbol}
 
 
 def _index(group: str) -> str:

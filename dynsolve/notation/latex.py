@@ -3,14 +3,12 @@ r"""Trees -> LaTeX (with amsmath): \dot{\theta}_{1}, s_{12}, \frac{1}{2} I_{1,zz
 from __future__ import annotations
 
 import re
-from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import (
     PLAIN,
-    Printer,
-    Rules,
+    FormulaPrinter,
     Style,
     decimal_text,
     is_numeric,
@@ -25,7 +23,6 @@ from dynsolve.notation.tree import (
     Function,
     Letter,
     Matrix,
-    Negative,
     Node,
     Number,
     Parenthesized,
@@ -33,7 +30,6 @@ from dynsolve.notation.tree import (
     Product,
     Quotient,
     Relation,
-    Row,
     Sum,
     Symbol,
     Transpose,
@@ -95,7 +91,7 @@ def _group(index: str) -> str:
     return " ".join(pieces) if len(pieces) > 1 and pieces[0].startswith("\\") else "".join(pieces)
 
 
-class LatexPrinter(Printer):
+class LatexPrinter(FormulaPrinter):
     """LaTeX with amsmath; parentheses grow only where what they hold is tall."""
 
     notation = "LaTeX"
@@ -197,17 +193,11 @@ class LatexPrinter(Printer):
             return rf"\sqrt{{{argument}}}"
         return rf"\{node.name}{self.parenthesized(argument)}"
 
-    def _in_parentheses(self, node: Parenthesized) -> str:
-        return self.parenthesized(self.text(node.argument))
-
     # Formulas of the textbook
 
     def _matrix(self, node: Matrix) -> str:
         rows = r" \\ ".join(" & ".join(map(self.text, row)) for row in node.rows)
         return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
-
-    def _row(self, node: Row) -> str:
-        return " ".join(map(self.text, node.parts))
 
     def _transpose(self, node: Transpose) -> str:
         argument = node.argument
@@ -218,11 +208,6 @@ class LatexPrinter(Printer):
 
     def _cross(self, node: Cross) -> str:
         return rf"{self._operand(node.left)} \times {self._operand(node.right)}"
-
-    def _operand(self, node: Node) -> str:
-        text = self.text(node)
-        compound = type(node) in (Sum, Product, Cross, BigSum, Derivative, Relation)
-        return self.parenthesized(text) if compound or text.startswith("-") else text
 
     def _derivative(self, node: Derivative) -> str:
         by = self.text(node.by)
@@ -237,40 +222,12 @@ class LatexPrinter(Printer):
         inner = of if type(node.of) is Parenthesized else self.parenthesized(of)
         return rf"\frac{{{d}}}{{{below}}} {inner}"
 
+    def _sign(self, sign: str) -> str:
+        return f" {_SIGNS.get(sign, sign)} "
+
     def _big_sum(self, node: BigSum) -> str:
         bounds = f"_{{{self.text(node.index)}={self.text(node.lower)}}}^{{{self.text(node.upper)}}}"
-        body = self.text(node.body)
-        if type(node.body) in (Sum, Relation) or body.startswith("-"):
-            body = self.parenthesized(body)
-        return rf"\sum{bounds} {body}"
-
-    def _relation(self, node: Relation) -> str:
-        text = self.text(node.parts[0]) if node.parts else ""
-        for sign, part in zip(node.signs, node.parts[1:], strict=True):
-            text += f" {_SIGNS.get(sign, sign)} {self.text(part)}"
-        return text
-
-    rules: ClassVar[Rules] = {
-        Symbol: _symbol,
-        Number: _number,
-        Product: _product,
-        Sum: Printer._sum,
-        Power: _power,
-        Negative: Printer._negative,
-        Quotient: _quotient,
-        Function: _function,
-        Degrees: _degrees,
-        Matrix: _matrix,
-        Letter: _letter,
-        Row: _row,
-        Words: _words,
-        Transpose: _transpose,
-        Cross: _cross,
-        Derivative: _derivative,
-        BigSum: _big_sum,
-        Parenthesized: _in_parentheses,
-        Relation: _relation,
-    }
+        return rf"\sum{bounds} {self._summand(node.body)}"
 
 
 def _dotted(base: str, dots: int) -> str:

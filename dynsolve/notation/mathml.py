@@ -7,14 +7,12 @@ from __future__ import annotations
 
 import re
 from html import escape
-from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import (
     PLAIN,
-    Printer,
-    Rules,
+    FormulaPrinter,
     Style,
     decimal_text,
     flat_factors,
@@ -38,7 +36,6 @@ from dynsolve.notation.tree import (
     Product,
     Quotient,
     Relation,
-    Row,
     Sum,
     Symbol,
     Transpose,
@@ -115,10 +112,15 @@ def indexed(base: str, sub: str, sup: str) -> str:
     return f"<msup>{base}{sup}</msup>" if sup else base
 
 
-class MathMLPrinter(Printer):
+class MathMLPrinter(FormulaPrinter):
     """MathML Core; parentheses grow only where what they hold is tall."""
 
     notation = "MathML"
+    between = ""
+    minus = MINUS
+
+    def _sign(self, sign: str) -> str:
+        return f"<mo>{escape(sign)}</mo>"
 
     def __init__(self, style: Style = PLAIN) -> None:
         super().__init__(style)
@@ -247,9 +249,6 @@ class MathMLPrinter(Printer):
             return f"<msqrt>{argument}</msqrt>"
         return f"<mi>{node.name}</mi><mo>{_APPLY}</mo>{self.parenthesized(argument)}"
 
-    def _in_parentheses(self, node: Parenthesized) -> str:
-        return self.parenthesized(self.text(node.argument))
-
     # Formulas of the textbook
 
     def _matrix(self, node: Matrix) -> str:
@@ -258,9 +257,6 @@ class MathMLPrinter(Printer):
             for cells in node.rows
         )
         return row(f"<mo>[</mo><mtable>{rows}</mtable><mo>]</mo>")
-
-    def _row(self, node: Row) -> str:
-        return "".join(map(self.text, node.parts))
 
     def _transpose(self, node: Transpose) -> str:
         argument = node.argument
@@ -277,11 +273,6 @@ class MathMLPrinter(Printer):
     def _cross(self, node: Cross) -> str:
         return f"{self._operand(node.left)}<mo>×</mo>{self._operand(node.right)}"
 
-    def _operand(self, node: Node) -> str:
-        text = self.text(node)
-        compound = type(node) in (Sum, Product, Cross, BigSum, Derivative, Relation)
-        return self.parenthesized(text) if compound or text.startswith(MINUS) else text
-
     def _derivative(self, node: Derivative) -> str:
         d = "<mi>d</mi>" if node.total else "<mo>∂</mo>"
         below = row(d + self.text(node.by))
@@ -295,38 +286,8 @@ class MathMLPrinter(Printer):
 
     def _big_sum(self, node: BigSum) -> str:
         under = row(f"{self.text(node.index)}<mo>=</mo>{self.text(node.lower)}")
-        body = self.text(node.body)
-        if type(node.body) in (Sum, Relation) or body.startswith(MINUS):
-            body = self.parenthesized(body)
-        return f"<munderover><mo>∑</mo>{under}{_one(self.text(node.upper))}</munderover>{body}"
-
-    def _relation(self, node: Relation) -> str:
-        text = self.text(node.parts[0]) if node.parts else ""
-        for sign, part in zip(node.signs, node.parts[1:], strict=True):
-            text += f"<mo>{escape(sign)}</mo>{self.text(part)}"
-        return text
-
-    rules: ClassVar[Rules] = {
-        Symbol: _symbol,
-        Number: _number,
-        Product: _product,
-        Sum: _sum,
-        Power: _power,
-        Negative: _negative,
-        Quotient: _quotient,
-        Function: _function,
-        Degrees: _degrees,
-        Matrix: _matrix,
-        Letter: _letter,
-        Row: _row,
-        Words: _words,
-        Transpose: _transpose,
-        Cross: _cross,
-        Derivative: _derivative,
-        BigSum: _big_sum,
-        Parenthesized: _in_parentheses,
-        Relation: _relation,
-    }
+        sign = f"<munderover><mo>∑</mo>{under}{_one(self.text(node.upper))}</munderover>"
+        return sign + self._summand(node.body)
 
 
 def _fraction(above: str, below: str) -> str:

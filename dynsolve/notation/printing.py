@@ -1,8 +1,8 @@
 """What the printers share: the style, the walk over the tree, numbers and shorthands.
 
-A printer is a table from type of node to a method that returns its text.  To add
-one, derive from `Printer`, fill `rules`, and write its function beside the others.
-A printer never changes what the tree says; it only decides on parentheses.
+A printer has a method for each type of node that returns its text.  To add one, derive
+from `FormulaPrinter` (or from `Printer`, for a notation of expressions alone), and write
+its function beside the others.  A printer never changes what the tree says; it only decides on parentheses.
 """
 
 from __future__ import annotations
@@ -12,16 +12,26 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 from dynsolve.notation.tree import (
+    BigSum,
+    Cross,
+    Degrees,
+    Derivative,
     Function,
     Letter,
+    Matrix,
     Negative,
     Node,
     Number,
+    Parenthesized,
     Power,
     Product,
     Quotient,
+    Relation,
+    Row,
     Sum,
     Symbol,
+    Transpose,
+    Words,
 )
 
 
@@ -48,6 +58,28 @@ PLAIN = Style()
 
 Rules = Mapping[type[Node], Callable[[Any, Any], str]]
 
+_METHODS: Mapping[type[Node], str] = {
+    Symbol: "_symbol",
+    Number: "_number",
+    Product: "_product",
+    Sum: "_sum",
+    Power: "_power",
+    Negative: "_negative",
+    Quotient: "_quotient",
+    Function: "_function",
+    Degrees: "_degrees",
+    Matrix: "_matrix",
+    Letter: "_letter",
+    Row: "_row",
+    Words: "_words",
+    Transpose: "_transpose",
+    Cross: "_cross",
+    Derivative: "_derivative",
+    BigSum: "_big_sum",
+    Parenthesized: "_in_parentheses",
+    Relation: "_relation",
+}
+
 # Sub-trees that are shared come as these; leaves and short nodes cost less than their entry.
 _REMEMBERED = frozenset({Sum, Product, Quotient, Power, Function, Letter})
 
@@ -62,6 +94,10 @@ class Printer:
 
     rules: ClassVar[Rules] = {}
     notation: ClassVar[str] = ""
+
+    def __init_subclass__(cls) -> None:
+        """Make the table that is looked up for every node."""
+        cls.rules = {kind: getattr(cls, name) for kind, name in _METHODS.items() if hasattr(cls, name)}
 
     def __init__(self, style: Style = PLAIN) -> None:
         self.style = style
@@ -107,6 +143,46 @@ class Printer:
         if type(node.argument) is Sum or text.startswith("-"):
             text = self.parenthesized(text)
         return "-" + text
+
+    def _in_parentheses(self, node: Parenthesized) -> str:
+        return self.parenthesized(self.text(node.argument))
+
+
+class FormulaPrinter(Printer):
+    """A printer of whole formulas: what the textbook's formulas have in common in every notation."""
+
+    between: ClassVar[str] = " "
+    """What stands between parts side by side."""
+
+    minus: ClassVar[str] = "-"
+    """What a negative begins with."""
+
+    compound: ClassVar[frozenset[type[Node]]] = frozenset({Sum, Product, Cross, BigSum, Derivative, Relation})
+    """What needs parentheses beside the sign of a cross product."""
+
+    def _row(self, node: Row) -> str:
+        return self.between.join(map(self.text, node.parts))
+
+    def _operand(self, node: Node) -> str:
+        text = self.text(node)
+        needed = type(node) in self.compound or text.startswith(self.minus)
+        return self.parenthesized(text) if needed else text
+
+    def _summand(self, node: Node) -> str:
+        """What a running sum adds up."""
+        text = self.text(node)
+        needed = type(node) in (Sum, Relation) or text.startswith(self.minus)
+        return self.parenthesized(text) if needed else text
+
+    def _relation(self, node: Relation) -> str:
+        text = self.text(node.parts[0]) if node.parts else ""
+        for sign, part in zip(node.signs, node.parts[1:], strict=True):
+            text += self._sign(sign) + self.text(part)
+        return text
+
+    def _sign(self, sign: str) -> str:
+        """The sign of a relation with the blanks around it."""
+        return f" {sign} "
 
 
 def decimal_text(p: int, q: int) -> str | None:

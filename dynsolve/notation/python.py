@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from keyword import iskeyword
 from math import radians
-from typing import ClassVar
 
-from dynsolve.notation.printing import Printer, Rules, Style, decimal_text, is_whole
+from dynsolve.notation.printing import Printer, Style, decimal_text, is_whole
 from dynsolve.notation.tree import (
     Degrees,
     Function,
     Matrix,
-    Negative,
     Node,
     Number,
     Parenthesized,
@@ -95,23 +93,6 @@ class PythonPrinter(Printer):
     def _function(self, node: Function) -> str:
         return f"{node.name}({self.text(node.argument)})"
 
-    def _in_parentheses(self, node: Parenthesized) -> str:
-        return f"({self.text(node.argument)})"
-
     def _matrix(self, node: Matrix) -> str:
         rows = (f"[{', '.join(map(self.text, row))}]" for row in node.rows)
         return f"[{', '.join(rows)}]"
-
-    rules: ClassVar[Rules] = {
-        Symbol: _symbol,
-        Number: _number,
-        Product: _product,
-        Sum: Printer._sum,
-        Power: _power,
-        Negative: Printer._negative,
-        Quotient: _quotient,
-        Function: _function,
-        Degrees: _degrees,
-        Parenthesized: _in_parentheses,
-        Matrix: _matrix,
-    }

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import (
     PLAIN,
-    Printer,
-    Rules,
+    FormulaPrinter,
     Style,
     decimal_text,
     flat_factors,
@@ -26,7 +24,6 @@ from dynsolve.notation.tree import (
     Function,
     Letter,
     Matrix,
-    Negative,
     Node,
     Number,
     Parenthesized,
@@ -89,7 +86,7 @@ def _dotted(base: str, dots: int) -> str:
     return f"accent({base}, {_DOTS[dots]})" if dots else base
 
 
-class TypstPrinter(Printer):
+class TypstPrinter(FormulaPrinter):
     """Typst's mathematics; parentheses that match grow by themselves."""
 
     notation = "Typst"
@@ -189,9 +186,6 @@ class TypstPrinter(Printer):
             return f"sqrt({argument})"
         return f"{node.name} {self.parenthesized(argument)}"
 
-    def _in_parentheses(self, node: Parenthesized) -> str:
-        return self.parenthesized(self.text(node.argument))
-
     # Formulas of the textbook
 
     def _matrix(self, node: Matrix) -> str:
@@ -215,11 +209,6 @@ class TypstPrinter(Printer):
     def _cross(self, node: Cross) -> str:
         return f"{self._operand(node.left)} times {self._operand(node.right)}"
 
-    def _operand(self, node: Node) -> str:
-        text = self.text(node)
-        compound = type(node) in (Sum, Product, Cross, BigSum, Derivative, Relation)
-        return self.parenthesized(text) if compound or text.startswith("-") else text
-
     def _derivative(self, node: Derivative) -> str:
         d = "d" if node.total else "partial"
         below = f"{d} {self.text(node.by)}"
@@ -233,35 +222,4 @@ class TypstPrinter(Printer):
 
     def _big_sum(self, node: BigSum) -> str:
         bounds = f"_({self.text(node.index)} = {self.text(node.lower)})^({self.text(node.upper)})"
-        body = self.text(node.body)
-        if type(node.body) in (Sum, Relation) or body.startswith("-"):
-            body = self.parenthesized(body)
-        return f"sum{bounds} {body}"
-
-    def _relation(self, node: Relation) -> str:
-        text = self.text(node.parts[0]) if node.parts else ""
-        for sign, part in zip(node.signs, node.parts[1:], strict=True):
-            text += f" {sign} {self.text(part)}"
-        return text
-
-    rules: ClassVar[Rules] = {
-        Symbol: _symbol,
-        Number: _number,
-        Product: _product,
-        Sum: Printer._sum,
-        Power: _power,
-        Negative: Printer._negative,
-        Quotient: _quotient,
-        Function: _function,
-        Degrees: _degrees,
-        Matrix: _matrix,
-        Letter: _letter,
-        Row: _row,
-        Words: _words,
-        Transpose: _transpose,
-        Cross: _cross,
-        Derivative: _derivative,
-        BigSum: _big_sum,
-        Parenthesized: _in_parentheses,
-        Relation: _relation,
-    }
+        return f"sum{bounds} {self._summand(node.body)}"

@@ -7,14 +7,12 @@ braces where the subscript has more than letters and digits (I_{xx,1}).
 from __future__ import annotations
 
 import re
-from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import (
     PLAIN,
-    Printer,
-    Rules,
+    FormulaPrinter,
     Style,
     decimal_text,
     flat_factors,
@@ -140,10 +138,12 @@ def _joined(groups: tuple[str, ...]) -> str:
     return text
 
 
-class UnicodePrinter(Printer):
+class UnicodePrinter(FormulaPrinter):
     """One line of Unicode; products have no sign where none is needed."""
 
     notation = "Unicode"
+    between = ""
+    compound = FormulaPrinter.compound | {Quotient}
 
     def __init__(self, style: Style = PLAIN) -> None:
         super().__init__(style)
@@ -280,17 +280,11 @@ class UnicodePrinter(Printer):
             return f"√{argument}" if bare else f"√({argument})"
         return f"{node.name}({argument})"
 
-    def _in_parentheses(self, node: Parenthesized) -> str:
-        return f"({self.text(node.argument)})"
-
     # Formulas of the textbook
 
     def _matrix(self, node: Matrix) -> str:
         rows = (f"[{', '.join(map(self.text, row))}]" for row in node.rows)
         return f"[{', '.join(rows)}]"
-
-    def _row(self, node: Row) -> str:
-        return "".join(map(self.text, node.parts))
 
     def _transpose(self, node: Transpose) -> str:
         argument = node.argument
@@ -300,11 +294,6 @@ class UnicodePrinter(Printer):
 
     def _cross(self, node: Cross) -> str:
         return f"{self._operand(node.left)} × {self._operand(node.right)}"
-
-    def _operand(self, node: Node) -> str:
-        text = self.text(node)
-        compound = type(node) in (Sum, Product, Quotient, Cross, BigSum, Derivative, Relation)
-        return f"({text})" if compound or text.startswith("-") else text
 
     def _derivative(self, node: Derivative) -> str:
         d = "d" if node.total else "∂"
@@ -318,38 +307,7 @@ class UnicodePrinter(Printer):
 
     def _big_sum(self, node: BigSum) -> str:
         below = f"{self._index(node.index)}={self._index(node.lower)}"
-        body = self.text(node.body)
-        if type(node.body) in (Sum, Relation) or body.startswith("-"):
-            body = f"({body})"
-        return f"Σ{lowered(below)}{raised(self._index(node.upper))} {body}"
-
-    def _relation(self, node: Relation) -> str:
-        text = self.text(node.parts[0]) if node.parts else ""
-        for sign, part in zip(node.signs, node.parts[1:], strict=True):
-            text += f" {sign} {self.text(part)}"
-        return text
-
-    rules: ClassVar[Rules] = {
-        Symbol: _symbol,
-        Number: _number,
-        Product: _product,
-        Sum: Printer._sum,
-        Power: _power,
-        Negative: Printer._negative,
-        Quotient: _quotient,
-        Function: _function,
-        Degrees: _degrees,
-        Matrix: _matrix,
-        Letter: _letter,
-        Row: _row,
-        Words: _words,
-        Transpose: _transpose,
-        Cross: _cross,
-        Derivative: _derivative,
-        BigSum: _big_sum,
-        Parenthesized: _in_parentheses,
-        Relation: _relation,
-    }
+        return f"Σ{lowered(below)}{raised(self._index(node.upper))} {self._summand(node.body)}"
 
 
 def _fraction_sign(node: Quotient) -> str | None:

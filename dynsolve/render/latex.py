@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, groupby
-from typing import ClassVar
 
 from dynsolve.document import (
     Block,
@@ -26,7 +25,7 @@ from dynsolve.document import (
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
-from dynsolve.notation.printing import PLAIN, Rules, Style
+from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.render.flow import Notation
 from dynsolve.render.latex_text import latex_text
@@ -131,8 +130,6 @@ class _Printer(LatexPrinter):
         if node.text == ", ":
             return r",\quad"
         return "," if node.text == "," else super()._words(node)
-
-    rules: ClassVar[Rules] = {**LatexPrinter.rules, Matrix: _matrix, Words: _words}
 
 
 class _Page:

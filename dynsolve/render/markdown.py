@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import ClassVar
 
 from dynsolve.document import (
     Block,
@@ -29,7 +28,7 @@ from dynsolve.document import (
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
-from dynsolve.notation.printing import PLAIN, Rules, Style
+from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.render.latex import latex_notation
 from dynsolve.render.references import numbered, with_sources
@@ -61,8 +60,6 @@ class _Printer(LatexPrinter):
         if node.text.strip() == ",":
             return r",\quad " if node.text.endswith(" ") else ","
         return super()._words(node)
-
-    rules: ClassVar[Rules] = {**LatexPrinter.rules, Matrix: _matrix, Words: _words}
 
 
 class _Page:
