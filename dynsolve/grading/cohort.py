@@ -99,6 +99,7 @@ def _count(cohort: Cohort, a: Graded, unjudged: str) -> None:
         )
     if a.said:
         cohort.by_hand.append(a)
+        cohort.pages.add((a.student, a.problem))
         return
     reason = _for_a_human(a)
     if reason and reason != unjudged:

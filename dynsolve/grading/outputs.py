@@ -12,7 +12,7 @@ from pathlib import Path
 
 from dynsolve.files import temporary_of, write_changed
 from dynsolve.grading.ledger import most, standings
-from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, unpack
+from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
 from dynsolve.grading.policy import points, shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record, Row
@@ -32,7 +32,7 @@ def write_outputs(folder: Path, problems: ProblemSet, record: Record) -> None:
 
     write(folder / "grades.csv", table(_grades(problems, record)))
     write(folder / "answers.csv", table(_answers(record)))
-    _feedback(folder / "feedback", record)
+    _feedback(folder / "feedback", problems, record)
     write(folder / "report.html", teachers_page(problems, record))
 
 
@@ -76,7 +76,7 @@ def folder_name(student: str) -> str:
     return f"{plain or '_'}-{sha256(student.encode('utf-8', errors='replace')).hexdigest()[:8]}"
 
 
-def _feedback(folder: Path, record: Record) -> None:
+def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
     written: set[Path] = set()
     answers = groupby(record.answers(), key=lambda a: (a.student, a.problem))
     waiting = next(answers, None)
@@ -85,13 +85,17 @@ def _feedback(folder: Path, record: Record) -> None:
         if waiting is not None and waiting[0] == (row.student, row.problem):
             own = list(waiting[1])
             waiting = next(answers, None)
-        if not row.html:
+        if row.html:
+            html, markdown = unpack(row.html), unpack(row.markdown)
+        elif any(answer.said for answer in own):
+            html, markdown = absent_page(problems.item(row.problem).problem.title, row.student)
+        else:
             continue
         place = folder / folder_name(row.student)
         total, explained = _total(own), _explained(row, own)
         for ending, page in (
-            (".html", _html(row, total, explained, unpack(row.html))),
-            (".md", _markdown(row, total, explained, unpack(row.markdown))),
+            (".html", _html(row, total, explained, html)),
+            (".md", _markdown(row, total, explained, markdown)),
         ):
             path = place / f"{row.problem}{ending}"
             written.add(path)

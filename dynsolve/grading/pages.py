@@ -46,14 +46,28 @@ def student_page(report: Report, problem: Problem, student: str, hints: int) -> 
         *readings(report, view),
         *not_recognized(report),
     )
-    return _rendered(f"{problem.title}: {student}", blocks, style_of(problem.robot))
+    return _packed(_rendered(f"{problem.title}: {student}", blocks, style_of(problem.robot)))
 
 
 def bare_page(title: str, student: str, reason: str) -> tuple[str, str]:
     """The page of a hand-in that could not be judged."""
     said = f"The program could not judge this hand-in: {reason}. It is on your teacher's list."
+    return _packed(_only_said(title, student, said))
+
+
+def absent_page(title: str, student: str) -> tuple[str, str]:
+    """The page of what was not handed in, for which a teacher gives marks; as it is, not packed."""
+    return _only_said(title, student, "Nothing was handed in here that the program could judge.")
+
+
+def _only_said(title: str, student: str, said: str) -> tuple[str, str]:
     blocks = (Text((MARKS_HERE,)), Text((said,)), Text((TABLE_HERE,)))
     return _rendered(f"{title}: {student}", blocks, PLAIN)
+
+
+def _packed(pages: tuple[str, str]) -> tuple[str, str]:
+    html, markdown = pages
+    return pack(html), pack(markdown)
 
 
 def _rendered(title: str, blocks: tuple[Block, ...], style: Style) -> tuple[str, str]:
@@ -61,4 +75,4 @@ def _rendered(title: str, blocks: tuple[Block, ...], style: Style) -> tuple[str,
     from dynsolve.render.markdown import render as render_markdown
 
     document = Document((Heading(title, 1), *blocks))
-    return pack(render_html(document, style)), pack(render_markdown(document, style))
+    return render_html(document, style), render_markdown(document, style)

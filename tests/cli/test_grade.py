@@ -383,6 +383,21 @@ def test_an_override_is_kept_and_shown(tmp_path: Path, set_folder: Path) -> None
         dynsolve(*words)
 
 
+def test_marks_for_what_was_not_handed_in_are_read_by_the_student(tmp_path: Path) -> None:
+    problem_set(tmp_path / "set")
+    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    out = tmp_path / "out"
+    dynsolve("grade", str(tmp_path / "set"), str(hand_ins), "-o", str(out))
+    page = out / "feedback" / "a" / "planar-2r.html"
+    assert not page.exists()
+    words = ("override", str(out), "a", "planar-2r", "K", "--marks", "3", "--why", "shown at the board")
+    assert dynsolve(*words).code == 0
+    text = page.read_text()
+    assert "Marks: 3 of 21" in text and "set by the teacher: shown at the board" in text
+    assert "Nothing was handed in here that the program could judge." in text
+    assert 'href="feedback/a/planar-2r.html"' in (out / "report.html").read_text()
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
