@@ -1,4 +1,4 @@
-"""A course with every hostile file beside good hand-ins: the run goes on, and each good one gets its marks."""
+"""A course with every hostile file beside good hand-ins: the run goes on, the good ones get their marks."""
 
 from __future__ import annotations
 

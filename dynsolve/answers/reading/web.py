@@ -44,7 +44,7 @@ def _without_comments(text: str) -> str:
 
 
 def _closed(text: str) -> str:
-    """The text with blanks for what opens tags that never close: a parser looks for their end again and again."""
+    """The text with blanks for what opens tags that never close: a parser would look for their ends."""
     last = text.rfind(">") + 1
     return text[:last] + text[last:].replace("<", " ")
 
