@@ -11,7 +11,7 @@ from pathlib import Path
 
 from dynsolve.errors import UsageError
 from dynsolve.grading.changes import changes
-from dynsolve.grading.exports import chosen_roster, export, keep_platform, late
+from dynsolve.grading.exports import PLATFORMS, chosen_roster, export, keep_platform, late
 from dynsolve.grading.hand_ins import Waiting, take_in
 from dynsolve.grading.ledger import standings
 from dynsolve.grading.outputs import write_outputs
@@ -22,6 +22,7 @@ from dynsolve.grading.record import FILE, Record
 from dynsolve.grading.run import Pool, grade_all
 from dynsolve.grading.stored import store_set, stored_set
 from dynsolve.grading.uploads import Refused, Uploads
+from dynsolve.problem.fields import did_you_mean
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +94,8 @@ def grade(
     folder = Path(output)
     if folder.resolve() == Path(submissions).resolve():
         raise UsageError(f"{folder} is the folder of the hand-ins: give another one for the results")
+    if roster is not None and not lms:
+        raise UsageError(f"--roster needs --lms, the platform that it is of: {', '.join(PLATFORMS)}")
     chosen = load_set(os.fspath(problems))
     listed = chosen_roster(chosen, lms, Path(roster) if roster is not None else None) if lms else None
     uploads = Uploads(Path(submissions), besides=folder)
@@ -160,7 +163,8 @@ def override(
 def _points(record: Record, student: str, problem: str, answer: str, marks: str) -> Fraction:
     found = {(a.problem, a.answer): a for a in record.answers(student)}
     if not found:
-        raise UsageError(f"there is no student `{student}` in grades.csv")
+        meant = did_you_mean(student, record.students())
+        raise UsageError(f"there is no student `{student}` in grades.csv" + (f"; {meant}" if meant else ""))
     if (problem, answer) not in found:
         known = ", ".join(f"{p} {a}" for p, a in found)
         raise UsageError(f"{student} has no answer `{answer}` to `{problem}`; there are {known}")

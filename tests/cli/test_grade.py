@@ -402,6 +402,7 @@ def test_marks_for_what_was_not_handed_in_are_read_by_the_student(tmp_path: Path
     ("words", "message"),
     [
         (("nobody", "in3140-rp", "K", "--marks", "3"), "there is no student `nobody`"),
+        (("A", "in3140-rp", "K", "--marks", "3"), "did you mean `a`?"),
         (("a", "in3140-rp", "Q", "--marks", "3"), "has no answer `Q`"),
         (("a", "in3140-rp", "K", "--marks", "9"), "give it from 0 to 4"),
         (("a", "in3140-rp", "K", "--marks", "x"), "is no number of marks"),
@@ -415,6 +416,14 @@ def test_a_wrong_override_is_refused(
     ran = dynsolve("override", str(tmp_path / "out"), *words, "--why", "x")
     assert ran.code == 2
     assert message in ran.err
+
+
+def test_a_roster_without_its_platform_says_what_is_needed(tmp_path: Path, set_folder: Path) -> None:
+    _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    words = (str(set_folder), str(tmp_path / "in"), "-o", str(tmp_path / "out"), "--roster", "gradebook.csv")
+    ran = dynsolve("grade", *words)
+    assert ran.code == 2
+    assert "--roster needs --lms, the platform that it is of: canvas, moodle, gradescope" in ran.err
 
 
 def test_a_platform_without_its_roster_says_what_is_needed(tmp_path: Path, set_folder: Path) -> None:
