@@ -123,11 +123,10 @@ def take_in(problems: ProblemSet, uploads: Uploads, late: Collection[str] = ()) 
             else:
                 waiting.add(Waiting(student, piece.problem, piece.file, piece.reason))
     for refused in uploads.refused:
-        path = PurePosixPath(refused.name)
-        student = _owner_of_refused(owners, path)
-        if student:
-            students.setdefault(student, "")
-        waiting.add(Waiting(student, "", refused.name, refused.reason))
+        for student, id in _owners_of_refused(owners, PurePosixPath(refused.name)):
+            if student:
+                students[student] = students.get(student) or id
+            waiting.add(Waiting(student, "", refused.name, refused.reason))
     hand_ins = tuple(
         _counting(student, problem, found) for (student, problem), found in sorted(pieces.items())
     )
@@ -144,11 +143,17 @@ def _metadata(uploads: Uploads, lists: Collection[PurePosixPath]) -> Submitters:
     return found
 
 
-def _owner_of_refused(owners: Owners, path: PurePosixPath) -> str:
-    """The student that a refused file belongs to, where its name says so without a doubt."""
-    if path.is_absolute() or ".." in path.parts or "\\" in str(path) or ":" in path.parts[0]:
-        return ""
-    return owners.of(path)[0].student
+def _owners_of_refused(owners: Owners, path: PurePosixPath) -> list[tuple[str, str]]:
+    """The students that a refused file belongs to, where its name says so without a doubt, with their ids."""
+    if (
+        not path.parts
+        or path.is_absolute()
+        or ".." in path.parts
+        or "\\" in str(path)
+        or ":" in path.parts[0]
+    ):
+        return [("", "")]
+    return [(owner.student, owner.id) for owner in owners.of(path)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+import zipfile
 from pathlib import Path, PurePosixPath
 
 import pytest
@@ -308,6 +309,20 @@ def test_a_report_on_two_problems_waits_for_a_human_as_the_second(
     assert [(w.student, w.problem, w.reason) for w in intake.waiting] == [
         ("s1", "planar-2r", "it was read as an answer to in3140-rp; its headings name planar-2r, too")
     ]
+
+
+def test_a_refused_file_is_still_its_students(problems: ProblemSet, tmp_path: Path) -> None:
+    path = tmp_path / "a.zip"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("ada_41_7_bomb.yaml", b"\0" * 10_000_000)
+        archive.writestr("bob_42_8_in3140-rp.yaml", ANSWER)
+        archive.writestr(zipfile.ZipInfo("../x.yaml"), ANSWER)
+        archive.writestr(zipfile.ZipInfo(""), ANSWER)
+    intake = take_in(problems, Uploads(path))
+    assert intake.students == {"ada_41": "41", "bob_42": "42"}
+    assert [(w.student, w.file) for w in intake.waiting] == [
+        ("", ""), ("", "../x.yaml"), ("ada_41", "ada_41_7_bomb.yaml"),
+    ]  # fmt: skip
 
 
 HOSTILE = {
