@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
@@ -125,13 +126,22 @@ def solve(
         what = "--json" if place_and_form.format is Format.JSON else "--stage, --from or --to"
         raise UsageError(f"--hint is a text on one stage; it does not go with {what}")
     view = _View(stages, detail, star, abbreviate.value, fragment, hint.value if hint else "")
-    writer = Writer(place_and_form)
+    return _solve_all(
+        problem, place_and_form, view, lambda found: with_numbers(found, set_, at, digits), quiet
+    )
+
+
+def _solve_all(
+    names: list[str], output: Output, view: _View, numbered: Callable[[Solution], Solution], quiet: bool
+) -> int:
+    """Solve and show one problem after the other; of several a faulty one is told and passed over."""
+    writer = Writer(output)
     code = ExitCode.DONE
-    for place, name in enumerate(problem):
+    for place, name in enumerate(names):
         try:
-            solution = with_numbers(_solved(name, quiet), set_, at, digits)
+            solution = numbered(_solved(name, quiet))
         except ProblemError as error:
-            if len(problem) == 1:
+            if len(names) == 1:
                 raise
             say(error.findings)
             code = ExitCode.USAGE
@@ -139,12 +149,12 @@ def solve(
         if not quiet:
             say(solution.warnings, "warning")
             say(solution.numbers.warnings if solution.numbers else (), "warning")
-        if place_and_form == Output(Format.TEXT, None):
+        if output == Output(Format.TEXT, None):
             _print_document(solution, view, place > 0)
-        elif place_and_form == Output(Format.JSON, None):
+        elif output == Output(Format.JSON, None):
             _print_json(solution, view)
         else:
-            writer.write(name, _report(solution, place_and_form, view))
+            writer.write(name, _report(solution, output, view))
     writer.close()
     return code
 
