@@ -1,4 +1,4 @@
-"""A course with every hostile file beside good hand-ins: the run goes on, the good ones get their marks."""
+"""A course with every hostile file beside good hand-ins: each good one gets its marks, and the run goes on."""
 
 from __future__ import annotations
 
