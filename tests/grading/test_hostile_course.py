@@ -1,4 +1,4 @@
-"""A course with every hostile file beside good hand-ins: each good one gets its marks, and the run goes on."""
+"""A course with every hostile file beside good hand-ins: each good one gets its marks."""
 
 from __future__ import annotations
 
