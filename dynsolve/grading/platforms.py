@@ -79,7 +79,7 @@ def _canvas(parts: tuple[str, ...]) -> Owner | None:
 
 def _moodle(parts: tuple[str, ...]) -> Owner | None:
     """`<Full name>_<participant id>_assignsubmission_file[_]/<path>`, or the same without folders."""
-    for place, part in enumerate(parts[:2]):
+    for place, part in enumerate(parts[:3]):
         found = _MOODLE.fullmatch(part)
         if found is not None:
             rest = [piece for piece in (found["name"], *parts[place + 1 :]) if piece]
@@ -109,6 +109,7 @@ class Owners:
         files = list(files)
         self.depth = _wrapping(files, is_problem)
         self.exports = exports(files)
+        self.downloads = _downloads(files)
         self.submitters = metadata or {}
         self.late = late
 
@@ -132,6 +133,8 @@ class Owners:
                 if rest[0] in self.submitters:
                     return self._gradescope(rest[0], rest[0])
         parts = path.parts[self.depth :] if len(path.parts) > self.depth else path.parts
+        if path.parent in self.downloads:
+            parts = parts[-1:]
         for platform in _PLATFORMS:
             owner = platform(parts)
             if owner is not None:
@@ -172,6 +175,16 @@ def exports(files: Iterable[PurePosixPath]) -> tuple[tuple[str, ...], ...]:
 
 def _is_of_gradescope(parts: tuple[str, ...]) -> bool:
     return parts == (METADATA,) or (len(parts) > 1 and bool(_SUBMISSION.fullmatch(parts[0])))
+
+
+def _downloads(files: list[PurePosixPath]) -> set[PurePosixPath]:
+    """The folders that hold what several students handed in on Canvas, beside other things."""
+    found: dict[PurePosixPath, set[str]] = {}
+    for path in files:
+        owner = _canvas(path.parts[-1:])
+        if owner is not None:
+            found.setdefault(path.parent, set()).add(owner.id)
+    return {folder for folder, ids in found.items() if len(ids) > 1}
 
 
 def _wrapping(files: list[PurePosixPath], is_problem: Callable[[str], bool]) -> int:

@@ -172,6 +172,10 @@ def test_a_students_own_list_is_no_list_of_another_platform(problems: ProblemSet
         (["s1/in3140-rp.yaml", "s1/notes.txt"], ["s1"]),
         (["s1/in3140-rp.yaml"], ["s1"]),
         (["w/A B_1_assignsubmission_file/in3140-rp.yaml", "w/x.txt"], ["A B_1", "w"]),
+        (["x.txt", "w/A B_1_assignsubmission_file/in3140-rp.yaml"], ["A B_1", "x"]),
+        (["x.txt", "v/w/A B_1_assignsubmission_file/in3140-rp.yaml"], ["A B_1", "x"]),
+        (["x.txt", "w/a_1_2_in3140-rp.yaml", "w/b_3_4_in3140-rp.yaml"], ["a_1", "b_3", "x"]),
+        (["s1/a_1_2_in3140-rp.yaml", "s2/in3140-rp.yaml"], ["s1", "s2"]),
     ],
 )
 def test_a_folder_around_everything(
