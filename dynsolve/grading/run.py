@@ -250,10 +250,10 @@ def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data, bo
     over = "reason" in said or row.get("over", False)
     if reason:
         row = _unread(problems, hand_in.student, hand_in.problem, reason)
-    found = causes(problems, hand_in, bounds if over else None)
+    found = {} if said.get("again") else causes(problems, hand_in, bounds if over else None)
     record.write(
         (hand_in.student, hand_in.problem),
-        "" if said.get("again") else _word(found),
+        _word(found) if found else "",
         json.dumps(found, sort_keys=True),
         {
             **row,

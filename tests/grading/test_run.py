@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import os
 from concurrent.futures import Future
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import dynsolve
 from dynsolve.errors import UsageError
 from dynsolve.grading import pool as pool_module
 from dynsolve.grading.hand_ins import take_in
+from dynsolve.grading.policy import Policy
 from dynsolve.grading.pool import Bounds, Data
 from dynsolve.grading.problem_set import ProblemSet, load_set
 from dynsolve.grading.record import Record
@@ -72,6 +74,7 @@ def test_a_file_that_changes_during_a_run_is_graded_by_the_next(tmp_path: Path, 
     said = ["unreadable it was changed while it was graded: grade again"]
     assert _run(problems, record, folder, between=WRONG)[1] == said
     (folder / "s1" / "a.yaml").write_text(RIGHT)
+    problems = replace(problems, policy=Policy(follow=Fraction(1, 2)))
     assert _run(problems, record, folder) == (Done(1, 1, 0), ["correct"])
     assert _run(problems, record, folder) == (Done(1, 0, 0), ["correct"])
     record.close()
