@@ -238,7 +238,8 @@ class UnicodePrinter(FormulaPrinter):
             return sign
         numerator = self._numerator(node.numerator)
         denominator = self.text(node.denominator)
-        if not (type(node.denominator) in _BARE_DENOMINATORS or is_whole(node.denominator)):
+        is_number = denominator.replace(".", "", 1).isdecimal()
+        if not (is_number or type(node.denominator) in _BARE_DENOMINATORS):
             denominator = f"({denominator})"
         return f"{numerator}/{denominator}"
 

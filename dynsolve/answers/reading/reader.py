@@ -288,8 +288,7 @@ class Reader(NameCursor):
             return Degrees(value.numerator, value.denominator)
         if self.token.kind == "^" and self.circle():
             return Degrees(value.numerator, value.denominator)
-        written_out = value.denominator != 1
-        return self.scripted(Number(value.numerator, value.denominator, written_out))
+        return self.scripted(_written(value, token.text))
 
     def circle(self) -> bool:
         r"""Take `^\circ`, if that is what stands here."""
@@ -475,6 +474,13 @@ class Reader(NameCursor):
     def named(self, form: Form) -> Value:
         """The value of a name with its scripts."""
         return lookup.value_of(self, form)
+
+
+def _written(value: Fraction, text: str) -> Number:
+    """A number with as many decimals as were written: 0.10 is 10/100, which rounds more than 0.1 does."""
+    _, point, decimals = text.partition(".")
+    scale = 10 ** len(decimals) if point and decimals.isdigit() and value else value.denominator
+    return Number(int(value * scale), scale, scale != 1)
 
 
 def _with_scalars(scalars: list[Node], other: Value | None) -> Value:

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from dynsolve.answers.judge import NOT_CHRISTOFFEL, NOT_FROM_OWN, check
+from dynsolve.answers.judge import NOT_CHRISTOFFEL, NOT_FROM_OWN, Checker, check
 from dynsolve.answers.submission import Submission, reference
 from dynsolve.answers.verdict import Judged
 from dynsolve.notation import tree
+from dynsolve.problem.reader import read_problem
 from tests.unit.answers.hands import (
     Text,
     answer,
@@ -340,6 +341,22 @@ values: {g: 9.81, m1: 2}
 def test_decimals_round_and_symbols_have_values(text: str, verdict: str, notes: tuple[str, ...]) -> None:
     answer = judged(ROD, "d11", text)
     assert (str(answer.verdict), answer.notes) == (verdict, notes)
+
+
+@pytest.mark.parametrize(
+    ("text", "verdict", "read_as"),
+    [
+        ("0.3*m1*l1^2", "correct", "0.3 m₁ l₁²"),
+        ("0.30*m1*l1^2", "wrong", "0.30 m₁ l₁²"),
+        (r"0.330\,m_1 l_1^2", "wrong", "0.330 m₁ l₁²"),
+        ("2.0*l1^2/3.0", "correct", "2.0 l₁²/3.0"),
+    ],
+)
+def test_the_decimals_that_were_written_count(text: str, verdict: str, read_as: str) -> None:
+    checker = Checker(read_problem(ROD, "rod.yaml"))
+    report = checker(checker.reader(f"answers:\n  d11: {text}\n", "answers.yaml"))
+    answer = next(a for a in report.answers if a.name == "d11")
+    assert (str(answer.verdict), answer.read_as) == (verdict, read_as)
 
 
 def test_a_number_for_g() -> None:
