@@ -14,6 +14,7 @@ from pathlib import PurePosixPath
 from typing import Any
 from unicodedata import normalize
 
+from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.grading.uploads import printable
 
 METADATA = "submission_metadata.yml"
@@ -198,8 +199,9 @@ def _wrapping(files: list[PurePosixPath], is_problem: Callable[[str], bool]) -> 
         return 1
     loose = [parts[0] for parts in inside if len(parts) == 1]
     if loose:  # one student's files, or a file a student?
+        read = [name for name in loose if PurePosixPath(name).suffix.lower() in ENDINGS]
         of_one = any(is_problem(PurePosixPath(name).stem) for name in loose)
-        return int(1 < len(loose) == len(inside) and not of_one)
+        return int(len(read) > 1 and len(loose) == len(inside) and not of_one)
     return int(len({parts[0] for parts in inside}) > 1)
 
 

@@ -40,7 +40,7 @@ PATIENCE = 10.0
 """Seconds in which nothing is done before the pool is asked whether it is still there."""
 
 MOST_LOST = 3
-"""So many equations that were not recognized are named where nothing was."""
+"""So many equations that were not recognized are named where nothing was, and so many files."""
 
 Advance = Callable[[int, int], None]
 
@@ -162,7 +162,7 @@ def _absent(
             key = (student, item.stem)
             if key in keys:
                 continue
-            said = reasons.get(key, [])
+            said = _some_of(reasons.get(key, []))
             found = {"hand-in": _short(said), "marks": _of_marks(item), "program": program()}
             found["policy"] = _of_policy(problems.policy)
             if known.get(key) == _short(found):
@@ -170,6 +170,12 @@ def _absent(
             row = _unread(problems, student, item.stem, "; ".join(said))
             rest = {"files": [], "left": [], "late": False, "reason": "; ".join(said), "notes": []}
             yield key, _short(found), json.dumps(found, sort_keys=True), {**row, **rest}
+
+
+def _some_of(said: list[str]) -> list[str]:
+    """A few of many reasons, and how many more there are."""
+    more = len(said) - MOST_LOST
+    return said if more <= 1 else [*said[:MOST_LOST], f"and {more} more"]
 
 
 def _some(source: Iterator[HandIn], count: int) -> Iterator[HandIn]:

@@ -114,6 +114,16 @@ def test_nothing_handed_in_is_no_fault(tmp_path: Path) -> None:
     assert (tmp_path / "out" / "grades.csv").read_text() == "student,in3140-rp,total,of\n"
 
 
+def test_of_very_many_files_a_few_are_named(tmp_path: Path) -> None:
+    (tmp_path / "in" / "s1").mkdir(parents=True)
+    for i in range(300):
+        (tmp_path / "in" / "s1" / f"{i:03d}.png").touch()
+    grades = dynsolve.grade("in3140-rp", tmp_path / "in", tmp_path / "out", jobs=1)
+    assert len(grades.waiting) == 300
+    page = (tmp_path / "out" / "feedback" / "s1" / "in3140-rp.md").read_text()
+    assert "002.png" in page and "and 297 more" in page and "003.png" not in page
+
+
 def test_results_that_cannot_be_written_are_said(tmp_path: Path) -> None:
     (tmp_path / "in").mkdir()
     (tmp_path / "out").write_text("a file")

@@ -171,6 +171,7 @@ def test_a_students_own_list_is_no_list_of_another_platform(problems: ProblemSet
         (["s1/in3140-rp.yaml", "s1/planar-2r.yaml"], ["s1"]),
         (["s1/in3140-rp.yaml", "s1/notes.txt"], ["s1"]),
         (["s1/in3140-rp.yaml"], ["s1"]),
+        (["s1/1.png", "s1/2.png", "s1/report.md"], ["s1"]),
         (["w/A B_1_assignsubmission_file/in3140-rp.yaml", "w/x.txt"], ["A B_1", "w"]),
         (["x.txt", "w/A B_1_assignsubmission_file/in3140-rp.yaml"], ["A B_1", "x"]),
         (["x.txt", "v/w/A B_1_assignsubmission_file/in3140-rp.yaml"], ["A B_1", "x"]),
