@@ -80,7 +80,7 @@ def _table(header: tuple[str, ...], rows: Iterable[str], note: str = "") -> str:
     head = "".join(f'<th scope="col"><button type="button">{_text(name)}</button></th>' for name in header)
     said = f"<p>{note}</p>\n" if note else ""
     return (
-        f'{said}<div class="wide"><table class="sortable"><thead><tr>{head}</tr></thead>'
+        f'{said}<div class="wide" tabindex="0"><table class="sortable"><thead><tr>{head}</tr></thead>'
         f"<tbody>\n{body}\n</tbody></table></div>\n"
     )
 
