@@ -302,7 +302,9 @@ class Evaluator:
         if found is None:
             if len(known) >= MOST_KNOWN:
                 known.clear()
+            work = self.work
             found = known[node] = self._turn_value(node)
+            self.work = work  # what is remembered costs nothing, nor must the first who writes it pay
         return found
 
     def _turn_value(self, node: Function) -> Frac | tuple[int, int]:
