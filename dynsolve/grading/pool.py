@@ -36,6 +36,8 @@ MODULE = "dynsolve.grading.worker"
 _OUT_OF_TIME = getattr(signal, "SIGPROF", 0)
 """What ends a worker that has used up its time."""
 
+_KILLED = getattr(signal, "SIGKILL", 0)
+
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
@@ -107,7 +109,7 @@ class Worker:
         if said["stopped"] == "time" or process.returncode == -_OUT_OF_TIME:
             return {"reason": f"reading it took more than {self.bounds.seconds:g} s"}
         memory = f"{self.bounds.memory / (1 << 20):g} MiB"
-        killed = process.returncode == -getattr(signal, "SIGKILL", 0)
+        killed = said["stopped"] == "ended" and process.returncode == -_KILLED
         return {"reason": f"reading it took more than {memory} of memory, or failed", "killed": killed}
 
     def _start(self) -> None:

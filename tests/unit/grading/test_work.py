@@ -267,6 +267,18 @@ def test_a_worker_that_is_killed_again_and_again_is_not_the_hand_ins_fault(heavy
         worker.end()
 
 
+def test_what_goes_over_its_memory_is_tried_twice_and_no_more(
+    heavy: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    worker, starts, start = Worker(Bounds()), [], Worker._start
+    monkeypatch.setattr(Worker, "_start", lambda self: (starts.append(1), start(self))[1])
+    try:
+        found = _answers(worker(payload("answers:\n  P2: 0\n"))["result"])
+    finally:
+        worker.end()
+    assert (found["P2"]["verdict"], len(starts)) == ("unreadable", 2)
+
+
 def test_trying_answers_one_by_one_changes_nothing_where_none_is_too_much() -> None:
     text = "answers:\n  K: m2*L2*theta1'^2 + m2*L2'^2\n  P: 0\n  L: 0\n  tau: [0, 0]\n  D: [[1, x(], [0]]\n"
     assert grade_one(payload(text), narrow=20) == grade_one(payload(text))
