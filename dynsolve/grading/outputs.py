@@ -5,18 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from fractions import Fraction
-from hashlib import sha256
 from html import escape
 from itertools import groupby
 from pathlib import Path
 
-from dynsolve.files import temporary_of, write_changed
 from dynsolve.grading.ledger import most, standings
 from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
+from dynsolve.grading.places import folder_name, remove_others, write
 from dynsolve.grading.policy import points, shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record, Row
 from dynsolve.grading.tables import decimal, table
+from dynsolve.grading.teacher import teachers_page
 from dynsolve.render.markdown import escaped
 from dynsolve.render.words import visible
 
@@ -28,17 +28,10 @@ _ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "d
 
 def write_outputs(folder: Path, problems: ProblemSet, record: Record) -> None:
     """Write everything but the record itself; files that are the same already are left alone."""
-    from dynsolve.grading.teacher import teachers_page
-
     write(folder / "grades.csv", table(_grades(problems, record)))
     write(folder / "answers.csv", table(_answers(record)))
     _feedback(folder / "feedback", problems, record)
     write(folder / "report.html", teachers_page(problems, record))
-
-
-def write(path: Path, text: str, *, durable: bool = True) -> None:
-    """A text whole or not at all, and only where something changes."""
-    write_changed(path, text.encode("utf-8", errors="replace"), durable=durable)
 
 
 def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
@@ -61,19 +54,6 @@ def _answers(record: Record) -> Iterator[tuple[str, ...]]:
 
 
 # -- feedback ----------------------------------------------------------------------------------------
-
-
-def folder_name(student: str) -> str:
-    """The name of a student's folder: safe on every system, and of no two students the same.
-
-    >>> folder_name("s123456"), folder_name("Ada Lovelace_12")
-    ('s123456', 'Ada Lovelace_12')
-    """
-    plain = re.sub(r"[^\w .@+-]|^\.+|[. ]+$", "_", student)[:80]
-    reserved = re.fullmatch(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?", plain)
-    if plain == student and plain and not reserved:
-        return plain
-    return f"{plain or '_'}-{sha256(student.encode('utf-8', errors='replace')).hexdigest()[:8]}"
 
 
 def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
@@ -101,17 +81,6 @@ def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
             written.add(path)
             write(path, page, durable=False)
     remove_others(folder, written, (".html", ".md"))
-
-
-def remove_others(folder: Path, kept: set[Path], endings: tuple[str, ...]) -> None:
-    """Remove what earlier runs wrote for students who are there no more, and what a killed one left."""
-    own = (*endings, temporary_of(folder).suffix)
-    for path in sorted(folder.glob("*/*")):
-        if path not in kept and path.suffix in own:
-            path.unlink()
-    for place in sorted(folder.glob("*/")):
-        if place.is_dir() and not any(place.iterdir()):
-            place.rmdir()
 
 
 def _total(answers: list[Graded]) -> str:

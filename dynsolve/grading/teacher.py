@@ -13,7 +13,7 @@ from urllib.parse import quote
 from dynsolve.answers.slips.table import SLIPS
 from dynsolve.grading.cohort import VERDICTS, Cohort, counted
 from dynsolve.grading.ledger import most
-from dynsolve.grading.outputs import folder_name
+from dynsolve.grading.places import folder_name
 from dynsolve.grading.policy import shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record

@@ -11,7 +11,7 @@ from typing import Any
 from dynsolve.files import write_changed
 from dynsolve.grading.exports.roster import Roster
 from dynsolve.grading.ledger import Standing, standings
-from dynsolve.grading.outputs import folder_name, remove_others
+from dynsolve.grading.places import folder_name, remove_others
 from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record

@@ -16,7 +16,7 @@ from pathlib import Path
 from dynsolve.files import changed
 from dynsolve.grading.exports.roster import Roster, number, unmatched
 from dynsolve.grading.ledger import Standing, most, standings
-from dynsolve.grading.outputs import folder_name
+from dynsolve.grading.places import folder_name
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.tables import decimal
