@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import dynsolve
+from dynsolve.errors import UsageError
 from dynsolve.grading.worker import patience
 
 Data = dict[str, Any]
@@ -113,11 +114,16 @@ class Worker:
         return {"reason": f"reading it took more than {memory} of memory, or failed", "killed": killed}
 
     def _start(self) -> None:
-        self.process = subprocess.Popen(  # noqa: S603  # this very Python, on this very package
-            [sys.executable, "-P", "-m", MODULE, str(self.bounds.seconds), str(self.bounds.memory)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=_environment(),
-            start_new_session=True,  # so that its children end with it
-        )  # fmt: skip
+        try:
+            self.process = subprocess.Popen(  # noqa: S603  # this very Python, on this very package
+                [sys.executable, "-P", "-m", MODULE, str(self.bounds.seconds), str(self.bounds.memory)],
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=_environment(),
+                start_new_session=True,  # so that its children end with it
+            )  # fmt: skip
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            message = f"a worker cannot be started: {reason}; with fewer `--jobs` it may"
+            raise UsageError(message) from None
         self.served = 0
 
     def end(self) -> None:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import base64
 import os
 import signal
+import sys
 import threading
 import time
 from typing import Any
 
 import pytest
 
+from dynsolve.errors import UsageError
 from dynsolve.grading import pool as pool_module
 from dynsolve.grading.policy import Policy, to_data
 from dynsolve.grading.pool import Bounds, LocalPool, Worker
@@ -277,6 +279,12 @@ def test_what_goes_over_its_memory_is_tried_twice_and_no_more(
     finally:
         worker.end()
     assert (found["P2"]["verdict"], len(starts)) == ("unreadable", 2)
+
+
+def test_a_worker_that_cannot_be_started_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "executable", "/nowhere/python")
+    with pytest.raises(UsageError, match="a worker cannot be started: no such file"):
+        Worker(Bounds())(payload(RIGHT_K))
 
 
 def test_trying_answers_one_by_one_changes_nothing_where_none_is_too_much() -> None:
