@@ -20,6 +20,10 @@ MOST_TERMS = 1_500
 """Robots whose kinetic energy has more terms than this are diagnosed step by step only."""
 
 
+OF_THE_MATRIX = ("transposed", "rows_swapped")
+"""What is said of a matrix itself: of what comes after it, it would be false."""
+
+
 class Replaced:
     """The key's derivation with the value of one node, or of one kind of node, replaced."""
 
@@ -75,7 +79,7 @@ class DerivationSlips:
         for node in self._sources():
             right = graph.key(node)
             for wrong, told in variants(robot, node, graph.key):
-                if not _equal(wrong, right):
+                if told.code not in OF_THE_MATRIX and not _equal(wrong, right):
                     yield node, Replaced(graph, {node: wrong}), told
         yield from self._everywhere()
 

@@ -67,6 +67,16 @@ def test_every_slip_has_an_example_or_a_step() -> None:
     assert set(SLIPS) - {s.code for s in WITH_EXAMPLES} - steps == told_elsewhere
 
 
+def test_an_entry_of_an_inertia_matrix_is_no_transposed_matrix() -> None:
+    """A transposed A_1 would lead to it, but the message would speak of the student's D."""
+    import dynsolve
+
+    for answer in ("D: [[I1zz, 0], [0, m2]]", "d11: I1zz"):
+        report = dynsolve.check("in3140-rp", f"answers:\n  {answer}\n")
+        found = next(a for a in report.answers if a.given)
+        assert codes(found) and "transposed" not in codes(found)
+
+
 @pytest.mark.parametrize("stem", ["in3140-rp", "planar-2r", "elbow-3r"])
 @pytest.mark.parametrize("node", ["K", "tau", "D", "g"])
 def test_a_slip_long_before_is_named(stem: str, node: str) -> None:
