@@ -24,6 +24,7 @@ Submitters = dict[str, tuple[dict[str, str], ...]]
 
 _SUBMITTERS = ":submitters"
 _DEEPEST = 100
+_MOST_AROUND = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,13 +81,11 @@ def _canvas(parts: tuple[str, ...]) -> Owner | None:
 
 def _moodle(parts: tuple[str, ...]) -> Owner | None:
     """`<Full name>_<participant id>_assignsubmission_file[_]/<path>`, or the same without folders."""
-    for place, part in enumerate(parts[:3]):
-        found = _MOODLE.fullmatch(part)
-        if found is not None:
-            rest = [piece for piece in (found["name"], *parts[place + 1 :]) if piece]
-            name = "/".join(rest) or "onlinetext.html"
-            return Owner(f"{found['who']}_{found['id']}", found["id"], "", name)
-    return None
+    found = _MOODLE.fullmatch(parts[0])
+    if found is None:
+        return None
+    rest = [piece for piece in (found["name"], *parts[1:]) if piece]
+    return Owner(f"{found['who']}_{found['id']}", found["id"], "", "/".join(rest) or "onlinetext.html")
 
 
 _PLATFORMS: tuple[Callable[[tuple[str, ...]], Owner | None], ...] = (_moodle, _canvas)
@@ -110,7 +109,6 @@ class Owners:
         files = list(files)
         self.depth = _wrapping(files, is_problem)
         self.exports = exports(files)
-        self.downloads = _downloads(files)
         self.submitters = metadata or {}
         self.late = late
 
@@ -134,8 +132,6 @@ class Owners:
                 if rest[0] in self.submitters:
                     return self._gradescope(rest[0], rest[0])
         parts = path.parts[self.depth :] if len(path.parts) > self.depth else path.parts
-        if path.parent in self.downloads:
-            parts = parts[-1:]
         for platform in _PLATFORMS:
             owner = platform(parts)
             if owner is not None:
@@ -178,31 +174,39 @@ def _is_of_gradescope(parts: tuple[str, ...]) -> bool:
     return parts == (METADATA,) or (len(parts) > 1 and bool(_SUBMISSION.fullmatch(parts[0])))
 
 
-def _downloads(files: list[PurePosixPath]) -> set[PurePosixPath]:
-    """The folders that hold what several students handed in on Canvas, beside other things."""
-    found: dict[PurePosixPath, set[str]] = {}
-    for path in files:
-        owner = _canvas(path.parts[-1:])
-        if owner is not None:
-            found.setdefault(path.parent, set()).add(owner.id)
-    return {folder for folder, ids in found.items() if len(ids) > 1}
-
-
 def _wrapping(files: list[PurePosixPath], is_problem: Callable[[str], bool]) -> int:
-    """How many folders stand around everything: 1 where a download lies in a folder of its own."""
-    if not files or any(len(path.parts) < 2 for path in files):
-        return 0
-    if len({path.parts[0] for path in files}) > 1 or _MOODLE.fullmatch(files[0].parts[0]):
-        return 0
-    inside = [path.parts[1:] for path in files]
-    if any(_canvas(parts) is not None for parts in inside):
-        return 1
-    loose = [parts[0] for parts in inside if len(parts) == 1]
-    if loose:  # one student's files, or a file a student?
-        read = [name for name in loose if PurePosixPath(name).suffix.lower() in ENDINGS]
-        of_one = any(is_problem(PurePosixPath(name).stem) for name in loose)
-        return int(len(read) > 1 and len(loose) == len(inside) and not of_one)
-    return int(len({parts[0] for parts in inside}) > 1)
+    """How many folders stand around everything: 1 where a download lies in a folder of its own.
+
+    Files beside it that are no answers, such as a roster, do not matter.
+    """
+    level = [path.parts for path in files]
+    for depth in range(_MOST_AROUND):
+        if any(map(_is_of_platform, level)):
+            return depth
+        beside = any(len(parts) == 1 and _is_answer(parts[0]) for parts in level)
+        if beside or len({parts[0] for parts in level if len(parts) > 1}) != 1:
+            break
+        level = [parts[1:] for parts in level if len(parts) > 1]
+    return int(_is_around_students([path.parts for path in files], is_problem))
+
+
+def _is_of_platform(parts: tuple[str, ...]) -> bool:
+    return _canvas(parts) is not None or _MOODLE.fullmatch(parts[0]) is not None
+
+
+def _is_answer(name: str) -> bool:
+    return PurePosixPath(name).suffix.lower() in ENDINGS
+
+
+def _is_around_students(files: list[tuple[str, ...]], is_problem: Callable[[str], bool]) -> bool:
+    """Whether the one folder that there is holds a folder a student, or a file a student."""
+    if any(len(parts) < 2 for parts in files) or len({parts[0] for parts in files}) != 1:
+        return False
+    loose = [parts[1] for parts in files if len(parts) == 2]
+    if not loose:
+        return len({parts[1] for parts in files}) > 1
+    of_one = any(is_problem(PurePosixPath(name).stem) for name in loose)
+    return sum(map(_is_answer, loose)) > 1 and len(loose) == len(files) and not of_one
 
 
 def read_metadata(content: bytes) -> Submitters:

@@ -70,7 +70,7 @@ def _intake(problems: ProblemSet, folder: Path, files: dict[str, str]) -> Intake
     ],
 )
 def test_names_of_the_platforms(name: str, student: str, id: str, late: bool) -> None:
-    others = [PurePosixPath("x.yaml"), PurePosixPath("y/z.yaml")]
+    others = [PurePosixPath("x.csv"), PurePosixPath("y/z.yaml")]
     (owner,) = Owners([PurePosixPath(name), *others]).of(PurePosixPath(name))
     assert (owner.student, owner.id, owner.late) == (student, id, late)
 
@@ -166,17 +166,29 @@ def test_a_students_own_list_is_no_list_of_another_platform(problems: ProblemSet
     ("names", "students"),
     [
         (["w/a_1_2_in3140-rp.yaml", "w/b_3_4_in3140-rp.yaml", "w/readme.txt"], ["a_1", "b_3", "readme"]),
+        (["v/w/a_1_2_in3140-rp.yaml", "v/w/b_3_4_in3140-rp.yaml"], ["a_1", "b_3"]),
         (["w/s1/in3140-rp.yaml", "w/s2/in3140-rp.yaml"], ["s1", "s2"]),
         (["w/s1_in3140-rp.yaml", "w/s2_in3140-rp.yaml"], ["s1_in3140-rp", "s2_in3140-rp"]),
         (["s1/in3140-rp.yaml", "s1/planar-2r.yaml"], ["s1"]),
         (["s1/in3140-rp.yaml", "s1/notes.txt"], ["s1"]),
         (["s1/in3140-rp.yaml"], ["s1"]),
         (["s1/1.png", "s1/2.png", "s1/report.md"], ["s1"]),
-        (["w/A B_1_assignsubmission_file/in3140-rp.yaml", "w/x.txt"], ["A B_1", "w"]),
-        (["x.txt", "w/A B_1_assignsubmission_file/in3140-rp.yaml"], ["A B_1", "x"]),
-        (["x.txt", "v/w/A B_1_assignsubmission_file/in3140-rp.yaml"], ["A B_1", "x"]),
-        (["x.txt", "w/a_1_2_in3140-rp.yaml", "w/b_3_4_in3140-rp.yaml"], ["a_1", "b_3", "x"]),
-        (["s1/a_1_2_in3140-rp.yaml", "s2/in3140-rp.yaml"], ["s1", "s2"]),
+        (["w/A B_1_assignsubmission_file/in3140-rp.yaml", "w/x.txt"], ["A B_1", "x"]),
+        (["x.csv", "w/A B_1_assignsubmission_file/in3140-rp.yaml"], ["A B_1", "x"]),
+        (["x.csv", "v/w/A B_1_assignsubmission_file/in3140-rp.yaml"], ["A B_1", "x"]),
+        (["x.csv", "w/a_1_2_in3140-rp.yaml", "w/b_3_4_in3140-rp.yaml"], ["a_1", "b_3", "x"]),
+        (["s1/a_1_2_in3140-rp.yaml", "s1/b_2_3_in3140-rp.yaml", "s2/in3140-rp.yaml"], ["s1", "s2"]),
+        (["s1/a_1_2_in3140-rp.yaml", "s1/b_2_3_in3140-rp.yaml", "s2.yaml"], ["s1", "s2"]),
+        (
+            [
+                "A_1_assignsubmission_file/B_2_3_in3140-rp.yaml",
+                "A_1_assignsubmission_file/C_3_4_in3140-rp.yaml",
+                "B_2_assignsubmission_file/in3140-rp.yaml",
+            ],
+            ["A_1", "B_2"],
+        ),
+        (["A_1_assignsubmission_file/B_2_assignsubmission_file/in3140-rp.yaml"], ["A_1"]),
+        (["s1/B_2_assignsubmission_file/in3140-rp.yaml", "s2/in3140-rp.yaml"], ["s1", "s2"]),
     ],
 )
 def test_a_folder_around_everything(
