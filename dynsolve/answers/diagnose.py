@@ -37,7 +37,7 @@ from dynsolve.answers.dimensions import (
 from dynsolve.answers.follow import Follow
 from dynsolve.answers.frac import as_expr
 from dynsolve.answers.graph import Graph
-from dynsolve.answers.slips.derivation import DerivationSlips
+from dynsolve.answers.slips.derivation import OF_THE_MATRIX, DerivationSlips
 from dynsolve.answers.slips.stage import variants
 from dynsolve.answers.slips.substitution import substitutions
 from dynsolve.answers.slips.table import slip
@@ -153,7 +153,7 @@ class Diagnoser:
         if found is not None and len(found) == 1 and found[0].weight < LIGHT:
             yield found[0].diagnosis
             return
-        one = self._first_of(self.derivations.values(question.target.node), question, mine)
+        one = self._first_of(self._derived(question, mine), question, mine)
         if one is not None:
             yield one
             return
@@ -162,8 +162,22 @@ class Diagnoser:
     def _first_of(
         self, values: Iterator[tuple[Any, Diagnosis]], question: Question, mine: Expr
     ) -> Diagnosis | None:
-        """The first slip that gives what was written."""
-        return next((told for value, told in values if self._at(question, value) == mine), None)
+        """The first slip that gives what was written; one entry alone shows no slip of its matrix."""
+        return next(
+            (
+                told
+                for value, told in values
+                if told.code not in OF_THE_MATRIX and self._at(question, value) == mine
+            ),
+            None,
+        )
+
+    def _derived(self, question: Question, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
+        """What slips long before lead to; to 0 leads what was left out, not what was mistaken."""
+        is_zero = all(value.is_zero for value in mine)
+        for value, told in self.derivations.values(question.target.node):
+            if not is_zero or told.code.endswith("_missing"):
+                yield value, told
 
     def _refined(self, one: Diagnosis, question: Question) -> Diagnosis:
         """A wrong sign of everything that is gravity is gravity's."""
@@ -333,7 +347,7 @@ class Diagnoser:
         for value, told in candidates:
             if _same(target.of(value), given):
                 return (told, *(d for d in found if d.code == "dimensions"))
-        for value, told in self.derivations.values(target.node):
+        for value, told in self._derived(question, *given.entries):
             if _same(target.of(value), given):
                 return (told, *(d for d in found if d.code == "dimensions"))
         return found

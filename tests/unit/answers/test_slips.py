@@ -67,6 +67,20 @@ def test_every_slip_has_an_example_or_a_step() -> None:
     assert set(SLIPS) - {s.code for s in WITH_EXAMPLES} - steps == told_elsewhere
 
 
+@pytest.mark.parametrize(
+    ("answer", "told"),
+    [
+        ("D: [[I1zz + m2*L2^2, m2], [m2, m2]]", ["dimensions", "extra_term"]),  # no rows are exchanged
+        ("C: [[0, 0], [0, 0]]", ["translation_missing"]),  # and no centre was taken for another
+    ],
+)
+def test_a_slip_is_not_read_into_what_has_none(answer: str, told: list[str]) -> None:
+    import dynsolve
+
+    report = dynsolve.check("in3140-rp", f"answers:\n  {answer}\n")
+    assert sorted(codes(next(a for a in report.answers if a.given))) == told
+
+
 def test_an_entry_of_an_inertia_matrix_is_no_transposed_matrix() -> None:
     """A transposed A_1 would lead to it, but the message would speak of the student's D."""
     import dynsolve
