@@ -6,6 +6,7 @@ not end: nothing that it computes outlives the run.
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import signal
@@ -14,6 +15,10 @@ from typing import IO, Any
 
 SLACK = 5
 """Seconds after which a worker that nobody ends ends itself."""
+
+
+YOUNG = 10_000
+"""So many new objects before the garbage collector looks: a worker remembers many, and few are garbage."""
 
 
 def patience(seconds: float) -> float:
@@ -48,6 +53,7 @@ def bound_memory(memory: int) -> None:
 
 def serve(lines: IO[bytes], out: IO[bytes], seconds: float) -> None:
     """Answer every line."""
+    gc.set_threshold(YOUNG)
     for line in lines:
         out.write(json.dumps(_answered(json.loads(line), seconds)).encode() + b"\n")
         out.flush()

@@ -17,7 +17,7 @@ from dynsolve.answers.reading.scan import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node
 
-MOST = 20_000
+MOST = 8_000
 """So much of a kind is remembered; then it is begun anew."""
 
 MOST_TOKENS = 40
