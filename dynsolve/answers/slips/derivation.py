@@ -67,9 +67,9 @@ class DerivationSlips:
                     continue
 
     def made(self) -> list[tuple[str, Replaced, Diagnosis]]:
-        """(node that goes wrong first, derivation, slip)"""
+        """(node that goes wrong first, derivation, slip); what was left out before what was mistaken."""
         if self._made is None:
-            self._made = list(self._make())
+            self._made = sorted(self._make(), key=lambda made: not made[2].code.endswith("_missing"))
         return self._made
 
     def _make(self) -> Iterator[tuple[str, Replaced, Diagnosis]]:

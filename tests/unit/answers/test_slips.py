@@ -72,6 +72,7 @@ def test_every_slip_has_an_example_or_a_step() -> None:
     [
         ("D: [[I1zz + m2*L2^2, m2], [m2, m2]]", ["dimensions", "extra_term"]),  # no rows are exchanged
         ("C: [[0, 0], [0, 0]]", ["translation_missing"]),  # and no centre was taken for another
+        ("D: [[m2*L2^2, 0], [0, m2]]", ["rotation_missing"]),  # and no tensor was turned wrongly
     ],
 )
 def test_a_slip_is_not_read_into_what_has_none(answer: str, told: list[str]) -> None:
