@@ -28,7 +28,7 @@ def sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[Side]:
             side = side_of(vocabulary, member)
             if isinstance(side, Unknown) or (last and _is_symbol(vocabulary, member)):
                 side = None
-        elif member[0].kind in ("begin", "["):
+        elif member[0].kind in ("begin", "[") and not any(t.kind in ("+", "-") for t in member):
             side = side_of(vocabulary, member)
             side = side if isinstance(side, Name) else None
         found.append(side)
