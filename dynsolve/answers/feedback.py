@@ -144,14 +144,10 @@ def _wrong(answer: Judged, view: View) -> Iterator[Block]:
     bad = [e for e in answer.entries if e.verdict is Verdict.WRONG]
     if bad:
         right = [e for e in answer.entries if e.verdict is not Verdict.WRONG]
-        is_column = all(e.index[-1] == 1 for e in answer.entries)
-        places = ", ".join(str(e.index[0]) if is_column else _index(e) for e in bad)
-        word = "row" if len(bad[0].index) == 1 else "entry"
-        plural = {"row": "rows", "entry": "entries"}[word] if len(bad) > 1 else word
-        text = f"Wrong in {plural} {places}"
+        text = f"Wrong in {_places(bad, answer)}"
         yield Text((text + ("; the others are right or follow." if right else "."),))
     if view.level >= 2 or view.teacher:
-        yield from _slips(answer.diagnosis, view)
+        yield from _slips(answer, bad, view)
     if view.teacher:
         yield from _differences(answer, bad)
     for note in (*answer.notes, *_times(answer)):
@@ -168,9 +164,27 @@ def _differences(answer: Judged, bad: Sequence[EntryVerdict]) -> Iterator[Block]
             yield Formula(entry.difference)
 
 
-def _slips(told: Sequence[Diagnosis], view: View) -> Iterator[Block]:
+def _places(entries: Sequence[EntryVerdict], answer: Judged) -> str:
+    """Some entries of an answer: `entry 2` of a column, `entries (1, 1), (2, 2)`, `row 1` of C."""
+    is_column = all(e.index[-1] == 1 for e in answer.entries)
+    word = "row" if len(entries[0].index) == 1 else "entry"
+    plural = {"row": "rows", "entry": "entries"}[word] if len(entries) > 1 else word
+    return f"{plural} {', '.join(str(e.index[0]) if is_column else _index(e) for e in entries)}"
+
+
+def _where_told(told: Diagnosis, bad: Sequence[EntryVerdict], answer: Judged) -> str:
+    """Which of several wrong entries a slip is in, where it is not in all of them."""
+    there = [entry for entry in bad if told in entry.diagnosis]
+    if not 0 < len(there) < len(bad):
+        return ""
+    places = _places(there, answer)
+    return f"{places[0].upper()}{places[1:]}: "
+
+
+def _slips(answer: Judged, bad: Sequence[EntryVerdict], view: View) -> Iterator[Block]:
+    told = answer.diagnosis
     if view.level >= 3 or view.teacher:
-        items = [typeset(f"{d.message} {d.look}".strip()) for d in told]
+        items = [typeset(_where_told(d, bad, answer) + f"{d.message} {d.look}".strip()) for d in told]
         if items:
             yield List(tuple(items))
         else:

@@ -78,6 +78,14 @@ def test_each_level_tells_where_what_kind_and_how() -> None:
     assert "has 1 in front where 2 belongs" in how
 
 
+def test_each_slip_of_a_matrix_says_in_which_entry_it_is() -> None:
+    slipped = {**RIGHT, "D": "[[I1zz + m2*L2^2 + m1*L2^2, 0], [0, 2*m2]]"}
+    page = _page(slipped)
+    assert "Wrong in entries (1, 1), (2, 2); the others are right or follow." in page
+    assert "- Entry (1, 1): The term $m_{1}$ $L_{2}^{2}$ does not belong here." in page
+    assert "- Entry (2, 2): Your answer is 2 times what it should be." in page
+
+
 def test_without_answers_it_says_how_they_are_written() -> None:
     assert "No answer was found in it. The name stands before the value: `K = ...`." in _of_text(
         "answers: {}\n"
