@@ -6,7 +6,8 @@ numbers for its symbols or the answer holds decimals, the other two are tried:
 - a symbol with a number in the file may stand as either: symbols that the answer
   does not use are replaced by their numbers on both sides;
 - every decimal of the answer stands for all numbers that round to it, and the
-  expected coefficients must lie in what that allows.
+  expected coefficients must lie in what that allows; but twice as much as is
+  right (0.1 for 0.05) is a lost ½ and no rounding.
 """
 
 from __future__ import annotations
@@ -128,10 +129,12 @@ def _rounds(expected: Expr, mine: Expr, steps: Iterator[Expr]) -> bool:
     if not allowed:
         return False
     theirs, ours = _floats(expected), _floats(mine)
-    return all(
-        abs(theirs.get(key, 0.0) - ours.get(key, 0.0)) <= allowed.get(key, 0.0) * _SLACK + 1e-12
-        for key in theirs.keys() | ours.keys()
-    )
+    for key in theirs.keys() | ours.keys():
+        right = theirs.get(key, 0.0)
+        off = abs(right - ours.get(key, 0.0))
+        if off > allowed.get(key, 0.0) * _SLACK + 1e-12 or (right and off * _SLACK >= abs(right)):
+            return False
+    return True
 
 
 def _floats(expr: Expr) -> dict[tuple[int, ...], float]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
@@ -172,7 +172,11 @@ class Graph:
             case "D":
                 return (Way(("tau",), self._inertia), Way(("K",), self._inertia_from_energy))
             case "Cqd":
-                return (Way(("tau",), self._coriolis), Way(("D",), self._coriolis_from_inertia))
+                return (
+                    Way(("tau",), self._coriolis),
+                    Way(("D",), self._coriolis_from_inertia),
+                    Way(("D",), self._coriolis_entry_by_entry),
+                )
             case "g":
                 return (Way(("tau",), self._gravity), Way(("P",), self._gravity_vector))
             case "C" | "christoffel":
@@ -220,6 +224,16 @@ class Graph:
 
     def _coriolis_from_inertia(self, D: Matrix) -> Matrix:
         return self._coriolis_matrix(D) @ velocities(self.robot)
+
+    def _coriolis_entry_by_entry(self, D: Matrix) -> Matrix | None:
+        """Σ_i ∂D/∂q_i q̇_i q̇ - ½ ∂(q̇ᵀ D q̇)/∂q of a D that is not symmetric: each d_ij from its own place."""
+        if D.rows == D.T.rows:
+            return None
+        ring, rates = D.ring, velocities(self.robot)
+        slopes = [D.map(partial(ring.diff, k=k)) @ rates for k in range(self.robot.n)]
+        moved = [ring.dot([slope.entries[k] for slope in slopes], rates.entries) for k in range(self.robot.n)]
+        halves = [(rates.T @ slope).entries[0] * vectorized.HALF for slope in slopes]
+        return Matrix.column(ring, [a - b for a, b in zip(moved, halves, strict=True)])
 
     def _gravity_vector(self, P: Expr) -> Matrix:
         return vectorized.gravity_vector(self.robot, P)

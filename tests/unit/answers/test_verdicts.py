@@ -286,6 +286,17 @@ def test_C_follows_from_a_D_given_by_its_entries() -> None:
     assert (found["C"].verdict, found["C"].follows_from) == ("follows", ("d11",))
 
 
+@pytest.mark.parametrize("c22", ["0", f"-{H}*q1_dot/2"])
+def test_C_follows_from_a_D_that_is_not_symmetric(c22: str) -> None:
+    """A slip in d12 alone, which stands for d21 too, or each d_ij is taken from its own place."""
+    report = judge(ELBOW, {
+        "D": [[D11, f"2*({D12})"], [D12, D22]],
+        "C": [[f"2*{H}*q2_dot", f"2*{H}*q2_dot"], [f"-{H}*q1_dot", c22]],
+    })  # fmt: skip
+    found = {a.name: a for a in report.answers}
+    assert (found["C"].verdict, found["C"].follows_from) == ("follows", ("D",))
+
+
 def test_a_matrix_of_the_wrong_size_is_wrong() -> None:
     assert codes(judged(ELBOW, "D", [[D11, D12]])) == ["shape"]
 
@@ -362,6 +373,16 @@ def test_the_decimals_that_were_written_count(text: str, verdict: str, read_as: 
 def test_a_number_for_g() -> None:
     assert judged(ROD, "g1", "9.81*m1*l1*cos(q1)/2").verdict == "correct"
     assert judged(ROD, "g1", "9.82*m1*l1*cos(q1)/2").verdict == "wrong"
+
+
+def test_a_number_twice_as_large_is_no_rounding() -> None:
+    light = ROD.replace("shape: {rod: {length: l1}}", "inertia: {zz: 0.05}").replace(
+        "{g: 9.81, m1: 2}", "{g: 9.81}"
+    )
+    assert judged(light, "Kw1", "0.025*q1_dot^2").notes == ()
+    assert judged(light, "Kw1", "0.03*q1_dot^2").notes == ("rounded",)
+    assert judged(light, "Kw1", "0.05*q1_dot^2").verdict == "wrong"
+    assert judged(light, "I_body1", [["0", "0", "0"], ["0", "0", "0"], ["0", "0", "0.1"]]).verdict == "wrong"
 
 
 TILTED = """
