@@ -32,8 +32,7 @@ class ClusterPool:
         except ImportError:
             message = "--cluster needs Dask: install it with `pip install dynsolve[cluster]`"
             raise UsageError(message) from None
-        for name in [name for name in logging.root.manager.loggerDict if name.startswith("distributed")]:
-            logging.getLogger(name).setLevel(logging.CRITICAL)  # what is wrong is said here
+        _quiet()
         self.bounds = bounds
         self.address = address
         self._alone = 0
@@ -98,6 +97,20 @@ class ClusterPool:
         """Leave the scheduler; what is under way is given up."""
         self._executor.shutdown(wait=False)
         self._client.close()
+
+
+def _quiet() -> None:
+    """What is wrong with a cluster is said here, not by Dask's threads in pages of their own."""
+    for name in [name for name in logging.root.manager.loggerDict if name.startswith("distributed")]:
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    for name in ("asyncio", "tornado.application"):
+        logging.getLogger(name).addFilter(_is_ours)
+
+
+def _is_ours(record: logging.LogRecord) -> bool:
+    """Whether a record is not about a connection of Dask's that was lost."""
+    kind = record.exc_info[0] if record.exc_info else None
+    return kind is None or kind.__name__ != "CommClosedError"
 
 
 def run_bounded(payload: Data, seconds: float, memory: int, version: str) -> Data:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import logging
 import os
 import re
 import signal
@@ -16,7 +17,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import UsageError
-from dynsolve.grading.cluster import PATIENCE, ClusterPool, run_bounded
+from dynsolve.grading.cluster import PATIENCE, ClusterPool, _quiet, run_bounded
 from dynsolve.grading.pool import Bounds, Data
 from tests.cli.running import ROOT, dynsolve, environment
 from tests.grading.generate import course, problem_set
@@ -155,6 +156,16 @@ def test_a_cluster_without_workers_is_given_up() -> None:
     with pytest.raises(UsageError, match="has no workers; what is done is kept"):
         for _ in range(PATIENCE):
             pool.check()
+
+
+def test_a_connection_that_is_lost_is_no_page_of_traceback(caplog: pytest.LogCaptureFixture) -> None:
+    from distributed.comm import CommClosedError
+
+    _quiet()
+    for error in (CommClosedError("in: closed"), ValueError("another")):
+        for name in ("asyncio", "tornado.application"):
+            logging.getLogger(name).error("Task exception was never retrieved", exc_info=error)
+    assert [record.exc_info[0] for record in caplog.records if record.exc_info] == 2 * [ValueError]
 
 
 def test_without_the_extra_the_remedy_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
