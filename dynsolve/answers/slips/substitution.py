@@ -11,10 +11,11 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
 from dynsolve.answers.graph import Graph
-from dynsolve.answers.needs import is_opaque
+from dynsolve.answers.needs import children, is_opaque
 from dynsolve.answers.slips.table import slip
 from dynsolve.answers.slips.words import Words
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.notation.tree import Node
 
 MOST_TERMS = 400
 
@@ -95,7 +96,7 @@ def _angles(graph: Graph, words: Words, values: _Pair) -> Iterator[Diagnosis]:
             continue
         s, c = ring.generator(pair.sine), ring.generator(pair.cosine)
         if values.becomes({pair.sine: c.poly, pair.cosine: s.poly}):
-            yield _function(words, expected, s, c)
+            yield from _function(words, values, s, c)
         for angle in dict.fromkeys(angles):
             if angle == pair.angle:
                 continue
@@ -108,17 +109,35 @@ def _angles(graph: Graph, words: Words, values: _Pair) -> Iterator[Diagnosis]:
                 function = "cos" if pair.cosine in used else "sin"
                 right = c if function == "cos" else s
                 written = ring.cos(angle) if function == "cos" else ring.sin(angle)
+                if not _is_seen(words, values, written, right):
+                    continue
                 yield slip(
                     "angle_product" if product else "angle",
                     yours=words.of(mine), part=words.of(written), other=words.of(right),
                 )  # fmt: skip
 
 
-def _function(words: Words, expected: Expr, s: Expr, c: Expr) -> Diagnosis:
-    degrees = expected.poly.degrees()
+def _function(words: Words, values: _Pair, s: Expr, c: Expr) -> Iterator[Diagnosis]:
+    degrees = values.expected.poly.degrees()
     sine = degrees[_used(s)[0]] > 0
     written, right = (c, s) if sine else (s, c)
-    return slip("sin_for_cos", yours="your answer", part=words.of(written), other=words.of(right))
+    if _is_seen(words, values, written, right):
+        yield slip("sin_for_cos", yours="your answer", part=words.of(written), other=words.of(right))
+
+
+def _is_seen(words: Words, values: _Pair, written: Expr, right: Expr) -> bool:
+    """Whether the one function stands in the answer and the other in what was expected.
+
+    The ring may hold cos θ₂ in sines and cosines of θ₁ and θ₁ + θ₂; that these become
+    something else is no slip that anybody makes.
+    """
+    return _holds(words.form(values.mine), words.form(written)) and _holds(
+        words.form(values.expected), words.form(right)
+    )
+
+
+def _holds(node: Node, part: Node) -> bool:
+    return node == part or any(_holds(child, part) for child in children(node))
 
 
 def _symbols(graph: Graph, words: Words, values: _Pair) -> Iterator[Diagnosis]:

@@ -139,17 +139,33 @@ class TermSlips:
         if not any(wave[1]):
             return _found(3, "dropped_factor", yours=yours, part=theirs)
         if wave[1] == wanted[1]:
-            return _found(2, "sin_for_cos", yours=yours, part=mine_says, other=theirs)
+            return _found(2, "sin_for_cos", yours=yours, part=mine_says, other=self._instead(m, e))
         if wave[0] == wanted[0]:
             code = "angle_product" if self._is_product(wave) else "angle"
-            return _found(2 + (m[1] != e[1]), code, yours=yours, part=mine_says, other=theirs)
+            return _found(2 + (m[1] != e[1]), code, yours=yours, part=mine_says, other=self._instead(m, e))
         return None
 
     def _is_product(self, wave: Wave) -> bool:
         return any(len(atom) > 1 for atom, _ in angle_of(self.ring, wave).terms)
 
     def _wave_words(self, wave: Wave) -> Told:
-        return lambda: self.words.of(wave_expr(self.ring, wave))
+        return lambda: self._signed(wave)[1]
+
+    def _signed(self, wave: Wave) -> tuple[bool, str]:
+        """Whether a wave is written with a sign (sin(θ₁ - (θ₁ + θ₂)) is -s₂), and its words without it."""
+        text = self.words.of(wave_expr(self.ring, wave))
+        return text.startswith("-"), text.removeprefix("-")
+
+    def _instead(self, mine: tuple[Wave, Fraction], expected: tuple[Wave, Fraction]) -> Told:
+        """What belongs where a function stands: with a sign where the sign is another, too."""
+
+        def told() -> str:
+            turned, _ = self._signed(mine[0])
+            wanted, text = self._signed(expected[0])
+            same = ((mine[1] < 0) != turned) == ((expected[1] < 0) != wanted)
+            return text if same else f"-{text}"
+
+        return told
 
     def _waves_apart(self, mine: Part, expected: Part) -> list[Found]:
         """Each wave by itself: one that is missing, one too many, one with another number."""

@@ -82,6 +82,24 @@ def test_a_slip_is_not_read_into_what_has_none(answer: str, told: list[str]) -> 
     assert sorted(codes(next(a for a in report.answers if a.given))) == told
 
 
+@pytest.mark.parametrize(
+    ("dLdqd2", "told"),
+    [
+        ("m2*l1*lc2*sin(q2)*q1_dot", "stands s₂ where c₂ belongs"),
+        ("-m2*l1*lc2*sin(q2)*q1_dot", "stands s₂ where -c₂ belongs"),
+        ("m2*l1*lc2*cos(q1)*q1_dot", "stands c₁ where c₂ belongs"),
+    ],
+)
+def test_what_is_said_to_stand_in_an_answer_stands_there(dLdqd2: str, told: str) -> None:
+    """The ring has θ₁ and θ₁ + θ₂: there c₂ and s₂ are the functions of a difference."""
+    rest = "(m2*lc2^2 + I2)*(q1_dot + q2_dot)"
+    found = judged("planar-2r", "dLdqd2", f"{dLdqd2} + {rest}")
+    assert [told in d.message for d in found.diagnosis] == [True]
+    square = "l1^2*q1_dot^2 + lc2^2*(q1_dot + q2_dot)^2 + 2*l1*lc2*cos(q1)*q1_dot*(q1_dot + q2_dot)"
+    for said in judged("planar-2r", "Kv2", f"m2*({square})/2").diagnosis:
+        assert "stands c₁ where c₂ belongs" in said.message
+
+
 def test_an_entry_of_an_inertia_matrix_is_no_transposed_matrix() -> None:
     """A transposed A_1 would lead to it, but the message would speak of the student's D."""
     import dynsolve
