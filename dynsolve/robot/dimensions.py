@@ -14,6 +14,7 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
+from dynsolve.notation.unicode import raised
 from dynsolve.robot.model import JointType, Robot
 
 Dimension = tuple[Fraction, Fraction, Fraction]
@@ -182,8 +183,12 @@ _UNITS = {
 
 
 def describe(dim: Dimension) -> str:
-    """A dimension in words, or in SI units where it has no name."""
+    """A dimension in words, or in SI units where it has no name.
+
+    >>> describe(ENERGY), describe(dimension(mass=1, length=2, time=-3))
+    ('an energy (or a torque)', 'kg m² s⁻³')
+    """
     if dim in _UNITS:
         return _UNITS[dim]
     units = [(u, e) for u, e in zip(("kg", "m", "s"), dim, strict=True) if e]
-    return " ".join(u if e == 1 else f"{u}^{e}" for u, e in units)
+    return " ".join(u if e == 1 else u + raised(str(e)) for u, e in units)
