@@ -52,8 +52,8 @@ _LETTER = re.compile(r"(?P<letter>tau|[A-Za-z])(?P<index>\d*)")
 
 _POWERS = {"²": 2, "³": 3, "⁴": 4}
 _WRITTEN = re.compile(
-    r"(?<![^\W_])(?:(?P<number>\d+)(?=[^\W\d_]\W*[₀-₉])"
-    rf"|(?P<letter>[^\W\d_])_(?P<index>[A-Za-z0-9]+)(?P<power>[{''.join(_POWERS)}]?))"
+    r"(?<![^\W_])(?P<number>\d+)(?=[^\W\d_](?:\W*[₀-₉]|_))"
+    rf"|(?<![^\W\d_])(?P<letter>[^\W\d_])_(?P<index>[A-Za-z0-9]+)(?P<power>[{''.join(_POWERS)}]?)"
 )
 
 _MOST = 2000
@@ -199,6 +199,8 @@ def typeset(text: str) -> Prose:
 
     >>> typeset("2m₂ l_c2² is wrong")
     ('2', 'm₂ ', Power(base=Symbol(name='lc2', ...), exponent=Number(...)), ' is wrong')
+    >>> typeset("+ 2l_c2 (")
+    ('+ ', '2', Symbol(name='lc2', ...), ' (')
     >>> [type(part).__name__ for part in typeset("c_ijk = ½")]
     ['Letter', 'str']
     """
