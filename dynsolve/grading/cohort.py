@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from dynsolve.answers.judge import BY_PARTS
 from dynsolve.grading.ledger import standings
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record
@@ -107,10 +108,11 @@ def _count(cohort: Cohort, a: Graded, unjudged: str) -> None:
 
 
 def _for_a_human(a: Graded) -> str:
+    """Why an answer waits; a loss that costs no marks does not, nor a whole whose parts tell its slip."""
     if a.verdict == "unreadable":
         return a.fault or "it could not be read"
-    if a.loss:
+    if a.loss and a.of != "0":
         return f"{a.verdict}, but {a.loss}"
-    if a.verdict == "wrong" and not a.diagnosis:
+    if a.verdict == "wrong" and not a.diagnosis and BY_PARTS not in a.note:
         return "it is wrong, and no slip was found that explains it"
     return ""
