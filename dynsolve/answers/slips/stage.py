@@ -200,7 +200,7 @@ def _potential(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
         right = value("P")
         yield -right, slip("gravity_sign")
         for b in robot.bodies:
-            yield right - value(f"P{b.name}"), slip("body_missing", part=b.name)
+            yield right - value(f"P{b.name}"), slip("body_missing", part=b.name, other="P")
         return
     right = energy.potential_energy(robot, body.mass, value(f"rc{name}"))
     yield -right, slip("gravity_sign")
@@ -218,7 +218,7 @@ def _kinetic(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
     total = energy.total(robot.ring, tuple(value(f"K{b.name}") for b in bodies))
     for b in bodies:
         if len(bodies) > 1:
-            yield total - value(f"K{b.name}"), slip("body_missing", part=b.name)
+            yield total - value(f"K{b.name}"), slip("body_missing", part=b.name, other="K")
     yield (
         energy.total(robot.ring, tuple(value(f"Kv{b.name}") for b in bodies)),
         slip("rotation_missing"),

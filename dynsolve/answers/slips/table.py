@@ -162,7 +162,7 @@ _SLIPS = (
     Slip("slope_missing", "the Euler-Lagrange equation", "∂L/∂q is left out: τ = d/dt ∂L/∂q̇ - ∂L/∂q.",
          "The Euler-Lagrange equation has two parts.",
          Example(_RP, "f2", "m2*L2_ddot")),
-    Slip("body_missing", "a body left out", "The contribution of body {part} is left out.",
+    Slip("body_missing", "a body left out", "The contribution of body {part} to {other} is left out.",
          "Energies are sums over all bodies.",
          Example(_RP, "P", "m2*g*L1", {"P1": "m1*g*L1/2"})),
     Slip("rotation_missing", "the rotational energy left out",

@@ -100,6 +100,17 @@ def test_what_is_said_to_stand_in_an_answer_stands_there(dLdqd2: str, told: str)
         assert "stands c₁ where c₂ belongs" in said.message
 
 
+def test_a_body_left_out_of_one_energy_is_not_left_out_of_the_other() -> None:
+    gravity = {"1": "m1*g*lc1*cos(q1)", "2": "m2*g*(l1*cos(q1) + lc2*cos(q1 + q2))"}
+    turning = {"1": "(m1*lc1^2 + I1)*q1_ddot",
+               "2": "(m2*(l1^2 + lc2^2 + 2*l1*lc2*cos(q2)) + I2)*q1_ddot"
+                    " + (m2*(lc2^2 + l1*lc2*cos(q2)) + I2)*q2_ddot"
+                    " - m2*l1*lc2*sin(q2)*(2*q1_dot*q2_dot + q2_dot^2)"}  # fmt: skip
+    for energy, kept in (("P", (*turning.values(), gravity["1"])), ("K", (turning["1"], *gravity.values()))):
+        (found,) = judged("planar-2r", "tau1", " + ".join(kept)).diagnosis
+        assert found.message == f"The contribution of body 2 to {energy} is left out."
+
+
 def test_an_entry_of_an_inertia_matrix_is_no_transposed_matrix() -> None:
     """A transposed A_1 would lead to it, but the message would speak of the student's D."""
     import dynsolve
