@@ -50,6 +50,9 @@ _NOTHING_FOUND = "No slip was found that explains it."
 
 _LETTER = re.compile(r"(?P<letter>tau|[A-Za-z])(?P<index>\d*)")
 
+_OF_EVERYTHING = ("sign_all", "factor_all")
+"""What is said of a whole answer."""
+
 _POWERS = {"²": 2, "³": 3, "⁴": 4}
 _WRITTEN = re.compile(
     r"(?<![^\W_])(?P<number>\d+)(?=[^\W\d_](?:\W*[₀-₉]|_))"
@@ -173,9 +176,13 @@ def _places(entries: Sequence[EntryVerdict], answer: Judged) -> str:
 
 
 def _where_told(told: Diagnosis, bad: Sequence[EntryVerdict], answer: Judged) -> str:
-    """Which of several wrong entries a slip is in, where it is not in all of them."""
+    """Which of several wrong entries a slip is in, where it is not in all of them.
+
+    A number for everything is of the entries that it is said of, where others are right.
+    """
     there = [entry for entry in bad if told in entry.diagnosis]
-    if not 0 < len(there) < len(bad):
+    others = answer.entries if told.code in _OF_EVERYTHING else bad
+    if not 0 < len(there) < len(others):
         return ""
     places = _places(there, answer)
     return f"{places[0].upper()}{places[1:]}: "

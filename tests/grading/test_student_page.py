@@ -46,6 +46,15 @@ def test_the_first_slip_comes_first_with_what_was_written_set_beside() -> None:
     assert "tau (line 4), correct (right, though your own earlier answers lead elsewhere): `" in page
 
 
+def test_what_is_said_of_everything_is_said_of_the_entry_that_it_holds_for() -> None:
+    page = _page({"D": "[[-I1zz - m2*L2^2, 0], [0, m2]]"})
+    assert "- Entry (1, 1): Everything has the wrong sign." in page
+    page = _page(
+        {"tau": "[2*(I1zz + m2*L2^2)*theta1'' + 4*m2*L2*L2'*theta1', 2*m2*L2'' - 2*m2*L2*theta1'^2]"}
+    )
+    assert "- Your answer is 2 times what it should be." in page
+
+
 def test_an_answer_that_follows_says_from_what() -> None:
     slipped = {"K": "I1zz*theta1'^2 + m2*(L2'^2 + L2^2*theta1'^2)/2"}
     follows = {"tau": "[(2*I1zz + m2*L2^2)*theta1'' + 2*m2*L2*L2'*theta1', m2*L2'' - m2*L2*theta1'^2]"}

@@ -211,7 +211,7 @@ _SLIPS = (
          Example(_RP, "H2", [["-sin(theta1)", "0", "cos(theta1)", "0"],
                  ["cos(theta1)", "0", "sin(theta1)", "0"],
                  ["0", "1", "0", "L1+L2"], ["0", "0", "0", "1"]])),
-    Slip("convention", "the convention", "This is the matrix of the other Denavit-Hartenberg convention.",
+    Slip("convention", "the convention", "This is what the other Denavit-Hartenberg convention gives.",
          "Standard: Rot_z Trans_z Trans_x Rot_x; modified: Rot_x Trans_x Rot_z Trans_z.",
          Example(_RP, "A1", [["-sin(theta1)", "-cos(theta1)", "0", "0"], ["0", "0", "-1", "-L1"],
                  ["cos(theta1)", "-sin(theta1)", "0", "0"], ["0", "0", "0", "1"]])),
