@@ -103,7 +103,7 @@ class NameCursor(Cursor):
 
     def star_is_mark(self, form: Form) -> bool:
         """Whether the star here touches a coordinate's name and no factor follows."""
-        if self.token.spaced or self.peek().kind in BEGINS:
+        if self.token.spaced or self.peek().kind in BEGINS or self.is_quoted(1):
             return False
         meaning = self.vocabulary.symbol(form.key)
         return (
@@ -112,6 +112,10 @@ class NameCursor(Cursor):
             and self.vocabulary.coordinate(meaning.value) is not None
         )
 
+    def is_quoted(self, ahead: int = 0) -> bool:
+        """Whether Maxima's `'diff(` stands there, whose quote is no prime of what is before it."""
+        return self.peek(ahead).kind == "'" and self.peek(ahead + 1).text == "diff"
+
     def script(self, scripts: Scripts) -> bool:
         """Take one script, if one stands here."""
         token = self.token
@@ -119,7 +123,7 @@ class NameCursor(Cursor):
             self.take()
             scripts.powers.append(bounded(Fraction(raised_number(token)), token))
             return True
-        if token.kind == "'" or token.kind == "''":
+        if (token.kind == "'" or token.kind == "''") and not self.is_quoted():
             self.take()
             scripts.primes += len(token.kind)
             return True

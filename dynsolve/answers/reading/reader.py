@@ -217,9 +217,10 @@ class Reader(NameCursor):
             return False
         if self.rows_by_line and self.token.broken:
             return False
-        if "spaces" in self.options and self.token.spaced and kind in BEGINS:
+        begins = kind in BEGINS or self.is_quoted()
+        if "spaces" in self.options and self.token.spaced and begins:
             return False
-        return kind in BEGINS or kind in _PRODUCT_SIGNS
+        return begins or kind in _PRODUCT_SIGNS
 
     def factor(self, seed: Form | None = None) -> Value:
         """Signs, then an atom with its scripts."""
@@ -259,7 +260,7 @@ class Reader(NameCursor):
             return self.framed()
         if kind == "|":
             return self.norm()
-        if kind == "'" and self.peek().text == "diff":
+        if self.is_quoted():
             self.take()
             return self.word(self.token)
         raise self.unexpected()

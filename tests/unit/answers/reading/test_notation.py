@@ -103,6 +103,8 @@ ELBOW = [
     ("(lc1^2*m1*diff(q1(t), t)^2)/2", "lc1**2*m1*q1_dot**2/2"),
     ("lc1.^2.*m1", "lc1**2*m1"),
     ("m1*'diff(q1,t,2)+m2*('diff(q2,t,1))^2", "m1*q1_ddot + m2*q2_dot**2"),
+    ("2*m1*q2*'diff(q1,t,1)*'diff(q2,t,1)", "2*m1*q2*q1_dot*q2_dot"),
+    ("m1 q2 'diff(q1,t)", "m1*q2*q1_dot"),
     ("%pi*m1*sin(q2)^2", "pi*m1*sin(q2)**2"),
     # LaTeX
     (r"\cos\theta_{12} + \dot\theta_{12}", "cos(q1 + q2) + q1_dot + q2_dot"),
