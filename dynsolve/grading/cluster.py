@@ -54,6 +54,9 @@ class ClusterPool:
             raise self._gone() from None
         return sum(threads.values())
 
+    def prepare(self, count: int) -> None:
+        """Nothing: the workers of a cluster are there."""
+
     def check(self) -> None:
         """Called where nothing is done for a while; raises UsageError where nobody is there to do it."""
         self._alone = 0 if self._threads() else self._alone + 1

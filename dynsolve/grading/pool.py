@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 import threading
+from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
@@ -82,7 +83,7 @@ class Worker:
     def _ask(self, payload: Data) -> Data:
         """What the worker answers, or why it does not."""
         if self.process is None:
-            self._start()
+            self.start()
         process = self.process
         assert process is not None and process.stdin and process.stdout
         wait = patience(self.bounds.seconds)
@@ -113,7 +114,8 @@ class Worker:
         killed = said["stopped"] == "ended" and process.returncode == -_KILLED
         return {"reason": f"reading it took more than {memory} of memory, or failed", "killed": killed}
 
-    def _start(self) -> None:
+    def start(self) -> None:
+        """Start the process; raises UsageError where the system has no room for it."""
         try:
             self.process = subprocess.Popen(  # noqa: S603  # this very Python, on this very package
                 [sys.executable, "-P", "-m", MODULE, str(self.bounds.seconds), str(self.bounds.memory)],
@@ -142,6 +144,14 @@ class LocalPool:
         self._threads = ThreadPoolExecutor(jobs, thread_name_prefix="grading")
         self._own = threading.local()
         self._workers: list[Worker] = []
+        self._ready: deque[Worker] = deque()
+
+    def prepare(self, count: int) -> None:
+        """Start as many workers as so many hand-ins need: they import while the run gets ready."""
+        for _ in range(len(self._workers), min(self.jobs, count)):
+            worker = self._another()
+            worker.start()
+            self._ready.append(worker)
 
     def submit(self, payload: Data) -> Future[Data]:
         """A future of {"result": ...} or {"reason": ...}."""
@@ -153,9 +163,13 @@ class LocalPool:
     def _run(self, payload: Data) -> Data:
         worker: Worker | None = getattr(self._own, "worker", None)
         if worker is None:
-            worker = self._own.worker = Worker(self.bounds)
-            self._workers.append(worker)
+            worker = self._own.worker = self._ready.popleft() if self._ready else self._another()
         return worker(payload)
+
+    def _another(self) -> Worker:
+        worker = Worker(self.bounds)
+        self._workers.append(worker)
+        return worker
 
     def close(self) -> None:
         """End every worker, also those that are at work."""

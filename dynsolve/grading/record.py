@@ -52,6 +52,8 @@ CREATE TABLE IF NOT EXISTS finished (
   PRIMARY KEY (student, problem)) WITHOUT ROWID;
 """
 _ANSWER = "name label verdict marks of why line diagnosis message read_as note fault loss form basis".split()
+_COLUMNS = itemgetter(*_ANSWER)
+_CODES = _ANSWER.index("diagnosis")
 
 
 class Graded(NamedTuple):
@@ -163,10 +165,7 @@ class Record:
         )  # fmt: skip
         self.db.executemany(
             f"INSERT INTO answers VALUES ({', '.join('?' * (3 + len(_ANSWER)))})",  # noqa: S608
-            [
-                (*key, place, *(_cell(answer[column]) for column in _ANSWER))
-                for place, answer in enumerate(row["answers"])
-            ],
+            [(*key, place, *_cells(answer)) for place, answer in enumerate(row["answers"])],
         )
 
     def remark(self, key: Key, fingerprint: str, causes: str, marks: Iterable[Marked]) -> None:
@@ -310,5 +309,7 @@ def _text(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def _cell(value: Any) -> Any:
-    return ";".join(value) if isinstance(value, list) else value
+def _cells(answer: Mapping[str, Any]) -> tuple[Any, ...]:
+    """An answer in the order of its columns, the codes of its slips as one text."""
+    cells = _COLUMNS(answer)
+    return (*cells[:_CODES], ";".join(cells[_CODES]), *cells[_CODES + 1 :])

@@ -56,6 +56,9 @@ class Pool(Protocol):
     def jobs(self) -> int:
         """How many hand-ins are worked on at once."""
 
+    def prepare(self, count: int) -> None:
+        """Begin to start what so many hand-ins need, while there is something else to do."""
+
     def submit(self, payload: Data) -> Future[Data]:
         """A future of {"result": ...} or {"reason": ...}."""
 
@@ -104,9 +107,10 @@ def grade_all(
     known = record.fingerprints()
     keys = {(h.student, h.problem) for h in intake.hand_ins}
     record.keep_only({(student, stem) for student in intake.students for stem in problems.stems})
-    record.write_all(_absent(problems, intake, keys, known))
     other = [h for h in intake.hand_ins if known.get((h.student, h.problem)) not in _words(problems, h, pool)]
     due = [hand_in for hand_in in other if not _remarked(record, problems, hand_in, pool.bounds)]
+    pool.prepare(len(due))
+    record.write_all(_absent(problems, intake, keys, known))
     running: dict[Future[Data], HandIn] = {}
     waiting = iter(due)
     done = 0
@@ -157,19 +161,26 @@ def _absent(
     for entry in intake.waiting:
         for stem in (entry.problem,) if entry.problem else problems.stems:
             reasons.setdefault((entry.student, stem), []).append(f"{entry.file}: {entry.reason}")
+    missing = {item.stem: _not_judged(problems, "", item, []) for item in problems.items}
     for student in intake.students:
         for item in problems.items:
             key = (student, item.stem)
             if key in keys:
                 continue
             said = _some_of(reasons.get(key, []))
-            found = {"hand-in": _short(said), "marks": _of_marks(item), "program": program()}
-            found["policy"] = _of_policy(problems.policy)
-            if known.get(key) == _short(found):
-                continue
-            row = _unread(problems, student, item.stem, "; ".join(said))
-            rest = {"files": [], "left": [], "late": False, "reason": "; ".join(said), "notes": []}
-            yield key, _short(found), json.dumps(found, sort_keys=True), {**row, **rest}
+            word, causes, row = _not_judged(problems, student, item, said) if said else missing[item.stem]
+            if known.get(key) != word:
+                yield key, word, causes, row
+
+
+def _not_judged(problems: ProblemSet, student: str, item: Item, said: list[str]) -> tuple[str, str, Data]:
+    """The row of what was not handed in, or waits for a human: its fingerprint, its causes, what it holds."""
+    found = {"hand-in": _short(said), "marks": _of_marks(item), "program": program()}
+    found["policy"] = _of_policy(problems.policy)
+    reason = "; ".join(said)
+    row = _unread(problems, student, item.stem, reason)
+    rest = {"files": [], "left": [], "late": False, "reason": reason, "notes": []}
+    return _short(found), json.dumps(found, sort_keys=True), {**row, **rest}
 
 
 def _some_of(said: list[str]) -> list[str]:

@@ -272,8 +272,8 @@ def test_a_worker_that_is_killed_again_and_again_is_not_the_hand_ins_fault(heavy
 def test_what_goes_over_its_memory_is_tried_twice_and_no_more(
     heavy: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    worker, starts, start = Worker(Bounds()), [], Worker._start
-    monkeypatch.setattr(Worker, "_start", lambda self: (starts.append(1), start(self))[1])
+    worker, starts, start = Worker(Bounds()), [], Worker.start
+    monkeypatch.setattr(Worker, "start", lambda self: (starts.append(1), start(self))[1])
     try:
         found = _answers(worker(payload("answers:\n  P2: 0\n"))["result"])
     finally:
