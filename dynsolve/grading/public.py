@@ -191,6 +191,8 @@ def _opened(folder: Path) -> Iterator[Record]:
     """The record of a folder; a full disk and the like become a message that says how to go on."""
     import sqlite3
 
+    if folder.exists() and not folder.is_dir():
+        raise UsageError(f"{folder} is a file; name a folder for the results")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         record = Record(folder)
