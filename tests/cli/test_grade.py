@@ -319,8 +319,8 @@ def test_a_full_disk_is_said_and_the_same_command_goes_on(tmp_path: Path) -> Non
 def test_a_file_in_place_of_the_folder_is_said(tmp_path: Path, set_folder: Path) -> None:
     where = _write(tmp_path / "in", {"ada.yaml": RIGHT}), _write(tmp_path, {"out": "notes"}) / "out"
     run = dynsolve("grade", str(set_folder), str(where[0]), "-o", str(where[1]))
-    assert (run.returncode, where[1].read_text()) == (2, "notes")
-    assert "is a file; name a folder" in run.stderr and "goes on" not in run.stderr
+    assert (run.code, where[1].read_text()) == (2, "notes")
+    assert "is a file; name a folder" in run.err and "goes on" not in run.err
 
 
 def test_ctrl_c_ends_cleanly_leaves_no_process_and_says_how_to_go_on(tmp_path: Path) -> None:
