@@ -91,8 +91,9 @@ def opening(report: Report) -> Iterator[Block]:
     """How it went, in a sentence or two."""
     count = sum(a.verdict is Verdict.CORRECT for a in report.answers)
     if not any(a.given for a in report.answers):
+        how = ", and the value is in the symbols of the problem: other letters make a general formula."
         yield Text(
-            ("No answer was found in it. The name stands before the value: ", Verbatim("K = ..."), ".")
+            ("No answer was found in it. The name stands before the value: ", Verbatim("K = ..."), how)
         )
     elif report.all_correct:
         yield Text((f"All {count} answers are correct." if count > 1 else "The answer is correct.",))

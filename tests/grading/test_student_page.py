@@ -96,7 +96,7 @@ def test_each_slip_of_a_matrix_says_in_which_entry_it_is() -> None:
 
 
 def test_without_answers_it_says_how_they_are_written() -> None:
-    assert "No answer was found in it. The name stands before the value: `K = ...`." in _of_text(
+    assert "No answer was found in it. The name stands before the value: `K = ...`, and" in _of_text(
         "answers: {}\n"
     )
 
