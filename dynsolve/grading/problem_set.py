@@ -100,7 +100,7 @@ def _folder(folder: Path) -> ProblemSet:
     marks = _marks(report, fields.get("marks") if fields else None, readings)
     policy = _policy(report, fields.get("policy") if fields else None)
     if report.errors or findings:
-        raise ProblemError([*report.errors, *findings])
+        raise ProblemError([*report.found(), *findings])
     title = (free_text(report, fields.get("title"), "title") if fields else "") or folder.resolve().name
     chosen = tuple(Item(_marked(r.problem, marks.get(s, {})), text) for s, (r, text) in readings.items())
     return ProblemSet(title, chosen, policy)

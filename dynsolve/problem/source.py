@@ -123,12 +123,15 @@ class Report:
         """Note a warning at a span of characters."""
         self.warnings.append(self.source.finding(*span, message, help, code))
 
-    def raise_errors(self) -> None:
-        """Raise all errors noted so far as one ProblemError, in the order of the file."""
-        if not self.errors:
-            return
+    def found(self) -> list[Finding]:
+        """All errors noted so far, in the order of the file; of very many the first."""
         found = sorted(dict.fromkeys(self.errors), key=lambda finding: (finding.line, finding.column))
         shown = found[:MAX_FINDINGS]
         if len(found) > len(shown):
             shown.append(Finding(f"and {len(found) - len(shown)} more", "", self.source.file))
-        raise ProblemError(shown)
+        return shown
+
+    def raise_errors(self) -> None:
+        """Raise all errors noted so far as one ProblemError."""
+        if self.errors:
+            raise ProblemError(self.found())

@@ -69,6 +69,13 @@ def test_a_fault_is_reported_at_its_place(
     assert (finding.line, finding.column) == place
 
 
+def test_faults_are_told_in_the_order_of_the_file(tmp_path: Path) -> None:
+    text = "policy: {hints: 4}\nmarks:\n  in3140-rp: {Q: 2}\nproblems: [in3140-rp.yaml, rp.yaml]\ntitel: x\n"
+    with pytest.raises(ProblemError) as caught:
+        load_set(_folder(tmp_path, text))
+    assert [finding.line for finding in caught.value.findings] == [1, 3, 4, 5]
+
+
 def test_the_schema_knows_every_key_and_takes_what_the_reader_takes() -> None:
     import jsonschema
 
