@@ -21,6 +21,7 @@ from dynsolve.algebra.survey import rational_value
 from dynsolve.answers.frac import Frac, simplified
 from dynsolve.answers.needs import dotted, expected_angle, opaque, plain_radicand
 from dynsolve.answers.submission import REFERENCE_MARK
+from dynsolve.bounded import keep
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import (
     Degrees,
@@ -179,9 +180,7 @@ class Evaluator:
                 return self._finish(term)
             found = _Value(None, raw, self.work - work)
         if self._asked == asked:  # nothing of the student's own stands in it
-            if len(known) >= MOST_KNOWN:
-                known.clear()
-            known[node] = found
+            keep(known, node, found, MOST_KNOWN)
         return found
 
     def _raw(self, term: _Term) -> Any:
@@ -300,10 +299,8 @@ class Evaluator:
         known = self._values.turns
         found = known.get(node)
         if found is None:
-            if len(known) >= MOST_KNOWN:
-                known.clear()
             work = self.work
-            found = known[node] = self._turn_value(node)
+            found = keep(known, node, self._turn_value(node), MOST_KNOWN)
             self.work = work  # what is remembered costs nothing, nor must the first who writes it pay
         return found
 

@@ -11,6 +11,7 @@ from dynsolve.algebra.angles import Angle, angle_from_tree, names_of
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.survey import rational_value
 from dynsolve.answers.submission import referred
+from dynsolve.bounded import keep
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Degrees, Function, Node, Number, Symbol
@@ -58,7 +59,7 @@ class Known:
     def __init__(self, ring: Ring, terms: Container[Node] = ()) -> None:
         self.ring = ring
         self.terms = terms
-        self._plain: set[Function] = set()
+        self._plain: dict[Function, None] = {}
 
     def brings_nothing(self, node: Function) -> bool:
         """Whether this function was met before and is there as it is."""
@@ -66,9 +67,7 @@ class Known:
 
     def remember(self, node: Function) -> None:
         """Note that a function brings nothing."""
-        if len(self._plain) >= MOST_PLAIN:
-            self._plain.clear()
-        self._plain.add(node)
+        keep(self._plain, node, None, MOST_PLAIN)
 
     def holds(self, angle: Angle) -> bool:
         """Whether the ring has the sine and cosine of an angle as they are."""

@@ -14,6 +14,7 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
+from dynsolve.bounded import recalled
 from dynsolve.notation.unicode import raised
 from dynsolve.robot.model import JointType, Robot
 
@@ -114,14 +115,7 @@ class Dimensions:
 
     def _of_term(self, exponents: tuple[int, ...]) -> Dimension | None:
         """The dimension of a term, which is remembered: a cohort has few different ones."""
-        try:
-            return self._products[exponents]
-        except KeyError:
-            if len(self._products) >= MOST_REMEMBERED:
-                self._products.clear()
-            found = self._product((i, e) for i, e in enumerate(exponents) if e)
-            self._products[exponents] = found
-            return found
+        return recalled(self._products, exponents, lambda: self._product(_powers(exponents)), MOST_REMEMBERED)
 
     def of(self, expr: Expr) -> Dimension | None:
         """The dimension of an expression, None where it is unknown or its terms differ."""
@@ -131,6 +125,11 @@ class Dimensions:
     def fits(self, expr: Expr, wanted: Dimension) -> bool:
         """Whether every term has a dimension, as far as it is known."""
         return not self.known or all(found in (None, wanted) for found in self.terms(expr))
+
+
+def _powers(exponents: tuple[int, ...]) -> Iterator[tuple[int, int]]:
+    """(generator, exponent) of those that occur."""
+    return ((i, e) for i, e in enumerate(exponents) if e)
 
 
 def times(a: Dimension, b: Dimension, power: int | Fraction = 1) -> Dimension:

@@ -7,7 +7,6 @@ import random
 import pytest
 
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.reading import memory
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.library import find
 from dynsolve.problem.reader import load
@@ -54,10 +53,10 @@ def test_a_checker_judges_every_file_as_if_it_were_the_first(problem: str) -> No
         assert shared(shared.reader(text, name)) == fresh(fresh.reader(text, name))
 
 
-def test_a_memory_that_is_full_is_begun_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_memory_that_is_full_is_begun_anew() -> None:
     model = load(find("planar-2r"))
-    monkeypatch.setattr(memory, "MOST", 5)
     shared = FileReader(model)
+    shared.vocabulary.memory.most = 5
     for name, text in _files("planar-2r", 8):
         assert shared(text, name) == FileReader(model)(text, name)
     assert len(shared.vocabulary.memory.terms) <= 5

@@ -8,9 +8,8 @@ for one set of names; what a student defines begins a new one.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 from dynsolve.answers.reading.measure import Measure, measured
 from dynsolve.answers.reading.scan import Token
@@ -25,9 +24,6 @@ MOST_TOKENS = 40
 
 Signs = tuple[tuple[Any, ...], ...]
 """What tokens say, without where they stand."""
-
-_K = TypeVar("_K")
-_V = TypeVar("_V")
 
 _OPENS = frozenset({"(", "[", "{", "begin"})
 _CLOSES = frozenset({")", "]", "}", "close"})
@@ -95,7 +91,8 @@ class Memory:
     `plain` are names without scripts, `pieces` runs of letters with the names they are
     made of; `sides` and `keys` what the left sides of equations and the keys of answer
     files name; `measures` the sizes of the remembered trees by their identity; `cuts` and
-    `members` the parts and the values of whole texts, for students copy.
+    `members` the parts and the values of whole texts, for students copy.  Of each kind
+    there are at most `most`.
     """
 
     terms: dict[Signs, Term] = field(default_factory=dict)
@@ -106,31 +103,16 @@ class Memory:
     keys: dict[str, Side] = field(default_factory=dict)
     cuts: dict[tuple[Any, str], Any] = field(default_factory=dict)
     members: dict[tuple[str, int, tuple[str, ...]], Any] = field(default_factory=dict)
+    most: int = MOST
 
     def keep(self, key: Signs, term: Term) -> None:
         """Remember a term, unless it is too large to be read at all."""
         if key in self.terms:  # its measure stands under the identity of the tree that is there
             return
-        if len(self.terms) >= MOST:
+        if len(self.terms) >= self.most:
             self.terms, self.measures = {}, {}
         try:
             self.measures[id(term.node)] = measured(term.node, {}, self.measures)
         except ReadError:
             return
         self.terms[key] = term
-
-
-def recalled(memory: dict[_K, _V], key: _K, make: Callable[[], _V], most: int | None = None) -> _V:
-    """What a bounded memory holds under a key, made where it holds nothing yet."""
-    try:
-        return memory[key]
-    except KeyError:
-        return keep(memory, key, make(), most)
-
-
-def keep(memory: dict[_K, _V], key: _K, value: _V, most: int | None = None) -> _V:
-    """Put a value into a bounded memory."""
-    if len(memory) >= (MOST if most is None else most):
-        memory.clear()
-    memory[key] = value
-    return value

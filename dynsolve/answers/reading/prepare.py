@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from functools import partial
 
 from dynsolve.answers.reading.limits import MAX_TOKENS
-from dynsolve.answers.reading.memory import recalled
 from dynsolve.answers.reading.scan import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
+from dynsolve.bounded import recalled
 from dynsolve.errors import ReadError
 
 _FACES = frozenset(
@@ -204,7 +204,8 @@ def cut_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False)
         mark = (token.text, open_end, called, naming)
         pieces = known.get(mark)
         if pieces is None:
-            pieces = recalled(known, mark, partial(_pieces, token.text, vocabulary, open_end, called, naming))
+            make = partial(_pieces, token.text, vocabulary, open_end, called, naming)
+            pieces = recalled(known, mark, make, vocabulary.memory.most)
         if len(pieces) == 1:
             out.append(token)
             continue

@@ -16,12 +16,13 @@ from dynsolve.answers.reading.fitting import fitted, misfit, model_parts, shown,
 from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.members import EXPECTED, Read, read_member
-from dynsolve.answers.reading.memory import Name, Side, Unknown, keep, recalled
+from dynsolve.answers.reading.memory import Name, Side, Unknown
 from dynsolve.answers.reading.prepare import Macro, expand, simplified
 from dynsolve.answers.reading.scan import Token, scan
 from dynsolve.answers.reading.sides import side_of, sides
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, key
 from dynsolve.answers.submission import Answer, NotRecognized, Place
+from dynsolve.bounded import keep, recalled
 from dynsolve.errors import ReadError
 from dynsolve.notation.unicode import UnicodePrinter
 
@@ -152,7 +153,8 @@ class Session:
         """What a key of an answer file names."""
         if name.startswith("I") and name in self.vocabulary.shapes:
             return Name((name,))
-        return recalled(self.vocabulary.memory.keys, name, lambda: self._scanned_key(name))
+        memory = self.vocabulary.memory
+        return recalled(memory.keys, name, lambda: self._scanned_key(name), memory.most)
 
     def _scanned_key(self, name: str) -> Side:
         try:

@@ -6,12 +6,13 @@ from dynsolve.answers.reading.derivatives import UnknownVariable
 from dynsolve.answers.reading.forms import Form
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.lookup import UnknownName
-from dynsolve.answers.reading.memory import Name, Side, Unknown, recalled, signs
+from dynsolve.answers.reading.memory import Name, Side, Unknown, signs
 from dynsolve.answers.reading.prepare import cut_names
 from dynsolve.answers.reading.reader import Reader
 from dynsolve.answers.reading.scan import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
 from dynsolve.answers.submission import referred
+from dynsolve.bounded import recalled
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Negative, Sum, Symbol
 
@@ -46,7 +47,8 @@ def side_of(vocabulary: Vocabulary, member: list[Token]) -> Side:
     """The name that a side is, None where it is something else."""
     if len(member) > 200:
         return None
-    return recalled(vocabulary.memory.sides, signs(member), lambda: _read_side(vocabulary, member))
+    memory = vocabulary.memory
+    return recalled(memory.sides, signs(member), lambda: _read_side(vocabulary, member), memory.most)
 
 
 def _read_side(vocabulary: Vocabulary, member: list[Token]) -> Side:
