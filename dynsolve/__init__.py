@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from dynsolve.grading.public import grade as grade
     from dynsolve.grading.public import override as override
     from dynsolve.problem import Problem as Problem
-    from dynsolve.solution import Solution as Solution
-    from dynsolve.solution import load as load
-    from dynsolve.solution import solve as solve
+    from dynsolve.solution.solution import Solution as Solution
+    from dynsolve.solution.solution import load as load
+    from dynsolve.solution.solution import solve as solve
 
 __version__ = "0.1.0"
 
@@ -28,9 +28,9 @@ _PLACES = {
     "grade": "dynsolve.grading.public",
     "override": "dynsolve.grading.public",
     "Problem": "dynsolve.problem",
-    "Solution": "dynsolve.solution",
-    "load": "dynsolve.solution",
-    "solve": "dynsolve.solution",
+    "Solution": "dynsolve.solution.solution",
+    "load": "dynsolve.solution.solution",
+    "solve": "dynsolve.solution.solution",
 }
 
 

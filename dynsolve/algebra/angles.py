@@ -7,11 +7,12 @@ product of coordinates is an atom too, so that nothing is refused for its form.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from dynsolve.errors import AlgebraError
+from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import (
     Degrees,
     Negative,
@@ -177,3 +178,14 @@ def names_of(angle: Angle) -> Iterator[str]:
     for atom, _ in angle.terms:
         for name, _ in atom:
             yield name
+
+
+def angle_node(angle: Angle, coordinates: Sequence[str] = ()) -> Node:
+    """An angle as a tree: θ₁ + θ₂, 2θ₂ - β/2, coordinates before symbols and positive terms first."""
+    moving: dict[Atom, int] = {((name, 1),): i for i, name in enumerate(coordinates)}
+    ordered = sorted(angle.terms, key=lambda term: (moving.get(term[0], len(moving)), term[0]))
+    terms = [times(rate, [(Symbol(name), e) for name, e in atom]) for atom, rate in ordered]
+    if angle.degrees:
+        constant = Degrees(abs(angle.degrees.numerator), angle.degrees.denominator)
+        terms.append(negated(constant) if angle.degrees < 0 else constant)
+    return total(terms)

@@ -17,7 +17,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_poly
 
-from dynsolve.algebra.lattice import rational_gcd
+from dynsolve.algebra.integer_basis import rational_gcd
 from dynsolve.errors import AlgebraError
 
 LARGEST_DEGREE = 12

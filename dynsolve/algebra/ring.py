@@ -27,9 +27,9 @@ from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.constants import ConstantAngles
+from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.expr import Expr, Generator, Pair, rational
-from dynsolve.algebra.from_tree import value_of
-from dynsolve.algebra.survey import Survey, survey
+from dynsolve.algebra.ring_plan import Survey, survey
 from dynsolve.algebra.values import evaluate
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node, Number, Quotient

@@ -8,8 +8,8 @@ from math import cos, pi, radians, sin, sqrt
 from flint import fmpq_mpoly
 
 from dynsolve.algebra.angles import Atom, names_of
+from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.expr import Expr, Generator
-from dynsolve.algebra.from_tree import value_of
 
 DOTS = ("", "_dot", "_ddot")
 

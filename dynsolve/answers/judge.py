@@ -17,19 +17,19 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.compare import Comparison
-from dynsolve.answers.diagnose import Diagnoser, Question
-from dynsolve.answers.field import Field
-from dynsolve.answers.follow import Candidate, Follow
-from dynsolve.answers.frac import Frac, as_expr
-from dynsolve.answers.given import Given, Hand, same
-from dynsolve.answers.graph import Graph
-from dynsolve.answers.hold import Held, Holder, Target
-from dynsolve.answers.level import find_level
-from dynsolve.answers.own import own_values
+from dynsolve.answers.diagnosis.derivation import DerivationSlips
+from dynsolve.answers.diagnosis.diagnose import Diagnoser, Question
+from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.compare import Comparison
+from dynsolve.answers.judging.follow import Candidate, Follow
+from dynsolve.answers.judging.fraction import Frac, as_expr
+from dynsolve.answers.judging.given import Given, Hand, same
+from dynsolve.answers.judging.graph import Graph
+from dynsolve.answers.judging.key_comparison import Held, Holder, Target
+from dynsolve.answers.judging.student_values import own_values
+from dynsolve.answers.judging.zero_height import find_level
 from dynsolve.answers.reading.files import FileReader
-from dynsolve.answers.slips.derivation import DerivationSlips
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.reading.submission import Submission
 from dynsolve.answers.verdict import (
     EntryVerdict,
     Judged,
@@ -38,8 +38,8 @@ from dynsolve.answers.verdict import (
     Verdict,
     worst,
 )
+from dynsolve.derivation.graph import Derivation, derive
 from dynsolve.notation import tree
-from dynsolve.pipeline import Derivation, derive
 from dynsolve.problem.model import Problem
 
 NOT_FROM_OWN = "not_from_own"

@@ -44,8 +44,8 @@ def check(
     Ends with 0 where every answer is correct, with 1 otherwise, with 2 where nothing
     could be read.
     """
-    from dynsolve.answers.guard import check_file
     from dynsolve.answers.judge import Checker
+    from dynsolve.answers.sandbox import check_file
 
     stated = read(problem)
     if not quiet:

@@ -33,8 +33,8 @@ def read(name: str) -> Problem:
         from dynsolve.problem import read_problem
 
         return read_problem(standard_input(), STDIN_NAME)
-    from dynsolve.library import find
     from dynsolve.problem import load
+    from dynsolve.problem.library import find
 
     return load(find(name))
 

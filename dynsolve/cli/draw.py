@@ -11,7 +11,7 @@ import typer
 from dynsolve.cli.common import Quiet, read, say
 from dynsolve.draw import SUFFIXES, PictureFormat
 from dynsolve.errors import UsageError
-from dynsolve.files import check_place, write_whole
+from dynsolve.render.files import check_place, write_whole
 
 
 def draw(

@@ -31,11 +31,11 @@ def lint(problem: Problems, quiet: Quiet = False) -> int:
 
 
 def _findings(name: str) -> list[Finding]:
-    from dynsolve.library import find
     from dynsolve.problem import read_problem
+    from dynsolve.problem.library import find
     from dynsolve.problem.lint import lint_text
     from dynsolve.problem.reader import read_file
-    from dynsolve.solution import check_axes
+    from dynsolve.solution.solution import check_axes
 
     content, file = (
         (standard_input(), STDIN_NAME) if name == STDIN else (read_file(find(name)), str(find(name)))

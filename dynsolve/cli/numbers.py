@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from dynsolve.solution import Solution
+    from dynsolve.solution.solution import Solution
 
 SET, AT = "--set", "--at"
 
@@ -45,7 +45,7 @@ def with_numbers(
         if digits is not None:
             raise typer.BadParameter("--digits needs numbers: --set, --at, or values: in the file")
         return solution
-    from dynsolve.numbers.assignments import of_option
+    from dynsolve.solution.numbers.assignments import of_option
 
     place = None if state is None else tuple(of_option(AT, state))
     return solution.beside(tuple(of_option(SET, values or ())), place, digits)

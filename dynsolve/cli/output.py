@@ -16,7 +16,7 @@ import typer
 
 from dynsolve.cli.common import STDIN
 from dynsolve.errors import UsageError
-from dynsolve.files import check_place, write_whole
+from dynsolve.render.files import check_place, write_whole
 from dynsolve.render.formats import SUFFIXES, Format, suffix_of
 
 JOINED = (Format.TEXT, Format.JSON)

@@ -13,8 +13,8 @@ def problems(
     ] = None,
 ) -> None:
     """List the bundled problems, or print one of them."""
-    from dynsolve.library import bundled, find
     from dynsolve.problem import load
+    from dynsolve.problem.library import bundled, find
 
     if name is not None:
         typer.echo(find(name).read_text(encoding="utf-8"), nl=False)

@@ -17,7 +17,7 @@ from dynsolve.errors import ExitCode, ProblemError, UsageError
 from dynsolve.render.formats import Format
 
 if TYPE_CHECKING:
-    from dynsolve.solution import Solution
+    from dynsolve.solution.solution import Solution
 
 
 class DetailName(StrEnum):
@@ -178,7 +178,7 @@ def _chosen(
 
 def _solved(name: str, quiet: bool) -> Solution:
     from dynsolve.cli.progress import progress
-    from dynsolve.solution import solve as solve_problem
+    from dynsolve.solution.solution import solve as solve_problem
 
     problem = read(name)
     with progress(problem.title, quiet) as advance:
@@ -195,7 +195,7 @@ def _print_json(solution: Solution, view: _View) -> None:
 
 def _report(solution: Solution, output: Output, view: _View) -> bytes:
     from dynsolve.explain.step import Detail
-    from dynsolve.reports import rendered, report, style_of
+    from dynsolve.solution.reports import rendered, report, style_of
 
     detail = Detail[view.detail.name]
     if view.hint:
@@ -215,9 +215,9 @@ def _report(solution: Solution, output: Output, view: _View) -> bytes:
 def _print_document(solution: Solution, view: _View, follows_another: bool) -> None:
     from dynsolve.cli.page import print_document
     from dynsolve.explain.abbreviations import Abbreviate
-    from dynsolve.explain.documents import solution_document
     from dynsolve.explain.step import Detail
-    from dynsolve.reports import style_of
+    from dynsolve.solution.documents import solution_document
+    from dynsolve.solution.reports import style_of
 
     if follows_another:
         typer.echo()

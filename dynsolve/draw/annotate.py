@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from dynsolve.draw import ink
-from dynsolve.draw.ink import Path
+from dynsolve.draw import paths
 from dynsolve.draw.labels import Wanted
 from dynsolve.draw.parts import RADIUS, TUBE, Part
+from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import AXIS, Pose, point_to_segment
 from dynsolve.draw.space import Taken
 from dynsolve.draw.typography import typeset
@@ -93,7 +93,7 @@ def frames(pose: Pose, notes: Notes) -> None:
     for origin, tip, names in groups:
         toward = (tip[0] - origin[0], tip[1] - origin[1])
         radius = _MARK if tip == origin else 0.0
-        notes.label(_listed(names), [tip], toward, ink.FRAME, "axis", radius)
+        notes.label(_listed(names), [tip], toward, paths.FRAME, "axis", radius)
 
 
 def _listed(names: Sequence[Node]) -> Node:
@@ -114,22 +114,22 @@ def _axis(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     tip = (origin[0] + x * AXIS, origin[1] + y * AXIS)
     back = (tip[0] - x / math.hypot(x, y) * 6.0, tip[1] - y / math.hypot(x, y) * 6.0)
     notes.draw(
-        Path(ink.line(origin, back), ink.WHITE, 4.2),
-        Path(ink.line(origin, back), ink.FRAME, 1.6),
-        Path(ink.head(tip, (x, y)), None, fill=ink.FRAME),
+        Path(paths.line(origin, back), paths.WHITE, 4.2),
+        Path(paths.line(origin, back), paths.FRAME, 1.6),
+        Path(paths.head(tip, (x, y)), None, fill=paths.FRAME),
     )
     return tip
 
 
 def _end_on(origin: Point, toward: bool, radius: float, notes: Notes) -> None:
     """An axis seen end on: a point for the tip of the arrow, a cross for its feathers."""
-    notes.draw(Path(ink.circle(origin, radius), ink.FRAME, 1.4, ink.WHITE))
+    notes.draw(Path(paths.circle(origin, radius), paths.FRAME, 1.4, paths.WHITE))
     if toward:
-        notes.draw(Path(ink.circle(origin, 2.0), None, fill=ink.FRAME))
+        notes.draw(Path(paths.circle(origin, 2.0), None, fill=paths.FRAME))
         return
     (x, y), s = origin, 0.7 * radius
     for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
-        notes.draw(Path(ink.line(a, b), ink.FRAME, 1.4))
+        notes.draw(Path(paths.line(a, b), paths.FRAME, 1.4))
 
 
 # -- joint variables -------------------------------------------------------------------------------
@@ -153,19 +153,19 @@ def _flat_angle(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
     second = (first[1], -first[0])
     if math.dist(view.point(leg.start), center) > 1.0:
         end = (center[0] + first[0] * (_ARC + 14), center[1] + first[1] * (_ARC + 14))
-        notes.draw(Path(ink.line(center, end), ink.GREY, 0.9, dashed=True))
+        notes.draw(Path(paths.line(center, end), paths.GREY, 0.9, dashed=True))
     radius = _ARC if abs(angle) > 0.5 else _ARC + 16.0
     p, q = (first[0] * radius, first[1] * radius), (second[0] * radius, second[1] * radius)
     short = angle - math.copysign(min(6.0 / radius, abs(angle) / 2), angle)
-    tip = ink.on_ellipse(center, p, q, angle)
-    before = ink.on_ellipse(center, p, q, short - math.copysign(1e-3, angle))
+    tip = paths.on_ellipse(center, p, q, angle)
+    before = paths.on_ellipse(center, p, q, short - math.copysign(1e-3, angle))
     notes.draw(
-        Path(ink.arc(center, p, q, 0.0, short), ink.VARIABLE, 1.4),
-        Path(ink.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.0), None, fill=ink.VARIABLE),
+        Path(paths.arc(center, p, q, 0.0, short), paths.VARIABLE, 1.4),
+        Path(paths.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.0), None, fill=paths.VARIABLE),
     )
-    middle = [ink.on_ellipse(center, p, q, angle * part_of) for part_of in (0.5, 0.35, 0.65)]
+    middle = [paths.on_ellipse(center, p, q, angle * part_of) for part_of in (0.5, 0.35, 0.65)]
     toward = (middle[0][0] - center[0], middle[0][1] - center[1])
-    notes.label(node, middle, toward, ink.VARIABLE, "variable")
+    notes.label(node, middle, toward, paths.VARIABLE, "variable")
 
 
 def _ring(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
@@ -178,14 +178,14 @@ def _ring(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
     side = cross(part.axis, front)
     p, q = scaled(view.direction(front), _RING), scaled(view.direction(side), _RING)
     half = math.radians(105)
-    tip, before = ink.on_ellipse(center, p, q, half), ink.on_ellipse(center, p, q, half - 0.22)
+    tip, before = paths.on_ellipse(center, p, q, half), paths.on_ellipse(center, p, q, half - 0.22)
     notes.draw(
-        Path(ink.arc(center, p, q, -half, half - 0.2), ink.WHITE, 3.6),
-        Path(ink.arc(center, p, q, -half, half - 0.2), ink.VARIABLE, 1.4),
-        Path(ink.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.5), None, fill=ink.VARIABLE),
+        Path(paths.arc(center, p, q, -half, half - 0.2), paths.WHITE, 3.6),
+        Path(paths.arc(center, p, q, -half, half - 0.2), paths.VARIABLE, 1.4),
+        Path(paths.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.5), None, fill=paths.VARIABLE),
     )
-    anchors = [ink.on_ellipse(center, p, q, t) for t in (half, -half, half / 2, -half / 2, 0.0)]
-    notes.label(node, anchors, (tip[0] - center[0], tip[1] - center[1]), ink.VARIABLE, "variable")
+    anchors = [paths.on_ellipse(center, p, q, t) for t in (half, -half, half / 2, -half / 2, 0.0)]
+    notes.label(node, anchors, (tip[0] - center[0], tip[1] - center[1]), paths.VARIABLE, "variable")
 
 
 # -- mass centres and gravity ----------------------------------------------------------------------
@@ -197,9 +197,9 @@ def masses(pose: Pose, notes: Notes) -> None:
         center = pose.view.point(mass.center)
         if not _is_on_link(center, pose):
             origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
-            notes.draw(Path(ink.line(origin, center), ink.BLACK, 0.9, dashed=True))
+            notes.draw(Path(paths.line(origin, center), paths.BLACK, 0.9, dashed=True))
         notes.draw(*(_ball(center) if mass.is_point else _quartered(center)))
-        notes.label(Symbol(f"rc{mass.name}"), [center], (0.0, 0.0), ink.BLACK, "mass", _MARK)
+        notes.label(Symbol(f"rc{mass.name}"), [center], (0.0, 0.0), paths.BLACK, "mass", _MARK)
 
 
 def _is_on_link(center: Point, pose: Pose) -> bool:
@@ -210,7 +210,7 @@ def _is_on_link(center: Point, pose: Pose) -> bool:
 
 
 def _ball(center: Point) -> tuple[Path, ...]:
-    return (Path(ink.circle(center, _MARK), ink.WHITE, 1.2, ink.BLACK),)
+    return (Path(paths.circle(center, _MARK), paths.WHITE, 1.2, paths.BLACK),)
 
 
 def _quartered(center: Point) -> tuple[Path, ...]:
@@ -219,31 +219,31 @@ def _quartered(center: Point) -> tuple[Path, ...]:
         Path(
             (
                 ("M", (center,)),
-                *ink.arc(center, (r, 0.0), (0.0, r), start, start + math.pi / 2, move=False),
+                *paths.arc(center, (r, 0.0), (0.0, r), start, start + math.pi / 2, move=False),
                 ("Z", ()),
             ),
             None,
-            fill=ink.BLACK,
+            fill=paths.BLACK,
         )
         for start in (0.0, math.pi)
     )
-    return (Path(ink.circle(center, r), ink.BLACK, 1.2, ink.WHITE), *quarters)
+    return (Path(paths.circle(center, r), paths.BLACK, 1.2, paths.WHITE), *quarters)
 
 
 def gravity(place: Point, direction: Point | None, notes: Notes) -> None:
     """The arrow of gravity; a cross in a circle where it points away from the viewer."""
     node = Symbol("g")
     if direction is None:
-        notes.draw(Path(ink.circle(place, 8.0), ink.BLACK, 1.4))
+        notes.draw(Path(paths.circle(place, 8.0), paths.BLACK, 1.4))
         (x, y), s = place, 5.6
         for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
-            notes.draw(Path(ink.line(a, b), ink.BLACK, 1.4))
-        notes.label(node, [(x + 8.0, y)], (1.0, 0.0), ink.BLACK, "gravity")
+            notes.draw(Path(paths.line(a, b), paths.BLACK, 1.4))
+        notes.label(node, [(x + 8.0, y)], (1.0, 0.0), paths.BLACK, "gravity")
         return
     x, y = direction
     tip = moved(place, (x, y), 46.0)
     notes.draw(
-        Path(ink.line(place, moved(place, (x, y), 38.0)), ink.BLACK, 2.0),
-        Path(ink.head(tip, (x, y), 11.0), None, fill=ink.BLACK),
+        Path(paths.line(place, moved(place, (x, y), 38.0)), paths.BLACK, 2.0),
+        Path(paths.head(tip, (x, y), 11.0), None, fill=paths.BLACK),
     )
-    notes.label(node, [moved(place, (x, y), 22.0)], (1.0, 0.0), ink.BLACK, "gravity")
+    notes.label(node, [moved(place, (x, y), 22.0)], (1.0, 0.0), paths.BLACK, "gravity")

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.draw.ink import Commands, Path
 from dynsolve.draw.labels import Label
+from dynsolve.draw.paths import Commands, Path
 from dynsolve.draw.scene import Scene
 from dynsolve.draw.svg import number
 from dynsolve.notation.latex import to_latex

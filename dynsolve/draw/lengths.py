@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from dynsolve.draw import ink
+from dynsolve.draw import paths
 from dynsolve.draw.annotate import Notes
-from dynsolve.draw.ink import Path
+from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.skeleton import NEAR
 from dynsolve.draw.space import Taken
@@ -59,7 +59,7 @@ def dimension(measured: Length, pose: Pose, notes: Notes) -> None:
     """Draw a length where least is in its way, and ask for its label."""
     a, b = pose.view.point(measured.start), pose.view.point(measured.end)
     reach = math.dist(a, b)
-    colour, kind = (ink.VARIABLE, "variable") if measured.varies else (ink.BLACK, "length")
+    colour, kind = (paths.VARIABLE, "variable") if measured.varies else (paths.BLACK, "length")
     if reach < _SHORT:
         if not measured.optional:
             middle = (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
@@ -74,18 +74,20 @@ def dimension(measured: Length, pose: Pose, notes: Notes) -> None:
         return
     p, q = moved(a, across, offset), moved(b, across, offset)
     side = math.copysign(1.0, offset)
-    shaft = ink.line(moved(p, along, 5.0), moved(q, along, -5.0))
+    shaft = paths.line(moved(p, along, 5.0), moved(q, along, -5.0))
     notes.draw(
         *(
             Path(
-                ink.line(moved(at, across, side * 8.0), moved(at, across, offset + side * 4.0)), ink.GREY, 0.7
+                paths.line(moved(at, across, side * 8.0), moved(at, across, offset + side * 4.0)),
+                paths.GREY,
+                0.7,
             )
             for at in (a, b)
         ),
-        Path(shaft, ink.WHITE, 3.4),
+        Path(shaft, paths.WHITE, 3.4),
         Path(shaft, colour, 1.0),
-        Path(ink.head(p, scaled(along, -1.0), 7.5), None, fill=colour),
-        Path(ink.head(q, along, 7.5), None, fill=colour),
+        Path(paths.head(p, scaled(along, -1.0), 7.5), None, fill=colour),
+        Path(paths.head(q, along, 7.5), None, fill=colour),
     )
     anchors = [moved(p, along, reach * part) for part in (0.5, 0.35, 0.65, 0.2, 0.8)]
     notes.label(measured.node, anchors, scaled(across, side), colour, kind)

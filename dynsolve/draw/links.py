@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from dynsolve.draw import ink
-from dynsolve.draw.ink import Path, flattened
+from dynsolve.draw import paths
 from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, TUBE, Parts
+from dynsolve.draw.paths import Path, flattened
 from dynsolve.draw.space import Box
 from dynsolve.draw.vectors import Point, Vector, between, distance, dot, length, scale, subtract
 from dynsolve.draw.view import View
@@ -48,7 +48,7 @@ def link_pieces(parts: Parts, view: View) -> Iterator[Solid]:
     for number, way in enumerate(parts.links):
         for k, point in enumerate(way):
             if (number or k) and not _inside(point, parts, view):
-                elbow = Path(ink.circle(view.point(point), TUBE), fill=ink.LINK)
+                elbow = Path(paths.circle(view.point(point), TUBE), fill=paths.LINK)
                 yield Solid(view.depth(point) - 1e-3 - sink, (elbow,))
             if k:
                 tube += 1
@@ -75,8 +75,8 @@ def _drawn(a: Point, b: Point) -> tuple[Path, ...]:
         ((a[0] - s * y * TUBE, a[1] + s * x * TUBE), (b[0] - s * y * TUBE, b[1] + s * x * TUBE))
         for s in (1.0, -1.0)
     ]
-    area = ink.polygon([*sides[0], *reversed(sides[1])])
-    return (Path(area, None, fill=ink.LINK), *(Path(ink.line(*side)) for side in sides))
+    area = paths.polygon([*sides[0], *reversed(sides[1])])
+    return (Path(area, None, fill=paths.LINK), *(Path(paths.line(*side)) for side in sides))
 
 
 def joined(solids: Sequence[Solid]) -> list[Solid]:

@@ -15,8 +15,8 @@ from itertools import combinations, pairwise
 from random import Random
 
 from dynsolve.draw.numbers import Numbers
+from dynsolve.draw.orientation import Setting
 from dynsolve.draw.parts import Parts, arrange
-from dynsolve.draw.setting import Setting
 from dynsolve.draw.skeleton import NEAR, Skeleton, skeleton, with_masses
 from dynsolve.draw.vectors import Point, along, distance, dot, subtract
 from dynsolve.draw.view import View, facing, oblique

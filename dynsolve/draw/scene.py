@@ -6,13 +6,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from dynsolve.draw import annotate, ink
-from dynsolve.draw.ink import Path, flattened
+from dynsolve.draw import annotate, paths
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimension, row_lengths
 from dynsolve.draw.numbers import numbers
+from dynsolve.draw.orientation import Setting, setting
+from dynsolve.draw.paths import Path, flattened
 from dynsolve.draw.pose import Pose, best_pose
-from dynsolve.draw.setting import Setting, setting
 from dynsolve.draw.skeleton import NEAR
 from dynsolve.draw.solids import solids
 from dynsolve.draw.space import Box, Taken
@@ -114,7 +114,7 @@ def _unit(a: Point) -> Point:
 
 
 def _leads(labels: Iterable[Label]) -> Iterable[Path]:
-    return [Path(ink.line(*label.lead), ink.GREY, 0.7) for label in labels if label.lead]
+    return [Path(paths.line(*label.lead), paths.GREY, 0.7) for label in labels if label.lead]
 
 
 def _frame(paths: Iterable[Path], labels: Iterable[Label]) -> Box:

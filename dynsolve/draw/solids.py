@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from dynsolve.draw import ink
-from dynsolve.draw.ink import Path
+from dynsolve.draw import paths
 from dynsolve.draw.links import Solid, joined, link_pieces
 from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, Part, Parts
+from dynsolve.draw.paths import Path
 from dynsolve.draw.vectors import (
     Point,
     Vector,
@@ -49,17 +49,19 @@ def cylinder(part: Part, view: View) -> Solid:
     center = view.point(part.center)
     across, lift = _half_axes(axis, view, RADIUS)
     if dot(axis, view.toward) > _END_ON:
-        dot_path = Path(ink.circle(center, 2.2), None, fill=ink.BLACK)
-        return Solid(depth + 1.0, (Path(ink.circle(center, RADIUS), fill=ink.CAP), dot_path))
+        dot_path = Path(paths.circle(center, 2.2), None, fill=paths.BLACK)
+        return Solid(depth + 1.0, (Path(paths.circle(center, RADIUS), fill=paths.CAP), dot_path))
     near = view.point(along(part.center, axis, view.space(HALF_HEIGHT)))
     far = view.point(along(part.center, axis, -view.space(HALF_HEIGHT)))
     # cos t runs across the axis, sin t along it towards the viewer: the far end shows its lower half
     body = (
-        *ink.arc(far, across, lift, math.pi, 2 * math.pi),
-        *ink.arc(near, across, lift, 0.0, math.pi, move=False),
+        *paths.arc(far, across, lift, math.pi, 2 * math.pi),
+        *paths.arc(near, across, lift, 0.0, math.pi, move=False),
         ("Z", ()),
     )
-    return Solid(depth, (Path(body, fill=ink.SIDE), Path(ink.ellipse(near, across, lift), fill=ink.CAP)))
+    return Solid(
+        depth, (Path(body, fill=paths.SIDE), Path(paths.ellipse(near, across, lift), fill=paths.CAP))
+    )
 
 
 def _half_axes(axis: Vector, view: View, radius: float) -> tuple[Point, Point]:
@@ -115,8 +117,14 @@ def _face(
         for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))
     ]
     lit = dot(normal, up)
-    fill = ink.CAP if view.flat or lit > 0.4 else ink.SIDE if dot(normal, view.right) < 0.4 else ink.DARK_SIDE
-    return Path(ink.polygon([view.point(corner) for corner in corners]), fill=fill)
+    fill = (
+        paths.CAP
+        if view.flat or lit > 0.4
+        else paths.SIDE
+        if dot(normal, view.right) < 0.4
+        else paths.DARK_SIDE
+    )
+    return Path(paths.polygon([view.point(corner) for corner in corners]), fill=fill)
 
 
 # -- the ground ------------------------------------------------------------------------------------
@@ -134,7 +142,7 @@ def ground(parts: Parts, view: View) -> tuple[Path, ...]:
         along(along(place, first, s * half), second, t * half * 0.8)
         for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))
     ]
-    plate = Path(ink.polygon([view.point(corner) for corner in corners]), fill="#f4f1ea")
+    plate = Path(paths.polygon([view.point(corner) for corner in corners]), fill="#f4f1ea")
     middle = [between(corners[k], corners[(k + 1) % 4], 0.5) for k in range(4)]
     front = sorted(
         range(4), key=lambda k: round(view.depth(middle[k]) * view.size + view.point(middle[k])[1], 4)
@@ -157,7 +165,7 @@ def _hatched_line(
 ) -> tuple[Path, ...]:
     a = view.point(along(place, direction, -view.space(half)))
     b = view.point(along(place, direction, view.space(half)))
-    return (*_hatches(a, b, view.direction(scale(normal, -1.0))), Path(ink.line(a, b), width=1.6))
+    return (*_hatches(a, b, view.direction(scale(normal, -1.0))), Path(paths.line(a, b), width=1.6))
 
 
 def _hatches(a: Point, b: Point, down: Point) -> list[Path]:
@@ -170,4 +178,6 @@ def _hatches(a: Point, b: Point, down: Point) -> list[Path]:
     slant = (down[0] / drop * 8.0 - x * 6.0, down[1] / drop * 8.0 - y * 6.0)
     count = max(2, round(reach / 7.5))
     starts = [(a[0] + x * reach * k / count, a[1] + y * reach * k / count) for k in range(1, count + 1)]
-    return [Path(ink.line(start, (start[0] + slant[0], start[1] + slant[1])), width=0.8) for start in starts]
+    return [
+        Path(paths.line(start, (start[0] + slant[0], start[1] + slant[1])), width=0.8) for start in starts
+    ]

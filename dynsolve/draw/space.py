@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from dynsolve.draw.ink import Path, flattened
+from dynsolve.draw.paths import Path, flattened
 from dynsolve.draw.vectors import Point
 
 CELL = 3.0

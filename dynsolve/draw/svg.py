@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from html import escape
 
-from dynsolve.draw.ink import WHITE, Commands, Path
 from dynsolve.draw.labels import Label
+from dynsolve.draw.paths import WHITE, Commands, Path
 from dynsolve.draw.scene import Scene
 from dynsolve.draw.typography import SIZE, Run
 from dynsolve.notation.unicode import printable

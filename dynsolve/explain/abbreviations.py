@@ -22,16 +22,16 @@ from enum import StrEnum
 from functools import partial
 from itertools import count
 
-from dynsolve.algebra.build import cost, negated, times, total
-from dynsolve.algebra.compact import Compactor
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.compact.terms import Frame, Terms
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.terms import Frame, Terms
+from dynsolve.derivation.vectorized import christoffel_symbols
 from dynsolve.explain.base_parameters import BaseParameters
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.recurring import Definition, name_recurring
 from dynsolve.notation import tree
+from dynsolve.notation.build import cost, negated, times, total
 from dynsolve.notation.tree import ZERO, Node, Symbol
-from dynsolve.stages.vectorized import christoffel_symbols
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "expanded", "is_long"]
 

@@ -20,10 +20,10 @@ from typing import TypeVar
 
 from flint import fmpq
 
+from dynsolve.algebra.compact.terms import Exponents, primitive
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.terms import Exponents, primitive
 from dynsolve.robot.model import Robot
 
 Coefficient = dict[Exponents, Fraction]

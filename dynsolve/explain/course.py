@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.graph import Agreement, Derivation
 from dynsolve.document import Inline, Prose
 from dynsolve.explain import letters
 from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Row, Symbol, Words
-from dynsolve.pipeline import Agreement, Derivation
 from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
 
 LARGEST_WORKING = 260

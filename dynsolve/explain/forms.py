@@ -12,13 +12,13 @@ from collections.abc import Iterable
 from fractions import Fraction
 from functools import cached_property
 
-from dynsolve.algebra.build import cost, negated, times, total
-from dynsolve.algebra.compact import Compactor
+from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.graph import Derivation
 from dynsolve.notation import tree
+from dynsolve.notation.build import cost, negated, times, total
 from dynsolve.notation.tree import ZERO, Node, Symbol
-from dynsolve.pipeline import Derivation
 from dynsolve.robot.model import Convention, Robot
 from dynsolve.robot.parallel import Turn, parallel_groups
 
@@ -29,7 +29,7 @@ LONG = 300
 class Forms:
     """forms(name): the compact tree of the value of that name, a `tree.Matrix` for a matrix.
 
-    Names are those of `dynsolve.pipeline`.
+    Names are those of `dynsolve.derivation.graph`.
     """
 
     def __init__(self, robot: Robot, values: Derivation) -> None:

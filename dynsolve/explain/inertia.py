@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from dynsolve.algebra import matrix as algebra
+from dynsolve.derivation import inertia
 from dynsolve.document import Prose
 from dynsolve.errors import ReadError
 from dynsolve.explain import letters
@@ -28,7 +29,6 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.robot.model import AxesKind, Body
-from dynsolve.stages import inertia
 
 STAGE = "inertia"
 

@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from dynsolve.algebra import matrix as algebra
+from dynsolve.derivation.jacobian import joint_frame
+from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Prose
 from dynsolve.explain import letters
 from dynsolve.explain.course import (
@@ -38,8 +40,6 @@ from dynsolve.notation.tree import (
     number,
 )
 from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
-from dynsolve.stages.jacobian import joint_frame
-from dynsolve.stages.kinematics import origin
 
 STAGE = "jacobian"
 

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from dynsolve.algebra.build import cost, negated, split_sign, times, total
 from dynsolve.document import Block, Equations, Fold, Heading, Prose, Text
 from dynsolve.explain import letters
 from dynsolve.explain.abbreviations import Abbreviated, Definition
 from dynsolve.explain.course import Course
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation import tree
+from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.tree import (
     ZERO,
     Letter,

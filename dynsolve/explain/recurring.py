@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from dynsolve.algebra.build import cost, negated, split_sign, times, total
+from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
 
 SHORTEST_SUM = 5

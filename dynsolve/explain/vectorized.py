@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from dynsolve.algebra import matrix as algebra
+from dynsolve.derivation.graph import agreement
 from dynsolve.document import Prose
 from dynsolve.explain import letters
 from dynsolve.explain.course import Course, is_small, listed, shv
@@ -24,7 +25,6 @@ from dynsolve.notation.tree import (
     column,
     equation,
 )
-from dynsolve.pipeline import agreement
 from dynsolve.robot.model import Body
 
 STAGE = "vectorized"

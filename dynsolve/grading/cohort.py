@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from dynsolve.answers.judge import BY_PARTS
-from dynsolve.grading.ledger import standings
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record
+from dynsolve.grading.totals import standings
 
 VERDICTS = ("correct", "follows", "wrong", "unreadable", "missing")
 

@@ -15,13 +15,13 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 
-from dynsolve.algebra.survey import rational_value
+from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.grading.policy import STAGES, Policy
-from dynsolve.library import find
 from dynsolve.problem.answer_names import AnswerNames
 from dynsolve.problem.cells import read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, free_text, items, mapping, whole_number
+from dynsolve.problem.library import find
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.source import Report, as_source

@@ -13,7 +13,6 @@ from dynsolve.errors import UsageError
 from dynsolve.grading.changes import changes
 from dynsolve.grading.exports import PLATFORMS, chosen_roster, export, keep_platform, late
 from dynsolve.grading.hand_ins import Waiting, take_in
-from dynsolve.grading.ledger import standings
 from dynsolve.grading.outputs import write_outputs
 from dynsolve.grading.policy import shown
 from dynsolve.grading.pool import Bounds, LocalPool
@@ -21,6 +20,7 @@ from dynsolve.grading.problem_set import load_set
 from dynsolve.grading.record import FILE, Record
 from dynsolve.grading.run import Pool, grade_all
 from dynsolve.grading.stored import store_set, stored_set
+from dynsolve.grading.totals import standings
 from dynsolve.grading.uploads import Refused, Uploads
 from dynsolve.problem.fields import did_you_mean
 

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 from dynsolve.errors import UsageError
 from dynsolve.grading.hand_ins import Waiting
 from dynsolve.grading.marking import Marked
-from dynsolve.grading.remark import Kept
+from dynsolve.grading.rescore import Kept
 
 Key = tuple[str, str]
 """A hand-in: the student and the problem."""

@@ -27,7 +27,7 @@ from dynsolve.grading.policy import Policy, to_data
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Record
-from dynsolve.grading.remark import is_cheap, remarked
+from dynsolve.grading.rescore import is_cheap, remarked
 from dynsolve.grading.uploads import Uploads, digest
 
 Data = dict[str, Any]

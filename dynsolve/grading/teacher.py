@@ -10,14 +10,14 @@ from importlib.resources import files
 from math import floor
 from urllib.parse import quote
 
-from dynsolve.answers.slips.table import SLIPS
+from dynsolve.answers.diagnosis.table import SLIPS
 from dynsolve.grading.cohort import VERDICTS, Cohort, counted
-from dynsolve.grading.ledger import most
-from dynsolve.grading.places import folder_name
+from dynsolve.grading.output_paths import folder_name
 from dynsolve.grading.policy import shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.tables import decimal
+from dynsolve.grading.totals import most
 from dynsolve.render.words import visible
 
 BINS = 10

@@ -15,14 +15,14 @@ from hashlib import sha256
 from typing import Any
 
 from dynsolve.answers.judge import Checker, Judge
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.reading.submission import Submission
 from dynsolve.answers.verdict import Judged, Report, Verdict
+from dynsolve.grading.answer_by_answer import sound
 from dynsolve.grading.losses import losses
 from dynsolve.grading.marking import Marked, mark
-from dynsolve.grading.narrow import sound
 from dynsolve.grading.pages import student_page
 from dynsolve.grading.policy import from_data
-from dynsolve.grading.remark import basis
+from dynsolve.grading.rescore import basis
 from dynsolve.problem.reader import read_problem
 
 Data = dict[str, Any]

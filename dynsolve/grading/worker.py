@@ -62,8 +62,8 @@ def serve(lines: IO[bytes], out: IO[bytes], seconds: float) -> None:
 
 
 def _answered(payload: dict[str, Any], seconds: float) -> dict[str, Any]:
-    from dynsolve.answers.guard import Stopped
-    from dynsolve.grading.narrow import failure
+    from dynsolve.answers.sandbox import Stopped
+    from dynsolve.grading.answer_by_answer import failure
     from dynsolve.grading.work import checker_of, grade_one
 
     try:

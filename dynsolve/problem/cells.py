@@ -8,7 +8,7 @@ from fractions import Fraction
 from math import pi
 
 from dynsolve.algebra.angles import Angle, angle_from_tree
-from dynsolve.algebra.survey import rational_value
+from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.errors import AlgebraError, ReadError
 from dynsolve.notation.text import Name, read
 from dynsolve.notation.tokens import rational, tokens

@@ -37,7 +37,7 @@ from dynsolve.notation.tree import Matrix, Node, Number, Relation, Row
 from dynsolve.render.boxes import holds_matrix
 from dynsolve.render.flow import Flow, Notation, together
 from dynsolve.render.references import numbered, with_results
-from dynsolve.render.setting import entry_name, listed
+from dynsolve.render.typesetting import entry_name, listed
 from dynsolve.render.words import Speech, visible
 
 PHONE = 16.5

@@ -30,7 +30,7 @@ from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.render.flow import Notation
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.references import numbered, slug, with_sources
-from dynsolve.render.setting import Line, Setter
+from dynsolve.render.typesetting import Line, Setter
 from dynsolve.render.words import Speech
 
 PAGE = 42.8

@@ -32,7 +32,7 @@ from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.render.latex import latex_notation
 from dynsolve.render.references import numbered, with_sources
-from dynsolve.render.setting import Line, Setter
+from dynsolve.render.typesetting import Line, Setter
 from dynsolve.render.words import Speech, visible
 
 PAGE = 40.0

@@ -28,7 +28,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.flow import Notation
 from dynsolve.render.references import numbered, with_sources
-from dynsolve.render.setting import Line, Setter
+from dynsolve.render.typesetting import Line, Setter
 from dynsolve.render.words import Speech, visible
 
 PAGE = 45.0

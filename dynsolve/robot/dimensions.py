@@ -14,7 +14,7 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
-from dynsolve.bounded import recalled
+from dynsolve.notation.bounded import recalled
 from dynsolve.notation.unicode import raised
 from dynsolve.robot.model import JointType, Robot
 

@@ -115,7 +115,7 @@ def test_usage_errors(words: list[str]) -> None:
 def failing(kind: str, *words: str) -> subprocess.CompletedProcess[str]:
     """The program with a solver that raises."""
     code = (
-        "import sys, dynsolve.solution as s, dynsolve.errors as e\n"
+        "import sys, dynsolve.solution.solution as s, dynsolve.errors as e\n"
         "def fail(*a, **k): raise " + kind + "\n"
         "s.solve = fail\n"
         "from dynsolve.cli.main import main; main(sys.argv[1:])\n"

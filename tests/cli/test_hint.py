@@ -10,8 +10,8 @@ import pytest
 
 import dynsolve as package
 from dynsolve.explain.step import STAGES
-from dynsolve.library import bundled
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem.library import bundled
 from dynsolve.render.terminal import render
 from tests.cli.running import dynsolve
 

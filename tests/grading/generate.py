@@ -12,7 +12,7 @@ from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.python import to_python
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Negative, Node, Parenthesized, Power, Product, Quotient, Sum
-from dynsolve.solution import solve
+from dynsolve.solution.solution import solve
 
 PROBLEMS = ("in3140-rp", "planar-2r", "elbow-3r")
 SLIPS = 0.3
@@ -127,7 +127,7 @@ def course(folder: Path, count: int, seed: int = 1, own_order: bool = False) -> 
 
 def problem_set(folder: Path) -> None:
     """The three problems as a set."""
-    from dynsolve.library import find
+    from dynsolve.problem.library import find
 
     folder.mkdir(parents=True, exist_ok=True)
     for name in PROBLEMS:

@@ -8,7 +8,7 @@ import dynsolve
 from dynsolve.grading.cohort import counted
 from dynsolve.grading.problem_set import load_set
 from dynsolve.grading.record import Record
-from dynsolve.library import find
+from dynsolve.problem.library import find
 
 HALF_K2 = """answers:
   K1: I1zz*theta1'^2/2

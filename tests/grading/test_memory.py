@@ -8,7 +8,7 @@ import pytest
 
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.reading.files import FileReader
-from dynsolve.library import find
+from dynsolve.problem.library import find
 from dynsolve.problem.reader import load
 from tests.grading.generate import PROBLEMS, hand_in
 

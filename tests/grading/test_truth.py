@@ -19,7 +19,7 @@ import sympy
 import dynsolve
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.report import to_json
-from dynsolve.solution import Solution
+from dynsolve.solution.solution import Solution
 from tests.grading.generate import _latex
 
 TWISTED = """

@@ -7,9 +7,9 @@ from functools import cache
 
 import pytest
 
-from dynsolve.answers.submission import Submission, read_submission
-from dynsolve.library import find
+from dynsolve.answers.reading.submission import Submission, read_submission
 from dynsolve.problem import Problem, load
+from dynsolve.problem.library import find
 
 LIMIT = 2.0
 """Seconds of the processor for any single answer: no verdict on how busy the machine is."""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.reports import Format
+from dynsolve.solution.reports import Format
 from tests.reports.browser import Page, chromium
 from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made
 from tests.support import LIBRARY

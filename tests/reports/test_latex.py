@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.reports import Format
+from dynsolve.solution.reports import Format
 from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, text_of, typeset
 from tests.support import LIBRARY, TEXTBOOKS
 

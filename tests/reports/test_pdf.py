@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.reports import Format
+from dynsolve.solution.reports import Format
 from tests.cli.running import dynsolve
 from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, text_of
 from tests.support import LIBRARY, ROOT

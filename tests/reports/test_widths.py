@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.explain.documents import solution_document
 from dynsolve.explain.step import Detail
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.render.references import formulas
+from dynsolve.solution.documents import solution_document
 from tests.reports.tools import typeset
 
 EM = 10.95

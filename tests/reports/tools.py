@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 import dynsolve
-from dynsolve.reports import Format, report
+from dynsolve.solution.reports import Format, report
 
 HOSTILE = (
     r"50% of a_1 & b #2 $x^2$ ~ <script>document.title='taken'</script> \input{/etc/passwd} {x} "

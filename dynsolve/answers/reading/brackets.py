@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, stacked
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_ENTRIES
-from dynsolve.answers.reading.scan import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Symbol
 

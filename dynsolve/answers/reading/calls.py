@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from dynsolve.answers.reading import functions, lookup
+from dynsolve.answers.reading import functions, name_resolution
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
-from dynsolve.answers.reading.scan import Token
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Symbol
 
@@ -46,7 +46,7 @@ def read(reader: Reader) -> Value:
     else:
         first = reader.sum()
         if name.text in _DOTS:
-            dotted = lookup.rate(first, reader.vocabulary, _DOTS[name.text])
+            dotted = name_resolution.rate(first, reader.vocabulary, _DOTS[name.text])
             if dotted is None:
                 raise ReadError(
                     "this has no derivative here", opening.start, 1, "write dot(q1) of a coordinate"
@@ -100,7 +100,7 @@ def _derivative(reader: Reader, opening: Token) -> Value:
             others.append(token)
     if others or not by_time:
         return _partial(reader, of, tokens, opening)
-    dotted = lookup.rate(of, reader.vocabulary, order)
+    dotted = name_resolution.rate(of, reader.vocabulary, order)
     if isinstance(dotted, Symbol):
         return dotted
     return dotted if dotted is not None else total_rate(of)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from dynsolve.answers.reading import calls, lookup
+from dynsolve.answers.reading import calls, name_resolution
 from dynsolve.answers.reading.forms import Form
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
-from dynsolve.answers.reading.scan import Token
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.vocabulary import key
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Symbol
@@ -109,7 +109,7 @@ def by_time(reader: Reader, of: Value, order: int) -> Value:
             reader.references.pop(of.name[1:], None)
             reader.references.setdefault(found.name[1:])
         return found
-    dotted = lookup.rate(of, reader.vocabulary, order)
+    dotted = name_resolution.rate(of, reader.vocabulary, order)
     return dotted if dotted is not None else calls.total_rate(of)
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from pathlib import PurePath
 
+from dynsolve.answers.reading.equation_reader import Session
 from dynsolve.answers.reading.limits import MAX_BYTES
 from dynsolve.answers.reading.memory import MOST
 from dynsolve.answers.reading.reports import read_report
-from dynsolve.answers.reading.session import Session
 from dynsolve.answers.reading.sources import Source, decoded
+from dynsolve.answers.reading.submission import Submission
 from dynsolve.answers.reading.vocabulary import vocabulary
-from dynsolve.answers.submission import Submission
 from dynsolve.errors import Finding
 from dynsolve.explain.style import style_of
 from dynsolve.notation.unicode import UnicodePrinter

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from dynsolve.answers.reading.forms import Scripts
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
-from dynsolve.answers.reading.scan import Token
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.measure import Measure, measured
-from dynsolve.answers.reading.scan import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node
 

@@ -10,7 +10,7 @@ from dynsolve.answers.reading.cursor import Cursor
 from dynsolve.answers.reading.exponents import bounded, constant, raised_number
 from dynsolve.answers.reading.forms import Form, Scripts, index_text, is_angle
 from dynsolve.answers.reading.grids import Value
-from dynsolve.answers.reading.scan import Token
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Symbol

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from dynsolve.answers.reading.equation_reader import Session
 from dynsolve.answers.reading.reports import read_report
-from dynsolve.answers.reading.session import Session
 from dynsolve.answers.reading.sources import Source
 from dynsolve.errors import Finding
 

@@ -10,11 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_TOKENS
-from dynsolve.answers.reading.scan import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
-from dynsolve.bounded import recalled
 from dynsolve.errors import ReadError
+from dynsolve.notation.bounded import recalled
 
 _FACES = frozenset(
     "mathbf boldsymbol bm mathrm mathit mathsf mathtt mathbb mathnormal pmb bf rm vec underline "

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from dynsolve.answers.reading import brackets, calls, derivatives, functions, lookup
+from dynsolve.answers.reading import brackets, calls, derivatives, functions, name_resolution
 from dynsolve.answers.reading.exponents import raise_to
 from dynsolve.answers.reading.forms import Form, Scripts
 from dynsolve.answers.reading.grids import (
@@ -26,10 +26,10 @@ from dynsolve.answers.reading.grids import (
     total,
     transposed,
 )
+from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_NESTING
 from dynsolve.answers.reading.memory import Signs, Term, extent, signs
 from dynsolve.answers.reading.naming import ACCENTS, BEGINS, NameCursor
-from dynsolve.answers.reading.scan import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation import tokens as plain
@@ -333,7 +333,7 @@ class Reader(NameCursor):
             functions.name_of(self.token) is not None
             or calls.is_call(self)
             or derivatives.stands_here(self)
-            or lookup.is_short_function(self)
+            or name_resolution.is_short_function(self)
         )
 
     def word(self, token: Token) -> Value:
@@ -347,7 +347,7 @@ class Reader(NameCursor):
                 return functions.read(self, function)
             if calls.is_call(self):
                 return self.scripted(calls.read(self))
-        if lookup.is_short_function(self):
+        if name_resolution.is_short_function(self):
             return functions.read(self, "sin" if token.text in "sS" else "cos")
         return self.named(self.form())
 
@@ -450,7 +450,7 @@ class Reader(NameCursor):
         """The value transposed and raised to its powers."""
         if scripts.transposed or scripts.primes:
             if isinstance(value, Node) and scripts.primes:
-                dotted = lookup.rate(value, self.vocabulary, scripts.primes)
+                dotted = name_resolution.rate(value, self.vocabulary, scripts.primes)
                 if dotted is None:
                     raise ReadError(
                         "a prime stands here after what has no derivative", start, 1, "theta1' is a velocity"
@@ -474,7 +474,7 @@ class Reader(NameCursor):
 
     def named(self, form: Form) -> Value:
         """The value of a name with its scripts."""
-        return lookup.value_of(self, form)
+        return name_resolution.value_of(self, form)
 
 
 def _written(value: Fraction, text: str) -> Number:

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from itertools import islice
 
 from dynsolve.answers.reading.displays import Display, is_label
+from dynsolve.answers.reading.equation_reader import Session
+from dynsolve.answers.reading.lexer import Token, closing_brace, scan
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.prepare import Macro, simplified
-from dynsolve.answers.reading.scan import Token, closing_brace, scan
-from dynsolve.answers.reading.session import Session
 from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.submission import Place
+from dynsolve.answers.reading.submission import Place
 from dynsolve.errors import ReadError
 
 _ENVIRONMENT = (

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.equation_reader import Session
 from dynsolve.answers.reading.grids import Abstract, Value
-from dynsolve.answers.reading.lookup import rate
-from dynsolve.answers.reading.members import Read, read_member
+from dynsolve.answers.reading.lexer import scan
+from dynsolve.answers.reading.name_resolution import rate
 from dynsolve.answers.reading.prepare import expand, simplified
-from dynsolve.answers.reading.scan import scan
-from dynsolve.answers.reading.session import Session
+from dynsolve.answers.reading.right_side import Read, read_member
 from dynsolve.answers.reading.vocabulary import Meaning, key, spellings
 from dynsolve.errors import ReadError
 from dynsolve.notation.names import split

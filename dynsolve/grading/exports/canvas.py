@@ -14,10 +14,10 @@ from fractions import Fraction
 from pathlib import Path
 
 from dynsolve.grading.exports.roster import Roster, Row, number, unmatched
-from dynsolve.grading.ledger import Standing, most, standings
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.tables import decimal
+from dynsolve.grading.totals import Standing, most, standings
 
 _ABOUT_STUDENTS = (
     "Student", "LastName", "FirstName", "ID", "SIS User ID", "SIS Login ID", "Integration ID",

@@ -8,13 +8,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from dynsolve.files import write_changed
 from dynsolve.grading.exports.roster import Roster
-from dynsolve.grading.ledger import Standing, standings
-from dynsolve.grading.places import folder_name, remove_others
+from dynsolve.grading.output_paths import folder_name, remove_others
 from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
+from dynsolve.grading.totals import Standing, standings
+from dynsolve.render.files import write_changed
 
 _ID, _LATENESS = "Submission ID", "Lateness (H:M:S)"
 

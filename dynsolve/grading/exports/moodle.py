@@ -13,13 +13,13 @@ from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
-from dynsolve.files import changed
 from dynsolve.grading.exports.roster import Roster, number, unmatched
-from dynsolve.grading.ledger import Standing, most, standings
-from dynsolve.grading.places import folder_name
+from dynsolve.grading.output_paths import folder_name
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.tables import decimal
+from dynsolve.grading.totals import Standing, most, standings
+from dynsolve.render.files import changed
 
 _GRADE = ("Grade", "Bewertung")
 _COMMENTS = ("Feedback comments", "Feedback als Kommentar")

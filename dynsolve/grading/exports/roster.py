@@ -11,9 +11,9 @@ from fractions import Fraction
 from pathlib import Path
 
 from dynsolve.errors import Finding, InputError
-from dynsolve.files import write_changed
-from dynsolve.grading.ledger import Standing
 from dynsolve.grading.tables import decimal, table
+from dynsolve.grading.totals import Standing
+from dynsolve.render.files import write_changed
 
 SEPARATORS = (",", ";", "\t")
 MOST_NAMED = 5

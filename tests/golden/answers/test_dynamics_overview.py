@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from dynsolve.answers.judge import check
-from dynsolve.answers.submission import read_submission
+from dynsolve.answers.reading.submission import read_submission
 from dynsolve.answers.verdict import Judged, Report
-from dynsolve.solution import load
+from dynsolve.solution.solution import load
 
 FILE = Path(__file__).with_name("dynamics-overview.md")
 

@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.submission import Answer, Place, Submission
+from dynsolve.answers.reading.submission import Answer, Place, Submission
 from dynsolve.answers.verdict import Judged, Report
+from dynsolve.derivation.graph import Derivation, derive
 from dynsolve.notation import tree
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node
-from dynsolve.pipeline import Derivation, derive
 from dynsolve.problem import Problem, read_problem
-from dynsolve.solution import load
+from dynsolve.solution.solution import load
 
 Text = str | list[list[str]]
 

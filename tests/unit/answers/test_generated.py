@@ -9,12 +9,12 @@ import pytest
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.field import Field
-from dynsolve.answers.graph import Graph
+from dynsolve.answers.diagnosis.derivation import Replaced
+from dynsolve.answers.diagnosis.fourier import part_expr, parts
 from dynsolve.answers.judge import check
-from dynsolve.answers.slips.derivation import Replaced
-from dynsolve.answers.slips.waves import part_expr, parts
-from dynsolve.answers.submission import Answer, Place, Submission
+from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.graph import Graph
+from dynsolve.answers.reading.submission import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
 from tests.unit.answers.hands import key, problem
 

@@ -11,8 +11,8 @@ import pytest
 import dynsolve
 from dynsolve import document
 from dynsolve.document import Block, Document, Fold, Formula, Heading, Text
-from dynsolve.explain.documents import solution_document
 from dynsolve.explain.step import STAGES, Detail
+from dynsolve.solution.documents import solution_document
 
 
 @pytest.mark.parametrize("kind", get_args(Block), ids=lambda kind: kind.__name__)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from dynsolve.draw.ink import WHITE, line
 from dynsolve.draw.labels import Label
+from dynsolve.draw.paths import WHITE, line
 from dynsolve.draw.scene import Scene, scene
 from dynsolve.draw.space import Box, Taken
 from dynsolve.notation.unicode import to_unicode

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from dynsolve.derivation.kinematics import base_transform, dh_matrix, frame
 from dynsolve.draw import PictureFormat, draw, picture
 from dynsolve.draw.convert import to_pdf, to_png
-from dynsolve.draw.ink import circle, flattened
 from dynsolve.draw.numbers import numbers
+from dynsolve.draw.paths import circle, flattened
 from dynsolve.draw.skeleton import skeleton
 from dynsolve.draw.space import Box, Taken
 from dynsolve.draw.typography import typeset
@@ -18,7 +19,6 @@ from dynsolve.draw.vectors import IDENTITY, applied, distance, into, turned
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Degrees, Number, Quotient, Sum, Symbol
 from dynsolve.problem import load, read_problem
-from dynsolve.stages.kinematics import base_transform, dh_matrix, frame
 
 from .pictures import LIBRARY, TEXTBOOKS
 
@@ -79,8 +79,8 @@ def test_a_circle_of_curves_is_round() -> None:
 
 
 def test_areas_and_lines_take_their_place() -> None:
-    from dynsolve.draw.ink import Path as Drawn
-    from dynsolve.draw.ink import line, polygon
+    from dynsolve.draw.paths import Path as Drawn
+    from dynsolve.draw.paths import line, polygon
 
     taken = Taken()
     taken.add([Drawn(polygon([(0.0, 0.0), (60.0, 0.0), (60.0, 60.0), (0.0, 60.0)]), fill="#ffffff")])
@@ -130,8 +130,8 @@ def test_the_latex_has_balanced_groups() -> None:
 
 
 def test_parts_of_a_robot_keep_apart() -> None:
+    from dynsolve.draw.orientation import setting
     from dynsolve.draw.pose import best_pose
-    from dynsolve.draw.setting import setting
 
     for path in LIBRARY:
         robot, values = load(path).robot, numbers(load(path))

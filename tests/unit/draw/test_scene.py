@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from dynsolve.draw.ink import flattened
+from dynsolve.draw.paths import flattened
 from dynsolve.draw.scene import scene
 from dynsolve.draw.svg import to_svg
 from dynsolve.problem import load
@@ -87,7 +87,7 @@ def test_a_planar_arm_is_drawn_flat() -> None:
     """Seen from straight in front, z axes are points and x axes have their full length."""
     problem = load(next(path for path in LIBRARY if path.stem == "planar-2r"))
     from dynsolve.draw.numbers import numbers
-    from dynsolve.draw.setting import setting
+    from dynsolve.draw.orientation import setting
 
     world = setting(problem.robot, numbers(problem))
     assert world.normal == pytest.approx((0.0, 0.0, 1.0)) and world.up == pytest.approx((0.0, 1.0, 0.0))
@@ -96,7 +96,7 @@ def test_a_planar_arm_is_drawn_flat() -> None:
 @pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r", "scara-rrpr", "crustcrawler-2r"])
 def test_an_arm_that_leaves_its_plane_is_drawn_in_space(name: str) -> None:
     from dynsolve.draw.numbers import numbers
-    from dynsolve.draw.setting import setting
+    from dynsolve.draw.orientation import setting
 
     problem = load(next(path for path in LIBRARY if path.stem == name))
     assert setting(problem.robot, numbers(problem)).normal is None

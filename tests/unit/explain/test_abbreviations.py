@@ -14,12 +14,11 @@ import pytest
 from hypothesis import given, settings
 
 import dynsolve
-from dynsolve.algebra.build import cost
 from dynsolve.document import Equations
 from dynsolve.errors import AlgebraError, VerificationError
 from dynsolve.explain.abbreviations import Abbreviated, abbreviate, is_long
-from dynsolve.explain.documents import solution_document
 from dynsolve.explain.named import definition_blocks
+from dynsolve.notation.build import cost
 from dynsolve.notation.evaluate import compile_trees, evaluate
 from dynsolve.notation.tree import (
     Derivative,
@@ -38,6 +37,7 @@ from dynsolve.notation.tree import (
     Words,
 )
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.solution.documents import solution_document
 from tests.robots import robots
 
 LONG = ("puma560", "stanford-6")

@@ -9,8 +9,8 @@ import pytest
 import dynsolve
 from dynsolve.document import Prose
 from dynsolve.explain.step import STAGES, Detail, Step
-from dynsolve.library import bundled
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem.library import bundled
 
 SMALL = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
 

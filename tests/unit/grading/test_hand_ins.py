@@ -19,7 +19,7 @@ ANSWER = "answers:\n  K: m1*g\n"
 
 @pytest.fixture(scope="module")
 def problems(tmp_path_factory: pytest.TempPathFactory) -> ProblemSet:
-    from dynsolve.library import find
+    from dynsolve.problem.library import find
 
     folder = tmp_path_factory.mktemp("set")
     for name in ("in3140-rp", "planar-2r"):

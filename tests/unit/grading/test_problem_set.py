@@ -9,7 +9,7 @@ import pytest
 
 from dynsolve.errors import ProblemError
 from dynsolve.grading.problem_set import load_set
-from dynsolve.library import find
+from dynsolve.problem.library import find
 
 
 def _folder(tmp_path: Path, text: str) -> str:

@@ -17,7 +17,7 @@ from dynsolve.grading import pool as pool_module
 from dynsolve.grading.policy import Policy, to_data
 from dynsolve.grading.pool import Bounds, LocalPool, Worker
 from dynsolve.grading.work import grade_one
-from dynsolve.library import find
+from dynsolve.problem.library import find
 from tests.support import ROOT
 
 MARKS = {"K": "4", "tau": "6"}

@@ -12,7 +12,7 @@ from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Number, Symbol, equation
 from dynsolve.render.flow import Flow, Piece, lines, together
 from dynsolve.render.latex import latex_notation
-from dynsolve.render.setting import INDENT, Setter
+from dynsolve.render.typesetting import INDENT, Setter
 
 LONG = "m1*(a1 + b1 + c1*(d1 + e1 + f1 + g1 + h1 + i1 + j1 + k1) + l1)*q1 + m2*(a2 + b2)/2 + (a3 + b3)^2"
 

@@ -12,9 +12,9 @@ import sympy
 
 import dynsolve
 from dynsolve.errors import ProblemError, UsageError, VerificationError
-from dynsolve.library import bundled, find
 from dynsolve.notation.text import read
-from dynsolve.symbolic import to_sympy
+from dynsolve.problem.library import bundled, find
+from dynsolve.solution.symbolic import to_sympy
 from tests.support import LIBRARY, numbers
 
 q1, q2, q1_dot, q2_dot = sympy.symbols("q1 q2 q1_dot q2_dot", real=True)
@@ -167,9 +167,10 @@ def test_progress_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_ways_that_disagree_are_never_returned(monkeypatch: pytest.MonkeyPatch) -> None:
-    from dynsolve import pipeline, solution
+    from dynsolve.derivation import graph
+    from dynsolve.solution import solution
 
-    monkeypatch.setattr(solution, "agreement", lambda *_: pipeline.Agreement(True, False, True, True))
+    monkeypatch.setattr(solution, "agreement", lambda *_: graph.Agreement(True, False, True, True))
     with pytest.raises(VerificationError):
         dynsolve.solve("planar-2r")
 

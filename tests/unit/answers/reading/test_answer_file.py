@@ -6,10 +6,10 @@ from functools import cache
 
 import pytest
 
-from dynsolve.answers.submission import Answer, Submission, read_submission
-from dynsolve.library import find
+from dynsolve.answers.reading.submission import Answer, Submission, read_submission
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import Problem, load
+from dynsolve.problem.library import find
 
 
 @cache

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from dynsolve.answers.submission import Answer, Submission, read_submission
-from dynsolve.library import find
+from dynsolve.answers.reading.submission import Answer, Submission, read_submission
 from dynsolve.problem import load
+from dynsolve.problem.library import find
 
 COURSE = Path(__file__).with_name("course.md")
 

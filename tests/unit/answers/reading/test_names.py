@@ -6,9 +6,9 @@ from functools import cache
 
 import pytest
 
-from dynsolve.answers.submission import Submission, read_submission
-from dynsolve.library import find
+from dynsolve.answers.reading.submission import Submission, read_submission
 from dynsolve.problem import Problem, load
+from dynsolve.problem.library import find
 
 
 @cache

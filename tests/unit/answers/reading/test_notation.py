@@ -7,12 +7,12 @@ from functools import cache
 
 import pytest
 
-from dynsolve.answers.submission import Answer, read_submission
-from dynsolve.library import find
+from dynsolve.answers.reading.submission import Answer, read_submission
 from dynsolve.notation.evaluate import evaluate
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem, load
+from dynsolve.problem.library import find
 
 
 @cache

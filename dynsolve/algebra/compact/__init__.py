@@ -1,0 +1,1 @@
+"""From an exact value to what a textbook would print."""

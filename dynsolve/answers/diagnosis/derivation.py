@@ -1,0 +1,128 @@
+"""Slips that run through the derivation: the graph with one rule replaced.
+
+A wrong step is told by what it makes of everything after it.  Each variant of a
+step (see `stage`) is put into the key's derivation, and the answer is held against
+what comes out at its own place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.diagnosis.stage import variants
+from dynsolve.answers.judging.graph import Graph
+from dynsolve.answers.verdict import Diagnosis
+
+MOST_TERMS = 1_500
+"""Robots whose kinetic energy has more terms than this are diagnosed step by step only."""
+
+
+OF_THE_MATRIX = ("transposed", "rows_swapped")
+"""What is said of a matrix itself: of what comes after it, it would be false."""
+
+
+class Replaced:
+    """The key's derivation with the value of one node, or of one kind of node, replaced."""
+
+    def __init__(self, graph: Graph, values: dict[str, Any]) -> None:
+        self.graph = graph
+        self._values = values
+        self._reached: dict[str, bool] = {}
+
+    def reached(self, node: str) -> bool:
+        """Whether the replacement changes a node."""
+        if node not in self._reached:
+            self._reached[node] = node in self._values or any(
+                self.reached(name) for way in self.graph.ways(node)[:1] for name in way.inputs
+            )
+        return self._reached[node]
+
+    def __call__(self, node: str) -> Any:
+        """The node's value."""
+        if node not in self._values:
+            if not self.reached(node):
+                return self.graph.key(node)
+            way = self.graph.ways(node)[0]
+            self._values[node] = way.compute(*(self(name) for name in way.inputs))
+        return self._values[node]
+
+
+class DerivationSlips:
+    """The derivations with a rule replaced, made when first asked for."""
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+        self._made: list[tuple[str, Replaced, Diagnosis]] | None = None
+
+    def values(self, node: str) -> Iterator[tuple[Any, Diagnosis]]:
+        """What a node becomes under every slip that reaches it."""
+        for source, replaced, told in self.made():
+            if source != node and replaced.reached(node):
+                try:
+                    yield replaced(node), told
+                except Exception:  # noqa: BLE001, S112  a step that cannot be taken from there tells nothing
+                    continue
+
+    def made(self) -> list[tuple[str, Replaced, Diagnosis]]:
+        """(node that goes wrong first, derivation, slip); what was left out before what was mistaken."""
+        if self._made is None:
+            self._made = sorted(self._make(), key=lambda made: not made[2].code.endswith("_missing"))
+        return self._made
+
+    def _make(self) -> Iterator[tuple[str, Replaced, Diagnosis]]:
+        graph, robot = self.graph, self.graph.robot
+        if not robot.bodies or len(graph.key("K")) > MOST_TERMS:
+            return
+        for node in self._sources():
+            right = graph.key(node)
+            for wrong, told in variants(robot, node, graph.key):
+                if told.code not in OF_THE_MATRIX and not _equal(wrong, right):
+                    yield node, Replaced(graph, {node: wrong}), told
+        yield from self._everywhere()
+
+    def _sources(self) -> Iterator[str]:
+        robot = self.graph.robot
+        for joint in robot.joints:
+            yield f"A{joint.index}"
+        for body in robot.bodies:
+            yield from (f"rc{body.name}", f"Jv{body.name}", f"Jw{body.name}")
+            if not body.is_point:
+                yield from (f"I_body{body.name}", f"I{body.name}", f"Kw{body.name}")
+            yield from (f"P{body.name}", f"K{body.name}")
+        yield from ("P", "K", "L")
+        for q in robot.coordinates:
+            yield from (f"ddt{q.index}", f"tau{q.index}")
+
+    def _everywhere(self) -> Iterator[tuple[str, Replaced, Diagnosis]]:
+        """The same slip for every body or coordinate at once."""
+        robot, graph = self.graph.robot, self.graph
+        kinds: list[tuple[str, list[str]]] = [
+            (head, [f"{head}{b.name}" for b in robot.bodies]) for head in ("rc", "Jv", "Jw", "I", "Kw", "K")
+        ]
+        kinds += [(head, [f"{head}{q.index}" for q in robot.coordinates]) for head in ("ddt", "tau")]
+        for head, nodes in kinds:
+            by_code: dict[str, dict[str, Any]] = {}
+            told_as: dict[str, Diagnosis] = {}
+            for node in nodes:
+                for wrong, told in variants(robot, node, graph.key):
+                    changed = by_code.setdefault(told.code, {})
+                    if node not in changed and not _equal(wrong, graph.key(node)):
+                        changed[node] = wrong
+                        told_as.setdefault(told.code, told)
+            for code, changed in by_code.items():
+                if len(changed) > 1:
+                    yield head, Replaced(graph, dict(changed)), told_as[code]
+
+
+def _equal(a: Any, b: Any) -> bool:
+    if isinstance(a, Matrix) and isinstance(b, Matrix):
+        return a.shape == b.shape and all(x == y for x, y in zip(a.entries, b.entries, strict=True))
+    if isinstance(a, Expr) and isinstance(b, Expr):
+        return a == b
+    return False
+
+
+__all__ = ["DerivationSlips", "Replaced"]

@@ -1,0 +1,387 @@
+"""Naming the slip in an answer that is wrong.
+
+What is explained is the difference between the answer and the value that the
+student's own nearest answers lead to.  The simplest slip that explains it wins:
+
+1. one number for the whole (a sign, a factor), or one substitution (m₁ for m₂,
+   θ₂ for θ₁ + θ₂, gravity's sign);
+2. one slip in one term;
+3. the step done otherwise;
+4. the derivation with a rule replaced;
+5. several slips in several terms, each named;
+6. where none fits, which terms differ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.diagnosis.derivation import OF_THE_MATRIX, DerivationSlips
+from dynsolve.answers.diagnosis.fourier import is_small, monomial_expr, monomials
+from dynsolve.answers.diagnosis.stage import variants
+from dynsolve.answers.diagnosis.substitution import substitutions
+from dynsolve.answers.diagnosis.table import slip
+from dynsolve.answers.diagnosis.terms import LIGHT, Found, TermSlips
+from dynsolve.answers.diagnosis.words import Words
+from dynsolve.answers.judging.compare import Written
+from dynsolve.answers.judging.dimensions import (
+    ENERGY,
+    INERTIA,
+    LENGTH,
+    NONE,
+    Dimension,
+    Dimensions,
+    describe,
+    dimension,
+    times,
+)
+from dynsolve.answers.judging.follow import Follow
+from dynsolve.answers.judging.fraction import as_expr
+from dynsolve.answers.judging.graph import Graph
+from dynsolve.answers.verdict import Diagnosis
+from dynsolve.notation.tree import Node
+from dynsolve.problem.model import Problem
+from dynsolve.robot.model import JointType
+
+MOST_NAMED = 4
+"""More slips than this in one answer are told as the terms that differ."""
+
+MOST_OF_IT = Fraction(1, 2)
+"""What shares so much of its terms with the key was taken from it, not from a slip before it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """One scalar that is wrong: what was written, and what its own inputs lead to, the nearest first.
+
+    The last one that is expected is the key.
+    """
+
+    name: str
+    target: Any
+    written: Written
+    expected: tuple[Expr, ...]
+    row: int = 0
+    column: int = 0
+
+    @property
+    def mine(self) -> Expr | None:
+        """The answer as an element of the ring."""
+        return as_expr(self.written.value)
+
+
+class Diagnoser:
+    """Names slips, the simplest that explains an answer."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        graph: Graph,
+        follow: Follow,
+        dimensions: Dimensions,
+        derivations: DerivationSlips,
+    ) -> None:
+        self.derivations = derivations
+        self.problem = problem
+        self.graph = graph
+        self.follow = follow
+        self.dimensions = dimensions
+        self.ring = graph.field.ring
+
+    @cached_property
+    def words(self) -> Words:
+        """Writes terms in messages."""
+        words = Words(self.graph.field)
+        words.problem_symbols({*self.problem.robot.ring.parameters, *self.ring.names, "pi"})
+        return words
+
+    @cached_property
+    def terms(self) -> TermSlips:
+        """Finds slips in terms."""
+        return TermSlips(self.ring, self.dimensions, self.words)
+
+    def __call__(self, question: Question) -> tuple[Diagnosis, ...]:
+        """The slips in one scalar."""
+        mine = question.mine
+        if mine is None or not is_small(mine):
+            return ()
+        found = tuple(dict.fromkeys(self._named(question, mine)))
+        return (*found, *(d for d in self._misfits(question, mine) if d not in found))
+
+    def expected(self, question: Question) -> Expr:
+        """The nearest value that the answer may be held against: one whose terms can be added.
+
+        What follows from a term that cannot be added tells nobody how to mend this one.
+        Nor does what an answer was plainly not taken from: where most of it is the key's,
+        and less of it is what its own inputs lead to, it is held against the key.
+        """
+        nearest, key = self._nearest_fit(question), question.expected[-1]
+        mine = question.mine
+        if mine is not None and nearest is not key:
+            likeness = _likeness(mine, key)
+            if likeness >= MOST_OF_IT and likeness > _likeness(mine, nearest):
+                return key
+        return nearest
+
+    def _nearest_fit(self, question: Question) -> Expr:
+        wanted = self._dimension(question)
+        if wanted is not None and not self.problem.values:
+            for value in question.expected:
+                if self.dimensions.fits(value, wanted):
+                    return value
+        return question.expected[0]
+
+    def _named(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
+        expected = self.expected(question)
+        if self._is_constant(question, mine):
+            yield slip("constant_term")
+        one = self._first_of(self._variants(question, question.target.node), question, mine)
+        if one is None:
+            one = self.terms.whole(mine, expected)
+        if one is None:
+            one = next(substitutions(self.graph, self.words, mine, expected), None)
+        if one is not None:
+            yield self._refined(one, question)
+            return
+        found = self.terms(mine, expected)
+        if found is not None and len(found) == 1 and found[0].weight < LIGHT:
+            yield found[0].diagnosis
+            return
+        one = self._first_of(self._derived(question, mine), question, mine)
+        if one is not None:
+            yield one
+            return
+        yield from self._told(found or [], _in_common(mine, expected))
+
+    def _first_of(
+        self, values: Iterator[tuple[Any, Diagnosis]], question: Question, mine: Expr
+    ) -> Diagnosis | None:
+        """The first slip that gives what was written; one entry alone shows no slip of its matrix."""
+        return next(
+            (
+                told
+                for value, told in values
+                if told.code not in OF_THE_MATRIX and self._at(question, value) == mine
+            ),
+            None,
+        )
+
+    def _derived(self, question: Question, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
+        """What slips long before lead to; to 0 leads what was left out, not what was mistaken."""
+        is_zero = all(value.is_zero for value in mine)
+        for value, told in self.derivations.values(question.target.node):
+            if not is_zero or told.code.endswith("_missing"):
+                yield value, told
+
+    def _refined(self, one: Diagnosis, question: Question) -> Diagnosis:
+        """A wrong sign of everything that is gravity is gravity's."""
+        if one.code in ("sign", "sign_all") and question.target.node.rstrip("0123456789") in ("P", "g"):
+            return slip("gravity_sign")
+        return one
+
+    def _told(self, found: list[Found], right: int) -> Iterator[Diagnosis]:
+        """The slips where they are few; of many, which terms are written that should not be.
+
+        Missing terms are named only beside as many right ones: who writes 0 is not told the answer.
+        """
+        found = sorted(found, key=lambda f: f.weight)
+        missing = sum(f.code == "missing_term" for f in found)
+        if len(found) <= MOST_NAMED and missing <= right:
+            yield from (one.diagnosis for one in found)
+            return
+        if missing == len(found):
+            yield slip("terms_missing", yours=f"{missing} terms are" if missing > 1 else "A term is")
+            return
+        light = [one for one in found if one.weight < LIGHT]
+        yield from (one.diagnosis for one in light[:MOST_NAMED])
+        if len(light) < len(found):
+            extra = [f for f in found if f.code == "extra_term"]
+            yours = f"{missing} {'is' if missing == 1 else 'are'} missing. " if missing else ""
+            if extra:
+                more = f", and {len(extra) - MOST_NAMED} more" if len(extra) > MOST_NAMED else ""
+                yours += (
+                    f"These do not belong: {', '.join(f.word('term') for f in extra[:MOST_NAMED])}{more}."
+                )
+            yield slip("terms_differ", yours=yours.strip())
+
+    # -- the step, the derivation ------------------------------------------------------------------
+
+    def nearest(self, node: str) -> Any:
+        """A node's value from the student's own nearest answers: their own where there is one."""
+        choices = self.follow.choices(node)
+        value = choices[0].value if choices else None
+        return self.graph.key(node) if value is None else value
+
+    def _variants(self, question: Question, node: str) -> Iterator[tuple[Any, Diagnosis]]:
+        nodes = {"C": "Cqd", "christoffel": "Cqd"}
+        if question.target.christoffel is not None or nodes.get(node):
+            return
+
+        def value(name: str) -> Any:
+            if name == node:  # of a whole, the value that its inputs lead to
+                derived = self.follow.derived(name)
+                return derived[0].value if derived else self.graph.key(name)
+            return self.nearest(name)
+
+        try:
+            yield from variants(self.graph.robot, node, value)
+        except Exception:  # noqa: BLE001  inputs of the student's from which the step cannot be taken
+            return
+
+    def _at(self, question: Question, value: Any) -> Expr | None:
+        found = question.target.of(value)
+        if isinstance(found, Matrix):
+            rows, columns = found.shape
+            if question.row >= rows or question.column >= columns:
+                return None
+            return found[question.row, question.column]
+        return found if isinstance(found, Expr) else None
+
+    # -- constants, dimensions ---------------------------------------------------------------------
+
+    def _is_constant(self, question: Question, mine: Expr) -> bool:
+        """Whether a potential energy differs by a constant only."""
+        bodies = {f"P{b.name}" for b in self.graph.robot.bodies}
+        if question.target.node not in {"P", "L", *bodies}:
+            return False
+        difference = mine - self.expected(question)
+        return not difference.is_zero and not self.ring.depends_on_coordinates(difference)
+
+    def _misfits(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
+        """Terms that cannot be added to the others."""
+        wanted = self._dimension(question)
+        if wanted is None or not self.dimensions.known or self.problem.values:
+            return
+        terms = [monomial_expr(self.ring, m) for m in monomials(mine)] if is_small(mine) else []
+        known = [(term, found) for term in terms if (found := self.dimensions.of(term)) is not None]
+        for term, found in known:
+            if found != wanted:
+                mixed = any(other != found for _, other in known)
+                how = "but it is added to what is" if mixed else "where this should be"
+                yield slip(
+                    "dimensions",
+                    term=self.words.of(term),
+                    part=describe(found),
+                    how=how,
+                    other=describe(wanted),
+                )
+                return
+
+    def _dimension(self, question: Question) -> Dimension | None:
+        """The dimension of an answer, by its name."""
+        node = question.target.node
+        entry = question.target.entry
+        row, column = entry if entry is not None else (question.row, question.column)
+        head = node.rstrip("0123456789") if node not in self._heads else node
+        for name in sorted(self._heads, key=len, reverse=True):
+            if node.startswith(name):
+                head = name
+                break
+        return self._of_head(head, node[len(head) :], row, column)
+
+    _heads = (
+        "P",
+        "K",
+        "L",
+        "Kv",
+        "Kw",
+        "tau",
+        "dLdqd",
+        "ddt",
+        "dLdq",
+        "D",
+        "Cqd",
+        "g",
+        "I_body",
+        "I",
+        "rc",
+        "v",
+        "w",
+    )
+
+    def _of_head(self, head: str, index: str, row: int, column: int) -> Dimension | None:
+        match head:
+            case "P" | "K" | "L" | "Kv" | "Kw":
+                return ENERGY
+            case "I_body" | "I":
+                return INERTIA
+            case "rc":
+                return LENGTH
+            case "v":
+                return dimension(length=1, time=-1)
+            case "w":
+                return dimension(time=-1)
+            case "D":
+                per = times(self._unit(row), self._unit(column))
+                return times(dimension(mass=1, length=2), per, -1)
+            case "Cqd" | "g":
+                return times(ENERGY, self._unit(row), -1)
+            case "tau" | "ddt" | "dLdq":
+                return times(ENERGY, self._unit(int(index) - 1 if index.isdigit() else row), -1)
+            case "dLdqd":
+                per = self._unit(int(index) - 1)
+                return times(dimension(mass=1, length=2, time=-1), per, -1)
+        return None
+
+    def _unit(self, k: int) -> Dimension:
+        """The dimension of coordinate k, from 0."""
+        q = self.graph.robot.coordinates[k]
+        return NONE if q.type is JointType.REVOLUTE else LENGTH
+
+    # -- matrices, differences ---------------------------------------------------------------------
+
+    def whole(self, question: Question, held: Any, found: tuple[Diagnosis, ...]) -> tuple[Diagnosis, ...]:
+        """The slips of a matrix, given those of its entries: one for all, where one explains all."""
+        mine = [[as_expr(w.value) for w in row] for row in held.rows]
+        if len(mine) * len(mine[0]) == 1 or any(e is None for row in mine for e in row):
+            return found
+        target = question.target
+        given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
+        candidates = [*self._variants(question, target.node), *self._transposed(target)]
+        for value, told in candidates:
+            if _same(target.of(value), given):
+                return (told, *(d for d in found if d.code == "dimensions"))
+        for value, told in self._derived(question, *given.entries):
+            if _same(target.of(value), given):
+                return (told, *(d for d in found if d.code == "dimensions"))
+        return found
+
+    def _transposed(self, target: Any) -> Iterator[tuple[Any, Diagnosis]]:
+        right = target.of(self.graph.key(target.node))
+        if isinstance(right, Matrix) and right.shape[0] == right.shape[1] > 1:
+            yield right.T, slip("transposed")
+
+    def difference(self, question: Question) -> Node | None:
+        """The answer minus what was expected, in compact form."""
+        mine = question.mine
+        if mine is None:
+            return None
+        difference = mine - self.expected(question)
+        return self.words.form(difference) if is_small(difference) else None
+
+
+def _in_common(a: Expr, b: Expr) -> int:
+    """How many terms two values share."""
+    if not a.poly or not b.poly:
+        return 0
+    return len(a.poly.to_dict().items() & b.poly.to_dict().items())
+
+
+def _likeness(a: Expr, b: Expr) -> Fraction:
+    """The share of the terms of two values that they have in common."""
+    same = _in_common(a, b)
+    return Fraction(same, max(len(a) + len(b) - same, 1))
+
+
+def _same(a: Any, b: Matrix) -> bool:
+    return (
+        isinstance(a, Matrix)
+        and a.shape == b.shape
+        and all(x == y for x, y in zip(a.entries, b.entries, strict=True))
+    )

@@ -1,0 +1,77 @@
+"""Terms in words: exact expressions as one line of Unicode, for messages."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.explain.forms import leading_names
+from dynsolve.explain.style import style_of
+from dynsolve.notation.build import power
+from dynsolve.notation.tree import Negative, Node, Power, Product, Quotient, Sum, Symbol, number
+from dynsolve.notation.unicode import UnicodePrinter
+
+LONGEST = 160
+
+
+class Words:
+    """Writes expressions of one field as a person reads them."""
+
+    def __init__(self, field: Field) -> None:
+        ring, robot = field.ring, field.robot
+        self.ring = ring
+        self._opaque = field.opaque
+        self._problem: set[str] = set()
+        self.compactor = Compactor(ring, leading_names(robot))
+        self._printer = UnicodePrinter(style_of(robot))
+
+    def problem_symbols(self, names: set[str]) -> None:
+        """Say which symbols the problem has."""
+        self._problem = names
+
+    def form(self, expr: Expr) -> Node:
+        """The compact tree."""
+        made = self.compactor.form(expr)
+        return self._restored(made) if self._opaque else made
+
+    def _restored(self, node: Node) -> Node:
+        """The tree with the functions of unexpected arguments as they were written."""
+        match node:
+            case Symbol(name) if name in self._opaque:
+                return self._opaque[name]
+            case Sum(parts):
+                return Sum(tuple(map(self._restored, parts)))
+            case Product(parts):
+                return Product(tuple(map(self._restored, parts)))
+            case Quotient(numerator, denominator):
+                return Quotient(self._restored(numerator), self._restored(denominator))
+            case Power(base, exponent):
+                return Power(self._restored(base), exponent)
+            case Negative(argument):
+                return Negative(self._restored(argument))
+        return node
+
+    def of(self, expr: Expr) -> str:
+        """An expression in one line."""
+        text = self._printer.text(self.form(expr))
+        return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
+
+    def number(self, value: Fraction) -> str:
+        """A number."""
+        return self._printer.text(number(value))
+
+    def generator(self, g: Generator) -> str:
+        """A symbol."""
+        return self.power(g, 1)
+
+    def power(self, g: Generator, exponent: int) -> str:
+        """A symbol's power."""
+        plain = g.kind == "symbol" and g.name not in self._opaque
+        node = Symbol(g.name, g.dots) if plain else self.form(self.ring.generator(g.index))
+        return self._printer.text(power(node, exponent))
+
+    def is_unknown(self, g: Generator) -> bool:
+        """Whether a symbol is none of the problem's."""
+        return g.kind == "symbol" and bool(self._problem) and g.name not in self._problem

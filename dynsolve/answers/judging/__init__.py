@@ -1,0 +1,1 @@
+"""Comparing what a student wrote with the key, and with what the student's own answers lead to."""

@@ -1,0 +1,179 @@
+"""Follow-through: the values that a student's own answers lead to.
+
+Every input of a quantity is the student's own answer, or is derived in the same
+way from still earlier ones, down to the key.  Of all combinations those with the
+fewest derived inputs come first; at most 64 distinct values are kept.
+
+The graph is walked once, and only where an answer that is not correct lies before:
+everywhere else there is one value, the key's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from heapq import heappop, heappush
+from typing import Any
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.judging.graph import Graph, Way
+from dynsolve.errors import AlgebraError
+
+MOST_CANDIDATES = 64
+
+MOST_WORK = 4_000_000
+"""The products of terms that the candidates of one hand-in may cost, estimated before they are formed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Own:
+    """A student's own value of a node, None where it cannot be worked with.
+
+    `names` are the answers it stands in that are not correct; none where it is the key's.
+    """
+
+    value: Any
+    names: tuple[str, ...] = ()
+
+    @property
+    def correct(self) -> bool:
+        """Whether it is the key's."""
+        return not self.names
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A value that a node may have; `derived` counts derived inputs, `used` are the answers it rests on."""
+
+    value: Any
+    derived: int = 0
+    used: frozenset[str] = frozenset()
+
+
+@dataclass
+class Follow:
+    """The candidates of every node, given what a student handed in."""
+
+    graph: Graph
+    own: Mapping[str, Own]
+    work: int = 0
+    _touched: dict[str, bool] = field(default_factory=dict)
+    _choices: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
+    _derived: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
+
+    def touched(self, node: str) -> bool:
+        """Whether an answer that is not correct lies before a node."""
+        if node not in self._touched:
+            self._touched[node] = any(
+                self._wrong(name) or self.touched(name)
+                for way in self.graph.ways(node)
+                for name in way.inputs
+            )
+        return self._touched[node]
+
+    def _wrong(self, node: str) -> bool:
+        own = self.own.get(node)
+        return own is not None and not own.correct
+
+    def choices(self, node: str) -> tuple[Candidate, ...]:
+        """What may stand for a node where it is an input: the student's own answer first."""
+        if node not in self._choices:
+            found: list[Candidate] = []
+            own = self.own.get(node)
+            if own is not None:
+                found.append(Candidate(own.value, 0, frozenset(own.names)))
+            if self.touched(node):
+                for one in self.derived(node):
+                    _keep(found, Candidate(one.value, one.derived + 1, one.used))
+            elif own is None or not own.correct:
+                untouched = 1 if own is not None else 0
+                _keep(found, Candidate(self.graph.key(node), untouched))
+            found.sort(key=lambda c: c.derived)
+            self._choices[node] = tuple(found[:MOST_CANDIDATES])
+        return self._choices[node]
+
+    def derived(self, node: str) -> tuple[Candidate, ...]:
+        """The values that a node's inputs lead to, fewest derived inputs first."""
+        if node not in self._derived:
+            found: list[Candidate] = []
+            streams = [self._combinations(way) for way in self.graph.ways(node)]
+            for one in _merged(streams):
+                _keep(found, one)
+                if len(found) >= MOST_CANDIDATES:
+                    break
+            self._derived[node] = tuple(found)
+        return self._derived[node]
+
+    def _combinations(self, way: Way) -> Iterator[Candidate]:
+        """The values of one way, over all choices of its inputs, cheapest first."""
+        lists = [self.choices(name) for name in way.inputs]
+        start = (0,) * len(lists)
+        waiting = [(self._derivations(lists, start), start)]
+        seen = {start}
+        tried = 0
+        while waiting and tried < 4 * MOST_CANDIDATES:
+            derived, places = heappop(waiting)
+            tried += 1
+            chosen = [choices[i] for choices, i in zip(lists, places, strict=True)]
+            value = self._value(way, chosen)
+            if value is not None:
+                yield Candidate(value, derived, frozenset().union(*(c.used for c in chosen)))
+            for k, choices in enumerate(lists):
+                if places[k] + 1 < len(choices):
+                    following = (*places[:k], places[k] + 1, *places[k + 1 :])
+                    if following not in seen:
+                        seen.add(following)
+                        heappush(waiting, (self._derivations(lists, following), following))
+
+    def _derivations(self, lists: Sequence[Sequence[Candidate]], places: tuple[int, ...]) -> int:
+        return sum(choices[i].derived for choices, i in zip(lists, places, strict=True))
+
+    def _value(self, way: Way, chosen: Sequence[Candidate]) -> Any:
+        if any(c.value is None for c in chosen):
+            return None
+        cost = _estimate([c.value for c in chosen], way.linear)
+        if self.work + cost > MOST_WORK:
+            return None
+        self.work += cost
+        try:
+            return way.compute(*(c.value for c in chosen))
+        except (AlgebraError, ValueError, ZeroDivisionError):
+            return None
+
+
+def _merged(streams: list[Iterator[Candidate]]) -> Iterator[Candidate]:
+    """The candidates of several ways, fewest derived inputs first; of equal ones the first way's."""
+    heads: list[tuple[int, int, Candidate]] = []
+    for place, stream in enumerate(streams):
+        first = next(stream, None)
+        if first is not None:
+            heads.append((first.derived, place, first))
+    while heads:
+        heads.sort(key=lambda head: head[:2])
+        _, place, one = heads.pop(0)
+        yield one
+        following = next(streams[place], None)
+        if following is not None:
+            heads.append((following.derived, place, following))
+
+
+def _keep(found: list[Candidate], one: Candidate) -> None:
+    if not any(_same(one.value, other.value) for other in found):
+        found.append(one)
+
+
+def _same(a: Any, b: Any) -> bool:
+    if isinstance(a, Matrix) and isinstance(b, Matrix):
+        return a.shape == b.shape and all(x == y for x, y in zip(a.entries, b.entries, strict=True))
+    return bool(a == b)
+
+
+def _estimate(values: Sequence[Any], linear: bool) -> int:
+    """The products of terms that a way forms, at most about so many."""
+    sizes = [
+        sum(map(len, value.entries)) if isinstance(value, Matrix) else len(value)
+        for value in values
+        if isinstance(value, (Matrix, Expr))
+    ]
+    return 16 * sum(sizes) if linear else sum(sizes) * (max(sizes, default=1) + 8)

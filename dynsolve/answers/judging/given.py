@@ -1,0 +1,194 @@
+"""The answers of a hand-in with their values, in one field.
+
+Every answer is admitted to the field by itself: one that cannot be held is
+unreadable and leaves the others as they are.  Names that occur inside a value stand
+for the student's own answers, and for the key's where there is none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.judging.answer_ring import Field, FieldBuilder
+from dynsolve.answers.judging.evaluate import Evaluator
+from dynsolve.answers.judging.fraction import Frac, as_expr, equal
+from dynsolve.answers.judging.graph import Entry, Graph
+from dynsolve.answers.reading.submission import Answer, referred
+from dynsolve.errors import AlgebraError
+from dynsolve.notation import tree
+from dynsolve.notation.tree import Node
+
+Rows = tuple[tuple[Frac, ...], ...]
+
+MOST_ENTRIES = 144
+"""The most entries of a matrix that is judged."""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """One answer with its value: rows of entries, a scalar as 1×1; `fault` where there is none."""
+
+    answer: Answer
+    rows: Rows | None
+    nodes: tuple[tuple[Node, ...], ...] = ()
+    fault: str = ""
+    expected: str = ""
+
+    @property
+    def is_matrix(self) -> bool:
+        """Whether it was written as a matrix."""
+        return isinstance(self.answer.node, tree.Matrix)
+
+    @property
+    def entries(self) -> tuple[Frac, ...]:
+        """All entries, row by row."""
+        return tuple(entry for row in self.rows or () for entry in row)
+
+
+class Hand:
+    """All answers of one hand-in, valued in a field that refines `base`, the problem's."""
+
+    def __init__(self, base: Field, answers: Sequence[Answer]) -> None:
+        builder = FieldBuilder(base)
+        self._faults: dict[int, tuple[str, str]] = {}
+        for place, answer in enumerate(answers):
+            if answer.node is None:
+                self._faults[place] = answer.fault or "this could not be read", answer.expected
+                continue
+            try:
+                builder.admit(answer.node)
+            except AlgebraError as error:
+                self._faults[place] = error.message, error.help
+        self.field: Field = builder.field()
+        self.graph = Graph(self.field)
+        self.answers = tuple(answers)
+        self._last = {a.name: place for place, a in enumerate(answers) if place not in self._faults}
+        self._values: dict[int, Given] = {}
+        self._busy: set[int] = set()
+        self.evaluator = Evaluator(self.field.ring, self.lookup, self.field.values)
+        self.given: tuple[Given, ...] = tuple(self._given(place) for place in range(len(answers)))
+
+    def _given(self, place: int) -> Given:
+        found = self._values.get(place)
+        if found is None:
+            self._busy.add(place)
+            found = self._values[place] = self._evaluate(place)
+            self._busy.discard(place)
+        return found
+
+    def _evaluate(self, place: int) -> Given:
+        answer = self.answers[place]
+        if place in self._faults:
+            return Given(answer, None, (), *self._faults[place])
+        assert answer.node is not None
+        nodes = _entries(answer.node)
+        if len(nodes) * len(nodes[0]) > MOST_ENTRIES:
+            return Given(answer, None, nodes, "the matrix is too large", f"at most {MOST_ENTRIES} entries")
+        self.evaluator.work = 0
+        try:
+            rows = tuple(tuple(self.evaluator.more(node) for node in row) for row in nodes)
+        except AlgebraError as error:
+            return Given(answer, None, nodes, error.message, error.help)
+        return Given(answer, rows, nodes)
+
+    def lookup(self, symbol: str) -> Frac:
+        """The value of an answer that occurs inside another."""
+        found = referred(symbol)
+        if found is None:
+            raise AlgebraError(f"{symbol} is not a symbol of this problem")
+        name, row, column = found
+        own = self._own(name, row, column)
+        return self._from_key(name, row, column) if own is None else own
+
+    def _own(self, name: str, row: int | None, column: int | None) -> Frac | None:
+        """The student's own value: of the answer itself, or of the matrix that it is an entry of."""
+        place = self._last.get(name)
+        if place is None:
+            entry = self.graph.entry(name)
+            if entry is None:
+                force = self.graph.node(name).removeprefix("tau")
+                if not force.isdigit():
+                    return None
+                entry = Entry("tau", int(force) - 1, 0)
+            name, row, column = entry.whole, entry.row + 1, entry.column + 1
+            place = self._last.get(name)
+        if place is None or place in self._busy:
+            return None
+        work = self.evaluator.work
+        given = self._given(place)
+        self.evaluator.work = work
+        return None if given.rows is None else _entry(given.rows, row, column)
+
+    def _from_key(self, name: str, row: int | None, column: int | None) -> Frac:
+        symbol = self.graph.christoffel(name)
+        if symbol is not None:
+            return Frac(self.field.key("christoffel")[symbol])
+        entry = self.graph.entry(name)
+        if entry is not None:
+            name, row, column = entry.whole, entry.row + 1, entry.column + 1
+        node = name if name == "C" else self.graph.node(name)
+        if node not in self.field.rules:
+            raise AlgebraError(f"{name} is not a quantity of this problem")
+        value = self.field.key(node)
+        if isinstance(value, Matrix):
+            if row is None or column is None or row > value.shape[0] or column > value.shape[1]:
+                raise AlgebraError(f"{name} is a matrix and stands where a number should")
+            return Frac(value[row - 1, column - 1])
+        return Frac(value)
+
+    def moved(self, node: Node) -> Frac:
+        """The value of a changed tree."""
+        return self.evaluator.value(node)
+
+
+def _entries(node: Node) -> tuple[tuple[Node, ...], ...]:
+    return node.rows if isinstance(node, tree.Matrix) else ((node,),)
+
+
+def _entry(rows: Rows, row: int | None, column: int | None) -> Frac | None:
+    if row is None or column is None:
+        return rows[0][0] if len(rows) == 1 and len(rows[0]) == 1 else None
+    if row <= len(rows) and column <= len(rows[0]):
+        return rows[row - 1][column - 1]
+    if len(rows) == 1 and column == 1 and row <= len(rows[0]):  # a column written as a row
+        return rows[0][row - 1]
+    return None
+
+
+def same(a: Rows, b: Rows) -> bool:
+    """Whether two values are equal, entry by entry."""
+    if len(a) != len(b) or len(a[0]) != len(b[0]):
+        return False
+    return all(equal(x, y) for r, s in zip(a, b, strict=True) for x, y in zip(r, s, strict=True))
+
+
+def as_value(rows: Rows, like: Expr | Matrix) -> Expr | Matrix | None:
+    """The value as one of the ring, of the key's shape; None where it is none."""
+    exprs = [[as_expr(entry) for entry in row] for row in rows]
+    if any(e is None for row in exprs for e in row):
+        return None
+    flat: Iterable[Iterable[Expr]] = [[e for e in row if e is not None] for row in exprs]
+    matrix = Matrix.of(rows[0][0].ring, flat)
+    return matrix if isinstance(like, Matrix) else matrix[0, 0]
+
+
+def fitted(rows: Rows, like: Expr | Matrix) -> Rows | None:
+    """The rows in the key's shape: a row for a column, 0 for a zero vector; None where they do not fit."""
+    shape = like.shape if isinstance(like, Matrix) else (1, 1)
+    mine = len(rows), len(rows[0])
+    if mine == shape:
+        return rows
+    flat = tuple(entry for row in rows for entry in row)
+    if 1 in shape and 1 in mine and len(flat) == shape[0] * shape[1]:
+        return tuple((entry,) for entry in flat) if shape[1] == 1 else (flat,)
+    if mine == (1, 1) and flat[0].is_zero:
+        return ((flat[0],) * shape[1],) * shape[0]
+    if shape == (3, 1) and len(flat) == 4 and 1 in mine and equal(flat[3], Frac(flat[3].ring.one)):
+        return tuple((entry,) for entry in flat[:3])
+    if shape == (4, 4) and mine == (3, 4):
+        ring = flat[0].ring
+        return (*rows, (*(Frac(ring.zero),) * 3, Frac(ring.one)))
+    return None

@@ -1,0 +1,116 @@
+"""What the sides of an equation name: answers, nothing known, or nothing at all."""
+
+from __future__ import annotations
+
+from dynsolve.answers.reading.derivatives import UnknownVariable
+from dynsolve.answers.reading.forms import Form
+from dynsolve.answers.reading.grids import Grid, Value
+from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.memory import Name, Side, Unknown, signs
+from dynsolve.answers.reading.name_resolution import UnknownName
+from dynsolve.answers.reading.prepare import cut_names
+from dynsolve.answers.reading.reader import Reader
+from dynsolve.answers.reading.submission import referred
+from dynsolve.answers.reading.vocabulary import Vocabulary, key
+from dynsolve.errors import ReadError
+from dynsolve.notation.bounded import recalled
+from dynsolve.notation.tree import Negative, Sum, Symbol
+
+
+def sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[Side]:
+    """What each member names: the first one, those before the last, and the last if no other does."""
+    found: list[Side] = []
+    for index, member in enumerate(members):
+        side = None
+        last = index == len(members) - 1
+        if index == 0:
+            side = side_of(vocabulary, member)
+        elif not last or not any(isinstance(side, Name) for side in found):
+            side = side_of(vocabulary, member)
+            if isinstance(side, Unknown) or (last and _is_symbol(vocabulary, member)):
+                side = None
+        elif member[0].kind in ("begin", "[") and not any(t.kind in ("+", "-") for t in member):
+            side = side_of(vocabulary, member)
+            side = side if isinstance(side, Name) else None
+        found.append(side)
+    return found
+
+
+def _is_symbol(vocabulary: Vocabulary, member: list[Token]) -> bool:
+    """Whether a member alone is a symbol of the problem, which wins on a right-hand side."""
+    text = key("".join(t.text for t in member if t.kind in ("name", "letter", "number")))
+    script = any(t.kind == "command" and t.text == "script" for t in member)
+    return len(member) < 6 and not script and text in vocabulary.symbols
+
+
+def side_of(vocabulary: Vocabulary, member: list[Token]) -> Side:
+    """The name that a side is, None where it is something else."""
+    if len(member) > 200:
+        return None
+    memory = vocabulary.memory
+    return recalled(memory.sides, signs(member), lambda: _read_side(vocabulary, member), memory.most)
+
+
+def _read_side(vocabulary: Vocabulary, member: list[Token]) -> Side:
+    tokens = cut_names(member, vocabulary, naming=True)
+    reader = Reader(tokens, vocabulary, naming=True)
+    try:
+        value = reader.value()
+    except UnknownName as error:
+        simple = _is_simple(tokens, error.form)
+        return Unknown(_defined_key(error.form), error.family if simple else (), simple, error.message)
+    except UnknownVariable as error:
+        return Unknown("", error.family, False, error.message)
+    except ReadError:
+        return None
+    candidates = _named(vocabulary, value, reader.candidates)
+    return Name(candidates) if candidates else None
+
+
+def _is_simple(tokens: list[Token], form: Form) -> bool:
+    """Whether the side is this name and nothing else."""
+    scripts = form.scripts
+    whole = bool(tokens) and form.start <= tokens[0].end and form.end >= tokens[-1].start
+    return whole and not scripts.powers and not scripts.transposed and len(tokens) < 12
+
+
+def _defined_key(form: Form) -> str:
+    """What a definition is kept under: the name with a prime for every dot."""
+    return form.key + "'" * form.dots
+
+
+def _named(vocabulary: Vocabulary, value: Value, candidates: tuple[str, ...]) -> tuple[str, ...]:
+    """The answers that a value consisting of placeholders alone names."""
+    if isinstance(value, Symbol) and (found := referred(value.name)):
+        return candidates if found[0] in candidates else (found[0],)
+    if force := _force(vocabulary, value):
+        return (force,)
+    if isinstance(value, Grid):
+        if value.quantity:
+            return candidates if value.quantity in candidates else (value.quantity,)
+        return _whole(vocabulary, value)
+    return ()
+
+
+def _force(vocabulary: Vocabulary, value: Value) -> str:
+    """The force that d/dt(∂L/∂q̇_i) - ∂L/∂q_i is."""
+    for q in vocabulary.coordinates:
+        terms = (Symbol(f"@ddt{q.index}"), Negative(Symbol(f"@dLdq{q.index}")))
+        if value == Sum(terms):
+            return q.force
+    return ""
+
+
+def _whole(vocabulary: Vocabulary, value: Grid) -> tuple[str, ...]:
+    """The matrix whose entries are all names: [tau_1; f_2] is tau."""
+    n = len(vocabulary.coordinates)
+    forces = [q.force for q in vocabulary.coordinates]
+    numbers = range(1, n + 1)
+    wholes: dict[str, list[list[str]]] = {
+        "tau": [[force] for force in forces],
+        "g": [[f"g{i}"] for i in numbers],
+        "D": [[f"d{i}{j}" for j in numbers] for i in numbers],
+        "C": [[f"C{i}{j}" for j in numbers] for i in numbers],
+    }
+    written = [[entry.name[1:] if isinstance(entry, Symbol) else "" for entry in row] for row in value.rows]
+    return next(((name,) for name, rows in wholes.items() if rows == written), ())

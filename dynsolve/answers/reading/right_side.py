@@ -1,0 +1,111 @@
+"""The members of an equation that are no names: each read as a value, or why it has none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dynsolve.answers.reading.grids import Abstract, Grid, Value
+from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.measure import measured
+from dynsolve.answers.reading.prepare import cut_names
+from dynsolve.answers.reading.reader import Reader
+from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.errors import ReadError
+from dynsolve.notation.tree import ZERO
+
+EXPECTED = "a formula is made of numbers, the problem's symbols, + - * / ^, sin, cos, tan and sqrt"
+"""What is said where a formula was expected and no better remedy is known."""
+
+_WAYS: tuple[frozenset[str], ...] = (frozenset(), frozenset({"inertia"}), frozenset({"spaces"}))
+"""How a value may be read: as it stands; a bare I_1 as the moment of inertia; blanks between entries."""
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    """A member that was read, with what its value is made of."""
+
+    value: Value
+    references: tuple[str, ...]
+    notes: tuple[str, ...]
+    free: tuple[str, ...]
+    is_definition: bool
+
+
+def read_member(
+    vocabulary: Vocabulary, member: list[Token], owners: tuple[str, ...] = ()
+) -> Read | ReadError:
+    """A member's value, or why it has none; readings that take a bolder guess come last.
+
+    `owners` are the answers it may be a value of.
+    """
+    if not member:
+        return ReadError("there is nothing here", 0, 1, EXPECTED)
+    tokens = cut_names(member, vocabulary)
+    first: Read | ReadError | None = None
+    for options in _WAYS:
+        if options and not _may_help(options, tokens):
+            continue
+        found = _read(vocabulary, tokens, owners, options)
+        if isinstance(found, Read) and _has_shape(vocabulary, found, owners):
+            return found
+        if first is None or (isinstance(first, ReadError) and isinstance(found, Read)):
+            first = found
+    assert first is not None
+    if isinstance(first, Read):
+        return first
+    return ReadError(first.message, max(first.offset, member[0].start), max(first.length, 1), first.help)
+
+
+def _read(
+    vocabulary: Vocabulary, tokens: list[Token], owners: tuple[str, ...], options: frozenset[str]
+) -> Read | ReadError:
+    owner = owners[0] if owners else ""
+    reader = Reader(tokens, vocabulary, owner=owner, options=options)
+    try:
+        value = reader.value()
+        definition = isinstance(value, Abstract) or _is_names_only(reader, vocabulary)
+        if not definition:
+            _check_shape(vocabulary, value, owners)
+        if not isinstance(value, Abstract):
+            measured(value.node if isinstance(value, Grid) else value, {}, vocabulary.memory.measures)
+    except ReadError as error:
+        return error
+    except RecursionError:
+        return ReadError("this is nested too deeply", 0, 1, "write it in fewer levels")
+    return Read(value, tuple(reader.references), tuple(reader.notes), tuple(reader.free), definition)
+
+
+def _has_shape(vocabulary: Vocabulary, found: Read, owners: tuple[str, ...]) -> bool:
+    """Whether a value has the shape of one of the answers it is given for."""
+    value = found.value
+    if isinstance(value, Abstract) or not owners:
+        return True
+    shapes = [vocabulary.shapes.get(owner) for owner in owners]
+    if isinstance(value, Grid):
+        return any(shape and value.shape in (shape, shape[::-1]) for shape in shapes)
+    return value == ZERO or None in shapes or (1, 1) in shapes
+
+
+def _check_shape(vocabulary: Vocabulary, value: Value, owners: tuple[str, ...]) -> None:
+    """Raise ReadError for a matrix where only a scalar belongs."""
+    if isinstance(value, Grid) and owners and not any(vocabulary.shapes.get(o) for o in owners):
+        rows, columns = value.shape
+        message = f"{owners[0]} is one expression; this is a {rows}×{columns} matrix"
+        raise ReadError(message, help="check what is transposed, and what is a vector")
+
+
+def _is_names_only(reader: Reader, vocabulary: Vocabulary) -> bool:
+    """Whether what was read holds names of the derivation alone, or masses beside its vectors."""
+    if not reader.references and not reader.names_used:
+        return False
+    if not reader.symbols:
+        return True
+    vectors = any(vocabulary.shapes.get(name) for name in reader.references)
+    return vectors and set(reader.symbols) <= vocabulary.masses
+
+
+def _may_help(options: frozenset[str], tokens: list[Token]) -> bool:
+    """Whether another way of reading could make sense of these tokens."""
+    if "inertia" in options:
+        return any(t.kind == "name" and t.text[0] in "IJ" for t in tokens)
+    return any(t.kind == "[" for t in tokens)

@@ -1,0 +1,192 @@
+"""Small constructors of notation trees, and what a tree costs to read.
+
+The cost of a formula is what a person counts in it: every + - * /, power, sign
+and function call.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import prod
+
+from dynsolve.notation.tree import (
+    ONE,
+    ZERO,
+    Degrees,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+
+
+def cost(node: Node, known: dict[int, tuple[Node, int]] | None = None) -> int:
+    """The operations of a formula as it is printed.
+
+    `known` keeps the counts of shared parts from call to call, by identity.
+
+    >>> square = Power(Symbol("l"), Number(2))
+    >>> cost(Sum((Product((Symbol("m"), square)), Negative(Function("cos", Symbol("q"))))))
+    4
+    """
+    known = {} if known is None else known
+    match node:
+        case Symbol() | Number(_, 1):
+            return 0
+        case Number():
+            return 1
+    found = known.get(id(node))
+    if found is None:
+        found = known[id(node)] = (node, _count(node, known))
+    return found[1]
+
+
+def _count(node: Node, known: dict[int, tuple[Node, int]]) -> int:
+    match node:
+        case Sum(terms):
+            inner = sum(cost(t.argument if isinstance(t, Negative) else t, known) for t in terms)
+            return inner + len(terms) - 1 + isinstance(terms[0], Negative)
+        case Product(factors):
+            return sum(cost(f, known) for f in factors) + len(factors) - 1
+        case Power(left, right) | Quotient(left, right):
+            return cost(left, known) + cost(right, known) + 1
+        case Negative(argument) | Function(_, argument):
+            return cost(argument, known) + 1
+        case Degrees():
+            return 0
+    raise TypeError(f"no cost for {type(node).__name__}")
+
+
+def power(base: Node, exponent: int) -> Node:
+    """base^exponent, exponent ≥ 1."""
+    return base if exponent == 1 else Power(base, Number(exponent))
+
+
+def split_sign(node: Node) -> tuple[int, Node]:
+    """(±1, the tree without its leading sign)"""
+    return (-1, node.argument) if isinstance(node, Negative) else (1, node)
+
+
+def total(terms: Sequence[Node]) -> Node:
+    """The sum of terms, flattened; a positive term is put first where there is one."""
+    flat: list[Node] = []
+    for term in terms:
+        sign, inner = split_sign(term)
+        if isinstance(inner, Sum):
+            flat.extend(inner.terms if sign > 0 else map(negated, inner.terms))
+        elif inner != ZERO:
+            flat.append(term)
+    if not flat:
+        return ZERO
+    if len(flat) == 1:
+        return flat[0]
+    if isinstance(flat[0], Negative):
+        first = next((i for i, t in enumerate(flat) if not isinstance(t, Negative)), 0)
+        flat.insert(0, flat.pop(first))
+    return Sum(tuple(flat))
+
+
+def negated(node: Node) -> Node:
+    """-node, without double signs."""
+    return node.argument if isinstance(node, Negative) else node if node == ZERO else Negative(node)
+
+
+def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, decimal: bool = False) -> Node:
+    """coefficient · Π node^exponent; negative exponents go below the fraction line.
+
+    Signs and numbers of the factors are drawn to the front, products flattened, in
+    the given order.  With `decimal` a fraction that ends is one number in front, 0.12 c₂
+    and not 3 c₂/25.
+    """
+    above: list[Node] = []
+    below: list[Node] = []
+    for node, exponent in factors:
+        sign, inner = split_sign(node)
+        if isinstance(inner, Sum) and all(isinstance(t, Negative) for t in inner.terms):
+            sign, inner = -sign, total([negated(t) for t in inner.terms])
+        if sign < 0 and exponent % 2:
+            coefficient = -coefficient
+        if exponent == 1:
+            coefficient = _put_factor(inner, coefficient, above)
+        elif isinstance(inner, Number):
+            coefficient = coefficient * Fraction(inner.p, inner.q) ** exponent
+        elif exponent > 0:
+            above.append(power(inner, exponent))
+        else:
+            below.append(power(inner, -exponent))
+    if not coefficient:
+        return ZERO
+    if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
+        return total([negated(term) for term in above[0].terms])
+    size = coefficient if coefficient > 0 else -coefficient
+    if decimal and not below and size.denominator != 1 and _ends(size.denominator):
+        node = _decimal(size, above)
+    else:
+        node = _fraction(size, above, below)
+    return Negative(node) if coefficient < 0 else node
+
+
+def _put_factor(node: Node, coefficient: Fraction | int, above: list[Node]) -> Fraction | int:
+    """Put one positive factor above the line, its numbers into the coefficient."""
+    match node:
+        case Number(p, q):
+            return coefficient * p if q == 1 else coefficient * Fraction(p, q)
+        case Quotient(numerator, Number(p, 1)):
+            return _put_factor(numerator, coefficient * Fraction(1, p), above)
+        case Product(factors):
+            for factor in factors:
+                if isinstance(factor, Number):
+                    coefficient = coefficient * Fraction(factor.p, factor.q)
+                else:
+                    above.append(factor)
+        case _:
+            above.append(node)
+    return coefficient
+
+
+def _decimal(coefficient: Fraction | int, above: list[Node]) -> Node:
+    """A number in front, as one decimal."""
+    front = Number(coefficient.numerator, coefficient.denominator, decimal=True)
+    return Product((front, *above)) if above else front
+
+
+def _ends(denominator: int) -> bool:
+    """Whether a fraction with this denominator is a decimal that comes to an end."""
+    for prime in (2, 5):
+        while denominator % prime == 0:
+            denominator //= prime
+    return denominator == 1
+
+
+def _is_decimal(denominator: int) -> bool:
+    """Whether a fraction was surely written as a decimal: 981/200 is 4.905, but 2/5 and 3/8 are fractions."""
+    return denominator % 25 == 0 and _ends(denominator)
+
+
+def _fraction(coefficient: Fraction | int, above: list[Node], below: list[Node]) -> Node:
+    if coefficient.numerator != 1:
+        above = [Number(coefficient.numerator), *above]
+    if coefficient.denominator != 1:
+        below = [Number(coefficient.denominator), *below]
+    numerator = _product(above)
+    if not below:
+        return numerator
+    if below == [Number(coefficient.denominator)] and _is_decimal(coefficient.denominator):
+        return _decimal(coefficient, above[coefficient.numerator != 1 :])
+    if isinstance(numerator, Number) and len(below) == 1 and isinstance(below[0], Number):
+        return Number(numerator.p, below[0].p)
+    return Quotient(numerator, _product(below))
+
+
+def _product(factors: list[Node]) -> Node:
+    if not factors:
+        return ONE
+    if all(isinstance(f, Number) for f in factors):
+        return Number(prod(f.p for f in factors if isinstance(f, Number)))
+    return factors[0] if len(factors) == 1 else Product(tuple(factors))

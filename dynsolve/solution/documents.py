@@ -1,0 +1,155 @@
+"""Solutions as documents: what is shown of a derivation, and in which order."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import count
+from typing import TYPE_CHECKING
+
+from dynsolve.derivation.graph import course_rules
+from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Table, Text, Uses
+from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
+from dynsolve.explain.named import definition_blocks
+from dynsolve.explain.step import STAGES, Detail, Step
+
+if TYPE_CHECKING:
+    from dynsolve.solution.solution import Solution
+
+CONVENTIONS = {
+    "standard": "standard Denavit-Hartenberg (Spong)",
+    "modified": "modified Denavit-Hartenberg (Craig)",
+}
+
+
+def solution_document(
+    solution: Solution,
+    detail: Detail = Detail.NORMAL,
+    stages: Iterable[str] | None = None,
+    abbreviate: Abbreviate = Abbreviate.AUTO,
+) -> Document:
+    """A solution with the steps of some stages, in the depth of `detail`.
+
+    `abbreviate` says whether long results are written in names, which are defined first.
+    """
+    stages = None if stages is None else tuple(stages)
+    return Document((
+        *_opening(solution),
+        *_stages(solution, detail, stages, solution.abbreviated(abbreviate)),
+        *solution.number_blocks(detail, stages),
+        *_closing(solution),
+    ))  # fmt: skip
+
+
+def _opening(solution: Solution) -> Iterator[Block]:
+    problem = solution.problem
+    yield Heading(problem.title, 1)
+    facts = [problem.source] if problem.source else []
+    facts.append(f"Convention: {CONVENTIONS[problem.convention.value]}.")
+    for fact in facts:
+        yield Text((fact,))
+
+
+def _stages(
+    solution: Solution, detail: Detail, stages: Iterable[str] | None, short: Abbreviated | None
+) -> Iterator[Block]:
+    """Stages and their steps, numbered as in the whole derivation."""
+    numbers = {stage: number for number, stage in enumerate(STAGES, start=1)}
+    inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
+    stage, place, extra = "", 0, 0
+    heading: Heading | None = None
+    for step in solution.explain(stages, short):
+        if step.stage != stage:
+            if short is not None and step.stage == "vectorized":
+                yield from definition_blocks(short)
+            stage, place, extra = step.stage, 0, 0
+            heading = Heading(f"{numbers[stage]}. {STAGES[stage]}", 2)
+        if step.detail is Detail.FULL:  # 7.3.1, so that the others have the same number in every detail
+            extra += 1
+            number = f"{numbers[stage]}.{place}.{extra}"
+        else:
+            place, extra = place + 1, 0
+            number = f"{numbers[stage]}.{place}"
+        if step.detail <= detail:
+            if heading:  # none over a stage of which nothing is shown
+                yield heading
+                heading = None
+            blocks = tuple(step_blocks(step, detail, tuple(_used(step.id, inputs))))
+            yield Fold(f"{number} {step.title}", blocks, step.detail)
+
+
+def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Iterator[Block]:
+    """A step: in brief its result alone, in full with its working and notes.
+
+    `inputs` names what its result is computed from.
+    """
+    if detail > Detail.BRIEF and step.why:
+        yield Text(step.why)
+    if step.table:
+        yield Table(step.table.header, step.table.rows)
+    if detail > Detail.BRIEF:
+        if step.formula is not None:
+            yield Formula(step.formula, step.source)
+        for working in step.working:
+            yield Formula(working, optional=True)
+        if inputs:
+            yield Uses(inputs)
+    if step.listed:
+        yield Equations(step.result)
+    labelled = () if step.listed else zip(step.result, _labels(step), strict=False)
+    for result, label in labelled:
+        yield Formula(result, entries=step.entries, optional=step.optional, label=label)
+    if detail > Detail.BRIEF:
+        for note in step.notes:
+            yield Note(note)
+
+
+def _used(name: str, inputs: Mapping[str, tuple[str, ...]]) -> Iterator[str]:
+    """The results of earlier steps that one is computed from, by their labels."""
+    if name.startswith(("I_", "R", "axes")):
+        return  # often given by the problem
+    if name == "g":
+        yield "P"
+        return
+    columns = [column for column in inputs if re.fullmatch(r"ddt\d+", column)]
+    if name == "J":
+        yield from (column.replace("ddt", "J") for column in columns)
+        return
+    if re.fullmatch(r"J\d+", name):
+        yield "axes"
+        return
+    frames = name.startswith("Jv")
+    if frames:
+        yield "axes"
+    for label in inputs.get(name, ()):
+        if name == "Cqd" and label == "g":
+            yield "D"
+        elif label == "tau":
+            yield from (column.replace("ddt", "tau") for column in columns)
+        elif not (frames and label.startswith("H")):
+            yield label
+
+
+def _labels(step: Step) -> Iterator[str]:
+    """The names of a step's results: its id, and for the angular part the name of that."""
+    angular = {"J": "Jw", "v": "w"}
+    yield step.id
+    for stem in ("Jv", "J", "v"):
+        if step.id.startswith(stem):
+            yield angular.get(stem, "Jw") + step.id.removeprefix(stem)
+            break
+    for place in count(2):
+        yield f"{step.id}-{place}"
+
+
+def _closing(solution: Solution) -> Iterator[Block]:
+    verification = solution.verification
+    how = verification.method
+    if not solution.robot.bodies:
+        yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
+        how = f"the last frame and the Jacobian by the outward half of {how}"
+    yield Heading("Verification", 2)
+    yield Text((
+        f"Verified: {how} at {verification.states} random states, "
+        f"relative error {verification.max_relative_error:.1e}.",
+    ))  # fmt: skip

@@ -1,0 +1,190 @@
+"""A solution as JSON, `dynsolve-solution/1`.
+
+Every expression is plain text that Python evaluates once `sin`, `cos`, `sqrt` and
+the symbols have values.  A matrix is a list of rows, a vector a list of entries.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from dynsolve.document import Inline, Prose, Verbatim
+from dynsolve.explain.step import Step
+from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.python import PythonPrinter
+from dynsolve.notation.tree import Matrix, Node
+from dynsolve.notation.unicode import UnicodePrinter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from dynsolve.explain.abbreviations import Abbreviated, Definition
+    from dynsolve.robot.model import Body
+    from dynsolve.solution.solution import Solution
+
+FORMAT = "dynsolve-solution/1"
+
+
+def to_json(solution: Solution, short: Abbreviated | None = None) -> dict[str, Any]:
+    """Everything: the problem, the coordinates, the results, the steps and the verification.
+
+    With `short` there is a section `abbreviated` of its definitions and forms too.
+    """
+    problem, verification = solution.problem, solution.verification
+    exporter = _Exporter(solution)
+    return {
+        "format": FORMAT,
+        "problem": {
+            "title": problem.title,
+            "source": problem.source,
+            "convention": problem.convention.value,
+            "file": problem.file,
+        },
+        "coordinates": [
+            {
+                "name": q.name,
+                "type": q.type.value,
+                "velocity": q.velocity,
+                "acceleration": q.acceleration,
+                "force": q.force,
+            }
+            for q in solution.robot.coordinates
+        ],
+        "results": exporter.results(),
+        "steps": [exporter.step(step) for step in solution.steps],
+        "verified": {
+            "method": verification.method,
+            "states": verification.states,
+            "max_relative_error": verification.max_relative_error,
+        },
+        **({} if short is None else {"abbreviated": exporter.abbreviated(short)}),
+        **_numbers(solution),
+    }
+
+
+def _numbers(solution: Solution) -> dict[str, Any]:
+    """The sections `values`, `at` and `units`, where numbers are asked for."""
+    if solution.numbers is None:
+        return {}
+    from dynsolve.solution.numbers.export import sections
+
+    return sections(solution.numbers, lambda tree: _Exporter(solution, tree).results())
+
+
+class _Exporter:
+    """Keeps one printer of each notation, so that what trees share is printed once."""
+
+    def __init__(self, solution: Solution, forms: Callable[[str], Node] | None = None) -> None:
+        self.solution = solution
+        self.forms = forms or solution.forms
+        self.python = PythonPrinter()
+        self.latex = LatexPrinter(solution.style)
+        self.unicode = UnicodePrinter(solution.style)
+
+    def scalar(self, name: str) -> str:
+        return self.python.text(self.forms(name))
+
+    def matrix(self, name: str) -> list[list[str]]:
+        form = self.forms(name)
+        assert isinstance(form, Matrix)
+        return [[self.python.text(entry) for entry in row] for row in form.rows]
+
+    def vector(self, name: str) -> list[str]:
+        return [entry for (entry,) in self.matrix(name)]
+
+    def results(self) -> dict[str, Any]:
+        """`results`; of a robot without masses it ends with the Jacobian."""
+        robot = self.solution.robot
+        results: dict[str, Any] = {
+            "A": [self.matrix(f"A{joint.index}") for joint in robot.joints],
+            "H": [self.matrix(f"H{joint.index}") for joint in robot.joints],
+            "Jv": self.matrix("Jv"),
+            "Jw": self.matrix("Jw"),
+            "bodies": [self.body(body) for body in robot.bodies],
+        }
+        if not robot.bodies:
+            return results
+        return {
+            **results,
+            "P": self.scalar("P"),
+            "K": self.scalar("K"),
+            "L": self.scalar("L"),
+            "euler_lagrange": [self.equation(q.index) for q in robot.coordinates],
+            "tau": self.vector("tau"),
+            "D": self.matrix("D"),
+            "C": self.matrix("C"),
+            "g": self.vector("g"),
+        }
+
+    def body(self, body: Body) -> dict[str, Any]:
+        b = body.name
+        return {
+            "name": b,
+            "r_c": self.vector(f"rc{b}"),
+            "R": self.matrix(f"R{b}"),
+            "Jv": self.matrix(f"Jv{b}"),
+            "Jw": self.matrix(f"Jw{b}"),
+            "v": self.vector(f"v{b}"),
+            "w": self.vector(f"w{b}"),
+            "I_body": self.matrix(f"I_body{b}"),
+            "I_base": self.matrix(f"I{b}"),
+            "P": self.scalar(f"P{b}"),
+            "Kv": self.scalar(f"Kv{b}"),
+            "Kw": self.scalar(f"Kw{b}"),
+            "K": self.scalar(f"K{b}"),
+        }
+
+    def abbreviated(self, short: Abbreviated) -> dict[str, Any]:
+        """`abbreviated`; a definition uses those before it alone, and c_ijk is given for i ≤ j."""
+
+        def rows(matrix: Matrix) -> list[list[str]]:
+            return [[self.python.text(entry) for entry in row] for row in matrix.rows]
+
+        def listed(definitions: Iterable[Definition]) -> list[dict[str, str]]:
+            return [{"name": d.name.name, "value": self.python.text(d.meaning)} for d in definitions]
+
+        return {
+            "constants": listed(short.constants),
+            "recurring": listed(short.sums),
+            "D": rows(short.D),
+            "C": rows(short.C),
+            "g": [entry for (entry,) in rows(short.g)],
+            "christoffel": [
+                {"i": i + 1, "j": j + 1, "k": k + 1, "value": self.python.text(value)}
+                for (i, j, k), value in short.christoffel.items()
+            ],
+        }
+
+    def equation(self, k: int) -> dict[str, str]:
+        """The Euler-Lagrange equation of a coordinate."""
+        return {
+            "dL_dqdot": self.scalar(f"dLdqd{k}"),
+            "ddt": self.scalar(f"ddt{k}"),
+            "dL_dq": self.scalar(f"dLdq{k}"),
+            "force": self.scalar(f"tau{k}"),
+        }
+
+    def step(self, step: Step) -> dict[str, Any]:
+        formulas = [*([step.formula] if step.formula else []), *step.working, *step.result]
+        return {
+            "id": step.id,
+            "stage": step.stage,
+            "title": step.title,
+            "why": self.prose(step.why),
+            "source": step.source,
+            "latex": "\n".join(map(self.latex.text, formulas)),
+            "text": "\n".join(map(self.unicode.text, formulas)),
+            "notes": [self.prose(note) for note in step.notes],
+        }
+
+    def prose(self, parts: Prose) -> str:
+        return "".join(map(self.part, parts))
+
+    def part(self, part: Inline) -> str:
+        match part:
+            case str():
+                return part
+            case Verbatim(text):
+                return text
+        return self.unicode.text(part)

@@ -1,0 +1,180 @@
+"""Numbers as a part of a solution's document."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
+from dynsolve.explain import letters
+from dynsolve.explain.course import children
+from dynsolve.explain.step import STAGES, Detail
+from dynsolve.notation.printing import PLAIN
+from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equation
+from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.robot.model import Robot
+from dynsolve.solution.numbers import quantities, units
+from dynsolve.solution.numbers.beside import Numbers, needed
+from dynsolve.solution.numbers.given import Entry
+from dynsolve.solution.numbers.names import Shown, all_results, main_results
+from dynsolve.solution.numbers.state import State
+
+_WIDEST = 50
+"""A matrix that is wider, in characters, has its unit by itself."""
+
+
+def blocks(numbers: Numbers, detail: Detail, stages: Iterable[str] | None = None) -> Iterator[Block]:
+    """The values, the results with them, and what holds at a state."""
+    chosen = None if stages is None else set(stages)
+    if numbers.given.entries:
+        yield from _values(numbers)
+    if numbers.valued is not None:
+        yield from _results(numbers.robot, main_results(numbers.robot), numbers.valued.shown, chosen)
+    if numbers.state is not None:
+        yield from _state(numbers, numbers.state, detail, chosen)
+
+
+# -- values ----------------------------------------------------------------------------------------
+
+
+def _values(numbers: Numbers) -> Iterator[Block]:
+    yield Heading("With numbers", 2)
+    words = "Lengths are in m, angles in rad."
+    if numbers.robot.bodies:
+        words = (
+            "Lengths in m, masses in kg, times in s and angles in rad: torques are then in N m, forces in N "
+            "and energies in J."
+        )
+    yield Text((words,))
+    yield _table(
+        (Symbol(name), entry, entry.unit)
+        for name in numbers.robot.parameters
+        if (entry := numbers.given.entries.get((name, 0))) is not None
+    )
+    if numbers.lacking:
+        yield Text((*_names("Without a value, and so still a symbol: ", numbers.lacking), "."))
+
+
+def _table(rows: Iterable[tuple[Node, Entry, str]]) -> Table:
+    cells: list[tuple[Inline, ...]] = [
+        (symbol, _written(entry), units.node(unit) if unit else "") for symbol, entry, unit in rows
+    ]
+    return Table(("symbol", "value", "unit"), tuple(cells))
+
+
+def _written(entry: Entry) -> str:
+    """A value as it was given: 30° for 30deg."""
+    return entry.text.replace(" deg", "°").replace("deg", "°").replace("-", "−")
+
+
+def _names(words: str, names: Iterable[str]) -> Iterator[Inline]:
+    yield words
+    for i, name in enumerate(names):
+        if i:
+            yield ", "
+        yield Symbol(name)
+
+
+# -- results ---------------------------------------------------------------------------------------
+
+
+def _results(
+    robot: Robot, shown: dict[str, list[Shown]], tree: Callable[[str], Node], stages: set[str] | None
+) -> Iterator[Block]:
+    """The results of each stage with their units."""
+    for stage, results in shown.items():
+        if results and (stages is None or stage in stages):
+            formulas = [
+                block for name, letter in results for block in _shown(robot, name, letter, tree(name))
+            ]
+            yield Fold(STAGES[stage], (*_remark(robot, stage), *formulas), Detail.BRIEF)
+
+
+def _entries(robot: Robot, name: str) -> tuple[tuple[Node, ...], ...]:
+    """The names of the entries of a matrix that may be too wide for the page."""
+    n = robot.n
+    small = {"D": ("d", n), "C": ("c", n), "g": ("g", 1)}
+    return letters.entries(small[name][0], n, small[name][1]) if name in small else ()
+
+
+def _remark(robot: Robot, stage: str) -> Iterator[Block]:
+    """Where the entries of one matrix are measured in several units."""
+    kinds = {q.type for q in robot.coordinates}
+    if stage == "kinematics":
+        yield Text(("The fourth column of H is a position, in m.",))
+    if stage == "jacobian" and len(kinds) > 1:
+        words = (
+            "The columns of the linear part that belong to an angle are in m, those of a length pure numbers."
+        )
+        yield Text((words,))
+
+
+def _shown(robot: Robot, name: str, letter: Node, result: Node) -> Iterator[Block]:
+    """letter = result, in its unit: after a number, after `in` where a symbol is left.
+
+    A matrix that may be too wide for the page has its unit before it.
+    """
+    unit = _unit(quantities.of_result(robot, name), letter)
+    formula = equation(letter, result)
+    if unit is None:
+        yield Formula(formula, entries=_entries(robot, name))
+    elif isinstance(result, Matrix) and _is_wide(result):
+        yield Formula(Row((letter, Words(" in "), unit)))
+        yield Formula(formula, entries=_entries(robot, name))
+    else:
+        plain = not any(isinstance(part, Symbol | Sum) for part in _walk(result))
+        lead = " " if plain and not isinstance(unit, Matrix) else " in "
+        yield Formula(equation(letter, Row((result, Words(lead), unit))))
+
+
+def _unit(unit: str | quantities.Units, letter: Node) -> Node | None:
+    """The unit of a result, a matrix of units where entries differ; None where nothing is to be said."""
+    if isinstance(unit, str):
+        return units.node(unit) if unit else None
+    several = {entry for row in unit for entry in row}
+    if len(several) == 1:
+        return _unit(several.pop(), letter)
+    if len(unit[0]) == 1 or letter in (letters.D, letters.C):
+        return Matrix(tuple(tuple(units.node(entry or "1") for entry in row) for row in unit))
+    return None
+
+
+def _is_wide(matrix: Matrix) -> bool:
+    printed = UnicodePrinter(PLAIN)
+    return any(sum(len(printed.text(entry)) + 2 for entry in row) > _WIDEST for row in matrix.rows)
+
+
+def _walk(node: Node) -> Iterator[Node]:
+    yield node
+    for part in children(node):
+        yield from _walk(part)
+
+
+# -- a state ---------------------------------------------------------------------------------------
+
+
+def _state(numbers: Numbers, state: State, detail: Detail, stages: set[str] | None) -> Iterator[Block]:
+    robot = numbers.robot
+    yield Heading("At a state", 2)
+    rows: list[tuple[Node, Entry, str]] = []
+    still = []
+    for dots in (0, 1, 2):
+        for q in robot.coordinates:
+            entry = state.given.entries[q.name, dots]
+            if dots and entry.text == "0":
+                still.append(Symbol(q.name, dots))
+            else:
+                unit = entry.unit or ("" if "deg" in entry.text or "°" in entry.text else "rad")
+                rows.append((Symbol(q.name, dots), entry, unit))
+    yield _table(rows)
+    if still:
+        words: list[Inline] = []
+        for i, symbol in enumerate(still):
+            words += [", " if i else "", symbol]
+        if len(still) == 2 * robot.n:
+            words = ["All velocities and accelerations"]
+        yield Text((*words, " is 0." if len(still) == 1 else " are 0."))
+    free = needed(state.robot)
+    if free:
+        yield Text((*_names("Parameters without a value stay symbols: ", free), "."))
+    shown = main_results(robot) if detail is Detail.BRIEF else all_results(robot)
+    yield from _results(robot, shown, state.shown, stages)

@@ -1,0 +1,346 @@
+"""What a user gives: values for parameters and states, read and checked, each fault at its place.
+
+`L1=0.4` on a command line, `L1: 0.4` in a problem file and `L1=0.4` in a call come
+here as text; what leaves is exact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from fractions import Fraction
+from typing import Protocol
+
+from dynsolve.algebra.angles import angle_from_tree
+from dynsolve.algebra.ring_plan import rational_value
+from dynsolve.errors import AlgebraError, Finding, InputError, ReadError
+from dynsolve.notation.names import normalize
+from dynsolve.notation.text import read
+from dynsolve.notation.tokens import tokens
+from dynsolve.notation.tree import Degrees, Negative, Node, Number, Product, number
+from dynsolve.problem import Problem
+from dynsolve.robot.model import JointType, Robot
+from dynsolve.solution.numbers import quantities, units
+from dynsolve.solution.numbers.assignments import Assignment
+from dynsolve.solution.numbers.substitution import Values
+
+Key = tuple[str, int]
+"""A name and its number of dots: ("theta1", 1) is a velocity."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One value: its formula in SI units, the text it was given as, its unit and whether it is a decimal."""
+
+    tree: Node
+    text: str
+    unit: str = ""
+    decimal: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """Values by name; `warnings` are what deserves a look."""
+
+    entries: Mapping[Key, Entry] = field(default_factory=dict)
+    warnings: tuple[Finding, ...] = ()
+
+    @property
+    def values(self) -> Values:
+        """The formulas alone."""
+        return {key: entry.tree for key, entry in self.entries.items()}
+
+    @property
+    def decimal(self) -> bool:
+        """Whether any of them is a decimal, so that results are shown as decimals."""
+        return any(entry.decimal for entry in self.entries.values())
+
+
+def of_file(problem: Problem) -> Iterator[Assignment]:
+    """The `values:` of a problem file; those of coordinates are for plots."""
+    coordinates = {q.name for q in problem.robot.coordinates}
+    for name, text in problem.written.items():
+        if name not in coordinates and name in problem.robot.parameters:
+            place = problem.finding(("values", name), "")
+            yield Assignment(name, text, place.file, place.excerpt, place.line, place.column, place.column)
+
+
+# -- parameters ------------------------------------------------------------------------------------
+
+
+def parameters(problem: Problem, assignments: Iterable[Assignment]) -> Given:
+    """The values of a problem file, with further assignments in their place.
+
+    Raises InputError with every fault: an unknown name, an angle without its unit,
+    what cannot be read.
+    """
+    reader = _Reader(problem)
+    entries: dict[Key, Entry] = {}
+    for assignment in of_file(problem):
+        reader.take(entries, assignment, _parameter_key)
+    set_here: dict[Key, Entry] = {}
+    for assignment in assignments:
+        reader.take(set_here, assignment, _parameter_key)
+    return reader.finished({**entries, **set_here})
+
+
+def _parameter_key(reader: _Reader, assignment: Assignment) -> Key | None:
+    robot, name = reader.robot, reader.name(assignment)
+    if name is None:
+        return None
+    if name in robot.parameters:
+        return name, 0
+    states = _states(robot)
+    if name in states:
+        reader.report(assignment.at_name(
+            f"{name} changes with the motion of the robot", f"give it as a state: --at {name}=..."
+        ))  # fmt: skip
+        return None
+    reader.unknown(assignment, name, robot.parameters, "parameters")
+    return None
+
+
+# -- states ----------------------------------------------------------------------------------------
+
+
+def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
+    """A state of the robot: every coordinate, and the velocities and accelerations, 0 unless given.
+
+    Raises InputError with every fault, a coordinate that is missing among them.
+    """
+    reader = _Reader(problem)
+    entries: dict[Key, Entry] = {}
+    assignments = tuple(assignments)
+    option = next((assignment.file for assignment in assignments), "")
+    for assignment in assignments:
+        reader.take(entries, assignment, _state_key)
+    robot = problem.robot
+    lacking = [q.name for q in robot.coordinates if (q.name, 0) not in entries]
+    if lacking and not reader.findings:
+        example = ",".join(
+            f"{q.name}={'30deg' if q.type is JointType.REVOLUTE else '0.2'}"
+            for q in robot.coordinates if q.name in lacking
+        )  # fmt: skip
+        message = f"the state lacks {_listed(lacking)}"
+        reader.report(Finding(message, f"a state gives every coordinate: add {example}", option))
+    whole = {
+        (q.name, dots): entries.get((q.name, dots), Entry(Number(0), "0", quantities.of_coordinate(q, dots)))
+        for dots in (0, 1, 2)
+        for q in robot.coordinates
+    }
+    return reader.finished(whole)
+
+
+def _states(robot: Robot) -> dict[str, Key]:
+    """The names of coordinates, velocities and accelerations."""
+    found: dict[str, Key] = {}
+    for q in robot.coordinates:
+        found |= {q.name: (q.name, 0), q.velocity: (q.name, 1), q.acceleration: (q.name, 2)}
+    return found
+
+
+def _state_key(reader: _Reader, assignment: Assignment) -> Key | None:
+    robot, name = reader.robot, reader.name(assignment)
+    if name is None:
+        return None
+    states = _states(robot)
+    if name in states:
+        return states[name]
+    if name in robot.parameters:
+        reader.report(assignment.at_name(
+            f"{name} is a parameter of the robot, not a part of its state",
+            f"give its value by itself: --set {name}={assignment.value}",
+        ))  # fmt: skip
+        return None
+    reader.unknown(assignment, name, list(states), "coordinates")
+    return None
+
+
+# -- the reading of a value ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Written:
+    """A value as it is written: `turned` says that it is an angle by its unit, degrees or `radians`."""
+
+    tree: Node
+    turned: bool
+    radians: bool
+    decimal: bool
+
+
+class _Reader:
+    """Reads assignments one by one and keeps every fault."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem, self.robot = problem, problem.robot
+        self.findings: list[Finding] = []
+        self.warnings: list[Finding] = []
+        self.dimensions = quantities.of_parameters(self.robot)
+        self.angles = _angle_names(self.robot)
+
+    def report(self, finding: Finding) -> None:
+        self.findings.append(finding)
+
+    def finished(self, entries: Mapping[Key, Entry]) -> Given:
+        if self.findings:
+            raise InputError(self.findings)
+        return Given(entries, tuple(self.warnings))
+
+    def take(self, entries: dict[Key, Entry], assignment: Assignment, find: _Find) -> None:
+        key = find(self, assignment)
+        if key is None:
+            return
+        if key in entries:
+            self.report(assignment.at_name(f"{assignment.name} has a value already", "keep one of them"))
+            return
+        entry = self.entry(key, assignment)
+        if entry is not None:
+            entries[key] = entry
+
+    def name(self, assignment: Assignment) -> str | None:
+        """The name in its one spelling; θ1' is theta1_dot."""
+        text = assignment.name
+        dots = len(text) - len(text.rstrip("'"))
+        try:
+            name = normalize(text.rstrip("'"))
+        except ReadError as error:
+            self.report(assignment.at_name(error.message, error.help, error.offset, error.length))
+            return None
+        return name + ("", "_dot", "_ddot")[dots] if dots < 3 else name
+
+    def unknown(self, assignment: Assignment, name: str, known: Iterable[str], what: str) -> None:
+        known = list(known)
+        close = get_close_matches(name, known, n=1, cutoff=0.5)
+        some = ", ".join(known[:12]) + (", ..." if len(known) > 12 else "")
+        help = f"did you mean `{close[0]}`? " if close else ""
+        help += f"The {what} are {some}" if known else f"this robot has no {what}"
+        self.report(assignment.at_name(f"{name} does not occur in this problem", help))
+
+    def entry(self, key: Key, assignment: Assignment) -> Entry | None:
+        """The value, exact and in SI units; None (reported) where it has none."""
+        written = self.read(assignment)
+        if written is None:
+            return None
+        unit = self.unit(key)
+        if self.is_angle(key):
+            checked = self.angle(assignment, written, unit)
+            if checked is None:
+                return None
+            return Entry(checked, assignment.value, "" if written.turned else unit, written.decimal)
+        if written.turned and not self.is_rate_of_angle(key):
+            what = "no angle" if key[0] in self.robot.parameters else "a length"
+            self.report(assignment.at_value(f"{assignment.name} is {what}, and is given an angle"))
+            return None
+        return self.measured(key, Entry(written.tree, assignment.value, unit, written.decimal))
+
+    def read(self, assignment: Assignment) -> _Written | None:
+        """The formula of a value, without names; None (reported) where it is none."""
+        text = assignment.value
+        radians = text.endswith("rad") and not text[:-3].rstrip()[-1:].isalpha()
+        text = text[:-3].rstrip() if radians else text
+        try:
+            reading = read(text)
+        except ReadError as error:
+            self.report(assignment.at_value(error.message, error.help, error.offset, error.length))
+            return None
+        if reading.names:
+            first = reading.names[0]
+            message = f"the value of {assignment.name} contains the name {first.name}"
+            help = "a value is a number: 0.4, 2/3, sqrt(2)/2, 30deg"
+            self.report(assignment.at_value(message, help, first.offset, first.length))
+            return None
+        numbers = [token for token in tokens(text) if token.kind in ("number", "degrees")]
+        degrees = any(token.kind == "degrees" for token in numbers)
+        decimal = any("." in token.text or "e" in token.text.replace("deg", "").lower() for token in numbers)
+        return _Written(reading.tree, degrees or radians, radians, decimal or radians)
+
+    def is_angle(self, key: Key) -> bool:
+        """Whether a value turns something: a revolute coordinate, a symbol in an angle."""
+        name, dots = key
+        return not dots and name in self.angles
+
+    def is_rate_of_angle(self, key: Key) -> bool:
+        return bool(key[1]) and key[0] in self.angles
+
+    def angle(self, assignment: Assignment, written: _Written, unit: str) -> Node | None:
+        """An angle; a bare number counts only where its unit is written."""
+        known = units.parse(unit) if unit else None
+        value = rational_value(written.tree)
+        if known is not None and known.degrees and value is not None and not written.radians:
+            return _degrees(value)
+        try:
+            angle_from_tree(written.tree, radians=written.radians or unit == "rad")
+        except AlgebraError as error:
+            help = error.help
+            if value is not None:
+                shown = assignment.value
+                help = f"did you mean {shown}deg? For radians write {shown}rad or pi/6"
+            self.report(assignment.at_value(error.message, help))
+            return None
+        return written.tree
+
+    def unit(self, key: Key) -> str:
+        """The unit of a value: the file's, else SI by its role."""
+        name, dots = key
+        given = self.problem.units.get(name, "") if not dots else ""
+        if given:
+            return given
+        for q in self.robot.coordinates:
+            if q.name == name:
+                return quantities.of_coordinate(q, dots) if dots or name not in self.angles else ""
+        return units.si(self.dimensions[name]) if name in self.dimensions else ""
+
+    def measured(self, key: Key, entry: Entry) -> Entry:
+        """The value in SI units; a unit that is unknown or of another kind draws a warning."""
+        name, dots = key
+        given = self.problem.units.get(name) if not dots else None
+        if given is None:
+            return entry
+        unit, place = units.parse(given), ("units", name)
+        if unit is None:
+            message = f"the unit `{given}` of {name} is not known; its value is taken as one in SI units"
+            self.warn(place, message, "write m, mm, kg, g, kg m^2, N m, m/s^2")
+            return entry
+        wanted = self.dimensions.get(name)
+        if wanted is not None and wanted != unit.dimension:
+            message = f"the unit of {name} is {given}; where it stands it is measured in {units.si(wanted)}"
+            self.warn(place, message, "results are in SI units only where the units of the values fit")
+        if unit.size == 1:
+            return entry
+        return Entry(_scaled(entry.tree, unit.size), entry.text, entry.unit, entry.decimal)
+
+    def warn(self, place: tuple[str, str], message: str, help: str) -> None:
+        finding = self.problem.finding(place, message, help, "unit")
+        if finding not in self.warnings:
+            self.warnings.append(finding)
+
+
+class _Find(Protocol):
+    """The signature of what finds the key of an assignment, None (reported) where there is none."""
+
+    def __call__(self, reader: _Reader, assignment: Assignment, /) -> Key | None: ...
+
+
+def _scaled(tree: Node, size: Fraction) -> Node:
+    value = rational_value(tree)
+    return Product((number(size), tree)) if value is None else number(value * size)
+
+
+def _degrees(value: Fraction) -> Node:
+    degrees = Degrees(abs(value.numerator), value.denominator)
+    return Negative(degrees) if value < 0 else degrees
+
+
+def _angle_names(robot: Robot) -> frozenset[str]:
+    """The names that turn something, as angles by themselves."""
+    angles = [pair.angle for pair in robot.ring.pairs]
+    angles += [angle for joint in robot.joints for angle in (joint.theta, joint.alpha)]
+    alone = {atom[0][0] for angle in angles for atom, _ in angle.terms if len(atom) == 1 and atom[0][1] == 1}
+    turning = {q.name for q in robot.coordinates if q.type is JointType.REVOLUTE}
+    return frozenset((alone | turning) - {q.name for q in robot.coordinates if q.name not in turning})
+
+
+def _listed(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

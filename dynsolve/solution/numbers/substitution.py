@@ -1,0 +1,135 @@
+"""Exact values put for symbols: a map from one ring into another that respects sums and products."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+from typing import Any
+
+from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Ring
+from dynsolve.notation import tree
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+
+Values = Mapping[tuple[str, int], Node]
+"""Constant formulas by (name, number of dots): ("theta1", 1) is a velocity."""
+
+
+def replaced(node: Node, values: Values) -> Node:
+    """A tree with formulas in place of symbols.
+
+    >>> replaced(Product((Number(2), Symbol("L1"))), {("L1", 0): Number(2, 5)})
+    Product(factors=(Number(p=2, q=1, decimal=False), Number(p=2, q=5, decimal=False)))
+    """
+    match node:
+        case Symbol(name, dots):
+            return values.get((name, dots), node)
+        case Sum(terms):
+            return Sum(tuple(replaced(term, values) for term in terms))
+        case Product(factors):
+            return Product(tuple(replaced(factor, values) for factor in factors))
+        case Quotient(numerator, denominator):
+            return Quotient(replaced(numerator, values), replaced(denominator, values))
+        case Power(base, exponent):
+            return Power(replaced(base, values), exponent)
+        case Negative(argument):
+            return Negative(replaced(argument, values))
+        case Parenthesized(argument):
+            return Parenthesized(replaced(argument, values))
+        case Function(name, argument):
+            return Function(name, replaced(argument, values))
+        case tree.Matrix(rows):
+            return tree.Matrix(tuple(tuple(replaced(entry, values) for entry in row) for row in rows))
+    return node
+
+
+class Substitution:
+    """Carries exact expressions of one ring over into a ring in which symbols have values.
+
+    A coordinate that has a value is none in the new ring, so either all of them have
+    one or none.  Raises AlgebraError where a value leaves a formula without a
+    meaning: a denominator that becomes 0, the root of a negative number.
+
+    >>> ring = Ring.build([], [Symbol("L"), Symbol("m")])
+    >>> put = Substitution(ring, {("L", 0): Number(1, 2)})
+    >>> put(ring.symbol("L") * ring.symbol("m"))
+    Expr(1/2*m)
+    """
+
+    def __init__(self, source: Ring, values: Values, angles: Iterable[Angle] = ()) -> None:
+        self.source, self.values = source, values
+        coordinates = [(name, kind) for name, kind in source.coordinates if (name, 0) not in values]
+        basic = [self.angle(pair.angle) for pair in source.pairs]
+        trees = [tree for g in source.generators for tree in self._needs(g)]
+        every = [*basic, *(self.angle(angle) for angle in angles)]
+        self.ring = Ring.build(coordinates, trees, every, basic)
+
+    def angle(self, angle: Angle) -> Angle:
+        """An angle with values in it; numbers that are left are radians."""
+        known = {name for name, dots in self.values if not dots}
+        if not any(name in known for atom, _ in angle.terms for name, _ in atom):
+            return angle
+        return angle_from_tree(replaced(angle_node(angle), self.values), radians=True)
+
+    def _needs(self, g: Generator) -> Iterator[Node]:
+        """The formulas that the new ring must hold so that a generator has a value in it."""
+        match g.kind:
+            case "symbol" if not g.dots or (g.name, g.dots) in self.values:
+                yield replaced(Symbol(g.name, g.dots), self.values)
+            case "root":
+                yield self._root(g)
+            case "inverse" if g.index in self.source.inverses:
+                yield Quotient(Number(1), self._denominator(g))
+            case "constant":
+                yield Function("cos", angle_node(g.angle))
+
+    def _root(self, g: Generator) -> Node:
+        assert g.node is not None
+        return Function("sqrt", replaced(g.node, self.values))
+
+    def _denominator(self, g: Generator) -> Node:
+        tree = Compactor(self.source).form(Expr(self.source, self.source.inverses[g.index]))
+        return replaced(tree, self.values)
+
+    @cached_property
+    def _images(self) -> tuple[Any, ...]:
+        """What every generator becomes."""
+        return tuple(self._image(g).poly for g in self.source.generators)
+
+    def _image(self, g: Generator) -> Expr:
+        match g.kind:
+            case "sin":
+                return self.ring.sin(self.angle(g.angle))
+            case "cos" | "constant":
+                return self.ring.cos(self.angle(g.angle))
+            case "symbol":
+                return self.ring.expr(replaced(Symbol(g.name, g.dots), self.values))
+            case "root":
+                return self.ring.expr(self._root(g))
+            case "inverse" if g.index in self.source.inverses:
+                return self.ring.expr(Quotient(Number(1), self._denominator(g)))
+        return self.ring.zero  # an inverse that was set aside and never used
+
+    def __call__(self, expr: Expr) -> Expr:
+        """The expression with the values in it."""
+        if expr.is_number:
+            return self.ring.constant(expr.number)
+        return Expr(self.ring, self.ring.reduce(expr.poly.compose(*self._images, ctx=self.ring.ctx)))
+
+    def matrix(self, matrix: Matrix) -> Matrix:
+        """The matrix with the values in it."""
+        return Matrix.of(self.ring, (map(self, row) for row in matrix.rows))

@@ -1,0 +1,105 @@
+"""Solutions in the form their reader uses: text, JSON, LaTeX, PDF, HTML, Markdown.
+
+To add a form, write its renderer, and add it to
+`dynsolve.render.formats` and to `report`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from dynsolve.render.formats import Format
+
+if TYPE_CHECKING:
+    from dynsolve.document import Document
+    from dynsolve.explain.abbreviations import Abbreviate
+    from dynsolve.explain.step import Detail
+    from dynsolve.notation.printing import Style
+    from dynsolve.solution.solution import Solution
+
+
+def report(
+    solution: Solution,
+    format: Format,
+    *,
+    detail: Detail | None = None,
+    stages: Iterable[str] | None = None,
+    star: bool = False,
+    fragment: bool = False,
+    abbreviate: Abbreviate | str = "auto",
+) -> bytes:
+    r"""A solution in a form.
+
+    `stages` are those that are shown, or all; `star` puts the mark of a joint variable
+    on every coordinate; `fragment` gives LaTeX that another document takes in;
+    `abbreviate` says whether long results are written in names: `auto`, `never`, `always`.
+
+    >>> import dynsolve
+    >>> page = report(dynsolve.solve("planar-2r"), Format.LATEX)
+    >>> page.decode().splitlines()[0]
+    '\\documentclass[a4paper,11pt]{article}'
+    """
+    from dynsolve.explain.abbreviations import Abbreviate
+    from dynsolve.explain.step import Detail
+    from dynsolve.solution.documents import solution_document
+
+    detail = detail or Detail.NORMAL
+    if format is Format.JSON:
+        from json import dumps
+
+        return (dumps(solution.to_json(abbreviate), ensure_ascii=False) + "\n").encode()
+    style = style_of(solution, star)
+    shown = Detail.FULL if format is Format.HTML else detail
+    document = solution_document(solution, shown, stages, Abbreviate(abbreviate))
+    if format in PICTURED and (stages is None or "kinematics" in stages):
+        document = _with_picture(document, solution, star)
+    return rendered(document, style, format, detail, fragment)
+
+
+PICTURED = (Format.LATEX, Format.PDF, Format.HTML)
+"""The forms that can show the manipulator."""
+
+
+def _with_picture(document: Document, solution: Solution, star: bool) -> Document:
+    """The document with the manipulator drawn before its first section."""
+    from dynsolve.document import Heading
+    from dynsolve.draw import picture
+
+    blocks = document.blocks
+    sections = (k for k, block in enumerate(blocks) if isinstance(block, Heading) and block.level > 1)
+    place = next(sections, len(blocks))
+    drawn = picture(solution.problem, star=star)
+    return replace(document, blocks=(*blocks[:place], drawn, *blocks[place:]))
+
+
+def style_of(solution: Solution, star: bool = False) -> Style:
+    """How a solution's formulas look; with `star` every joint variable carries its mark."""
+    if not star:
+        return solution.style
+    return replace(solution.style, stars=frozenset(q.name for q in solution.robot.coordinates))
+
+
+def rendered(document: Document, style: Style, format: Format, detail: Detail, fragment: bool) -> bytes:
+    """A document in a form other than JSON."""
+    match format:
+        case Format.LATEX:
+            from dynsolve.render import latex
+
+            return (latex.render_fragment if fragment else latex.render)(document, style).encode()
+        case Format.PDF:
+            from dynsolve.render import typst
+
+            return typst.render(document, style)
+        case Format.HTML:
+            from dynsolve.render import html
+
+            return html.render(document, style, detail.name.lower()).encode()
+        case Format.MARKDOWN:
+            from dynsolve.render import markdown
+
+            return markdown.render(document, style).encode()
+    from dynsolve.render import terminal
+
+    return "".join(f"{line.text}\n" for line in terminal.render(document, style=style)).encode()

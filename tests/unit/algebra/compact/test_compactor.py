@@ -1,0 +1,80 @@
+"""The compact form is the same function, and reads as a textbook prints it."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.ring import Ring
+from dynsolve.derivation.graph import derive
+from dynsolve.explain.forms import Forms
+from dynsolve.notation.evaluate import compile_trees
+from dynsolve.notation.python import to_python
+from dynsolve.notation.text import read
+from dynsolve.notation.tree import Matrix
+from dynsolve.problem import read_problem
+from tests.robots import robots
+
+COORDINATES = [("q1", "revolute"), ("q2", "revolute"), ("q3", "revolute"), ("d", "prismatic")]
+
+
+def compact(text: str) -> str:
+    """The compact form of a formula in three parallel joints and a slide; m and I are masses and inertias."""
+    tree = read(text, dots=True).tree
+    absolute = [
+        Angle.of("q1"),
+        Angle.of("q1") + Angle.of("q2"),
+        Angle.of("q1") + Angle.of("q2") + Angle.of("q3"),
+    ]
+    ring = Ring.build(COORDINATES, [tree], preferred=absolute)
+    leading = [name for name in ring.parameters if name[0] in "mI"]
+    return to_python(
+        Compactor(ring, sorted(leading, key=lambda name: (name[0] != "m", name))).form(ring.expr(tree))
+    )
+
+
+@pytest.mark.parametrize(
+    ("written", "printed"),
+    [
+        ("m1*a*g + m2*a*g", "g*a*(m1 + m2)"),
+        ("cos(q1)*cos(q2) - sin(q1)*sin(q2)", "cos(q1 + q2)"),
+        ("m2*a^2 + m2*b^2 + 2*m2*a*b*cos(q2)", "m2*(a**2 + b**2 + 2*a*b*cos(q2))"),
+        ("m1*a*cos(q1) + m2*b*cos(q1) + m2*c*cos(q1 + q2)", "(m1*a + m2*b)*cos(q1) + m2*c*cos(q1 + q2)"),
+        ("I1*sin(q2)^2 + I2*cos(q2)^2", "I1*sin(q2)**2 + I2*cos(q2)**2"),
+        ("m1*(a + b)^2", "m1*(a + b)**2"),
+        ("m1*(a - d)^2*q1_dot", "m1*(d - a)**2*q1_dot"),
+        ("a*q1_dot + a*q2_dot", "a*(q1_dot + q2_dot)"),
+        ("I1*q1_dot^2/2 + I1*q1_dot*q2_dot + I1*q2_dot^2/2", "I1*(q1_dot + q2_dot)**2/2"),
+        ("-a*sin(q1) - b*sin(q1 + q2)", "-a*sin(q1) - b*sin(q1 + q2)"),
+        ("2*a*q1_dot*q2_dot + a*q2_dot^2", "a*(2*q1_dot*q2_dot + q2_dot**2)"),
+        ("m1*a^2/3", "m1*a**2/3"),
+        ("(sin(q1)*a*q1_dot)^2 + (cos(q1)*a*q1_dot)^2", "a**2*q1_dot**2"),
+        ("a*q1_ddot + b*q1_dot + g*cos(q1)", "a*q1_ddot + b*q1_dot + g*cos(q1)"),
+    ],
+)
+def test_it_reads_as_a_textbook_prints_it(written: str, printed: str) -> None:
+    assert compact(written) == printed
+
+
+QUANTITIES = ["D", "C", "g", "tau", "K", "P", "L", "ddt1", "dLdq1", "H1"]
+
+
+@settings(max_examples=25)
+@given(robots(max_joints=3))
+def test_it_is_the_same_function(text: str) -> None:
+    robot = read_problem(text).robot
+    values = derive(robot)
+    forms = Forms(robot, values)
+    names = [name for q in robot.coordinates for name in (q.name, q.velocity, q.acceleration)]
+    point = {name: 0.31 + 0.17 * k for k, name in enumerate([*names, *robot.ring.parameters])}
+    for quantity in QUANTITIES:
+        value = values[quantity]
+        entries = value.entries if hasattr(value, "entries") else (value,)
+        form = forms(quantity)
+        trees = [e for row in form.rows for e in row] if isinstance(form, Matrix) else [form]
+        for exact, tree in zip(entries, trees, strict=True):
+            number = robot.ring.evaluate(exact, point)
+            (printed,) = compile_trees([tree]).run(point)
+            assert printed == pytest.approx(number, rel=1e-9, abs=1e-9), f"{quantity}: {to_python(tree)}"

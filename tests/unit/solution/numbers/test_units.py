@@ -1,0 +1,67 @@
+"""Units: their size, their dimension, and what results are measured in."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+import dynsolve
+from dynsolve.notation.latex import to_latex
+from dynsolve.notation.printing import PLAIN
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.solution.numbers import quantities, units
+
+
+@pytest.mark.parametrize(
+    ("text", "size", "si"),
+    [
+        ("m", "1", "m"),
+        ("mm", "1/1000", "m"),
+        ("g", "1/1000", "kg"),
+        ("kg m^2", "1", "kg m^2"),
+        ("g*cm²", "1/10000000", "kg m^2"),
+        ("m s^-2", "1", "m/s^2"),
+        ("m/s**2", "1", "m/s^2"),
+        ("N·m", "1", "J"),
+        ("Nm", "1", "J"),
+        ("kN", "1000", "N"),
+        ("1", "1", ""),
+    ],
+)
+def test_known_units(text: str, size: str, si: str) -> None:
+    unit = units.parse(text)
+    assert unit is not None and unit.size == Fraction(size) and units.si(unit.dimension) == si
+
+
+@pytest.mark.parametrize("text", ["furlong", "%", "kg/(m s)", "m^", "deg m", "m^x"])
+def test_unknown_units(text: str) -> None:
+    assert units.parse(text) is None
+
+
+def test_units_are_upright_with_raised_powers() -> None:
+    assert to_unicode(units.node("kg m^2/s"), PLAIN) == "kg m²/s"
+    assert to_latex(units.node("kg m²"), PLAIN) == r"\text{kg } \mathrm{m}^{2}"
+
+
+def test_parameters_have_the_dimension_of_their_role() -> None:
+    found = quantities.of_parameters(dynsolve.load("in3140-rp").robot)
+    assert {name: units.si(dim) for name, dim in found.items()} == {
+        "L1": "m", "m1": "kg", "I1zz": "kg m^2", "m2": "kg", "g": "m/s^2",
+    }  # fmt: skip
+
+
+def test_results_of_an_angle_and_a_length() -> None:
+    robot = dynsolve.load("in3140-rp").robot
+
+    def of(name: str) -> object:
+        return quantities.of_result(robot, name)
+
+    assert of("D") == [["kg m^2", "kg m"], ["kg m", "kg"]]
+    assert of("C") == [["kg m^2/s", "kg m/s"], ["kg m/s", "kg/s"]]
+    assert of("tau") == of("g") == [["N m"], ["N"]]
+    assert (of("tau1"), of("tau2"), of("dLdqd1"), of("dLdqd2")) == ("N m", "N", "kg m^2/s", "kg m/s")
+    assert of("P") == of("K") == of("L") == of("Kv1") == of("K2") == "J"
+    assert of("rc1") == [["m"]] * 3 and of("v2") == [["m/s"]] * 3 and of("w1") == [["rad/s"]] * 3
+    assert of("I1") == [["kg m^2"] * 3] * 3
+    assert of("Jv2") == [["m", ""]] * 3 and of("R1") == ""
