@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.answers.reading.shapes import with_names
-from dynsolve.answers.reading.submission import Place
+from dynsolve.answers.submission import Place
 from dynsolve.answers.verdict import Diagnosis, EntryVerdict, Judged, Report, Verdict
 from dynsolve.document import (
     Block,

@@ -29,7 +29,7 @@ from dynsolve.answers.judging.key_comparison import Held, Holder, Target
 from dynsolve.answers.judging.student_values import own_values
 from dynsolve.answers.judging.zero_height import find_level
 from dynsolve.answers.reading.files import FileReader
-from dynsolve.answers.reading.submission import Submission
+from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import (
     EntryVerdict,
     Judged,

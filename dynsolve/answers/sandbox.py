@@ -17,7 +17,7 @@ from dataclasses import replace
 from typing import Any, TypeVar
 
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.reading.submission import Submission
+from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import Report
 from dynsolve.errors import Finding
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 
-from dynsolve.answers.reading.submission import NotRecognized, Place
+from dynsolve.answers.submission import NotRecognized, Place
 from dynsolve.errors import Finding
 from dynsolve.notation.tree import Node
 

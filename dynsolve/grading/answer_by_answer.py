@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from dynsolve.answers.reading.submission import Submission
 from dynsolve.answers.sandbox import REMEDY, Stopped, limited
+from dynsolve.answers.submission import Submission
 
 SHARE = 8
 """One answer may take this part of the time that its hand-in may take."""

@@ -15,7 +15,7 @@ from hashlib import sha256
 from typing import Any
 
 from dynsolve.answers.judge import Checker, Judge
-from dynsolve.answers.reading.submission import Submission
+from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import Judged, Report, Verdict
 from dynsolve.grading.answer_by_answer import sound
 from dynsolve.grading.losses import losses

@@ -17,7 +17,7 @@ from sympy.simplify.fu import TR8
 
 import dynsolve
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.reading.submission import read_submission
+from dynsolve.answers.reading.files import read_submission
 
 RUNS = 5
 PATIENCE = 120

@@ -9,7 +9,7 @@ import os
 import sys
 
 from dynsolve.answers.judge import Checker, Judge
-from dynsolve.answers.reading.submission import Submission
+from dynsolve.answers.submission import Submission
 from dynsolve.grading.worker import main
 
 real = Judge.__init__

@@ -20,7 +20,7 @@ from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.answers.judging.fraction import Frac, simplified
 from dynsolve.answers.judging.ring_extension import dotted, expected_angle, opaque, plain_radicand
-from dynsolve.answers.reading.submission import REFERENCE_MARK
+from dynsolve.answers.submission import REFERENCE_MARK
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.bounded import keep
 from dynsolve.notation.tree import (

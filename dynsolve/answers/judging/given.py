@@ -16,7 +16,7 @@ from dynsolve.answers.judging.answer_ring import Field, FieldBuilder
 from dynsolve.answers.judging.evaluate import Evaluator
 from dynsolve.answers.judging.fraction import Frac, as_expr, equal
 from dynsolve.answers.judging.graph import Entry, Graph
-from dynsolve.answers.reading.submission import Answer, referred
+from dynsolve.answers.submission import Answer, referred
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node

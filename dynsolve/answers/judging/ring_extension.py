@@ -10,7 +10,7 @@ from hashlib import sha256
 from dynsolve.algebra.angles import Angle, angle_from_tree, names_of
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import rational_value
-from dynsolve.answers.reading.submission import referred
+from dynsolve.answers.submission import referred
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.bounded import keep

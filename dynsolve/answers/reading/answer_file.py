@@ -15,8 +15,8 @@ from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import Session
 from dynsolve.answers.reading.limits import MAX_ANSWERS
 from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.reading.submission import Place
 from dynsolve.answers.reading.symbols import own_symbols
+from dynsolve.answers.submission import Place
 from dynsolve.errors import Finding
 
 KEYS = ("problem", "student", "symbols", "let", "answers")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from dynsolve.answers.reading.lexer import SEPARATORS, Token
-from dynsolve.answers.reading.submission import Place
+from dynsolve.answers.submission import Place
 
 Locate = Callable[[int, int], Place]
 """(offset, length) in the text of a display -> where that is in the file."""

@@ -20,8 +20,8 @@ from dynsolve.answers.reading.memory import Name, Side, Unknown
 from dynsolve.answers.reading.prepare import Macro, expand, simplified
 from dynsolve.answers.reading.right_side import EXPECTED, Read, read_member
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_names
-from dynsolve.answers.reading.submission import Answer, NotRecognized, Place
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, key
+from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.bounded import keep, recalled
 from dynsolve.notation.unicode import UnicodePrinter

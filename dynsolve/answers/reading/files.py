@@ -9,8 +9,8 @@ from dynsolve.answers.reading.limits import MAX_BYTES
 from dynsolve.answers.reading.memory import MOST
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source, decoded
-from dynsolve.answers.reading.submission import Submission
 from dynsolve.answers.reading.vocabulary import vocabulary
+from dynsolve.answers.submission import Submission
 from dynsolve.errors import Finding
 from dynsolve.explain.style import style_of
 from dynsolve.notation.unicode import UnicodePrinter
@@ -50,6 +50,15 @@ class FileReader:
         session.finish()
         answers, refused = tuple(session.answers), tuple(session.not_recognized)
         return Submission(problem, student, file, answers, refused, tuple(faults))
+
+
+def read_submission(problem: Problem, source: bytes | str, file: str) -> Submission:
+    """Read what a student handed in: an answer file (.yaml) or a report (.md, .tex, .txt, .ipynb, .html).
+
+    The ending of `file` says which; nothing that stands in `source` raises.  For many
+    files of one problem keep a `FileReader`.
+    """
+    return FileReader(problem)(source, file)
 
 
 def _read(session: Session, source: Source) -> tuple[str, str, list[Finding]]:

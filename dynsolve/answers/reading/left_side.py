@@ -10,8 +10,8 @@ from dynsolve.answers.reading.memory import Name, Side, Unknown, signs
 from dynsolve.answers.reading.name_resolution import UnknownName
 from dynsolve.answers.reading.prepare import cut_names
 from dynsolve.answers.reading.reader import Reader
-from dynsolve.answers.reading.submission import referred
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
+from dynsolve.answers.submission import referred
 from dynsolve.errors import ReadError
 from dynsolve.notation.bounded import recalled
 from dynsolve.notation.tree import Negative, Sum, Symbol

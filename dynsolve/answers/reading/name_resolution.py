@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from dynsolve.answers.reading.forms import Form
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
-from dynsolve.answers.reading.submission import reference
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, is_running, key
+from dynsolve.answers.submission import reference
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import (
     ZERO,

@@ -13,7 +13,7 @@ from dynsolve.answers.reading.lexer import Token, closing_brace, scan
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.prepare import Macro, simplified
 from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.reading.submission import Place
+from dynsolve.answers.submission import Place
 from dynsolve.errors import ReadError
 
 _ENVIRONMENT = (

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from dynsolve.answers.reading.submission import Place
+from dynsolve.answers.submission import Place
 from dynsolve.notation.unicode import printable
 
 _LONGEST_EXCERPT = 400

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.answers.judge import check
-from dynsolve.answers.reading.submission import read_submission
+from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.verdict import Judged, Report
 from dynsolve.solution.solution import load
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.reading.submission import Answer, Place, Submission
+from dynsolve.answers.submission import Answer, Place, Submission
 from dynsolve.answers.verdict import Judged, Report
 from dynsolve.derivation.graph import Derivation, derive
 from dynsolve.notation import tree

@@ -14,7 +14,7 @@ from dynsolve.answers.diagnosis.fourier import part_expr, parts
 from dynsolve.answers.judge import check
 from dynsolve.answers.judging.answer_ring import Field
 from dynsolve.answers.judging.graph import Graph
-from dynsolve.answers.reading.submission import Answer, Place, Submission
+from dynsolve.answers.submission import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
 from tests.unit.answers.hands import key, problem
 

@@ -8,7 +8,7 @@ import pytest
 
 from dynsolve.answers import sandbox
 from dynsolve.answers.judge import Checker
-from dynsolve.answers.reading.submission import Submission
+from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import Report
 from tests.unit.answers.hands import answer, checker
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from dynsolve.answers.judge import NOT_CHRISTOFFEL, NOT_FROM_OWN, Checker, check
-from dynsolve.answers.reading.submission import Submission, reference
+from dynsolve.answers.submission import Submission, reference
 from dynsolve.answers.verdict import Judged
 from dynsolve.notation import tree
 from dynsolve.problem.reader import read_problem

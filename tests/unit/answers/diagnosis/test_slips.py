@@ -13,7 +13,7 @@ from dynsolve.answers.diagnosis.stage import variants
 from dynsolve.answers.diagnosis.table import SLIPS, Slip
 from dynsolve.answers.judging.answer_ring import Field
 from dynsolve.answers.judging.graph import Graph
-from dynsolve.answers.reading.submission import Answer, Place, Submission
+from dynsolve.answers.submission import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
 from tests.unit.answers.hands import checker, codes, judged, key, problem
 

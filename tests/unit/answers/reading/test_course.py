@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from dynsolve.answers.reading.submission import Answer, Submission, read_submission
+from dynsolve.answers.reading.files import read_submission
+from dynsolve.answers.submission import Answer, Submission
 from dynsolve.problem import load
 from dynsolve.problem.library import find
 

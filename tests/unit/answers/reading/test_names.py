@@ -6,7 +6,8 @@ from functools import cache
 
 import pytest
 
-from dynsolve.answers.reading.submission import Submission, read_submission
+from dynsolve.answers.reading.files import read_submission
+from dynsolve.answers.submission import Submission
 from dynsolve.problem import Problem, load
 from dynsolve.problem.library import find
 

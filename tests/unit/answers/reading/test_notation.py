@@ -7,7 +7,8 @@ from functools import cache
 
 import pytest
 
-from dynsolve.answers.reading.submission import Answer, read_submission
+from dynsolve.answers.reading.files import read_submission
+from dynsolve.answers.submission import Answer
 from dynsolve.notation.evaluate import evaluate
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node

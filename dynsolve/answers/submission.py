@@ -1,21 +1,17 @@
-"""What a student handed in, read: the answers with their places, before anything is judged.
+"""The record of one hand-in: its answers with their places, before anything is judged.
 
-`read_submission` is the way from a file to them.  The trees are made of the
-problem's own symbols: coordinates (`Symbol(name, dots)`), parameters, sines and
-cosines.  An argument of a sine may be anything a student writes; nothing is
-evaluated here.
+`answers.reading` makes these records, `answers.judging` and `answers.diagnosis` use
+them; they are data and compute nothing.  The trees are made of the problem's own
+symbols: coordinates (`Symbol(name, dots)`), parameters, sines and cosines.  An argument
+of a sine may be anything that a student writes.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from dynsolve.errors import Finding
 from dynsolve.notation.tree import Node
-
-if TYPE_CHECKING:
-    from dynsolve.problem.model import Problem
 
 REFERENCE_MARK = "@"
 """What the name of a placeholder symbol begins with: `@K1`, `@I1[1,3]`."""
@@ -112,14 +108,3 @@ def referred(symbol: str) -> tuple[str, int | None, int | None] | None:
         return name, None, None
     row, _, column = index[:-1].partition(",")
     return name, int(row), int(column)
-
-
-def read_submission(problem: Problem, source: bytes | str, file: str) -> Submission:
-    """Read what a student handed in: an answer file (.yaml) or a report (.md, .tex, .txt, .ipynb, .html).
-
-    The ending of `file` says which; nothing that stands in `source` raises.  For many
-    files of one problem see `reading.files.FileReader`.
-    """
-    from dynsolve.answers.reading.files import FileReader
-
-    return FileReader(problem)(source, file)
