@@ -6,6 +6,10 @@ them from exact values, printers turn them into Unicode, LaTeX or Python text.
 
 The first part is what an expression is made of; the second part (from `Letter`
 on) occurs only in the formulas that explain a step.
+
+To add a node, add its class here and a method for it to each printer that writes it.  A
+field that holds parts is annotated `Node`, `Node | None`, `tuple[Node, ...]` or
+`tuple[tuple[Node, ...], ...]`: from that `notation.walk` knows how to visit and rebuild it.
 """
 
 from __future__ import annotations
@@ -35,13 +39,13 @@ _T = TypeVar("_T")
 
 
 @dataclass_transform(frozen_default=True)
-def _node(cls: type[_T]) -> type[_T]:
-    """A frozen dataclass that keeps the hash of `Node`."""
+def node_class(cls: type[_T]) -> type[_T]:
+    """Make a class of nodes: a frozen dataclass that keeps the hash of `Node`."""
     cls.__hash__ = Node.__hash__  # type: ignore[assignment]
     return dataclass(frozen=True, slots=True)(cls)
 
 
-@_node
+@node_class
 class Number(Node):
     """An exact rational p/q; negative numbers are written `Negative(Number(...))`.
 
@@ -53,7 +57,7 @@ class Number(Node):
     decimal: bool = False
 
 
-@_node
+@node_class
 class Degrees(Node):
     """An angle in degrees, p/q°."""
 
@@ -61,7 +65,7 @@ class Degrees(Node):
     q: int = 1
 
 
-@_node
+@node_class
 class Symbol(Node):
     """A named quantity; `dots` time derivatives of it; `star` marks a joint variable."""
 
@@ -70,21 +74,21 @@ class Symbol(Node):
     star: bool = False
 
 
-@_node
+@node_class
 class Sum(Node):
     """t₁ + t₂ + ...; a `Negative` term is printed with a minus."""
 
     terms: tuple[Node, ...]
 
 
-@_node
+@node_class
 class Product(Node):
     """f₁ f₂ ..."""
 
     factors: tuple[Node, ...]
 
 
-@_node
+@node_class
 class Quotient(Node):
     """numerator / denominator"""
 
@@ -92,7 +96,7 @@ class Quotient(Node):
     denominator: Node
 
 
-@_node
+@node_class
 class Power(Node):
     """base^exponent"""
 
@@ -100,14 +104,14 @@ class Power(Node):
     exponent: Node
 
 
-@_node
+@node_class
 class Negative(Node):
     """-argument"""
 
     argument: Node
 
 
-@_node
+@node_class
 class Function(Node):
     """sin, cos, tan or sqrt of an argument."""
 
@@ -115,14 +119,14 @@ class Function(Node):
     argument: Node
 
 
-@_node
+@node_class
 class Matrix(Node):
     """Rows of entries, all rows of one length."""
 
     rows: tuple[tuple[Node, ...], ...]
 
 
-@_node
+@node_class
 class Letter(Node):
     """A symbol of the textbook with its indices: **J**_{v_1}, H_2^0, 𝓘_1.
 
@@ -138,28 +142,28 @@ class Letter(Node):
     dots: int = 0
 
 
-@_node
+@node_class
 class Row(Node):
     """Nodes side by side with nothing between them: a subscript `v_1 i`, a list with commas."""
 
     parts: tuple[Node, ...]
 
 
-@_node
+@node_class
 class Words(Node):
     """Upright words inside a formula."""
 
     text: str
 
 
-@_node
+@node_class
 class Transpose(Node):
     """argumentᵀ"""
 
     argument: Node
 
 
-@_node
+@node_class
 class Cross(Node):
     """left × right"""
 
@@ -167,7 +171,7 @@ class Cross(Node):
     right: Node
 
 
-@_node
+@node_class
 class Derivative(Node):
     """∂of/∂by, or d of/d by where `total`; `of` None gives the bare operator."""
 
@@ -176,7 +180,7 @@ class Derivative(Node):
     total: bool = False
 
 
-@_node
+@node_class
 class BigSum(Node):
     """Σ_{index=lower}^{upper} body"""
 
@@ -186,14 +190,14 @@ class BigSum(Node):
     upper: Node
 
 
-@_node
+@node_class
 class Parenthesized(Node):
     """(argument), where the parentheses are wanted though no rule of precedence asks for them."""
 
     argument: Node
 
 
-@_node
+@node_class
 class Relation(Node):
     """part₁ sign₁ part₂ sign₂ ...: an equation or a chain of them."""
 

@@ -1,0 +1,110 @@
+"""`children`, `walk`, `with_children` and `mapped`, held against what every class of nodes declares."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+import pytest
+from hypothesis import given
+
+from dynsolve.notation import tree
+from dynsolve.notation.tree import Node, Number, Power, Product, Sum, Symbol
+from dynsolve.notation.walk import children, mapped, walk, with_children
+from tests.unit.notation.trees import trees
+
+A, B, C, TWO = Symbol("a"), Symbol("b"), Symbol("c"), Number(2)
+
+ONE_OF_EACH: list[tuple[Node, tuple[Node, ...]]] = [
+    (Number(1, 2), ()),
+    (tree.Degrees(90), ()),
+    (A, ()),
+    (Sum((A, B, TWO)), (A, B, TWO)),
+    (Product((A, B)), (A, B)),
+    (tree.Quotient(A, B), (A, B)),
+    (Power(A, TWO), (A, TWO)),
+    (tree.Negative(A), (A,)),
+    (tree.Function("sin", A), (A,)),
+    (tree.Matrix(((A, B), (C, TWO))), (A, B, C, TWO)),
+    (tree.Letter("J", A, B, "bold"), (A, B)),
+    (tree.Letter("J", None, B), (B,)),
+    (tree.Letter("D"), ()),
+    (tree.Row((A, B)), (A, B)),
+    (tree.Words("and"), ()),
+    (tree.Transpose(A), (A,)),
+    (tree.Cross(A, B), (A, B)),
+    (tree.Derivative(A, B), (A, B)),
+    (tree.Derivative(None, B, total=True), (B,)),
+    (tree.BigSum(A, B, TWO, C), (A, B, TWO, C)),
+    (tree.Parenthesized(A), (A,)),
+    (tree.Relation((A, B, C), ("=", "≈")), (A, B, C)),
+]
+"""A node of each class, and its parts."""
+
+
+def test_there_is_a_case_for_every_class_of_the_tree() -> None:
+    declared = {kind for kind in vars(tree).values() if isinstance(kind, type) and issubclass(kind, Node)}
+    assert declared - {Node} == {type(node) for node, _ in ONE_OF_EACH}
+
+
+@pytest.mark.parametrize(("node", "parts"), ONE_OF_EACH, ids=lambda case: type(case).__name__)
+def test_children(node: Node, parts: tuple[Node, ...]) -> None:
+    assert children(node) == parts
+
+
+@pytest.mark.parametrize(("node", "parts"), ONE_OF_EACH, ids=lambda case: type(case).__name__)
+def test_with_children(node: Node, parts: tuple[Node, ...]) -> None:
+    assert with_children(node, lambda part: part) is node
+    others = with_children(node, lambda part: tree.Parenthesized(part))
+    assert type(others) is type(node)
+    assert children(others) == tuple(map(tree.Parenthesized, parts))
+    held = {field.name for field in fields(node) if "Node" in str(field.type)}
+    for field in fields(node):
+        if field.name not in held:
+            assert getattr(others, field.name) == getattr(node, field.name)
+
+
+def test_walk_visits_every_class_of_nodes() -> None:
+    whole = tree.Row(tuple(node for node, _ in ONE_OF_EACH))
+    visited = list(walk(whole))
+    assert {type(node) for node in visited} == {type(node) for node, _ in ONE_OF_EACH}
+    assert len(visited) == 1 + sum(1 + len(parts) for _, parts in ONE_OF_EACH)
+
+
+def test_walk_goes_from_left_to_right_and_from_the_whole_to_its_parts() -> None:
+    product = Product((B, C))
+    whole = Sum((A, product, TWO))
+    assert list(walk(whole, A)) == [whole, A, product, B, C, TWO, A]
+
+
+@given(trees)
+def test_mapping_by_the_identity_gives_the_same_object(node: Node) -> None:
+    assert mapped(node, lambda part: part) is node
+
+
+@given(trees)
+def test_mapping_changes_what_walking_finds(node: Node) -> None:
+    changed = mapped(node, lambda part: Symbol("x") if isinstance(part, Symbol) else part)
+    assert [type(part) for part in walk(changed)] == [type(part) for part in walk(node)]
+    assert {part.name for part in walk(changed) if isinstance(part, Symbol)} <= {"x"}
+
+
+def test_mapping_keeps_and_shares_what_does_not_change() -> None:
+    kept, shared = Power(B, TWO), Product((A, C))
+    calls: list[Node] = []
+
+    def renamed(node: Node) -> Node:
+        calls.append(node)
+        return B if node is A else node
+
+    changed = mapped(Sum((kept, shared, shared)), renamed)
+    assert isinstance(changed, Sum)
+    assert changed.terms[0] is kept
+    assert changed.terms[1] == Product((B, C))
+    assert changed.terms[1] is changed.terms[2]
+    assert calls.count(A) == 1
+
+
+def test_mapping_goes_from_the_leaves_upwards() -> None:
+    met: list[str] = []
+    mapped(tree.Negative(Power(A, TWO)), lambda node: (met.append(type(node).__name__), node)[1])
+    assert met == ["Symbol", "Number", "Power", "Negative"]
