@@ -38,7 +38,8 @@ from dynsolve.answers.verdict import (
     Verdict,
     worst,
 )
-from dynsolve.derivation.graph import Derivation, derive
+from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.rules import derive
 from dynsolve.notation import tree
 from dynsolve.problem.model import Problem
 

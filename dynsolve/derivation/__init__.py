@@ -1,6 +1,29 @@
-"""The derivation, one file a section of the textbook; each function is one formula.
+"""The derivation: one file a section of the textbook, each function one formula of it.
 
-A stage computes and does nothing else: it takes exact values and returns exact
-values.  How the functions hang together is `dynsolve.derivation.graph`; what a person
-reads of them is made in `dynsolve.explain`.
+In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Control, 2006):
+
+    kinematics      3.2   A_i of a row of the table, H_i as their product
+    jacobian        4.6   J_v and J_ω, a column a joint
+    inertia         7.2   r_c's tensor: axes of the body, parallel axes, R I Rᵀ
+    energy          7.2   v = J_v q̇, ω = J_ω q̇, K_v, K_ω, P
+    euler_lagrange  7.1   L, ∂L/∂q̇, d/dt ∂L/∂q̇, ∂L/∂q, τ (and where friction would go)
+    vectorized      7.3   D, the Christoffel symbols, C, g
+
+What hangs together how:
+
+    graph           a `Rule` computes one quantity from others, a `Derivation` evaluates rules
+    rules           the rules of the textbook; `derive(robot)` gives the `Derivation` of a robot
+    link_frame      rules that give K and D faster, by Jacobians in each link's own frame
+    agreement       whether D, C q̇ and g come out the same both ways
+
+And the independent check, which shares no formula with any of these:
+
+    newton_euler    recursive Newton-Euler on floating-point numbers
+    verification    what is printed, evaluated at random states, against that
+
+A rule takes exact values and returns an exact value, and does nothing else: what a
+person reads of it is made in `dynsolve.explain`.  To add a quantity, write its formula
+in the file of its section and its rule in `rules`.  Values put into a `Derivation`
+stand for their rules, and what depends on them follows: so an answer that follows from
+an earlier slip is recognized, and a slip is the graph with one rule replaced.
 """

@@ -46,9 +46,11 @@ def rotational_energy(w: Matrix, inertia: Matrix) -> Expr:
     return w.ring.dot(w.entries, (inertia @ w).entries) * HALF
 
 
+def kinetic_energy(linear: Expr, rotational: Expr) -> Expr:
+    """K_i = K_v + K_ω of one body."""
+    return linear + rotational
+
+
 def total(ring: Ring, parts: tuple[Expr, ...]) -> Expr:
     """The sum over the bodies."""
-    result = ring.zero
-    for part in parts:
-        result += part
-    return result
+    return sum(parts, start=ring.zero)

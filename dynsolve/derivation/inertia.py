@@ -46,18 +46,18 @@ def steiner(mass: Expr, offset: Matrix) -> Matrix:
     return (Matrix.identity(ring, 3).scale(square) - offset @ offset.T).scale(mass)
 
 
-def central_inertia(body: Body, relative: Matrix) -> Matrix:
-    """I about the mass centre, 3×3, in the body-attached frame.
+def central_inertia(robot: Robot, body: Body, H: Matrix) -> Matrix:
+    """I about the mass centre, 3×3, in the body-attached frame; H is that of the body's link.
 
-    `relative` turns the body's axes into the link's.  A tensor given about another
-    point is moved by the parallel-axis theorem; a point mass has none.
+    A tensor given about another point is moved by the parallel-axis theorem; a point mass has none.
     """
     ring = body.mass.ring
     if body.inertia is None:
         return Matrix.zero(ring, 3, 3)
     if body.about_point is None:
         return body.inertia
-    return body.inertia - steiner(body.mass, relative.T @ (body.center - body.about_point))
+    offset = axes_in_link(robot, body, H).T @ (body.center - body.about_point)
+    return body.inertia - steiner(body.mass, offset)
 
 
 def base_inertia(R: Matrix, inertia: Matrix) -> Matrix:

@@ -7,7 +7,7 @@ the joint turns about: i-1 in the standard convention, i in the modified one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from dynsolve.algebra.matrix import Matrix, cross, hstack
 from dynsolve.derivation.kinematics import axis, origin
@@ -19,31 +19,40 @@ def joint_frame(robot: Robot, joint: Joint) -> int:
     return joint.index - 1 if robot.convention is Convention.STANDARD else joint.index
 
 
-def joint_columns(
-    robot: Robot, joint: Joint, frames: Sequence[Matrix], point: Matrix
-) -> tuple[Matrix, Matrix]:
-    """(J_v, J_w) of one joint alone, 3×1 each, for a point that it carries."""
-    H = frames[joint_frame(robot, joint)]
-    z, o = axis(H), origin(H)
-    if joint.type is JointType.REVOLUTE:
-        return cross(z, point - o), z
-    return z, Matrix.zero(robot.ring, 3, 1)
+def linear_jacobian(robot: Robot, frames: Sequence[Matrix], point: Matrix, link: int) -> Matrix:
+    """J_v, 3×n, of a point fixed in frame `link`: z × (p - o), or z of a prismatic joint.
 
-
-def jacobian(robot: Robot, frames: Sequence[Matrix], point: Matrix, link: int) -> tuple[Matrix, Matrix]:
-    """(J_v, J_w), 3×n each, of a point fixed in frame `link`; columns of joints after it are zero.
-
-    `frames` are H_0..H_m.  Where a joint variable is Σ rate·q_k, its column counts
-    for each q_k with that rate.
+    `frames` are H_0..H_m, of which those of the joints up to `link` are used.
     """
+
+    def column(joint: Joint, H: Matrix) -> Matrix:
+        return cross(axis(H), point - origin(H)) if joint.type is JointType.REVOLUTE else axis(H)
+
+    return _by_coordinate(robot, frames, link, column)
+
+
+def angular_jacobian(robot: Robot, frames: Sequence[Matrix], link: int) -> Matrix:
+    """J_ω, 3×n, of frame `link`: z, or zero of a prismatic joint."""
     zero = Matrix.zero(robot.ring, 3, 1)
-    linear, angular = [zero] * robot.n, [zero] * robot.n
+
+    def column(joint: Joint, H: Matrix) -> Matrix:
+        return axis(H) if joint.type is JointType.REVOLUTE else zero
+
+    return _by_coordinate(robot, frames, link, column)
+
+
+def _by_coordinate(
+    robot: Robot, frames: Sequence[Matrix], link: int, column: Callable[[Joint, Matrix], Matrix]
+) -> Matrix:
+    """The columns of the joints up to `link`, summed up by coordinate; those of later joints are zero.
+
+    Where a joint variable is Σ rate·q_k, the joint's column counts for each q_k with that rate.
+    """
+    columns = [Matrix.zero(robot.ring, 3, 1)] * robot.n
     for joint in robot.joints[:link]:
         if joint.type is None:
             continue
-        v, w = joint_columns(robot, joint, frames, point)
+        moved = column(joint, frames[joint_frame(robot, joint)])
         for k, rate in joint.rates:
-            factor = robot.ring.constant(rate)
-            linear[k] = linear[k] + v.scale(factor)
-            angular[k] = angular[k] + w.scale(factor)
-    return hstack(robot.ring, linear, 3), hstack(robot.ring, angular, 3)
+            columns[k] = columns[k] + moved.scale(robot.ring.constant(rate))
+    return hstack(robot.ring, columns, 3)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation.graph import Agreement, Derivation
+from dynsolve.derivation.agreement import Agreement
+from dynsolve.derivation.graph import Derivation
 from dynsolve.document import Inline, Prose
 from dynsolve.explain import letters
 from dynsolve.explain.forms import Forms

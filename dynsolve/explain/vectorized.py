@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from dynsolve.algebra import matrix as algebra
-from dynsolve.derivation.graph import agreement
+from dynsolve.derivation.agreement import agreement
 from dynsolve.document import Prose
 from dynsolve.explain import letters
 from dynsolve.explain.course import Course, is_small, listed, shv

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import count
 from typing import TYPE_CHECKING
 
-from dynsolve.derivation.graph import course_rules
+from dynsolve.derivation.rules import course_rules
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Table, Text, Uses
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
 from dynsolve.explain.named import definition_blocks

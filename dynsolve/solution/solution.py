@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from dynsolve.derivation.graph import Agreement, Derivation, agreement, course_rules, derive, given_axes_agree
+from dynsolve.derivation.agreement import Agreement, agreement, given_axes_agree
+from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.inertia import turns_with_link
+from dynsolve.derivation.rules import course_rules, derive
 from dynsolve.derivation.verification import Verification, verify
 from dynsolve.errors import Finding, ProblemError, UsageError, VerificationError
 from dynsolve.explain.forms import Forms

@@ -99,12 +99,12 @@ def _linear_jacobian(robot: Robot, name: str, value: Value) -> Iterator[Variant]
     frames = _frames(value, len(robot.joints))
     tip = kinematics.origin(frames[body.link])
     yield (
-        jacobian.jacobian(robot, frames, tip, body.link)[0],
+        jacobian.linear_jacobian(robot, frames, tip, body.link),
         slip("frame_origin", part=str(body.link), other=name),
     )
     if body.link < len(robot.joints):
         yield (
-            jacobian.jacobian(robot, frames, value(f"rc{name}"), len(robot.joints))[0],
+            jacobian.linear_jacobian(robot, frames, value(f"rc{name}"), len(robot.joints)),
             slip("joint_columns", part=name),
         )
 
@@ -115,11 +115,7 @@ def _angular_jacobian(robot: Robot, name: str, value: Value) -> Iterator[Variant
     frames = _frames(value, len(robot.joints))
     yield _all_turn(robot, frames, link), slip("prismatic_turns")
     if body is not None and link < len(robot.joints):
-        point = kinematics.origin(frames[link])
-        yield (
-            jacobian.jacobian(robot, frames, point, len(robot.joints))[1],
-            slip("joint_columns", part=name),
-        )
+        yield jacobian.angular_jacobian(robot, frames, len(robot.joints)), slip("joint_columns", part=name)
 
 
 def _all_turn(robot: Robot, frames: list[Matrix], link: int) -> Matrix:

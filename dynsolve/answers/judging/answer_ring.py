@@ -29,7 +29,8 @@ from dynsolve.algebra.ring_plan import Survey
 from dynsolve.answers.judging.dimensions import Dimensions
 from dynsolve.answers.judging.evaluate import Values
 from dynsolve.answers.judging.ring_extension import Known, Needs, needs_of
-from dynsolve.derivation.graph import Derivation, course_rules
+from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.rules import course_rules
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number

@@ -8,7 +8,8 @@ from functools import lru_cache
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.submission import Answer, Place, Submission
 from dynsolve.answers.verdict import Judged, Report
-from dynsolve.derivation.graph import Derivation, derive
+from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.rules import derive
 from dynsolve.notation import tree
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from hypothesis import given, settings
 
-from dynsolve.derivation.graph import Derivation, agreement, course_rules, derive, given_axes_agree
+from dynsolve.derivation.agreement import agreement, given_axes_agree
+from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.rules import course_rules, derive
 from dynsolve.problem import read_problem
 from tests.robots import robots
 

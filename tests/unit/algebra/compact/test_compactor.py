@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.ring import Ring
-from dynsolve.derivation.graph import derive
+from dynsolve.derivation.rules import derive
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.evaluate import compile_trees
 from dynsolve.notation.python import to_python

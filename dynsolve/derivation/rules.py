@@ -1,0 +1,126 @@
+"""The textbook's derivation as rules, in the order of the course.
+
+Each function yields the rules of a stage.  Quantities go by their names in an answer
+file, a body's index is its name and a coordinate's its place: `H2`, `Jv1`, `Kv1`, `K`,
+`dLdqd1`, `tau`, `D`.  The formulas are in the file of their section of the textbook
+(`kinematics`, `jacobian`, `inertia`, `energy`, `euler_lagrange`, `vectorized`); a rule
+says from which quantities they are computed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from dynsolve.algebra.matrix import Matrix, vstack
+from dynsolve.derivation import energy, euler_lagrange, inertia, jacobian, kinematics, vectorized
+from dynsolve.derivation.graph import Derivation, Rule
+from dynsolve.derivation.link_frame import link_frame_rules
+from dynsolve.robot.model import Body, Robot
+
+
+def derive(robot: Robot) -> Derivation:
+    """The derivation of a robot.
+
+    Where both give the same, the link frames' rules, which are faster, take the place
+    of the textbook's.
+    """
+    return Derivation([*course_rules(robot), *link_frame_rules(robot)])
+
+
+def course_rules(robot: Robot) -> Iterator[Rule]:
+    """Every rule of the textbook's derivation; of a robot without masses those of the kinematics alone."""
+    yield from _kinematics(robot)
+    yield from _end_jacobian(robot)
+    if not robot.bodies:
+        return
+    for body in robot.bodies:
+        yield from _body(robot, body)
+    yield from _energies(robot)
+    yield from _euler_lagrange(robot)
+    yield from _vectorized(robot)
+
+
+def _kinematics(robot: Robot) -> Iterator[Rule]:
+    yield Rule("H0", (), partial(kinematics.base_transform, robot))
+    for joint in robot.joints:
+        i = joint.index
+        yield Rule(f"A{i}", (), partial(kinematics.dh_matrix, robot, joint))
+        yield Rule(f"H{i}", (f"H{i - 1}", f"A{i}"), kinematics.frame)
+
+
+def _end_jacobian(robot: Robot) -> Iterator[Rule]:
+    last = len(robot.joints)
+    frames = frame_names(last)
+
+    def linear(*H: Matrix) -> Matrix:
+        return jacobian.linear_jacobian(robot, H, kinematics.origin(H[-1]), last)
+
+    def angular(*H: Matrix) -> Matrix:
+        return jacobian.angular_jacobian(robot, H, last)
+
+    yield Rule("Jv", frames, linear)
+    yield Rule("Jw", frames, angular)
+    yield Rule("J", ("Jv", "Jw"), vstack)
+
+
+def frame_names(link: int) -> tuple[str, ...]:
+    """H0..H<link>"""
+    return tuple(f"H{i}" for i in range(link + 1))
+
+
+def _body(robot: Robot, body: Body) -> Iterator[Rule]:
+    b, link = body.name, body.link
+    H = f"H{link}"
+    from_frames_and_center = (*frame_names(link), f"rc{b}")
+
+    def linear(*values: Matrix) -> Matrix:
+        *frames, center = values
+        return jacobian.linear_jacobian(robot, frames, center, link)
+
+    def angular(*values: Matrix) -> Matrix:
+        *frames, _ = values
+        return jacobian.angular_jacobian(robot, frames, link)
+
+    yield Rule(f"rc{b}", (H,), lambda H: kinematics.point(H, body.center))
+    yield Rule(f"Jv{b}", from_frames_and_center, linear)
+    yield Rule(f"Jw{b}", from_frames_and_center, angular)
+    yield Rule(f"v{b}", (f"Jv{b}",), partial(energy.velocity, robot))
+    yield Rule(f"w{b}", (f"Jw{b}",), partial(energy.velocity, robot))
+    yield Rule(f"R{b}", (H,), partial(inertia.body_rotation, robot, body))
+    yield Rule(f"I_body{b}", (H,), partial(inertia.central_inertia, robot, body))
+    yield Rule(f"I{b}", (f"R{b}", f"I_body{b}"), inertia.base_inertia)
+    yield Rule(f"P{b}", (f"rc{b}",), partial(energy.potential_energy, robot, body.mass))
+    yield Rule(f"Kv{b}", (f"v{b}",), partial(energy.linear_energy, body.mass))
+    if body.is_point:
+        yield Rule(f"Kw{b}", (), lambda: robot.ring.zero)
+    else:
+        yield Rule(f"Kw{b}", (f"w{b}", f"I{b}"), energy.rotational_energy)
+    yield Rule(f"K{b}", (f"Kv{b}", f"Kw{b}"), energy.kinetic_energy)
+
+
+def _energies(robot: Robot) -> Iterator[Rule]:
+    names = [body.name for body in robot.bodies]
+    yield Rule("P", tuple(f"P{b}" for b in names), lambda *parts: energy.total(robot.ring, parts))
+    yield Rule("K", tuple(f"K{b}" for b in names), lambda *parts: energy.total(robot.ring, parts))
+    yield Rule("L", ("K", "P"), euler_lagrange.lagrangian)
+
+
+def _euler_lagrange(robot: Robot) -> Iterator[Rule]:
+    for q in robot.coordinates:
+        k = q.index
+        yield Rule(f"dLdqd{k}", ("L",), partial(euler_lagrange.momentum, k=k - 1))
+        yield Rule(f"ddt{k}", (f"dLdqd{k}",), euler_lagrange.momentum_rate)
+        yield Rule(f"dLdq{k}", ("L",), partial(euler_lagrange.slope, k=k - 1))
+        yield Rule(f"tau{k}", (f"ddt{k}", f"dLdq{k}"), euler_lagrange.generalized_force)
+    forces = tuple(f"tau{q.index}" for q in robot.coordinates)
+    yield Rule("tau", forces, lambda *parts: euler_lagrange.force_vector(robot, parts))
+
+
+def _vectorized(robot: Robot) -> Iterator[Rule]:
+    yield Rule("D", ("tau",), partial(vectorized.inertia_from_torque, robot))
+    yield Rule("christoffel", ("D",), partial(vectorized.christoffel_symbols, robot))
+    yield Rule("C", ("christoffel",), partial(vectorized.coriolis_matrix, robot))
+    yield Rule("g", ("tau",), partial(vectorized.gravity_from_torque, robot))
+    yield Rule("Cqd", ("tau", "g"), partial(vectorized.coriolis_from_torque, robot))
+    yield Rule("g_direct", ("P",), partial(vectorized.gravity_vector, robot))
