@@ -64,7 +64,7 @@ _MOST = 2000
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class FeedbackView:
     """How much is shown: the rung of the ladder, whether differences are, whether every reading is."""
 
     level: int = 3
@@ -72,7 +72,7 @@ class View:
     readings: bool = False
 
 
-def feedback(report: Report, title: str, view: View) -> Document:
+def feedback(report: Report, title: str, view: FeedbackView) -> Document:
     """The report as a document."""
     blocks = (
         Heading(title, 1),
@@ -114,7 +114,7 @@ def _marks(report: Report) -> Iterator[Block]:
         yield Text((f"Marks: {_number(report.marks)} of {_number(report.of)}.",))
 
 
-def slips(report: Report, view: View) -> Iterator[Block]:
+def slips(report: Report, view: FeedbackView) -> Iterator[Block]:
     """What is wrong, the first slip first, then what could not be read."""
     for answer in report.answers:
         if answer.verdict is Verdict.WRONG and answer.given:
@@ -143,7 +143,7 @@ def _where(answer: Judged) -> str:
     return f" ({answer.place})" if answer.place and answer.place.line else ""
 
 
-def _wrong(answer: Judged, view: View) -> Iterator[Block]:
+def _wrong(answer: Judged, view: FeedbackView) -> Iterator[Block]:
     yield from _reading(f"Read{_where(answer)} as", answer)
     bad = [e for e in answer.entries if e.verdict is Verdict.WRONG]
     if bad:
@@ -189,7 +189,7 @@ def _where_told(told: Diagnosis, bad: Sequence[EntryVerdict], answer: Judged) ->
     return f"{places[0].upper()}{places[1:]}: "
 
 
-def _slips(answer: Judged, bad: Sequence[EntryVerdict], view: View) -> Iterator[Block]:
+def _slips(answer: Judged, bad: Sequence[EntryVerdict], view: FeedbackView) -> Iterator[Block]:
     told = answer.diagnosis
     if view.level >= 3 or view.teacher:
         items = [typeset(_where_told(d, bad, answer) + f"{d.message} {d.look}".strip()) for d in told]
@@ -281,7 +281,7 @@ def _times(answer: Judged) -> Iterator[str]:
         yield f"given {len(answer.occurrences)} times, the last counts: {each}"
 
 
-def readings(report: Report, view: View) -> Iterator[Block]:
+def readings(report: Report, view: FeedbackView) -> Iterator[Block]:
     """How answers were read: those that follow, or all; wrong ones have it beside them already."""
     silent = {Verdict.WRONG} if view.readings else {Verdict.WRONG, Verdict.CORRECT}
     read = [a for a in report.answers if a.read_as and a.verdict not in silent]

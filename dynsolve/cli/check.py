@@ -10,7 +10,7 @@ from dynsolve.cli.common import STDIN, Quiet, read, say, standard_input
 from dynsolve.errors import ExitCode, Finding, InputError
 
 if TYPE_CHECKING:
-    from dynsolve.answers.feedback import View
+    from dynsolve.answers.feedback import FeedbackView
     from dynsolve.answers.verdict import Report
     from dynsolve.problem import Problem
 
@@ -57,9 +57,9 @@ def check(
     if json:
         _print_json(report, hints, teacher)
     else:
-        from dynsolve.answers.feedback import View
+        from dynsolve.answers.feedback import FeedbackView
 
-        _print_report(report, stated, View(hints, teacher, show_reading), html, markdown)
+        _print_report(report, stated, FeedbackView(hints, teacher, show_reading), html, markdown)
     if not quiet:
         from dynsolve.answers.feedback import findings
 
@@ -94,7 +94,7 @@ def _print_json(report: Report, hints: int, teacher: bool) -> None:
     sys.stdout.write("\n")
 
 
-def _print_report(report: Report, problem: Problem, view: View, html: bool, markdown: bool) -> None:
+def _print_report(report: Report, problem: Problem, view: FeedbackView, html: bool, markdown: bool) -> None:
     from dynsolve.answers.feedback import feedback
     from dynsolve.explain.style import style_of
 

@@ -24,7 +24,7 @@ MOST_REFUSED = 20
 """So many files that are not taken are named on the terminal; the report names them all."""
 
 
-class Platform(StrEnum):
+class PlatformName(StrEnum):
     """The learning platforms whose files are written."""
 
     CANVAS = "canvas"
@@ -62,7 +62,7 @@ ClusterOption = Annotated[
     str, typer.Option("--cluster", metavar="ADDRESS", help="A Dask scheduler, tcp://host:8786.")
 ]
 PlatformOption = Annotated[
-    Platform | None,
+    PlatformName | None,
     typer.Option("--lms", help="Write the file that this platform imports, too; kept for later runs."),
 ]
 RosterOption = Annotated[

@@ -68,7 +68,7 @@ class Arm:
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class MovingFrame:
     """Where a frame is and how it moves, along the axes of the world.
 
     R (3×3) and o are its orientation and origin, w and dw its angular velocity and
@@ -82,12 +82,12 @@ class Frame:
     v: Vector = ZERO
     dv: Vector = ZERO
 
-    def after(self, motion: Motion, rate: float, acceleration: float) -> Frame:
+    def after(self, motion: Motion, rate: float, acceleration: float) -> MovingFrame:
         """The frame that an elementary motion ends in."""
         e = column(self.R, _AXES[motion.axis])
         spin = scaled(e, rate)
         if motion.turns:
-            return Frame(
+            return MovingFrame(
                 times(self.R, elementary(motion.axis, motion.amount)),
                 self.o,
                 plus(self.w, spin),
@@ -98,7 +98,7 @@ class Frame:
         arm = scaled(e, motion.amount)
         carried = plus(cross(self.dw, arm), cross(self.w, cross(self.w, arm)))
         sliding = plus(scaled(cross(self.w, spin), 2.0), scaled(e, acceleration))
-        return Frame(
+        return MovingFrame(
             self.R,
             plus(self.o, arm),
             self.w,
@@ -119,9 +119,9 @@ class _Axis:
 
 def outwards(
     arm: Arm, qd: Sequence[float], qdd: Sequence[float], lift: Vector
-) -> tuple[list[Frame], list[list[_Axis]]]:
+) -> tuple[list[MovingFrame], list[list[_Axis]]]:
     """Frames 0..m, and the axes of each row; the base accelerates with `lift`."""
-    frame = Frame(*arm.base, dv=lift)
+    frame = MovingFrame(*arm.base, dv=lift)
     frames, axes = [frame], []
     for row in arm.rows:
         moving = []
@@ -161,7 +161,7 @@ def inverse_dynamics(arm: Arm, qd: Sequence[float], qdd: Sequence[float], gravit
     return tau
 
 
-def _wrench(mass: Mass, frame: Frame) -> tuple[Vector, Vector]:
+def _wrench(mass: Mass, frame: MovingFrame) -> tuple[Vector, Vector]:
     """The force that a body takes, and its moment about the origin of the world."""
     arm = applied(frame.R, mass.center)
     turning = plus(cross(frame.dw, arm), cross(frame.w, cross(frame.w, arm)))

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Wanted
-from dynsolve.draw.parts import RADIUS, TUBE, Part
+from dynsolve.draw.parts import RADIUS, TUBE, JointBody
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import AXIS, Pose, point_to_segment
 from dynsolve.draw.space import Taken
@@ -142,7 +142,7 @@ def turns(pose: Pose, written: Sequence[Node], notes: Notes) -> None:
             (_flat_angle if pose.view.flat else _ring)(pose, part, written[part.row - 1], notes)
 
 
-def _flat_angle(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
+def _flat_angle(pose: Pose, part: JointBody, node: Node, notes: Notes) -> None:
     """θ_i from the x axis before the joint to the one after it."""
     view, leg = pose.view, pose.skeleton.legs[part.row - 1]
     center = view.point(part.center)
@@ -168,7 +168,7 @@ def _flat_angle(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
     notes.label(node, middle, toward, paths.VARIABLE, "variable")
 
 
-def _ring(pose: Pose, part: Part, node: Node, notes: Notes) -> None:
+def _ring(pose: Pose, part: JointBody, node: Node, notes: Notes) -> None:
     """An arrow around a joint's axis, in front of its cylinder, in the positive sense."""
     view = pose.view
     center = view.point(part.center)

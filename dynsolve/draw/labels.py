@@ -13,7 +13,7 @@ from itertools import combinations
 from random import Random
 
 from dynsolve.draw.space import Box, Taken
-from dynsolve.draw.typography import Line
+from dynsolve.draw.typography import LabelLine
 from dynsolve.draw.vectors import Point
 from dynsolve.notation.tree import Node
 
@@ -43,7 +43,7 @@ class Wanted:
     """
 
     node: Node
-    line: Line
+    line: LabelLine
     anchors: tuple[Point, ...]
     toward: Point
     colour: str
@@ -56,7 +56,7 @@ class Label:
     """A label in its place; `lead` is the line to what it names, where it stands far away."""
 
     node: Node
-    line: Line
+    line: LabelLine
     box: Box
     colour: str
     kind: str

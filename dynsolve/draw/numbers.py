@@ -27,7 +27,7 @@ _RETRIES = ((1.0, 0.0), (1.3, 0.1), (0.7, 0.3), (1.1, -0.4))
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class TableRow:
     """A row of the table in numbers, without its joint variable; the longest length is 1."""
 
     theta: float
@@ -37,19 +37,19 @@ class Row:
 
 
 @dataclass(frozen=True, slots=True)
-class Numbers:
+class RobotNumbers:
     """A robot in numbers: its rows in picture lengths, and the value of every parameter.
 
     `unit` is the value that is drawn with length 1; `base` turns frame 0 in the world.
     """
 
-    rows: tuple[Row, ...]
+    rows: tuple[TableRow, ...]
     values: Mapping[str, float]
     unit: float
     base: Rotation = IDENTITY
 
 
-def numbers(problem: Problem) -> Numbers:
+def numbers(problem: Problem) -> RobotNumbers:
     """Pleasant numbers for a problem's table."""
     robot = problem.robot
     given = {name: float(value) for name, value in problem.values.items()}
@@ -58,11 +58,11 @@ def numbers(problem: Problem) -> Numbers:
             return _numbers(robot, given, factor, spread)
         except (ValueError, ZeroDivisionError, OverflowError):
             continue
-    rows = tuple(Row(0.0, 0.0, 1.0, 0.0) for _ in robot.joints)
-    return Numbers(rows, dict.fromkeys(robot.ring.parameters, 1.0), 1.0)
+    rows = tuple(TableRow(0.0, 0.0, 1.0, 0.0) for _ in robot.joints)
+    return RobotNumbers(rows, dict.fromkeys(robot.ring.parameters, 1.0), 1.0)
 
 
-def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: float) -> Numbers:
+def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: float) -> RobotNumbers:
     values = _all_values(robot, given, factor, spread)
     named = _lengths(robot)
     unit, shortest = _range(robot, values)
@@ -78,12 +78,12 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
         return drawn_length(ratio) if shortest < 0.8 * SHORTEST * unit else ratio
 
     rows = tuple(
-        Row(angle(joint.theta, values), drawn(joint.d), drawn(joint.a), angle(joint.alpha, values))
+        TableRow(angle(joint.theta, values), drawn(joint.d), drawn(joint.a), angle(joint.alpha, values))
         for joint in robot.joints
     )
     x, y, z = ([evaluate(robot, entry, values) for entry in row] for row in robot.base_rotation.rows)
     base = tuple(zip(x, y, z, strict=True))
-    return Numbers(rows, values, unit, (base[0], base[1], base[2]))
+    return RobotNumbers(rows, values, unit, (base[0], base[1], base[2]))
 
 
 def _has_vanished(robot: Robot, values: Mapping[str, float]) -> bool:

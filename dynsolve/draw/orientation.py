@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dynsolve.draw.numbers import Numbers, evaluate
-from dynsolve.draw.skeleton import Frame, Skeleton, base_frame, skeleton
+from dynsolve.draw.numbers import RobotNumbers, evaluate
+from dynsolve.draw.skeleton import DrawnFrame, Skeleton, base_frame, skeleton
 from dynsolve.draw.vectors import Vector, any_normal, cross, dot, length, scale, subtract, unit
 from dynsolve.robot.model import JointType, Robot
 
@@ -27,7 +27,7 @@ class Setting:
     normal: Vector | None
 
 
-def setting(robot: Robot, numbers: Numbers) -> Setting:
+def setting(robot: Robot, numbers: RobotNumbers) -> Setting:
     """How a robot stands in the world."""
     base = base_frame(numbers)
     gravity = _gravity(robot, numbers)
@@ -39,7 +39,7 @@ def setting(robot: Robot, numbers: Numbers) -> Setting:
     return Setting(up, ahead, gravity, None)
 
 
-def _gravity(robot: Robot, numbers: Numbers) -> Vector | None:
+def _gravity(robot: Robot, numbers: RobotNumbers) -> Vector | None:
     try:
         x, y, z = (evaluate(robot, entry, numbers.values) for entry in robot.gravity.entries)
     except (ValueError, ZeroDivisionError, OverflowError):
@@ -47,7 +47,7 @@ def _gravity(robot: Robot, numbers: Numbers) -> Vector | None:
     return unit((x, y, z)) if length((x, y, z)) > _FLAT else None
 
 
-def _up_in_plane(normal: Vector, base: Frame, gravity: Vector | None) -> Vector:
+def _up_in_plane(normal: Vector, base: DrawnFrame, gravity: Vector | None) -> Vector:
     """The direction of the plane that is drawn upwards: against gravity, else y_0, else z_0."""
     for wanted in ([scale(gravity, -1.0)] if gravity else []) + [base.axes[1], base.z]:
         level = subtract(wanted, scale(normal, dot(wanted, normal)))
@@ -56,7 +56,7 @@ def _up_in_plane(normal: Vector, base: Frame, gravity: Vector | None) -> Vector:
     return any_normal(normal)
 
 
-def _normal(robot: Robot, numbers: Numbers, base: Frame) -> Vector | None:
+def _normal(robot: Robot, numbers: RobotNumbers, base: DrawnFrame) -> Vector | None:
     """The normal of the plane that the robot moves in, towards the viewer; None in space."""
     poses = [skeleton(robot, numbers, _probe(robot.n, start)) for start in _PROBES]
     candidate = _candidate(poses[0])

@@ -31,7 +31,7 @@ _PARALLEL = 0.99
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class JointBody:
     """A cylinder (revolute) or a box (prismatic) around a joint's axis."""
 
     row: int
@@ -44,7 +44,7 @@ class Part:
 class Parts:
     """All parts, and the links between them, the first from the ground; `ground` is where the base stands."""
 
-    joints: tuple[Part, ...]
+    joints: tuple[JointBody, ...]
     links: tuple[tuple[Vector, ...], ...]
     ground: Vector
     ground_normal: Vector
@@ -52,7 +52,7 @@ class Parts:
 
 def arrange(pose: Skeleton, view: View, up: Vector) -> Parts:
     """Put the parts of a robot along its chain."""
-    joints: list[Part] = []
+    joints: list[JointBody] = []
     for row, leg in enumerate(pose.legs, 1):
         if leg.type is None:
             continue
@@ -60,12 +60,12 @@ def arrange(pose: Skeleton, view: View, up: Vector) -> Parts:
             pose, row, leg, view, up, first=not joints and distance(leg.foot, pose.frames[0].origin) < NEAR
         )
         center = next((p for p in places if _is_clear(p, joints, view)), places[0])
-        joints.append(Part(row, leg.type, center, leg.axis))
+        joints.append(JointBody(row, leg.type, center, leg.axis))
     ground, normal = _ground(pose, joints, view, up)
     return Parts(tuple(joints), _links(pose, joints, ground), ground, normal)
 
 
-def _is_clear(place: Vector, joints: Sequence[Part], view: View) -> bool:
+def _is_clear(place: Vector, joints: Sequence[JointBody], view: View) -> bool:
     return all(distance(place, part.center) * view.size >= _CLEAR * 0.98 for part in joints)
 
 
@@ -102,7 +102,7 @@ def _neighbour(pose: Skeleton, row: int, leg: Leg, view: View, step: int) -> lis
     return [along(here, unit(way), gap)]
 
 
-def _ground(pose: Skeleton, joints: Sequence[Part], view: View, up: Vector) -> tuple[Vector, Vector]:
+def _ground(pose: Skeleton, joints: Sequence[JointBody], view: View, up: Vector) -> tuple[Vector, Vector]:
     """Where the ground is under the robot, and its normal."""
     start = pose.frames[0].origin
     if not joints:
@@ -123,7 +123,7 @@ def _ground(pose: Skeleton, joints: Sequence[Part], view: View, up: Vector) -> t
     return along(start, normal, low), normal
 
 
-def _links(pose: Skeleton, joints: Sequence[Part], ground: Vector) -> tuple[tuple[Vector, ...], ...]:
+def _links(pose: Skeleton, joints: Sequence[JointBody], ground: Vector) -> tuple[tuple[Vector, ...], ...]:
     """The way from the ground to the first part, and from each part to the next, or to the end."""
     centers = {part.row: part.center for part in joints}
     way = [ground]

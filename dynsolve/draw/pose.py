@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations, pairwise
 from random import Random
 
-from dynsolve.draw.numbers import Numbers
+from dynsolve.draw.numbers import RobotNumbers
 from dynsolve.draw.orientation import Setting
 from dynsolve.draw.parts import Parts, arrange
 from dynsolve.draw.skeleton import NEAR, Skeleton, skeleton, with_masses
@@ -55,7 +55,7 @@ _Choice = tuple[float, ...]
 """Values of the coordinates, then azimuth and elevation where the view is free."""
 
 
-def best_pose(robot: Robot, numbers: Numbers, setting: Setting) -> Pose:
+def best_pose(robot: Robot, numbers: RobotNumbers, setting: Setting) -> Pose:
     """The pose and view with the least cost among those tried."""
     options = _options(robot, setting)
     random = Random(_SEED)  # noqa: S311 - the same poses every time are wanted
@@ -98,7 +98,7 @@ def _improved(
     return choice
 
 
-def _pose(robot: Robot, numbers: Numbers, setting: Setting, choice: _Choice) -> Pose:
+def _pose(robot: Robot, numbers: RobotNumbers, setting: Setting, choice: _Choice) -> Pose:
     body = skeleton(robot, numbers, choice[: robot.n])
     if setting.normal:
         view = facing(setting.normal, setting.up)

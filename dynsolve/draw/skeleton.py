@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from dynsolve.draw.numbers import Numbers, evaluate
+from dynsolve.draw.numbers import RobotNumbers, evaluate
 from dynsolve.draw.vectors import (
     ORIGIN,
     Rotation,
@@ -35,7 +35,7 @@ NEAR = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class DrawnFrame:
     """A frame in the world."""
 
     origin: Vector
@@ -72,7 +72,7 @@ class Leg:
 
 
 @dataclass(frozen=True, slots=True)
-class Mass:
+class MassCenter:
     """A mass centre.
 
     `from_` is where its one free `symbol` is measured from, if it has just one;
@@ -95,13 +95,13 @@ class Skeleton:
     `path` are the points of the chain from frame 0 to the last, each once.
     """
 
-    frames: tuple[Frame, ...]
+    frames: tuple[DrawnFrame, ...]
     legs: tuple[Leg, ...]
     path: tuple[Vector, ...]
-    masses: tuple[Mass, ...] = ()
+    masses: tuple[MassCenter, ...] = ()
 
 
-def skeleton(robot: Robot, numbers: Numbers, q: Sequence[float]) -> Skeleton:
+def skeleton(robot: Robot, numbers: RobotNumbers, q: Sequence[float]) -> Skeleton:
     """The robot with these values of its coordinates, in radians and picture lengths; without masses."""
     frame = base_frame(numbers)
     frames, legs = [frame], []
@@ -121,12 +121,14 @@ def _path(legs: Sequence[Leg]) -> tuple[Vector, ...]:
     return tuple(points)
 
 
-def base_frame(numbers: Numbers) -> Frame:
+def base_frame(numbers: RobotNumbers) -> DrawnFrame:
     """Frame 0, turned as the file says; where it is moved to does not matter to a picture."""
-    return Frame(ORIGIN, numbers.base)
+    return DrawnFrame(ORIGIN, numbers.base)
 
 
-def _leg(robot: Robot, numbers: Numbers, joint: Joint, q: Sequence[float], frame: Frame) -> tuple[Leg, Frame]:
+def _leg(
+    robot: Robot, numbers: RobotNumbers, joint: Joint, q: Sequence[float], frame: DrawnFrame
+) -> tuple[Leg, DrawnFrame]:
     row = numbers.rows[joint.index - 1]
     moved = sum(float(rate) * q[k] for k, rate in joint.rates)
     theta = row.theta + (moved if joint.variable == "theta" else 0.0)
@@ -137,12 +139,12 @@ def _leg(robot: Robot, numbers: Numbers, joint: Joint, q: Sequence[float], frame
         head = along(o, frame.z, d)
         end = along(head, across[0], row.a)
         leg = Leg(joint.type, o, o, head, end, frame.z, frame.x, across[0], theta)
-        return leg, Frame(end, turned(across, 0, row.alpha))
+        return leg, DrawnFrame(end, turned(across, 0, row.alpha))
     tilted = turned(frame.axes, 0, row.alpha)
     foot = along(o, frame.x, row.a)
     head = along(foot, tilted[2], d)
     axes = turned(tilted, 2, theta)
-    return Leg(joint.type, o, foot, head, head, tilted[2], frame.x, axes[0], theta), Frame(head, axes)
+    return Leg(joint.type, o, foot, head, head, tilted[2], frame.x, axes[0], theta), DrawnFrame(head, axes)
 
 
 # -- mass centres ----------------------------------------------------------------------------------
@@ -155,9 +157,9 @@ _OFF_AXIS = 0.2
 """How far a mass centre lies off its frame where the table gives its link no length."""
 
 
-def with_masses(robot: Robot, numbers: Numbers, bare: Skeleton) -> Skeleton:
+def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton) -> Skeleton:
     """The skeleton with its mass centres."""
-    masses: list[Mass] = []
+    masses: list[MassCenter] = []
     for body in robot.bodies:
         free = free_symbols(robot, body)
         tried = (_mass(robot, numbers, bare, body, free, share) for share in _SHARES)
@@ -166,7 +168,7 @@ def with_masses(robot: Robot, numbers: Numbers, bare: Skeleton) -> Skeleton:
     return replace(bare, masses=tuple(masses))
 
 
-def _is_apart(mass: Mass, others: Sequence[Mass]) -> bool:
+def _is_apart(mass: MassCenter, others: Sequence[MassCenter]) -> bool:
     return all(distance(mass.center, other.center) > _APART for other in others)
 
 
@@ -179,23 +181,29 @@ def near_and_far(robot: Robot, bare: Skeleton, link: int) -> tuple[Vector, Vecto
 
 
 def _mass(
-    robot: Robot, numbers: Numbers, bare: Skeleton, body: Body, free: Sequence[str], share: float
-) -> Mass:
+    robot: Robot, numbers: RobotNumbers, bare: Skeleton, body: Body, free: Sequence[str], share: float
+) -> MassCenter:
     frame = bare.frames[body.link]
     near, far = near_and_far(robot, bare, body.link)
     written = body.center_written
     exact = {"tip": far, "origin": frame.origin, "midpoint": between(near, far, 0.5)}
     if written in exact:
-        return Mass(body.name, exact[written], body.is_point, body.link)
+        return MassCenter(body.name, exact[written], body.is_point, body.link)
     ends = (into(frame.axes, subtract(end, frame.origin)) for end in (near, far))
     center, from_, rate = _local_center(robot, numbers, body, free, share, *ends)
     place = add(frame.origin, applied(frame.axes, center))
     start = None if from_ is None else add(frame.origin, applied(frame.axes, from_))
-    return Mass(body.name, place, body.is_point, body.link, start, free[0] if start else "", rate)
+    return MassCenter(body.name, place, body.is_point, body.link, start, free[0] if start else "", rate)
 
 
 def _local_center(
-    robot: Robot, numbers: Numbers, body: Body, free: Sequence[str], share: float, near: Vector, far: Vector
+    robot: Robot,
+    numbers: RobotNumbers,
+    body: Body,
+    free: Sequence[str],
+    share: float,
+    near: Vector,
+    far: Vector,
 ) -> tuple[Vector, Vector | None, float]:
     """The centre in its frame; where its only free symbol is measured from, and the rate of that."""
     values = dict(numbers.values) | dict.fromkeys(free, 0.0)

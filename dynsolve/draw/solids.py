@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from dynsolve.draw import paths
 from dynsolve.draw.links import Solid, joined, link_pieces
-from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, Part, Parts
+from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, JointBody, Parts
 from dynsolve.draw.paths import Path
 from dynsolve.draw.vectors import (
     Point,
@@ -42,7 +42,7 @@ def solids(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
 # -- joints ----------------------------------------------------------------------------------------
 
 
-def cylinder(part: Part, view: View) -> Solid:
+def cylinder(part: JointBody, view: View) -> Solid:
     """A revolute joint: a cylinder along its axis."""
     axis = part.axis if dot(part.axis, view.toward) >= 0 else scale(part.axis, -1.0)
     depth = view.depth(part.center)
@@ -77,7 +77,7 @@ def _half_axes(axis: Vector, view: View, radius: float) -> tuple[Point, Point]:
     return (x * radius, y * radius), (sign * u * radius, sign * v * radius)
 
 
-def box(part: Part, view: View, up: Vector) -> Solid:
+def box(part: JointBody, view: View, up: Vector) -> Solid:
     """A prismatic joint: a box along its axis."""
     first = part.axis
     second = _crosswise(first, view, up)

@@ -47,7 +47,7 @@ class Run:
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class LabelLine:
     """A label as it is set: its runs, its width and its height."""
 
     runs: tuple[Run, ...]
@@ -70,10 +70,10 @@ def _index(group: str) -> str:
     return GREEK.get(group, group)
 
 
-def typeset(node: Node, style: Style) -> Line:
+def typeset(node: Node, style: Style) -> LabelLine:
     """A formula on one line."""
     runs = tuple(_spaced(_runs(_MarkedPrinter(style).text(node))))
-    return Line(runs, sum(map(_width, runs)))
+    return LabelLine(runs, sum(map(_width, runs)))
 
 
 def _runs(marked: str) -> Iterator[Run]:

@@ -18,7 +18,7 @@ Slip = tuple[str, str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Example:
+class SlipExample:
     """Somebody's answer: how it was read, and what is said of it."""
 
     student: str
@@ -34,7 +34,7 @@ class Alike:
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class ForAHuman:
     """Something for a human to look at."""
 
     student: str
@@ -50,9 +50,9 @@ class Cohort:
     marks: list[tuple[str, dict[str, Fraction], Fraction]] = field(default_factory=list)
     verdicts: dict[tuple[str, str], Counter[str]] = field(default_factory=dict)
     slips: Counter[Slip] = field(default_factory=Counter)
-    examples: dict[Slip, Example] = field(default_factory=dict)
+    examples: dict[Slip, SlipExample] = field(default_factory=dict)
     alike: dict[Slip, Alike] = field(default_factory=dict)
-    queue: list[Entry] = field(default_factory=list)
+    queue: list[ForAHuman] = field(default_factory=list)
     by_hand: list[Graded] = field(default_factory=list)
     pages: set[tuple[str, str]] = field(default_factory=set)
 
@@ -66,7 +66,7 @@ def counted(problems: ProblemSet, record: Record) -> Cohort:
     told: set[tuple[str, str]] = set()
     unjudged: dict[tuple[str, str], str] = {}
     for w in record.waiting():
-        cohort.queue.append(Entry(w.student, w.problem, w.file, w.reason))
+        cohort.queue.append(ForAHuman(w.student, w.problem, w.file, w.reason))
         told |= {(w.student, stem) for stem in ((w.problem,) if w.problem else problems.stems)}
     for row in record.rows():
         key = (row.student, row.problem)
@@ -75,10 +75,10 @@ def counted(problems: ProblemSet, record: Record) -> Cohort:
         if row.reason:
             unjudged[key] = row.reason
             if key not in told:
-                cohort.queue.append(Entry(*key, ", ".join(row.files), row.reason))
+                cohort.queue.append(ForAHuman(*key, ", ".join(row.files), row.reason))
         if row.left:
             left = ", ".join(row.left)
-            cohort.queue.append(Entry(row.student, row.problem, left, "left aside: a newer copy counts"))
+            cohort.queue.append(ForAHuman(row.student, row.problem, left, "left aside: a newer copy counts"))
     for standing in standings(record):
         cohort.marks.append((standing.student, standing.marks, standing.total))
     for answer in record.answers():
@@ -93,7 +93,7 @@ def _count(cohort: Cohort, a: Graded, unjudged: str) -> None:
         for code, message in zip(a.diagnosis, a.message, strict=False):
             slip = (a.problem, a.answer, code)
             cohort.slips[slip] += 1
-            cohort.examples.setdefault(slip, Example(a.student, message or a.read_as))
+            cohort.examples.setdefault(slip, SlipExample(a.student, message or a.read_as))
     if a.form:
         cohort.alike.setdefault((a.problem, a.answer, a.form), Alike(a.read_as, [])).students.append(
             a.student
@@ -104,7 +104,7 @@ def _count(cohort: Cohort, a: Graded, unjudged: str) -> None:
         return
     reason = _for_a_human(a)
     if reason and reason != unjudged:
-        cohort.queue.append(Entry(a.student, a.problem, f"{a.answer} {a.label}".strip(), reason))
+        cohort.queue.append(ForAHuman(a.student, a.problem, f"{a.answer} {a.label}".strip(), reason))
 
 
 def _for_a_human(a: Graded) -> str:

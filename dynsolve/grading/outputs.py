@@ -13,7 +13,7 @@ from dynsolve.grading.output_paths import folder_name, remove_others, write
 from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
 from dynsolve.grading.policy import points, shown
 from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.record import Graded, Record, Row
+from dynsolve.grading.record import Graded, Record, RecordedHandIn
 from dynsolve.grading.tables import decimal, table
 from dynsolve.grading.teacher import teachers_page
 from dynsolve.grading.totals import most, standings
@@ -88,7 +88,7 @@ def _total(answers: list[Graded]) -> str:
     return f"Marks: {shown(marks)} of {shown(of)}"
 
 
-def _told(row: Row) -> Iterator[str]:
+def _told(row: RecordedHandIn) -> Iterator[str]:
     if row.late:
         yield "It was handed in late."
     if len(row.files) > 1:
@@ -97,7 +97,7 @@ def _told(row: Row) -> Iterator[str]:
         yield f"The newest copy counts; left aside: {', '.join(row.left)}."
 
 
-def _explained(row: Row, answers: list[Graded]) -> _Explained:
+def _explained(row: RecordedHandIn, answers: list[Graded]) -> _Explained:
     """Each answer with its marks and why; nothing of a hand-in that was not judged but a teacher's words."""
     return [
         (f"{a.answer} {a.label}".strip(), f"{shown(points(a.marks))} of {shown(points(a.of))}", a.why)
@@ -106,7 +106,7 @@ def _explained(row: Row, answers: list[Graded]) -> _Explained:
     ]
 
 
-def _html(row: Row, total: str, explained: _Explained, page: str) -> str:
+def _html(row: RecordedHandIn, total: str, explained: _Explained, page: str) -> str:
     """The page with the marks in it."""
     told = "".join(f"<p>{_escaped(sentence)}</p>\n" for sentence in _told(row))
     rows = "".join(
@@ -119,7 +119,7 @@ def _html(row: Row, total: str, explained: _Explained, page: str) -> str:
     return _put(page, f"<p[^>]*>{TABLE_HERE}</p>", table)
 
 
-def _markdown(row: Row, total: str, explained: _Explained, page: str) -> str:
+def _markdown(row: RecordedHandIn, total: str, explained: _Explained, page: str) -> str:
     """The page in Markdown with the marks in it."""
     told = [escaped(visible(sentence)) for sentence in _told(row)]
     rows = [" | ".join(escaped(visible(cell)) for cell in cells) for cells in explained]

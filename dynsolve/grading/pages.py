@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import zlib
 
-from dynsolve.answers.feedback import View, not_recognized, opening, readings, slips
+from dynsolve.answers.feedback import FeedbackView, not_recognized, opening, readings, slips
 from dynsolve.answers.verdict import Report
 from dynsolve.document import Block, Document, Heading, Note, Text
 from dynsolve.explain.style import style_of
@@ -35,7 +35,7 @@ def unpack(packed: bytes) -> str:
 
 def student_page(report: Report, problem: Problem, student: str, hints: int) -> tuple[str, str]:
     """A student's page in HTML and Markdown, packed; the marks are put in when it is written."""
-    view = View(hints, readings=True)
+    view = FeedbackView(hints, readings=True)
     blocks = (
         Text((MARKS_HERE,)),
         *(Note((fault.message,)) for fault in report.faults),

@@ -220,7 +220,7 @@ def read_metadata(content: bytes) -> Submitters:
     import yaml
 
     found: dict[str, list[dict[str, str]]] = {}
-    open_: list[_Open] = []
+    open_: list[_OpenCollection] = []
     loader: Any = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
     with suppress(yaml.YAMLError, ValueError):
         for event in yaml.parse(content, Loader=loader):
@@ -229,7 +229,7 @@ def read_metadata(content: bytes) -> Submitters:
             if isinstance(event, yaml.CollectionStartEvent):
                 if _kinds(open_) == "mms" and open_[1].key == _SUBMITTERS:
                     found.setdefault(open_[0].key or "", []).append({})
-                open_.append(_Open("m" if isinstance(event, yaml.MappingStartEvent) else "s"))
+                open_.append(_OpenCollection("m" if isinstance(event, yaml.MappingStartEvent) else "s"))
             elif isinstance(event, yaml.CollectionEndEvent):
                 open_.pop()
                 if open_:
@@ -240,18 +240,18 @@ def read_metadata(content: bytes) -> Submitters:
 
 
 @dataclass(slots=True)
-class _Open:
+class _OpenCollection:
     """A collection that is being read: a mapping (m) with the key it is at, or a sequence (s)."""
 
     kind: str
     key: str | None = None
 
 
-def _kinds(open_: list[_Open]) -> str:
+def _kinds(open_: list[_OpenCollection]) -> str:
     return "".join(one.kind for one in open_[:5])
 
 
-def _scalar(found: dict[str, list[dict[str, str]]], open_: list[_Open], value: str) -> None:
+def _scalar(found: dict[str, list[dict[str, str]]], open_: list[_OpenCollection], value: str) -> None:
     """A key of a mapping, or what stands at one."""
     last = open_[-1]
     if last.kind == "s":

@@ -24,8 +24,8 @@ from dynsolve.problem.fields import Fields, describe, did_you_mean, free_text, i
 from dynsolve.problem.library import find
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import Reading, read_file, read_whole
-from dynsolve.problem.source import Report, as_source
-from dynsolve.problem.yaml_nodes import Faulty, Node, Scalar, read_nodes
+from dynsolve.problem.source import Faults, as_source
+from dynsolve.problem.yaml_nodes import Faulty, Scalar, YamlNode, read_nodes
 from dynsolve.problem.yaml_nodes import Mapping as MappingNode
 
 SET_FILE = "set.yaml"
@@ -87,7 +87,7 @@ def _read(path: Path) -> tuple[Reading, str]:
 
 def _folder(folder: Path) -> ProblemSet:
     file = folder / SET_FILE
-    report = Report(as_source(read_file(file) if file.exists() else b"", str(file)))
+    report = Faults(as_source(read_file(file) if file.exists() else b"", str(file)))
     fields = _fields(report) if file.exists() else None
     paths = _paths(report, folder, fields.get("problems") if fields else None)
     readings: dict[str, tuple[Reading, str]] = {}
@@ -106,7 +106,7 @@ def _folder(folder: Path) -> ProblemSet:
     return ProblemSet(title, chosen, policy)
 
 
-def _fields(report: Report) -> Fields | None:
+def _fields(report: Faults) -> Fields | None:
     root = read_nodes(report)
     if isinstance(root, MappingNode):
         return Fields(report, root, KEYS, "a set.yaml")
@@ -116,7 +116,7 @@ def _fields(report: Report) -> Fields | None:
     return None
 
 
-def _paths(report: Report, folder: Path, node: Node | None) -> list[Path]:
+def _paths(report: Faults, folder: Path, node: YamlNode | None) -> list[Path]:
     """The files of the problems in their order; without a list all of the folder."""
     found: dict[str, Path] = {}
     for item in items(report, node, "problems", "write problems: [a.yaml, b.yaml]"):
@@ -146,7 +146,7 @@ def _files(folder: Path) -> list[Path]:
 
 
 def _marks(
-    report: Report, node: Node | None, readings: Mapping[str, tuple[Reading, str]]
+    report: Faults, node: YamlNode | None, readings: Mapping[str, tuple[Reading, str]]
 ) -> dict[str, dict[str, Fraction]]:
     fields = mapping(report, node, tuple(readings), "marks", "write marks: {in3140-rp: {P: 2, K: 4}}")
     found: dict[str, dict[str, Fraction]] = {}
@@ -177,7 +177,7 @@ def _answer_names(reading: Reading) -> AnswerNames:
     return AnswerNames(len(reading.sheet.table.rows), forces, [body.name for body in reading.sheet.bodies])
 
 
-def _policy(report: Report, node: Node | None) -> Policy:
+def _policy(report: Faults, node: YamlNode | None) -> Policy:
     fields = mapping(report, node, POLICY_KEYS, "policy", "write policy: {follow: 1/2, hints: 2}")
     if fields is None:
         return Policy()
@@ -206,14 +206,14 @@ def _policy(report: Report, node: Node | None) -> Policy:
     )
 
 
-def _share(report: Report, fields: Fields, key: str) -> Fraction | None:
+def _share(report: Faults, fields: Fields, key: str) -> Fraction | None:
     value = _number(report, fields.get(key), key) if key in fields else None
     if value is not None and value > 1:
         report.error(fields.span_of(key), f"`{key}` is a share, at most 1", "write 1/2 or 0.8")
     return value
 
 
-def _number(report: Report, node: Node | None, what: str) -> Fraction | None:
+def _number(report: Faults, node: YamlNode | None, what: str) -> Fraction | None:
     """A number from 0 on, None (reported) for what is none."""
     if isinstance(node, Faulty):
         return None

@@ -84,7 +84,7 @@ class Graded(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class RecordedHandIn:
     """One hand-in as it stands in the record."""
 
     student: str
@@ -242,13 +242,13 @@ class Record:
         found = self.db.execute("SELECT * FROM overrides")
         return {(s, p, a): (marks, why) for s, p, a, marks, why in found}
 
-    def rows(self) -> Iterator[Row]:
+    def rows(self) -> Iterator[RecordedHandIn]:
         """The hand-ins, one after the other."""
         columns = "student, problem, files, left_aside, late, reason, html, markdown"
         order = f"SELECT {columns} FROM hand_ins ORDER BY student, problem"  # noqa: S608
         for s, p, files, left, late, reason, html, markdown in self.db.execute(order):
             names, others = (tuple(json.loads(text)) for text in (files, left))
-            yield Row(s, p, names, others, bool(late), reason, html, markdown)
+            yield RecordedHandIn(s, p, names, others, bool(late), reason, html, markdown)
 
     def answers(self, student: str | None = None) -> Iterator[Graded]:
         """The answers with their marks, the teacher's word put in; of one student, or of all."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dynsolve.errors import ReadError
 from dynsolve.notation.bounds import MAX_EXPONENT, MAX_NESTING
 from dynsolve.notation.characters import GREEK
-from dynsolve.notation.tokens import FUNCTIONS, Token
+from dynsolve.notation.tokens import FUNCTIONS, FormulaToken
 
 _FUNCTIONS = ", ".join(FUNCTIONS[:-1]) + f" and {FUNCTIONS[-1]}"
 _KNOWN_ELSEWHERE = frozenset(
@@ -23,13 +23,13 @@ def empty(text: str) -> ReadError:
     return ReadError("there is no formula here", 0, max(len(text), 1), "write a number, a name or a formula")
 
 
-def too_deep(token: Token) -> ReadError:
+def too_deep(token: FormulaToken) -> ReadError:
     """More levels than are read."""
     message = f"more than {MAX_NESTING} levels of parentheses, signs and powers"
     return ReadError(message, token.start, 1, "name a part of it with a symbol of its own")
 
 
-def missing_product(text: str, tokens: Sequence[Token], position: int) -> ReadError:
+def missing_product(text: str, tokens: Sequence[FormulaToken], position: int) -> ReadError:
     """Two factors side by side: the remedy shows the text with its `*`."""
     before, after = tokens[position - 1], tokens[position]
     if after.text.startswith("deg"):
@@ -50,7 +50,7 @@ def missing_product(text: str, tokens: Sequence[Token], position: int) -> ReadEr
     return ReadError(message, offset, length, help)
 
 
-def unknown_function(token: Token, name: str) -> ReadError | None:
+def unknown_function(token: FormulaToken, name: str) -> ReadError | None:
     """The error about `name(`, or None where a product with a parenthesis is the likelier reading."""
     length = token.end - token.start
     if name.lower() in FUNCTIONS:
@@ -73,7 +73,7 @@ def unknown_function(token: Token, name: str) -> ReadError | None:
     return None
 
 
-def unexpected(text: str, token: Token) -> ReadError:
+def unexpected(text: str, token: FormulaToken) -> ReadError:
     """A token that cannot follow a whole formula."""
     if token.kind == ")":
         return ReadError(
@@ -86,7 +86,7 @@ def unexpected(text: str, token: Token) -> ReadError:
     return ReadError(f"`{token.text}` cannot stand here", token.start, token.end - token.start)
 
 
-def no_factor(text: str, before: Token | None, token: Token) -> ReadError:
+def no_factor(text: str, before: FormulaToken | None, token: FormulaToken) -> ReadError:
     """A number, a name or a parenthesis is expected, and `token` is none."""
     what = "a number, a name or a parenthesis"
     if token.kind == "end":
@@ -104,7 +104,7 @@ def no_factor(text: str, before: Token | None, token: Token) -> ReadError:
     return ReadError(message, token.start, token.end - token.start, f"{what} is expected here")
 
 
-def empty_parentheses(opening: Token, closing: Token) -> ReadError:
+def empty_parentheses(opening: FormulaToken, closing: FormulaToken) -> ReadError:
     """Parentheses around nothing."""
     length = closing.end - opening.start
     return ReadError(
@@ -112,7 +112,7 @@ def empty_parentheses(opening: Token, closing: Token) -> ReadError:
     )
 
 
-def unclosed(text: str, opening: Token, token: Token) -> ReadError:
+def unclosed(text: str, opening: FormulaToken, token: FormulaToken) -> ReadError:
     """A parenthesis that does not close before `token`."""
     if token.kind == "end":
         return ReadError("this `(` is never closed", opening.start, 1, "add the `)` that it belongs to")
@@ -122,19 +122,19 @@ def unclosed(text: str, opening: Token, token: Token) -> ReadError:
     return unexpected(text, token)
 
 
-def second_power(token: Token) -> ReadError:
+def second_power(token: FormulaToken) -> ReadError:
     """x²³ or x²^3: which of the two is meant?"""
     message = "a power of a power needs parentheses"
     return ReadError(message, token.start, token.end - token.start, "write (x^2)^3, or x^6")
 
 
-def exponent(sign: Token, start: int, end: int) -> ReadError:
+def exponent(sign: FormulaToken, start: int, end: int) -> ReadError:
     """An exponent that is no small whole number."""
     message = f"an exponent is a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}"
     return ReadError(message, start, max(end - start, 1), "a square root is written sqrt(x) or x^(1/2)")
 
 
-def no_argument(text: str, name: Token, token: Token) -> ReadError:
+def no_argument(text: str, name: FormulaToken, token: FormulaToken) -> ReadError:
     """A function without parentheses."""
     argument = token.text if token.kind in ("name", "number", "degrees") else "..."
     help = f"write {name.text}({argument})"
@@ -143,13 +143,13 @@ def no_argument(text: str, name: Token, token: Token) -> ReadError:
     )
 
 
-def inverse_function(name: Token, sign: Token) -> ReadError:
+def inverse_function(name: FormulaToken, sign: FormulaToken) -> ReadError:
     """sin^-1(x), or a power of a root."""
     help = f"a power is written {name.text}(x)^2; there are no inverse functions"
     return ReadError(f"this power of `{name.text}` cannot be read", name.start, sign.end - name.start, help)
 
 
-def bare_degrees(token: Token) -> ReadError:
+def bare_degrees(token: FormulaToken) -> ReadError:
     """A `deg` that follows no number."""
     length = token.end - token.start
     if token.text != "deg":
@@ -157,7 +157,7 @@ def bare_degrees(token: Token) -> ReadError:
     return ReadError("`deg` stands directly after a number", token.start, length, "write 90deg, or x*pi/180")
 
 
-def glued_pi(token: Token) -> ReadError:
+def glued_pi(token: FormulaToken) -> ReadError:
     """`πr`, one name to the reader."""
     help = f"products are written out: π*{token.text[1:]}"
     return ReadError(f"a `*` is missing after the π of `{token.text}`", token.start, 1, help)

@@ -19,7 +19,7 @@ from dynsolve.notation import mistakes
 from dynsolve.notation.bounds import MAX_EXPONENT, MAX_LENGTH, MAX_NESTING, check_size
 from dynsolve.notation.characters import SUPERSCRIPT_DIGITS
 from dynsolve.notation.names import normalize
-from dynsolve.notation.tokens import FUNCTIONS, Token, rational, tokens
+from dynsolve.notation.tokens import FUNCTIONS, FormulaToken, rational, tokens
 from dynsolve.notation.tree import (
     Degrees,
     Function,
@@ -48,14 +48,14 @@ class Name:
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class FormulaText:
     """What was read: the formula, and every occurrence of a name in it, in order (`pi` is none)."""
 
     tree: Node
     names: tuple[Name, ...]
 
 
-def read(text: str, *, stars: bool = False, dots: bool = False) -> Reading:
+def read(text: str, *, stars: bool = False, dots: bool = False) -> FormulaText:
     """Read a formula in plain text.
 
     With `stars`, a star directly after a name marks a joint variable when what
@@ -78,7 +78,7 @@ def read(text: str, *, stars: bool = False, dots: bool = False) -> Reading:
     reader = _Reader(text, stars, dots)
     tree = reader.formula()
     check_size(tree, len(text))
-    return Reading(tree, tuple(reader.names))
+    return FormulaText(tree, tuple(reader.names))
 
 
 class _Reader:
@@ -92,7 +92,7 @@ class _Reader:
         self.tokens = tokens(text)
         self.position = 0
         self.token = self.tokens[0]
-        self.before: Token | None = None
+        self.before: FormulaToken | None = None
         self.nesting = 0
 
     def formula(self) -> Node:
@@ -103,7 +103,7 @@ class _Reader:
             raise mistakes.unexpected(self.text, self.token)
         return tree
 
-    def take(self) -> Token:
+    def take(self) -> FormulaToken:
         token = self.token
         self.position += 1
         self.before, self.token = token, self.tokens[self.position]
@@ -232,7 +232,7 @@ class _Reader:
                 return Symbol(name[:-4], 1, star)
         return Symbol(name, 0, star)
 
-    def constant(self, token: Token, name: str) -> Node:
+    def constant(self, token: FormulaToken, name: str) -> Node:
         if name == "deg":
             raise mistakes.bare_degrees(token)
         if token.text[0] == "π" and len(token.text) > 1:
@@ -243,7 +243,7 @@ class _Reader:
         """Whether the star at the token is a joint variable's mark: no factor begins after it."""
         return self.tokens[self.position + 1].kind not in _BEGINS_FACTOR
 
-    def function(self, name: Token) -> Node:
+    def function(self, name: FormulaToken) -> Node:
         """`sin(x)`, or `sin^2(x)` for its square."""
         sign = self.token
         exponent = self.function_power(name) if sign.kind in ("raised", "^") else None
@@ -252,7 +252,7 @@ class _Reader:
         node = Function(name.text, self.parentheses())
         return node if exponent is None else _power(node, exponent, sign)
 
-    def function_power(self, name: Token) -> Fraction:
+    def function_power(self, name: FormulaToken) -> Fraction:
         value = self.exponent()
         if value < 1 or name.text == "sqrt":
             raise mistakes.inverse_function(name, self.before or name)
@@ -263,7 +263,7 @@ def _product(factors: list[Node]) -> Node:
     return factors[0] if len(factors) == 1 else Product(tuple(factors))
 
 
-def _power(base: Node, exponent: Fraction, sign: Token) -> Node:
+def _power(base: Node, exponent: Fraction, sign: FormulaToken) -> Node:
     if exponent == Fraction(1, 2):
         return Function("sqrt", base)
     if exponent.denominator != 1 or abs(exponent) > MAX_EXPONENT:

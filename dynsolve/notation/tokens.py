@@ -42,7 +42,7 @@ _OPERATORS = {operator: operator for operator in "-+*/(),√"} | {
 }
 
 
-class Token(NamedTuple):
+class FormulaToken(NamedTuple):
     """A piece of the text: `kind` is number, degrees, name, ^, raised, end or the operator itself."""
 
     kind: str
@@ -51,9 +51,9 @@ class Token(NamedTuple):
     end: int
 
 
-def tokens(text: str) -> list[Token]:
+def tokens(text: str) -> list[FormulaToken]:
     """The tokens of a formula, an `end` token last; raises ReadError for a character of no formula."""
-    result: list[Token] = []
+    result: list[FormulaToken] = []
     offset = 0
     match = _TOKEN.match
     while offset < len(text):
@@ -64,16 +64,16 @@ def tokens(text: str) -> list[Token]:
         if kind != "space":
             piece = found.group()
             kind = _OPERATORS[piece] if kind == "operator" else "^" if kind == "power" else kind
-            result.append(Token(kind, piece, offset, end))
+            result.append(FormulaToken(kind, piece, offset, end))
         offset = end
-    result.append(Token("end", "", len(text), len(text)))
+    result.append(FormulaToken("end", "", len(text), len(text)))
     return result
 
 
 _EXPONENT = re.compile("[eE]")
 
 
-def rational(token: Token) -> Fraction:
+def rational(token: FormulaToken) -> Fraction:
     """The exact value of a number: `9.81` is 981/100, `1e-3` is 1/1000.
 
     Raises ReadError for more digits than anyone measures, before they are converted.

@@ -9,12 +9,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from dynsolve.problem.model import Place, Problem
+    from dynsolve.problem.model import FilePlace, Problem
     from dynsolve.problem.reader import load, read_problem
 
-__all__ = ["Place", "Problem", "load", "read_problem"]
+__all__ = ["FilePlace", "Problem", "load", "read_problem"]
 
-_HOMES = {"Place": "model", "Problem": "model", "load": "reader", "read_problem": "reader"}
+_HOMES = {"FilePlace": "model", "Problem": "model", "load": "reader", "read_problem": "reader"}
 
 
 def __getattr__(name: str) -> Any:

@@ -8,8 +8,8 @@ from dynsolve.notation.tree import Node as Tree
 from dynsolve.problem.cells import Cell, constant_value, forbid, made_cell, read_vector
 from dynsolve.problem.fields import Fields, describe
 from dynsolve.problem.rotations import RotationSheet, read_rotation
-from dynsolve.problem.source import Report
-from dynsolve.problem.yaml_nodes import Faulty, Mapping, Node, Scalar, Sequence
+from dynsolve.problem.source import Faults
+from dynsolve.problem.yaml_nodes import Faulty, Mapping, Scalar, Sequence, YamlNode
 
 _GRAVITY_HELP = "write gravity: [0, 0, -g], the acceleration of gravity, or none"
 _CONSTANT = "joint variables stand in the table alone"
@@ -28,7 +28,7 @@ class BaseSheet:
         return (self.rotation.cells if self.rotation else ()) + (self.move or ())
 
 
-def read_gravity(report: Report, fields: Fields, coordinates: tuple[str, ...]) -> tuple[Cell, ...] | None:
+def read_gravity(report: Faults, fields: Fields, coordinates: tuple[str, ...]) -> tuple[Cell, ...] | None:
     """The three components of gravity; None where they were reported."""
     node = fields.get("gravity")
     if "gravity" not in fields or isinstance(node, Faulty):
@@ -74,14 +74,14 @@ def _begins_with_minus(cell: Cell) -> bool:
     return cell.text.lstrip(" (").startswith(("-", "−"))
 
 
-def read_base(report: Report, node: Node | None, coordinates: tuple[str, ...]) -> BaseSheet:
+def read_base(report: Faults, node: YamlNode | None, coordinates: tuple[str, ...]) -> BaseSheet:
     """The base frame; what is wrong with it is reported and left out."""
     sheet = _read_base(report, node)
     forbid(report, sheet.cells, coordinates, "the base does not move: " + _CONSTANT)
     return sheet
 
 
-def _read_base(report: Report, node: Node | None) -> BaseSheet:
+def _read_base(report: Faults, node: YamlNode | None) -> BaseSheet:
     if isinstance(node, Mapping):
         fields = Fields(report, node, ("rotate", "move"), "base")
         rotation = read_rotation(report, fields.get("rotate"), "base")

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix, read_vector
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items, whole_number, word
 from dynsolve.problem.rotations import RotationSheet, check_moving, read_rotation
-from dynsolve.problem.source import Report
-from dynsolve.problem.yaml_nodes import Faulty, Node, Scalar, Sequence, Span
+from dynsolve.problem.source import Faults
+from dynsolve.problem.yaml_nodes import Faulty, Scalar, Sequence, Span, YamlNode
 from dynsolve.problem.yaml_nodes import Mapping as MappingNode
 from dynsolve.robot.model import AxesKind
 from dynsolve.robot.shapes import AXES, KINDS
@@ -106,7 +106,7 @@ class BodySheet:
 
 
 def read_bodies(
-    report: Report, node: Node | None, rows: int, coordinates: Mapping[str, str]
+    report: Faults, node: YamlNode | None, rows: int, coordinates: Mapping[str, str]
 ) -> tuple[BodySheet, ...]:
     """The entries under `masses:`; everything wrong with one is reported."""
     nodes = items(report, node, "masses", f"a list of bodies; {_EXAMPLE}") if not _is_empty(node) else ()
@@ -119,12 +119,12 @@ def read_bodies(
     return bodies
 
 
-def _is_empty(node: Node | None) -> bool:
+def _is_empty(node: YamlNode | None) -> bool:
     return isinstance(node, Scalar) and node.text in ("", "none")
 
 
 def _read_body(
-    report: Report, node: Node, index: int, rows: int, coordinates: Mapping[str, str]
+    report: Faults, node: YamlNode, index: int, rows: int, coordinates: Mapping[str, str]
 ) -> BodySheet | None:
     before = len(report.errors)
     if not isinstance(node, MappingNode):
@@ -161,7 +161,7 @@ def _read_body(
     return replace(sheet, faulty=len(report.errors) > before)
 
 
-def _read_name(report: Report, node: Node | None, index: int) -> str:
+def _read_name(report: Faults, node: YamlNode | None, index: int) -> str:
     if node is None or isinstance(node, Faulty):
         return str(index)
     text = node.text if isinstance(node, Scalar) else ""
@@ -172,7 +172,7 @@ def _read_name(report: Report, node: Node | None, index: int) -> str:
     return str(index)
 
 
-def _check_names(report: Report, bodies: tuple[BodySheet, ...]) -> None:
+def _check_names(report: Faults, bodies: tuple[BodySheet, ...]) -> None:
     first: dict[str, BodySheet] = {}
     for body in bodies:
         other = first.setdefault(body.name, body)
@@ -185,7 +185,7 @@ def _check_names(report: Report, bodies: tuple[BodySheet, ...]) -> None:
             )
 
 
-def _read_link(report: Report, node: Node | None, rows: int) -> int | None:
+def _read_link(report: Faults, node: YamlNode | None, rows: int) -> int | None:
     help = f"links are counted by the rows of the table, from 1 to {rows}" if rows else "write link: 1"
     link = whole_number(report, node, "link", help)
     if node is None or link is None:
@@ -199,7 +199,7 @@ def _read_link(report: Report, node: Node | None, rows: int) -> int | None:
     return link
 
 
-def _read_center(report: Report, fields: Fields, index: int) -> CenterSheet | None:
+def _read_center(report: Faults, fields: Fields, index: int) -> CenterSheet | None:
     node, what = fields.get("center"), f"the centre of body {index}"
     if node is None:
         if "inertia" in fields or isinstance(fields.get("shape"), MappingNode):
@@ -216,7 +216,7 @@ def _read_center(report: Report, fields: Fields, index: int) -> CenterSheet | No
     return CenterSheet(kind, node.span) if kind else None
 
 
-def _read_measured(report: Report, node: MappingNode, what: str) -> CenterSheet | None:
+def _read_measured(report: Faults, node: MappingNode, what: str) -> CenterSheet | None:
     fields = Fields(report, node, ("along", "near"), what)
     given = tuple(fields)
     if len(given) == 2 or not node.entries:
@@ -230,7 +230,7 @@ def _read_measured(report: Report, node: MappingNode, what: str) -> CenterSheet 
     return CenterSheet("near", node.span, cells) if cells else None
 
 
-def _read_shape(report: Report, node: Node | None, body: str) -> ShapeSheet | None:
+def _read_shape(report: Faults, node: YamlNode | None, body: str) -> ShapeSheet | None:
     if node is None or isinstance(node, Faulty):
         return None
     if isinstance(node, Scalar):
@@ -254,7 +254,7 @@ def _read_shape(report: Report, node: Node | None, body: str) -> ShapeSheet | No
     return _read_dimensions(report, key.decoded, value, body, node.span)
 
 
-def _bare_shape(report: Report, node: Scalar, body: str) -> ShapeSheet | None:
+def _bare_shape(report: Faults, node: Scalar, body: str) -> ShapeSheet | None:
     if node.text == "point":
         return ShapeSheet("point", node.span, {})
     if node.text in KINDS:
@@ -265,13 +265,13 @@ def _bare_shape(report: Report, node: Scalar, body: str) -> ShapeSheet | None:
     return None
 
 
-def _missing_dimensions(report: Report, span: Span, kind: str) -> None:
+def _missing_dimensions(report: Faults, span: Span, kind: str) -> None:
     dimensions = ", ".join(f"{key}: ..." for key in KINDS[kind].keys)
     report.error(span, f"a {kind} needs its dimensions", f"write shape: {{{kind}: {{{dimensions}}}}}")
 
 
 def _read_dimensions(
-    report: Report, kind: str, node: MappingNode, body: str, span: Span
+    report: Faults, kind: str, node: MappingNode, body: str, span: Span
 ) -> ShapeSheet | None:
     record = KINDS[kind]
     known = (*record.keys, "axis") if record.has_axis else record.keys
@@ -288,7 +288,7 @@ def _read_dimensions(
     return ShapeSheet(kind, span, found, axis)
 
 
-def _read_tensor(report: Report, node: Node | None, body: str) -> TensorSheet | None:
+def _read_tensor(report: Faults, node: YamlNode | None, body: str) -> TensorSheet | None:
     if node is None or isinstance(node, Faulty):
         return None
     if isinstance(node, Sequence):
@@ -311,7 +311,7 @@ def _read_tensor(report: Report, node: Node | None, body: str) -> TensorSheet | 
     return TensorSheet(node.span, tuple(tuple(cells.get(key) for key in row) for row in entry), listed=False)
 
 
-def _read_about(report: Report, fields: Fields, index: int) -> str:
+def _read_about(report: Faults, fields: Fields, index: int) -> str:
     about = word(report, fields.get("about"), ABOUT, f"about of body {index}") or "center"
     if about != "center" and "inertia" not in fields:
         message = f"body {index} has `about: {about}` but no `inertia` that it belongs to"
@@ -323,7 +323,7 @@ def _read_about(report: Report, fields: Fields, index: int) -> str:
 
 
 def _read_axes(
-    report: Report, node: Node | None, index: int, coordinates: Mapping[str, str]
+    report: Faults, node: YamlNode | None, index: int, coordinates: Mapping[str, str]
 ) -> AxesSheet | None:
     """None stands for the axes of the link's frame, and for axes that were reported."""
     what = f"the axes of body {index}"

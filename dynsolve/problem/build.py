@@ -6,13 +6,13 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.build_body import BodyBuilder
 from dynsolve.problem.geometry import Links
 from dynsolve.problem.sheet import Sheet
-from dynsolve.problem.source import Report
-from dynsolve.problem.table import COLUMNS, Row
-from dynsolve.problem.values import Values, evaluate
+from dynsolve.problem.source import Faults
+from dynsolve.problem.table import COLUMNS, DHRow
+from dynsolve.problem.values import CellValues, evaluate
 from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
 
 
-def build_robot(report: Report, sheet: Sheet) -> Robot | None:
+def build_robot(report: Faults, sheet: Sheet) -> Robot | None:
     """The robot of a file, None where something of it was reported."""
     values = evaluate(report, sheet)
     if values is None:
@@ -45,7 +45,7 @@ def build_robot(report: Report, sheet: Sheet) -> Robot | None:
     )
 
 
-def _joint(values: Values, sheet: Sheet, row: Row) -> Joint | None:
+def _joint(values: CellValues, sheet: Sheet, row: DHRow) -> Joint | None:
     if row.faulty:
         return None
     d, a = values.expr(row.cells["d"]), values.expr(row.cells["a"])

@@ -8,8 +8,8 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.bodies import AxesSheet, BodySheet, CenterSheet, ShapeSheet, TensorSheet
 from dynsolve.problem.geometry import Links
-from dynsolve.problem.source import Report
-from dynsolve.problem.values import Values
+from dynsolve.problem.source import Faults
+from dynsolve.problem.values import CellValues
 from dynsolve.robot.model import Axes, AxesKind, Body
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
@@ -22,7 +22,7 @@ _TIP_ROW = (
 class BodyBuilder:
     """Makes bodies; `links` is None where the table has errors, and geometry waits until it has none."""
 
-    def __init__(self, report: Report, values: Values, links: Links | None) -> None:
+    def __init__(self, report: Faults, values: CellValues, links: Links | None) -> None:
         self.report, self.values, self.links = report, values, links
         self.ring = values.ring
 

@@ -24,10 +24,10 @@ from dynsolve.notation.tree import (
     Symbol,
 )
 from dynsolve.problem.fields import describe
-from dynsolve.problem.source import Report
+from dynsolve.problem.source import Faults
 from dynsolve.problem.yaml_nodes import Faulty, Scalar, Span
-from dynsolve.problem.yaml_nodes import Node as YamlNode
 from dynsolve.problem.yaml_nodes import Sequence as ListNode
+from dynsolve.problem.yaml_nodes import YamlNode as YamlNode
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ def made_cell(what: str, text: str, start: int = 0) -> Cell:
     return Cell(what, reading.tree, reading.names, "", start)
 
 
-def read_cell(report: Report, node: YamlNode | None, what: str, *, stars: bool = False) -> Cell | None:
+def read_cell(report: Faults, node: YamlNode | None, what: str, *, stars: bool = False) -> Cell | None:
     """The expression of a node, None (reported) where it cannot be read.
 
     `stars` says that a joint variable may be marked here.
@@ -74,7 +74,7 @@ def read_cell(report: Report, node: YamlNode | None, what: str, *, stars: bool =
     return read_text(report, node.text, node.start, what, stars=stars)
 
 
-def read_text(report: Report, text: str, start: int, what: str, *, stars: bool = False) -> Cell | None:
+def read_text(report: Faults, text: str, start: int, what: str, *, stars: bool = False) -> Cell | None:
     """The expression that stands at character `start` of the file, None (reported) where it is unreadable."""
     try:
         reading = read(text, stars=stars)
@@ -86,7 +86,7 @@ def read_text(report: Report, text: str, start: int, what: str, *, stars: bool =
     return Cell(what, reading.tree, reading.names, text, start)
 
 
-def _report_star(report: Report, text: str, start: int, what: str) -> bool:
+def _report_star(report: Faults, text: str, start: int, what: str) -> bool:
     """Whether the text would be readable with marks of joint variables, which have no place here."""
     try:
         marked = [name for name in read(text, stars=True).names if name.star]
@@ -100,7 +100,7 @@ def _report_star(report: Report, text: str, start: int, what: str) -> bool:
     return bool(marked)
 
 
-def read_vector(report: Report, node: YamlNode | None, what: str) -> tuple[Cell, ...] | None:
+def read_vector(report: Faults, node: YamlNode | None, what: str) -> tuple[Cell, ...] | None:
     """Three expressions [x, y, z], None (reported) where they are none."""
     if node is None or isinstance(node, Faulty):
         return None
@@ -116,7 +116,7 @@ def read_vector(report: Report, node: YamlNode | None, what: str) -> tuple[Cell,
     return None if None in cells else tuple(cell for cell in cells if cell)
 
 
-def read_matrix(report: Report, node: ListNode, what: str) -> tuple[tuple[Cell, ...], ...] | None:
+def read_matrix(report: Faults, node: ListNode, what: str) -> tuple[tuple[Cell, ...], ...] | None:
     """A 3×3 list of rows, None (reported) where it is none."""
     if len(node.items) != 3:
         report.error(
@@ -127,7 +127,7 @@ def read_matrix(report: Report, node: ListNode, what: str) -> tuple[tuple[Cell, 
     return None if None in rows else tuple(row for row in rows if row)
 
 
-def _matrix_row(report: Report, node: YamlNode, what: str) -> tuple[Cell, ...] | None:
+def _matrix_row(report: Faults, node: YamlNode, what: str) -> tuple[Cell, ...] | None:
     if isinstance(node, Faulty):
         return None
     if not isinstance(node, ListNode) or len(node.items) != 3:
@@ -138,7 +138,7 @@ def _matrix_row(report: Report, node: YamlNode, what: str) -> tuple[Cell, ...] |
     return None if None in cells else tuple(cell for cell in cells if cell)
 
 
-def read_angle(report: Report, cell: Cell) -> Angle | None:
+def read_angle(report: Faults, cell: Cell) -> Angle | None:
     """The angle that a cell is, None (reported) where it is none: a bare number above all."""
     try:
         return angle_from_tree(cell.tree)
@@ -214,7 +214,7 @@ def denominators(node: Node) -> Iterator[Node]:
                 yield argument
 
 
-def forbid(report: Report, cells: Iterable[Cell | None], coordinates: Iterable[str], help: str) -> None:
+def forbid(report: Faults, cells: Iterable[Cell | None], coordinates: Iterable[str], help: str) -> None:
     """Report every coordinate in cells that must be constant."""
     for cell in cells:
         for name in cell.names if cell else ():

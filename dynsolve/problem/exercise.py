@@ -19,8 +19,8 @@ from dynsolve.problem.cells import Cell, read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.model import FIND
 from dynsolve.problem.sheet import Sheet
-from dynsolve.problem.source import Report
-from dynsolve.problem.yaml_nodes import Faulty, Node, Scalar
+from dynsolve.problem.source import Faults
+from dynsolve.problem.yaml_nodes import Faulty, Scalar, YamlNode
 from dynsolve.problem.yaml_nodes import Mapping as MappingNode
 
 _UNIT = re.compile(r"[A-Za-zµμΩ°%0-9²³⁻¹·*/^ .()-]{1,30}")
@@ -38,7 +38,7 @@ class Exercise:
     units: Mapping[str, str]
 
 
-def read_exercise(report: Report, fields: Fields, sheet: Sheet) -> Exercise:
+def read_exercise(report: Faults, fields: Fields, sheet: Sheet) -> Exercise:
     """The values, units, marks and answers asked for; everything wrong with them is reported."""
     forces = [
         f"{'tau' if kind == 'revolute' else 'f'}{i}" for i, (_, kind) in enumerate(sheet.table.coordinates, 1)
@@ -56,7 +56,7 @@ def read_exercise(report: Report, fields: Fields, sheet: Sheet) -> Exercise:
     )
 
 
-def _read_find(report: Report, node: Node | None, names: AnswerNames | None) -> tuple[str, ...]:
+def _read_find(report: Faults, node: YamlNode | None, names: AnswerNames | None) -> tuple[str, ...]:
     listed = (node,) if isinstance(node, Scalar) and node.text else items(report, node, "find", _FIND_HELP)
     found: dict[str, None] = {}
     for item in listed:
@@ -68,7 +68,7 @@ def _read_find(report: Report, node: Node | None, names: AnswerNames | None) -> 
     return tuple(found)
 
 
-def _answer(report: Report, node: Node, names: AnswerNames | None) -> str | None:
+def _answer(report: Faults, node: YamlNode, names: AnswerNames | None) -> str | None:
     if isinstance(node, Faulty):
         return None
     if not isinstance(node, Scalar):
@@ -86,7 +86,9 @@ def _answer(report: Report, node: Node, names: AnswerNames | None) -> str | None
     return canonical
 
 
-def _entries(report: Report, node: Node | None, what: str, example: str) -> tuple[tuple[Scalar, Node], ...]:
+def _entries(
+    report: Faults, node: YamlNode | None, what: str, example: str
+) -> tuple[tuple[Scalar, YamlNode], ...]:
     if isinstance(node, MappingNode):
         return node.entries
     if node is not None and not isinstance(node, Faulty):
@@ -94,7 +96,7 @@ def _entries(report: Report, node: Node | None, what: str, example: str) -> tupl
     return ()
 
 
-def _read_marks(report: Report, node: Node | None, names: AnswerNames | None) -> dict[str, Fraction]:
+def _read_marks(report: Faults, node: YamlNode | None, names: AnswerNames | None) -> dict[str, Fraction]:
     marks: dict[str, Fraction] = {}
     for key, value in _entries(report, node, "marks", "{P: 2, K: 4, tau: 6}"):
         name = _answer(report, key, names)
@@ -110,7 +112,7 @@ def _read_marks(report: Report, node: Node | None, names: AnswerNames | None) ->
     return marks
 
 
-def _read_values(report: Report, node: Node | None) -> tuple[dict[str, Fraction], dict[str, str]]:
+def _read_values(report: Faults, node: YamlNode | None) -> tuple[dict[str, Fraction], dict[str, str]]:
     """The values as numbers, and as they are written."""
     values: dict[str, Fraction] = {}
     written: dict[str, str] = {}
@@ -124,7 +126,7 @@ def _read_values(report: Report, node: Node | None) -> tuple[dict[str, Fraction]
     return values, written
 
 
-def _read_units(report: Report, node: Node | None) -> dict[str, str]:
+def _read_units(report: Faults, node: YamlNode | None) -> dict[str, str]:
     units: dict[str, str] = {}
     for key, value in _entries(report, node, "units", "{l1: m, m1: kg}"):
         name = _symbol(report, key)
@@ -140,7 +142,7 @@ def _read_units(report: Report, node: Node | None) -> dict[str, str]:
     return units
 
 
-def _symbol(report: Report, key: Scalar) -> str | None:
+def _symbol(report: Faults, key: Scalar) -> str | None:
     try:
         return normalize(key.decoded)
     except ReadError as error:
@@ -149,7 +151,7 @@ def _symbol(report: Report, key: Scalar) -> str | None:
         return None
 
 
-def _number(report: Report, node: Node, what: str, *, angles: bool = False) -> Fraction | None:
+def _number(report: Faults, node: YamlNode, what: str, *, angles: bool = False) -> Fraction | None:
     """A number, an angle in radians where `angles`; None (reported) for what is none."""
     cell = read_cell(report, node, what)
     if cell is None:

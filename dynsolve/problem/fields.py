@@ -8,12 +8,12 @@ from difflib import get_close_matches
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.names import normalize
-from dynsolve.problem.source import Report
-from dynsolve.problem.yaml_nodes import Faulty, Mapping, Node, Scalar, Span
+from dynsolve.problem.source import Faults
+from dynsolve.problem.yaml_nodes import Faulty, Mapping, Scalar, Span, YamlNode
 from dynsolve.problem.yaml_nodes import Sequence as ListNode
 
 
-def describe(node: Node) -> str:
+def describe(node: YamlNode) -> str:
     """What a node is, for a message."""
     if isinstance(node, Mapping):
         return "a mapping"
@@ -67,7 +67,7 @@ def _spelled_out(word: str, known: Sequence[str]) -> str:
     return spelled if spelled in known else ""
 
 
-def unknown(report: Report, key: Scalar, value: Node, known: Sequence[str], what: str) -> str:
+def unknown(report: Faults, key: Scalar, value: YamlNode, known: Sequence[str], what: str) -> str:
     """Note an unknown key; the known one that was probably meant, or nothing."""
     word = key.decoded
     name, colon, _ = word.partition(":")
@@ -89,9 +89,9 @@ def unknown(report: Report, key: Scalar, value: Node, known: Sequence[str], what
 class Fields:
     """A mapping with known keys; unknown ones are reported when it is made."""
 
-    def __init__(self, report: Report, node: Mapping, known: Sequence[str], what: str) -> None:
+    def __init__(self, report: Faults, node: Mapping, known: Sequence[str], what: str) -> None:
         self.report, self.span, self.what = report, node.span, what
-        self._values: dict[str, Node] = {}
+        self._values: dict[str, YamlNode] = {}
         self._keys: dict[str, Scalar] = {}
         self._meant: set[str] = set()
         for key, value in node.entries:
@@ -110,7 +110,7 @@ class Fields:
         """Whether a key is not given, not even misspelled."""
         return key not in self._values and key not in self._meant
 
-    def get(self, key: str) -> Node | None:
+    def get(self, key: str) -> YamlNode | None:
         """The value of a key, None where it is not given."""
         return self._values.get(key)
 
@@ -126,7 +126,9 @@ class Fields:
         return node.span if node.span[1] > node.span[0] else self.key_span(key)
 
 
-def mapping(report: Report, node: Node | None, known: Sequence[str], what: str, help: str) -> Fields | None:
+def mapping(
+    report: Faults, node: YamlNode | None, known: Sequence[str], what: str, help: str
+) -> Fields | None:
     """A mapping's fields, or None (reported) where it is none."""
     if isinstance(node, Mapping):
         return Fields(report, node, known, what)
@@ -135,7 +137,7 @@ def mapping(report: Report, node: Node | None, known: Sequence[str], what: str, 
     return None
 
 
-def items(report: Report, node: Node | None, what: str, help: str) -> tuple[Node, ...]:
+def items(report: Faults, node: YamlNode | None, what: str, help: str) -> tuple[YamlNode, ...]:
     """The items of a list; empty (and reported) where it is none."""
     if isinstance(node, ListNode):
         return node.items
@@ -144,7 +146,9 @@ def items(report: Report, node: Node | None, what: str, help: str) -> tuple[Node
     return ()
 
 
-def word(report: Report, node: Node | None, known: Sequence[str], what: str, help: str = "") -> str | None:
+def word(
+    report: Faults, node: YamlNode | None, known: Sequence[str], what: str, help: str = ""
+) -> str | None:
     """One of a few words, None (reported, with `help` unless one is close) where it is another."""
     if node is None or isinstance(node, Faulty):
         return None
@@ -158,7 +162,7 @@ def word(report: Report, node: Node | None, known: Sequence[str], what: str, hel
     return None
 
 
-def whole_number(report: Report, node: Node | None, what: str, help: str) -> int | None:
+def whole_number(report: Faults, node: YamlNode | None, what: str, help: str) -> int | None:
     """A number 0, 1, 2, ... of few digits, None (reported) where it is none."""
     if node is None or isinstance(node, Faulty):
         return None
@@ -168,7 +172,7 @@ def whole_number(report: Report, node: Node | None, what: str, help: str) -> int
     return None
 
 
-def free_text(report: Report, node: Node | None, what: str) -> str:
+def free_text(report: Faults, node: YamlNode | None, what: str) -> str:
     """A line of prose; empty where there is none."""
     if isinstance(node, Scalar):
         return " ".join(node.decoded.split())

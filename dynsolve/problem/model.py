@@ -19,7 +19,7 @@ FIND = ("tau", "D", "C", "g")
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class FilePlace:
     """Where a part of a file stands; line and column from 1."""
 
     line: int
@@ -54,7 +54,7 @@ class Problem:
     values: Mapping[str, Fraction] = field(default_factory=dict)
     written: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
-    places: Mapping[Path, Place] = field(default_factory=dict)
+    places: Mapping[Path, FilePlace] = field(default_factory=dict)
     warnings: tuple[Finding, ...] = ()
 
     @property

@@ -17,12 +17,12 @@ from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.fields import Fields, describe, free_text, word
-from dynsolve.problem.model import Place, Problem
+from dynsolve.problem.model import FilePlace, Problem
 from dynsolve.problem.sheet import Sheet
-from dynsolve.problem.source import MAX_BYTES, Report, as_source
+from dynsolve.problem.source import MAX_BYTES, Faults, as_source
 from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import read_table
-from dynsolve.problem.yaml_nodes import Mapping, Node, Sequence, read_nodes
+from dynsolve.problem.yaml_nodes import Mapping, Sequence, YamlNode, read_nodes
 from dynsolve.robot.model import Convention
 
 KEYS = (
@@ -51,7 +51,7 @@ class Reading:
     problem: Problem
     sheet: Sheet
     fields: Fields
-    report: Report
+    report: Faults
 
 
 def load(path: str | os.PathLike[str]) -> Problem:
@@ -92,7 +92,7 @@ def read_problem(content: str | bytes, file: str = "") -> Problem:
 
 def read_whole(content: str | bytes, file: str = "") -> Reading:
     """Read a problem and keep what it was made from; see `read_problem`."""
-    report = Report(as_source(content, file))
+    report = Faults(as_source(content, file))
     root = read_nodes(report)
     fields = _root_fields(report, root)
     if fields is None:
@@ -125,7 +125,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
     return Reading(problem, sheet, fields, report)
 
 
-def _root_fields(report: Report, root: Node | None) -> Fields | None:
+def _root_fields(report: Faults, root: YamlNode | None) -> Fields | None:
     if isinstance(root, Mapping):
         return Fields(report, root, KEYS, "a problem file")
     if not report.errors:
@@ -137,7 +137,7 @@ def _root_fields(report: Report, root: Node | None) -> Fields | None:
     return None
 
 
-def _sheet(report: Report, fields: Fields) -> Sheet:
+def _sheet(report: Faults, fields: Fields) -> Sheet:
     named = word(
         report, fields.get("convention"), [c.value for c in Convention], "convention", _CONVENTION_HELP
     )
@@ -153,15 +153,15 @@ def _sheet(report: Report, fields: Fields) -> Sheet:
     )
 
 
-def _places(report: Report, root: Node | None) -> list[tuple[tuple[str | int, ...], Place]]:
+def _places(report: Faults, root: YamlNode | None) -> list[tuple[tuple[str | int, ...], FilePlace]]:
     """Where every part of the file stands."""
-    found: list[tuple[tuple[str | int, ...], Place]] = []
-    waiting: list[tuple[tuple[str | int, ...], Node]] = [((), root)] if root else []
+    found: list[tuple[tuple[str | int, ...], FilePlace]] = []
+    waiting: list[tuple[tuple[str | int, ...], YamlNode]] = [((), root)] if root else []
     while waiting:
         path, node = waiting.pop()
         if path:
             finding = report.source.finding(*node.span, "")
-            found.append((path, Place(finding.line, finding.column, finding.length, finding.excerpt)))
+            found.append((path, FilePlace(finding.line, finding.column, finding.length, finding.excerpt)))
         if isinstance(node, Mapping):
             waiting += [((*path, key.decoded), value) for key, value in node.entries]
         elif isinstance(node, Sequence):

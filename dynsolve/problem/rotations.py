@@ -14,8 +14,8 @@ from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Function
 from dynsolve.problem.cells import Cell, denominators, names_in, read_angle, read_matrix, read_text, walk
 from dynsolve.problem.fields import describe
-from dynsolve.problem.source import Report
-from dynsolve.problem.yaml_nodes import Faulty, Node, Scalar, Sequence, Span
+from dynsolve.problem.source import Faults
+from dynsolve.problem.yaml_nodes import Faulty, Scalar, Sequence, Span, YamlNode
 
 _TURN = re.compile(r"R([xyz])\s*\(")
 _BETWEEN = re.compile(r"\s*[*·]?\s*")
@@ -24,7 +24,7 @@ MAX_TURNS = 12
 
 
 @dataclass(frozen=True, slots=True)
-class Turn:
+class AxisRotation:
     """One factor: a rotation about `axis` (x, y or z)."""
 
     axis: str
@@ -38,7 +38,7 @@ class RotationSheet:
 
     span: Span
     written: str
-    turns: tuple[Turn, ...] = ()
+    turns: tuple[AxisRotation, ...] = ()
     rows: tuple[tuple[Cell, ...], ...] = ()
 
     @property
@@ -52,7 +52,7 @@ class RotationSheet:
         return tuple(turn.cell for turn in self.turns) + self.entries
 
 
-def read_rotation(report: Report, node: Node | None, what: str) -> RotationSheet | None:
+def read_rotation(report: Faults, node: YamlNode | None, what: str) -> RotationSheet | None:
     """The rotation of a node, None (reported) where it is none."""
     if node is None or isinstance(node, Faulty):
         return None
@@ -67,8 +67,8 @@ def read_rotation(report: Report, node: Node | None, what: str) -> RotationSheet
     return None
 
 
-def _turns(report: Report, node: Scalar, what: str) -> tuple[Turn, ...] | None:
-    turns: list[Turn] = []
+def _turns(report: Faults, node: Scalar, what: str) -> tuple[AxisRotation, ...] | None:
+    turns: list[AxisRotation] = []
     whole = True
     for piece in _pieces(report, node, what):
         turn = _turn(report, node, what, *piece) if piece else None
@@ -78,7 +78,7 @@ def _turns(report: Report, node: Scalar, what: str) -> tuple[Turn, ...] | None:
     return tuple(turns) if whole else None
 
 
-def _pieces(report: Report, node: Scalar, what: str) -> Iterator[tuple[str, int, int] | None]:
+def _pieces(report: Faults, node: Scalar, what: str) -> Iterator[tuple[str, int, int] | None]:
     """(axis, start, end of the angle's text) of each factor; None, reported, ends them."""
     text, offset = node.text, 0
     for _ in range(MAX_TURNS):
@@ -115,13 +115,13 @@ def _closing(text: str, start: int) -> int:
     return -1
 
 
-def _turn(report: Report, node: Scalar, what: str, axis: str, start: int, end: int) -> Turn | None:
+def _turn(report: Faults, node: Scalar, what: str, axis: str, start: int, end: int) -> AxisRotation | None:
     cell = read_text(report, node.text[start:end], node.start + start, f"the angle of R{axis} in {what}")
     angle = read_angle(report, cell) if cell else None
-    return Turn(axis, cell, angle) if cell and angle is not None else None
+    return AxisRotation(axis, cell, angle) if cell and angle is not None else None
 
 
-def check_moving(report: Report, sheet: RotationSheet, what: str, coordinates: Mapping[str, str]) -> bool:
+def check_moving(report: Faults, sheet: RotationSheet, what: str, coordinates: Mapping[str, str]) -> bool:
     """Whether a rotation that is a function of q is one: sines and cosines of sums of revolute coordinates.
 
     `coordinates` are name -> "revolute" | "prismatic".  What is wrong is reported.
@@ -145,7 +145,7 @@ def check_moving(report: Report, sheet: RotationSheet, what: str, coordinates: M
 
 
 def _check_linear(
-    report: Report, cell: Cell, angle: Angle, what: str, coordinates: Mapping[str, str]
+    report: Faults, cell: Cell, angle: Angle, what: str, coordinates: Mapping[str, str]
 ) -> None:
     for atom, _ in angle.terms:
         moving = [name for name, _ in atom if name in coordinates]

@@ -10,7 +10,7 @@ from dynsolve.problem.base import BaseSheet
 from dynsolve.problem.bodies import BodySheet
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.rotations import RotationSheet
-from dynsolve.problem.table import Table
+from dynsolve.problem.table import DHTable
 from dynsolve.robot.model import AxesKind, Convention
 
 
@@ -19,7 +19,7 @@ class Sheet:
     """The parts of a problem file that make a robot."""
 
     convention: Convention
-    table: Table
+    table: DHTable
     gravity: tuple[Cell, ...] | None
     base: BaseSheet
     bodies: tuple[BodySheet, ...]

@@ -32,7 +32,7 @@ _UNSEEN = re.compile(
 
 
 @dataclass(frozen=True)
-class Source:
+class ProblemText:
     """A problem file's text; `file` is the name that errors carry."""
 
     text: str
@@ -63,7 +63,7 @@ class Source:
         return Finding(message, help, self.file, line, column, length, excerpt, code)
 
 
-def as_source(content: str | bytes, file: str = "") -> Source:
+def as_source(content: str | bytes, file: str = "") -> ProblemText:
     """The text of a problem file.
 
     Raises ProblemError for more than `MAX_BYTES`, for bytes that are not UTF-8, and
@@ -76,7 +76,7 @@ def as_source(content: str | bytes, file: str = "") -> Source:
         message = f"the file is larger than {MAX_BYTES // 1000} kB; a problem file takes a page or two"
         raise ProblemError([Finding(message, "give the problem file itself", file)])
     text = _decoded(content, file) if isinstance(content, bytes) else content
-    source = Source(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n"), file)
+    source = ProblemText(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n"), file)
     findings = [
         _unseen(source, match.start())
         for match, _ in zip(_UNSEEN.finditer(source.text), range(20), strict=False)
@@ -93,24 +93,24 @@ def _decoded(content: bytes, file: str) -> str:
         if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
             finding = Finding("the file is UTF-16, not UTF-8", "save it with the encoding UTF-8", file, 1, 1)
             raise ProblemError([finding]) from None
-        shown = Source(content.decode("utf-8", errors="replace"), file)
+        shown = ProblemText(content.decode("utf-8", errors="replace"), file)
         start = len(content[: error.start].decode("utf-8", errors="replace"))
         message = f"the byte 0x{content[error.start]:02x} is not UTF-8"
         finding = shown.finding(start, start + 1, message, "save the file with the encoding UTF-8")
         raise ProblemError([finding]) from None
 
 
-def _unseen(source: Source, index: int) -> Finding:
+def _unseen(source: ProblemText, index: int) -> Finding:
     character = source.text[index]
     name = unicodedata.name(character, "a control character")
     message = f"a character that cannot be seen: U+{ord(character):04X} ({name.lower()})"
     return source.finding(index, index + 1, message, "delete it")
 
 
-class Report:
+class Faults:
     """Collects the errors and warnings of one file while it is read."""
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: ProblemText) -> None:
         self.source = source
         self.errors: list[Finding] = []
         self.warnings: list[Finding] = []

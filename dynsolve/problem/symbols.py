@@ -15,7 +15,7 @@ from dynsolve.notation.text import Name
 from dynsolve.notation.tree import Function, Negative, Node, Parenthesized, Product, Quotient, Sum, Symbol
 from dynsolve.problem.cells import Cell, denominators, walk
 from dynsolve.problem.sheet import Sheet
-from dynsolve.problem.source import Report
+from dynsolve.problem.source import Faults
 
 MAX_SYMBOLS = 500
 """A six-axis arm with ten inertial parameters a link has about 70."""
@@ -83,7 +83,7 @@ def _terms(node: Node) -> set[str]:
     return set()
 
 
-def check_size(report: Report, sheet: Sheet) -> bool:
+def check_size(report: Faults, sheet: Sheet) -> bool:
     """Whether the file is small enough for exact algebra; what goes over a bound is reported."""
     symbols: set[str] = set()
     parts: dict[str, set[Node]] = {what: set() for what in MAX_PARTS}
@@ -111,7 +111,7 @@ def _parts(tree: Node) -> Iterator[tuple[str, Node]]:
             yield ("roots" if node.name == "sqrt" else "sines and cosines"), node
 
 
-def check_symbols(report: Report, sheet: Sheet) -> None:
+def check_symbols(report: Faults, sheet: Sheet) -> None:
     """Report names that are two things."""
     _check_derivatives(report, sheet)
     first: dict[str, Role] = {}
@@ -137,7 +137,7 @@ def check_symbols(report: Report, sheet: Sheet) -> None:
         report.error(place, message, help)
 
 
-def _check_derivatives(report: Report, sheet: Sheet) -> None:
+def _check_derivatives(report: Faults, sheet: Sheet) -> None:
     meanings = {
         name + suffix: f"the {what} of {name}" for name in sheet.table.names for suffix, what in _SUFFIXES
     }

@@ -13,8 +13,8 @@ from dynsolve.notation.text import Name
 from dynsolve.problem.cells import Cell, made_cell, read_angle, read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.linear import NotLinear, linear_rates
-from dynsolve.problem.source import Report
-from dynsolve.problem.yaml_nodes import Faulty, Node, Scalar, Span
+from dynsolve.problem.source import Faults
+from dynsolve.problem.yaml_nodes import Faulty, Scalar, Span, YamlNode
 from dynsolve.problem.yaml_nodes import Mapping as MappingNode
 from dynsolve.problem.yaml_nodes import Sequence as ListNode
 
@@ -25,7 +25,7 @@ _EXAMPLE = "a row is written {theta: theta1*, d: 0, a: l1, alpha: 0}"
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class DHRow:
     """A row as the file gives it; `faulty` where something of it was reported."""
 
     index: int
@@ -38,10 +38,10 @@ class Row:
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class DHTable:
     """The rows and the coordinates, (name, "revolute" | "prismatic"), in their order."""
 
-    rows: tuple[Row, ...]
+    rows: tuple[DHRow, ...]
     coordinates: tuple[tuple[str, str], ...]
 
     @property
@@ -77,7 +77,7 @@ class _Star:
     span: Span
 
 
-def read_table(report: Report, fields: Fields, modified: bool) -> Table:
+def read_table(report: Faults, fields: Fields, modified: bool) -> DHTable:
     """The table under `dh:` with the order of `coordinates:`; everything wrong with it is reported."""
     if "dh" not in fields:
         report.error((0, 0), "the file has no `dh` table", f"add `dh:` with a row a frame; {_EXAMPLE}")
@@ -93,10 +93,10 @@ def read_table(report: Report, fields: Fields, modified: bool) -> Table:
     coordinates = _coordinates(report, fields, raw)
     rows = tuple(_row(report, i, row, coordinates, modified) for i, row in enumerate(raw, 1))
     _check_effect(report, rows, coordinates, fields)
-    return Table(rows, tuple(coordinates.items()))
+    return DHTable(rows, tuple(coordinates.items()))
 
 
-def _read_cells(report: Report, node: Node, index: int) -> _Raw:
+def _read_cells(report: Faults, node: YamlNode, index: int) -> _Raw:
     """The four columns of a row; a missing one is 0."""
     before = len(report.errors)
     cells: dict[str, Cell] = {}
@@ -125,7 +125,7 @@ def _stars(raw: list[_Raw]) -> list[_Star]:
     return sorted(found, key=lambda star: star.span)
 
 
-def _coordinates(report: Report, fields: Fields, raw: list[_Raw]) -> dict[str, str]:
+def _coordinates(report: Faults, fields: Fields, raw: list[_Raw]) -> dict[str, str]:
     """The coordinates with their kinds, in order of first appearance or of the key `coordinates`."""
     first: dict[str, _Star] = {}
     for star in _stars(raw):
@@ -144,7 +144,7 @@ def _coordinates(report: Report, fields: Fields, raw: list[_Raw]) -> dict[str, s
     return _ordered(report, fields, kinds, whole)
 
 
-def _ordered(report: Report, fields: Fields, kinds: dict[str, str], whole: bool) -> dict[str, str]:
+def _ordered(report: Faults, fields: Fields, kinds: dict[str, str], whole: bool) -> dict[str, str]:
     if "coordinates" not in fields:
         return kinds
     example = f"write coordinates: [{', '.join(kinds)}]"
@@ -166,7 +166,7 @@ def _ordered(report: Report, fields: Fields, kinds: dict[str, str], whole: bool)
     return order | {name: kinds[name] for name in missing}
 
 
-def _coordinate_name(report: Report, node: Node, example: str) -> str | None:
+def _coordinate_name(report: Faults, node: YamlNode, example: str) -> str | None:
     if isinstance(node, Faulty):
         return None
     if not isinstance(node, Scalar):
@@ -180,7 +180,7 @@ def _coordinate_name(report: Report, node: Node, example: str) -> str | None:
         return None
 
 
-def _row(report: Report, index: int, raw: _Raw, coordinates: dict[str, str], modified: bool) -> Row:
+def _row(report: Faults, index: int, raw: _Raw, coordinates: dict[str, str], modified: bool) -> DHRow:
     before, cells = len(report.errors), raw.cells
     unstarred = _check_unstarred(report, cells, coordinates)
     starred = [column for column in _KINDS if any(name.star for name in raw.names(column))]
@@ -194,10 +194,10 @@ def _row(report: Report, index: int, raw: _Raw, coordinates: dict[str, str], mod
     angles = {column: read_angle(report, cells[column]) for column in columns}
     known = {column: angle for column, angle in angles.items() if angle is not None}
     faulty = raw.faulty or len(report.errors) > before
-    return Row(index, raw.span, cells, known, variable, rates, faulty)
+    return DHRow(index, raw.span, cells, known, variable, rates, faulty)
 
 
-def _check_unstarred(report: Report, cells: Mapping[str, Cell], coordinates: dict[str, str]) -> set[str]:
+def _check_unstarred(report: Faults, cells: Mapping[str, Cell], coordinates: dict[str, str]) -> set[str]:
     """The columns in which a coordinate stands without its star (reported)."""
     found = set()
     for column, cell in cells.items():
@@ -214,7 +214,7 @@ def _check_unstarred(report: Report, cells: Mapping[str, Cell], coordinates: dic
     return found
 
 
-def _rates(report: Report, cell: Cell, coordinates: dict[str, str]) -> dict[str, Fraction]:
+def _rates(report: Faults, cell: Cell, coordinates: dict[str, str]) -> dict[str, Fraction]:
     """The joint variable as a linear combination of coordinates."""
     try:
         rates = linear_rates(cell.tree, coordinates)
@@ -226,7 +226,7 @@ def _rates(report: Report, cell: Cell, coordinates: dict[str, str]) -> dict[str,
     return rates
 
 
-def _cylindrical(report: Report, span: Span, cells: Mapping[str, Cell], modified: bool) -> None:
+def _cylindrical(report: Faults, span: Span, cells: Mapping[str, Cell], modified: bool) -> None:
     """θ and d of one row are both starred: show the two rows that a cylindrical joint needs."""
     text = {column: " ".join(cell.text.split()) or "0" for column, cell in cells.items()}
     text = {column: text.get(column, "0") for column in COLUMNS}
@@ -238,7 +238,9 @@ def _cylindrical(report: Report, span: Span, cells: Mapping[str, Cell], modified
     report.error(span, message, f"write {rows[0]} and {rows[1]}")
 
 
-def _check_effect(report: Report, rows: tuple[Row, ...], coordinates: dict[str, str], fields: Fields) -> None:
+def _check_effect(
+    report: Faults, rows: tuple[DHRow, ...], coordinates: dict[str, str], fields: Fields
+) -> None:
     """A coordinate that no row turns or moves by (its rates were reported as cancelling)."""
     if any(row.faulty for row in rows):
         return

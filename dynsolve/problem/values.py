@@ -11,15 +11,15 @@ from dynsolve.errors import AlgebraError
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.rotations import RotationSheet, elementary, is_rotation
 from dynsolve.problem.sheet import Sheet
-from dynsolve.problem.source import Report
+from dynsolve.problem.source import Faults
 from dynsolve.robot.model import Convention
 from dynsolve.robot.parallel import Turn, absolute_angles
 
 
-class Values:
+class CellValues:
     """The values of cells in one ring; what has none is reported, once."""
 
-    def __init__(self, report: Report, ring: Ring, left_out: frozenset[int]) -> None:
+    def __init__(self, report: Faults, ring: Ring, left_out: frozenset[int]) -> None:
         self.report, self.ring, self._left_out = report, ring, left_out
 
     def expr(self, cell: Cell) -> Expr | None:
@@ -63,7 +63,7 @@ class Values:
         return None
 
 
-def evaluate(report: Report, sheet: Sheet) -> Values | None:
+def evaluate(report: Faults, sheet: Sheet) -> CellValues | None:
     """The ring that holds everything in the file; None (reported) where there is none.
 
     Cells that no ring can hold are reported one by one and left out.
@@ -85,10 +85,10 @@ def evaluate(report: Report, sheet: Sheet) -> Values | None:
                 report.error((0, 0), error.message, error.help)
             return None
     _check_angles(report, sheet, ring)
-    return Values(report, ring, frozenset(left_out))
+    return CellValues(report, ring, frozenset(left_out))
 
 
-def _check_angles(report: Report, sheet: Sheet, ring: Ring) -> None:
+def _check_angles(report: Faults, sheet: Sheet, ring: Ring) -> None:
     """Report angles whose sine the ring has no room for: a thousand times another angle."""
     for cell, angle in sheet.angles:
         try:
@@ -112,7 +112,7 @@ def _ring(sheet: Sheet, cells: list[Cell]) -> Ring:
     )
 
 
-def _fails(report: Report, sheet: Sheet, cell: Cell) -> bool:
+def _fails(report: Faults, sheet: Sheet, cell: Cell) -> bool:
     """Whether no ring can hold this cell by itself (reported)."""
     try:
         Ring.build(sheet.table.coordinates, [cell.tree])

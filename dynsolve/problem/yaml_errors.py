@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from dynsolve.problem.source import Report
+from dynsolve.problem.source import Faults
 
 _QUOTES = "put the value in single quotes"
 
 
-def explain(report: Report, error: Any) -> None:
+def explain(report: Faults, error: Any) -> None:
     """Note a syntax error of PyYAML (either of its two parsers) at its place, with a remedy."""
     text = report.source.text
     problem = (error.problem or "").lower()

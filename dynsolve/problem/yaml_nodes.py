@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from dynsolve.problem.source import Report
+from dynsolve.problem.source import Faults
 from dynsolve.problem.yaml_errors import explain
 
 MAX_DEPTH = 12
@@ -39,7 +39,7 @@ class Scalar:
 class Sequence:
     """A list."""
 
-    items: tuple[Node, ...]
+    items: tuple[YamlNode, ...]
     span: Span
 
 
@@ -47,7 +47,7 @@ class Sequence:
 class Mapping:
     """Keys with their values, in order."""
 
-    entries: tuple[tuple[Scalar, Node], ...]
+    entries: tuple[tuple[Scalar, YamlNode], ...]
     span: Span
 
 
@@ -58,10 +58,10 @@ class Faulty:
     span: Span
 
 
-Node = Scalar | Sequence | Mapping | Faulty
+YamlNode = Scalar | Sequence | Mapping | Faulty
 
 
-def read_nodes(report: Report) -> Node | None:
+def read_nodes(report: Faults) -> YamlNode | None:
     """The root node of the source of `report`, or None where there is none or YAML's syntax fails."""
     import yaml
 
@@ -91,15 +91,15 @@ class _Open:
 
     def __init__(self, kind: str, start: int) -> None:
         self.kind, self.start = kind, start
-        self.items: list[Node] = []
+        self.items: list[YamlNode] = []
 
 
 class _Tree:
     """Builds nodes from events on a stack of its own: no depth of nesting can exhaust Python's."""
 
-    def __init__(self, report: Report) -> None:
+    def __init__(self, report: Faults) -> None:
         self.report = report
-        self.root: Node | None = None
+        self.root: YamlNode | None = None
         self.open: list[_Open] = []
         self.documents = 0
 
@@ -172,7 +172,7 @@ class _Tree:
             text_end = text_start + len(source[text_start:text_end].rstrip())
         return Scalar(source[text_start:text_end], text_start, (start, max(end, start)), event.value)
 
-    def _closed(self, end: int) -> Node:
+    def _closed(self, end: int) -> YamlNode:
         done = self.open.pop()
         text = self.report.source.text
         end = done.start + len(text[done.start : end].rstrip())
@@ -180,8 +180,8 @@ class _Tree:
             return Sequence(tuple(done.items), (done.start, end))
         return Mapping(self._entries(done.items), (done.start, end))
 
-    def _entries(self, items: list[Node]) -> tuple[tuple[Scalar, Node], ...]:
-        entries: dict[str, tuple[Scalar, Node]] = {}
+    def _entries(self, items: list[YamlNode]) -> tuple[tuple[Scalar, YamlNode], ...]:
+        entries: dict[str, tuple[Scalar, YamlNode]] = {}
         for key, value in zip(items[::2], items[1::2], strict=True):
             if isinstance(key, Faulty):
                 continue
@@ -195,7 +195,7 @@ class _Tree:
                 entries[key.decoded] = (key, value)
         return tuple(entries.values())
 
-    def _place(self, node: Node) -> None:
+    def _place(self, node: YamlNode) -> None:
         if self.open:
             self.open[-1].items.append(node)
         elif self.root is None:

@@ -21,7 +21,7 @@ from dynsolve.notation.unicode import UnicodePrinter, width
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class TextBox:
     """Lines of one width; `baseline` is the line that stands level with its neighbours."""
 
     lines: tuple[str, ...]
@@ -29,21 +29,21 @@ class Box:
     baseline: int = 0
 
     @staticmethod
-    def of(text: str) -> Box:
+    def of(text: str) -> TextBox:
         """One line."""
-        return Box((text,), width(text))
+        return TextBox((text,), width(text))
 
 
-def beside(boxes: Sequence[Box]) -> Box:
+def beside(boxes: Sequence[TextBox]) -> TextBox:
     """Boxes side by side, baselines level."""
     above = max(box.baseline for box in boxes)
     below = max(len(box.lines) - box.baseline for box in boxes)
     padded = [_padded(box, above, below) for box in boxes]
     lines = tuple("".join(parts) for parts in zip(*padded, strict=True))
-    return Box(lines, sum(box.width for box in boxes), above)
+    return TextBox(lines, sum(box.width for box in boxes), above)
 
 
-def _padded(box: Box, above: int, below: int) -> list[str]:
+def _padded(box: TextBox, above: int, below: int) -> list[str]:
     blank = " " * box.width
     over = above - box.baseline
     under = below - (len(box.lines) - box.baseline)
@@ -65,12 +65,12 @@ def bracket(sign: str, height: int) -> list[str]:
     return [single] if height == 1 else [top, *[middle] * (height - 2), bottom]
 
 
-def matrix_box(matrix: Matrix, printer: UnicodePrinter) -> Box:
+def matrix_box(matrix: Matrix, printer: UnicodePrinter) -> TextBox:
     """A matrix between brackets, each column centred."""
     cells = [[printer.text(entry) for entry in row] for row in matrix.rows]
     widths = [max(map(width, column)) for column in zip(*cells, strict=True)]
     rows = ["  ".join(map(centered, row, widths)) for row in cells]
-    return _enclosed(Box(tuple(rows), width(rows[0]), (len(rows) - 1) // 2), "[", "]")
+    return _enclosed(TextBox(tuple(rows), width(rows[0]), (len(rows) - 1) // 2), "[", "]")
 
 
 def matrix_width(matrix: Matrix, printer: UnicodePrinter) -> int:
@@ -80,10 +80,10 @@ def matrix_width(matrix: Matrix, printer: UnicodePrinter) -> int:
     return sum(widths) + 2 * len(widths)
 
 
-def _enclosed(box: Box, left: str, right: str) -> Box:
+def _enclosed(box: TextBox, left: str, right: str) -> TextBox:
     height = len(box.lines)
     sides = zip(bracket(left, height), box.lines, bracket(right, height), strict=True)
-    return Box(tuple(a + line + b for a, line, b in sides), box.width + 2, box.baseline)
+    return TextBox(tuple(a + line + b for a, line, b in sides), box.width + 2, box.baseline)
 
 
 _SHALLOW = 4
@@ -109,7 +109,7 @@ def _parts(node: Node) -> tuple[Node, ...]:
     return ()
 
 
-def pieces(node: Node, printer: UnicodePrinter) -> Iterator[Box | Matrix]:
+def pieces(node: Node, printer: UnicodePrinter) -> Iterator[TextBox | Matrix]:
     """A formula that holds matrices, as boxes that may be set side by side.
 
     A matrix stays a node, so that whoever sets it may choose how.
@@ -120,7 +120,7 @@ def pieces(node: Node, printer: UnicodePrinter) -> Iterator[Box | Matrix]:
         case Relation(parts, signs):
             yield from pieces(parts[0], printer)
             for sign, part in zip(signs, parts[1:], strict=True):
-                yield Box.of(f" {sign} ")
+                yield TextBox.of(f" {sign} ")
                 yield from pieces(part, printer)
         case Row(parts) if holds_matrix(node):
             for part in parts:
@@ -130,34 +130,34 @@ def pieces(node: Node, printer: UnicodePrinter) -> Iterator[Box | Matrix]:
         case Product(factors) if holds_matrix(node):
             for i, factor in enumerate(factors):
                 if i:
-                    yield Box.of(" ")
+                    yield TextBox.of(" ")
                 yield from _factor(factor, printer)
         case Negative(argument) if holds_matrix(node):
-            yield Box.of("-")
+            yield TextBox.of("-")
             yield from _factor(argument, printer)
         case Transpose(Matrix() as matrix):
             box = matrix_box(matrix, printer)
-            yield beside([box, Box(("ᵀ", *[" "] * (len(box.lines) - 1)), 1, box.baseline)])
+            yield beside([box, TextBox(("ᵀ", *[" "] * (len(box.lines) - 1)), 1, box.baseline)])
         case Cross(left, right) if holds_matrix(node):
             yield from _factor(left, printer)
-            yield Box.of(" × ")
+            yield TextBox.of(" × ")
             yield from _factor(right, printer)
         case Parenthesized(argument) if holds_matrix(node):
             yield _enclosed(box_of(argument, printer), "(", ")")
         case _:
-            yield Box.of(printer.text(node))
+            yield TextBox.of(printer.text(node))
 
 
-def _sum(terms: Iterable[Node], printer: UnicodePrinter) -> Iterator[Box | Matrix]:
+def _sum(terms: Iterable[Node], printer: UnicodePrinter) -> Iterator[TextBox | Matrix]:
     for i, term in enumerate(terms):
         negative = isinstance(term, Negative)
         if i or negative:
             sign = "-" if negative else "+"
-            yield Box.of(f" {sign} " if i else sign)
+            yield TextBox.of(f" {sign} " if i else sign)
         yield from pieces(term.argument if isinstance(term, Negative) else term, printer)
 
 
-def _factor(factor: Node, printer: UnicodePrinter) -> Iterator[Box | Matrix]:
+def _factor(factor: Node, printer: UnicodePrinter) -> Iterator[TextBox | Matrix]:
     """A factor of a product: a sum stands between parentheses."""
     if isinstance(factor, Sum | Negative | Relation):
         yield _enclosed(box_of(factor, printer), "(", ")")
@@ -165,11 +165,11 @@ def _factor(factor: Node, printer: UnicodePrinter) -> Iterator[Box | Matrix]:
         yield from pieces(factor, printer)
 
 
-def box_of(node: Node, printer: UnicodePrinter) -> Box:
+def box_of(node: Node, printer: UnicodePrinter) -> TextBox:
     """A whole formula in one box, however wide."""
     return beside([boxed(piece, printer) for piece in pieces(node, printer)])
 
 
-def boxed(piece: Box | Matrix, printer: UnicodePrinter) -> Box:
+def boxed(piece: TextBox | Matrix, printer: UnicodePrinter) -> TextBox:
     """A piece in a box."""
-    return piece if isinstance(piece, Box) else matrix_box(piece, printer)
+    return piece if isinstance(piece, TextBox) else matrix_box(piece, printer)

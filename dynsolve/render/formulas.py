@@ -7,20 +7,20 @@ from collections.abc import Iterator, Sequence
 from dynsolve.document import Formula
 from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation
 from dynsolve.notation.unicode import UnicodePrinter, lowered, width
-from dynsolve.render.boxes import Box, beside, matrix_box, matrix_width, pieces
+from dynsolve.render.boxes import TextBox, beside, matrix_box, matrix_width, pieces
 from dynsolve.render.breaking import break_sum
 
 _HANG = 4
 _LONGEST_HANG = 12
 
-Group = tuple[str, Box | Matrix]
+Group = tuple[str, TextBox | Matrix]
 """What stands before a piece (` = `, a space) and the piece; a `Matrix` is one too wide for a box."""
 
 
 def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
     """The lines of a displayed formula in `room` cells; none for an optional one that does not fit."""
     groups = list(_grouped(formula.node, printer, room))
-    boxes = [beside([Box.of(lead), piece]) for lead, piece in groups if isinstance(piece, Box)]
+    boxes = [beside([TextBox.of(lead), piece]) for lead, piece in groups if isinstance(piece, TextBox)]
     if len(boxes) == len(groups) and sum(box.width for box in boxes) <= room:
         return list(beside(boxes).lines)
     if formula.optional and len(boxes) < len(groups):
@@ -57,7 +57,7 @@ def _grouped(node: Node, printer: UnicodePrinter, room: int) -> Iterator[Group]:
 
 def _width(member: Sequence[Group], room: int) -> int:
     """How wide a member of a chain is; more than the room where it is not all boxes."""
-    return sum(len(lead) + (piece.width if isinstance(piece, Box) else room) for lead, piece in member)
+    return sum(len(lead) + (piece.width if isinstance(piece, TextBox) else room) for lead, piece in member)
 
 
 def _members(groups: Sequence[Group]) -> Iterator[list[Group]]:
@@ -76,7 +76,7 @@ def _set_member(
 ) -> list[str]:
     """One member of a chain, its pieces side by side as far as they go."""
     lines: list[str] = []
-    row = Box.of(" " * indent)
+    row = TextBox.of(" " * indent)
     for lead, piece in member:
         if not row.lines[0].strip() and len(row.lines) == 1:
             lead = lead.lstrip()
@@ -84,22 +84,22 @@ def _set_member(
             if row.lines[0].strip() != _left_side(formula, printer):
                 lines += _flushed(row)
             lines += _entry_by_entry(piece, formula, printer, room)
-            row = Box.of(" " * hang)
+            row = TextBox.of(" " * hang)
         elif row.width + width(lead) + piece.width <= room:
-            row = beside([row, Box.of(lead), piece])
+            row = beside([row, TextBox.of(lead), piece])
         elif len(piece.lines) > 1:
             lines += _flushed(row)
-            row = beside([Box.of(" " * hang), Box.of(lead.lstrip()), piece])
+            row = beside([TextBox.of(" " * hang), TextBox.of(lead.lstrip()), piece])
         else:
             if len(row.lines) > 1:
                 lines += _flushed(row)
-                row = Box.of(" " * hang)
+                row = TextBox.of(" " * hang)
             text = row.lines[0] + lead + piece.lines[0]
             margin = len(text) - len(text.lstrip())
             first, *others = break_sum(text.lstrip(), room - margin, room - hang)
             broken = [" " * margin + first, *(" " * hang + other for other in others)]
             lines += broken[:-1]
-            row = Box.of(broken[-1])
+            row = TextBox.of(broken[-1])
     return lines + _flushed(row)
 
 
@@ -109,7 +109,7 @@ def _left_side(formula: Formula, printer: UnicodePrinter) -> str:
     return printer.text(left) if isinstance(left, Letter) else ""
 
 
-def _flushed(row: Box) -> list[str]:
+def _flushed(row: TextBox) -> list[str]:
     return [line.rstrip() for line in row.lines] if any(line.strip() for line in row.lines) else []
 
 

@@ -40,14 +40,14 @@ _INDENT = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class StyledLine:
     """A line and what it is: `title`, `heading`, `step`, `formula`, `note`, `source` or plain text."""
 
     text: str
     kind: str = ""
 
 
-def render(document: Document, columns: int = WIDTH, style: Style = PLAIN) -> Iterator[Line]:
+def render(document: Document, columns: int = WIDTH, style: Style = PLAIN) -> Iterator[StyledLine]:
     """Lay a document out.
 
     >>> from dynsolve.notation.tree import Symbol, equation
@@ -65,7 +65,7 @@ class _Page:
     columns: int
     printer: UnicodePrinter
 
-    def block(self, block: Block) -> Iterator[Line]:
+    def block(self, block: Block) -> Iterator[StyledLine]:
         match block:
             case Heading(text, level):
                 yield from self.heading(printable(text), level)
@@ -78,24 +78,24 @@ class _Page:
             case List(items):
                 for item in items:
                     yield from self.hanging(item, "• ", "")
-                yield Line("")
+                yield StyledLine("")
             case Note(parts):
                 yield from self.hanging(parts, "Note: ", "note")
-                yield Line("")
+                yield StyledLine("")
             case Table():
                 yield from self.table(block)
             case Fold(title, blocks):
-                yield Line(printable(title), "step")
+                yield StyledLine(printable(title), "step")
                 for inner in blocks:
                     yield from self.block(inner)
 
-    def heading(self, text: str, level: int) -> Iterator[Line]:
+    def heading(self, text: str, level: int) -> Iterator[StyledLine]:
         kind = "title" if level == 1 else "heading"
         lines = wrap(text, self.columns, self.columns)
         for line in lines:
-            yield Line(line, kind)
-        yield Line(("═" if level == 1 else "─") * max(map(width, lines)), kind)
-        yield Line("")
+            yield StyledLine(line, kind)
+        yield StyledLine(("═" if level == 1 else "─") * max(map(width, lines)), kind)
+        yield StyledLine("")
 
     def words(self, parts: Prose) -> str:
         """Prose as one text, its formulas unbroken."""
@@ -110,18 +110,18 @@ class _Page:
                 return printable(text)
         return self.printer.text(part).replace(" ", HARD_SPACE)
 
-    def paragraph(self, parts: Prose) -> Iterator[Line]:
+    def paragraph(self, parts: Prose) -> Iterator[StyledLine]:
         room = min(self.columns, _PROSE)
         for line in wrap(self.words(parts), room, room):
-            yield Line(line)
-        yield Line("")
+            yield StyledLine(line)
+        yield StyledLine("")
 
-    def hanging(self, parts: Prose, sign: str, kind: str) -> Iterator[Line]:
+    def hanging(self, parts: Prose, sign: str, kind: str) -> Iterator[StyledLine]:
         room = min(self.columns, _PROSE) - _INDENT - len(sign)
         for i, line in enumerate(wrap(self.words(parts), room, room)):
-            yield Line(" " * _INDENT + (" " * len(sign) if i else sign) + line, kind)
+            yield StyledLine(" " * _INDENT + (" " * len(sign) if i else sign) + line, kind)
 
-    def formula(self, formula: Formula) -> Iterator[Line]:
+    def formula(self, formula: Formula) -> Iterator[StyledLine]:
         lines = set_formula(formula, self.printer, self.columns - _INDENT)
         if not lines:
             return
@@ -134,26 +134,26 @@ class _Page:
                 text += " " * (min(self.columns, _PROSE) - width(text) - len(source)) + source
                 if width(text) < width(line) + _INDENT + 3 + len(source):
                     text = " " * _INDENT + line.rstrip() + "   " + source
-            yield Line(text, "formula")
+            yield StyledLine(text, "formula")
         if source and not beside:
-            yield Line(" " * max(min(self.columns, _PROSE) - len(source), 0) + source, "source")
-        yield Line("")
+            yield StyledLine(" " * max(min(self.columns, _PROSE) - len(source), 0) + source, "source")
+        yield StyledLine("")
 
-    def equations(self, nodes: Sequence[Node]) -> Iterator[Line]:
+    def equations(self, nodes: Sequence[Node]) -> Iterator[StyledLine]:
         for node in nodes:
             for line in set_formula(Formula(node), self.printer, self.columns - _INDENT):
-                yield Line(" " * _INDENT + line.rstrip(), "formula")
-        yield Line("")
+                yield StyledLine(" " * _INDENT + line.rstrip(), "formula")
+        yield StyledLine("")
 
-    def table(self, table: Table) -> Iterator[Line]:
+    def table(self, table: Table) -> Iterator[StyledLine]:
         rows = (table.header, *table.rows)
         cells = [[self.words((cell,)).replace(HARD_SPACE, " ") for cell in row] for row in rows]
         widths = [max(map(width, column)) for column in zip(*cells, strict=True)]
         for i, row in enumerate(cells):
-            yield Line(" " * _INDENT + _padded(row, widths))
+            yield StyledLine(" " * _INDENT + _padded(row, widths))
             if i == 0:
-                yield Line(" " * _INDENT + "─" * (sum(widths) + 3 * (len(widths) - 1)))
-        yield Line("")
+                yield StyledLine(" " * _INDENT + "─" * (sum(widths) + 3 * (len(widths) - 1)))
+        yield StyledLine("")
 
 
 def _padded(row: Sequence[str], widths: Sequence[int]) -> str:

@@ -50,7 +50,7 @@ class Rank(IntEnum):
     RATE_SUM = 8
 
 
-Place = tuple[Rank, tuple[int, ...]]
+AtomPlace = tuple[Rank, tuple[int, ...]]
 """Where an atom stands in a product: by its rank, then among those of that rank."""
 
 
@@ -59,7 +59,7 @@ class Atoms:
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []
-        self.ranks: list[Place] = []
+        self.ranks: list[AtomPlace] = []
         self._numbers: dict[Node, int] = {}
 
     def number(self, node: Node, rank: Rank | None = None, order: tuple[int, ...] = ()) -> int:

@@ -28,7 +28,7 @@ from dynsolve.answers.diagnosis.stage import variants
 from dynsolve.answers.diagnosis.substitution import substitutions
 from dynsolve.answers.diagnosis.table import slip
 from dynsolve.answers.diagnosis.terms import LIGHT, Found, TermSlips
-from dynsolve.answers.diagnosis.words import Words
+from dynsolve.answers.diagnosis.words import TermWriter
 from dynsolve.answers.judging.compare import Written
 from dynsolve.answers.judging.dimensions import (
     ENERGY,
@@ -95,9 +95,9 @@ class Diagnoser:
         self.ring = graph.field.ring
 
     @cached_property
-    def words(self) -> Words:
+    def words(self) -> TermWriter:
         """Writes terms in messages."""
-        words = Words(self.graph.field)
+        words = TermWriter(self.graph.field)
         words.problem_symbols({*self.problem.robot.ring.parameters, *self.ring.names, "pi"})
         return words
 

@@ -23,11 +23,11 @@ from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 Variant = tuple[Any, Diagnosis]
 """A value that a step gives when it goes wrong, and the slip."""
 
-Value = Callable[[str], Any]
+InputValue = Callable[[str], Any]
 """The nearest value of a node."""
 
 
-def variants(robot: Robot, node: str, value: Value) -> Iterator[Variant]:
+def variants(robot: Robot, node: str, value: InputValue) -> Iterator[Variant]:
     """What a step may give when it goes wrong; `value` gives its inputs."""
     head, index = _split(node)
     maker = _MAKERS.get(head)
@@ -53,7 +53,7 @@ def _joint(robot: Robot, index: str) -> Joint | None:
 # -- kinematics ------------------------------------------------------------------------------------
 
 
-def _dh(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
+def _dh(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     from dataclasses import replace
 
     joint = _joint(robot, index)
@@ -69,12 +69,12 @@ def _dh(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
     yield right.T, slip("transposed")
 
 
-def _frame(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
+def _frame(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     if index.isdigit() and int(index) > 1:
         yield value(f"A{index}") @ value(f"H{int(index) - 1}"), slip("order")
 
 
-def _center(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
+def _center(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
     body = _body(robot, name)
     if body is None:
         return
@@ -88,11 +88,11 @@ def _center(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
 # -- Jacobians -------------------------------------------------------------------------------------
 
 
-def _frames(value: Value, link: int) -> list[Matrix]:
+def _frames(value: InputValue, link: int) -> list[Matrix]:
     return [value(f"H{i}") for i in range(link + 1)]
 
 
-def _linear_jacobian(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
+def _linear_jacobian(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
     body = _body(robot, name)
     if body is None:
         return
@@ -109,7 +109,7 @@ def _linear_jacobian(robot: Robot, name: str, value: Value) -> Iterator[Variant]
         )
 
 
-def _angular_jacobian(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
+def _angular_jacobian(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
     body = _body(robot, name)
     link = body.link if body is not None else len(robot.joints)
     frames = _frames(value, len(robot.joints))
@@ -132,7 +132,7 @@ def _all_turn(robot: Robot, frames: list[Matrix], link: int) -> Matrix:
 # -- inertia and energies --------------------------------------------------------------------------
 
 
-def _body_inertia(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
+def _body_inertia(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
     body = _body(robot, name)
     if body is None or body.inertia is None:
         return
@@ -158,7 +158,7 @@ def _about_joint(robot: Robot, body: Body, right: Matrix) -> Iterator[Variant]:
         yield right + inertia.steiner(body.mass, offset), slip("parallel_axis_twice", part=body.name)
 
 
-def _base_inertia(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
+def _base_inertia(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
     body = _body(robot, name)
     if body is None:
         return
@@ -172,7 +172,7 @@ def _base_inertia(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
     yield frame @ tensor @ frame.T, slip("not_rotated", part=name)
 
 
-def _rotational(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
+def _rotational(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
     body = _body(robot, name)
     if body is None or body.is_point:
         return
@@ -182,7 +182,7 @@ def _rotational(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
         yield energy.rotational_energy(w, tensor), told
 
 
-def _linear(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
+def _linear(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
     body = _body(robot, name)
     if body is None:
         return
@@ -190,7 +190,7 @@ def _linear(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
         yield energy.linear_energy(body.mass, energy.velocity(robot, J)), told
 
 
-def _potential(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
+def _potential(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
     body = _body(robot, name)
     if body is None:
         right = value("P")
@@ -204,7 +204,7 @@ def _potential(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
         yield energy.potential_energy(robot, body.mass, center), told
 
 
-def _kinetic(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
+def _kinetic(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
     body = _body(robot, name)
     if body is not None:
         yield value(f"Kv{name}"), slip("rotation_missing")
@@ -224,12 +224,12 @@ def _kinetic(robot: Robot, name: str, value: Value) -> Iterator[Variant]:
 # -- Lagrange --------------------------------------------------------------------------------------
 
 
-def _lagrangian(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
+def _lagrangian(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     yield value("K") + value("P"), slip("lagrangian_sum")
     yield value("K"), slip("gravity_missing")
 
 
-def _rate(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
+def _rate(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     """d/dt ∂L/∂q̇ with one coordinate held constant, all of them, or inner derivatives left out."""
     ring, p = robot.ring, value(f"dLdqd{index}")
     slopes = [ring.diff(p, k) for k in range(robot.n)]
@@ -257,7 +257,7 @@ def _written(name: str, dots: int = 0) -> str:
     return to_unicode(Symbol(name, dots), PLAIN)
 
 
-def _force(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
+def _force(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     rate, slope = value(f"ddt{index}"), value(f"dLdq{index}")
     if slope.is_zero:
         return
@@ -268,7 +268,7 @@ def _force(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
 # -- the vectorized form ---------------------------------------------------------------------------
 
 
-def _forces(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
+def _forces(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     if index:
         yield from _force(robot, index, value)
         return
@@ -289,13 +289,13 @@ def _rows(right: Matrix) -> Iterator[Variant]:
                 )
 
 
-def _gravity(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
+def _gravity(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     right = value("g")
     yield -right, slip("gravity_sign")
     yield from _rows(right)
 
 
-def _coriolis(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
+def _coriolis(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     D = value("D")
     symbols = vectorized.christoffel_symbols(robot, D)
     ring, n = robot.ring, robot.n
@@ -317,11 +317,11 @@ def _sum(zero: Expr, terms: Iterator[Expr]) -> Expr:
     return zero
 
 
-def _inertia_matrix(robot: Robot, index: str, value: Value) -> Iterator[Variant]:
+def _inertia_matrix(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     yield from _rows(value("D"))
 
 
-_MAKERS: dict[str, Callable[[Robot, str, Value], Iterator[Variant]]] = {
+_MAKERS: dict[str, Callable[[Robot, str, InputValue], Iterator[Variant]]] = {
     "A": _dh,
     "H": _frame,
     "rc": _center,

@@ -11,7 +11,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
 from dynsolve.answers.diagnosis.table import slip
-from dynsolve.answers.diagnosis.words import Words
+from dynsolve.answers.diagnosis.words import TermWriter
 from dynsolve.answers.judging.graph import Graph
 from dynsolve.answers.judging.ring_extension import children, is_opaque
 from dynsolve.answers.verdict import Diagnosis
@@ -53,7 +53,7 @@ def _point(ring: Ring) -> list[fmpq]:
     return point
 
 
-def substitutions(graph: Graph, words: Words, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
+def substitutions(graph: Graph, words: TermWriter, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
     """The substitutions that turn what was expected into the answer."""
     if max(len(mine), len(expected)) > MOST_TERMS or mine.is_zero or expected.is_zero:
         return
@@ -86,7 +86,7 @@ def _gravity(graph: Graph, values: _Pair) -> Iterator[Diagnosis]:
             yield slip("gravity_missing")
 
 
-def _angles(graph: Graph, words: Words, values: _Pair) -> Iterator[Diagnosis]:
+def _angles(graph: Graph, words: TermWriter, values: _Pair) -> Iterator[Diagnosis]:
     """An angle for another throughout, or sine and cosine of one exchanged."""
     ring, mine, expected = values.ring, values.mine, values.expected
     used = set(_used(expected))
@@ -117,7 +117,7 @@ def _angles(graph: Graph, words: Words, values: _Pair) -> Iterator[Diagnosis]:
                 )  # fmt: skip
 
 
-def _function(words: Words, values: _Pair, s: Expr, c: Expr) -> Iterator[Diagnosis]:
+def _function(words: TermWriter, values: _Pair, s: Expr, c: Expr) -> Iterator[Diagnosis]:
     degrees = values.expected.poly.degrees()
     sine = degrees[_used(s)[0]] > 0
     written, right = (c, s) if sine else (s, c)
@@ -125,7 +125,7 @@ def _function(words: Words, values: _Pair, s: Expr, c: Expr) -> Iterator[Diagnos
         yield slip("sin_for_cos", yours="your answer", part=words.of(written), other=words.of(right))
 
 
-def _is_seen(words: Words, values: _Pair, written: Expr, right: Expr) -> bool:
+def _is_seen(words: TermWriter, values: _Pair, written: Expr, right: Expr) -> bool:
     """Whether the one function stands in the answer and the other in what was expected.
 
     The ring may hold cos θ₂ in sines and cosines of θ₁ and θ₁ + θ₂; that these become
@@ -140,7 +140,7 @@ def _holds(node: Node, part: Node) -> bool:
     return node == part or any(_holds(child, part) for child in children(node))
 
 
-def _symbols(graph: Graph, words: Words, values: _Pair) -> Iterator[Diagnosis]:
+def _symbols(graph: Graph, words: TermWriter, values: _Pair) -> Iterator[Diagnosis]:
     """One parameter for another throughout, or two exchanged."""
     ring, mine, expected = values.ring, values.mine, values.expected
     parameters = [
@@ -154,7 +154,7 @@ def _symbols(graph: Graph, words: Words, values: _Pair) -> Iterator[Diagnosis]:
 
 
 def _symbol(
-    words: Words,
+    words: TermWriter,
     a: Generator,
     parameters: Sequence[Generator],
     values: _Pair,

@@ -27,7 +27,7 @@ from dynsolve.answers.diagnosis.fourier import (
     wave_expr,
 )
 from dynsolve.answers.diagnosis.table import slip
-from dynsolve.answers.diagnosis.words import Words
+from dynsolve.answers.diagnosis.words import TermWriter
 from dynsolve.answers.judging.dimensions import INERTIA, MASS, Dimensions
 from dynsolve.answers.judging.ring_extension import is_opaque
 from dynsolve.answers.verdict import Diagnosis
@@ -66,7 +66,7 @@ class Found:
 class TermSlips:
     """Finds slips in terms; `words` writes them."""
 
-    def __init__(self, ring: Ring, dimensions: Dimensions, words: Words) -> None:
+    def __init__(self, ring: Ring, dimensions: Dimensions, words: TermWriter) -> None:
         self.ring = ring
         self.dimensions = dimensions
         self.words = words

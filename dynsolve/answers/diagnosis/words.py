@@ -16,7 +16,7 @@ from dynsolve.notation.unicode import UnicodePrinter
 LONGEST = 160
 
 
-class Words:
+class TermWriter:
     """Writes expressions of one field as a person reads them."""
 
     def __init__(self, field: Field) -> None:

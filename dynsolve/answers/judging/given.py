@@ -15,7 +15,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import Field, FieldBuilder
 from dynsolve.answers.judging.evaluate import Evaluator
 from dynsolve.answers.judging.fraction import Frac, as_expr, equal
-from dynsolve.answers.judging.graph import Entry, Graph
+from dynsolve.answers.judging.graph import Graph, MatrixEntry
 from dynsolve.answers.submission import Answer, referred
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
@@ -112,7 +112,7 @@ class Hand:
                 force = self.graph.node(name).removeprefix("tau")
                 if not force.isdigit():
                     return None
-                entry = Entry("tau", int(force) - 1, 0)
+                entry = MatrixEntry("tau", int(force) - 1, 0)
             name, row, column = entry.whole, entry.row + 1, entry.column + 1
             place = self._last.get(name)
         if place is None or place in self._busy:

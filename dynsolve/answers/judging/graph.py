@@ -21,8 +21,6 @@ from dynsolve.derivation.energy import velocities
 from dynsolve.problem.answer_names import AnswerNames
 from dynsolve.robot.model import Robot
 
-Value = Expr | Matrix
-
 _ENTRY = re.compile(r"([dCg])([1-9])([1-9])?")
 _SYMBOL = re.compile(r"c([1-9])([1-9])([1-9])")
 
@@ -40,7 +38,7 @@ class Way:
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class MatrixEntry:
     """An answer that is one entry of a matrix: its whole and the place in it, from 0."""
 
     whole: str
@@ -70,7 +68,7 @@ class Graph:
         """The answer's name of a node: tau2 is f2 where coordinate 2 slides."""
         return next((force for force, name in self._forces.items() if name == node), node)
 
-    def entry(self, name: str) -> Entry | None:
+    def entry(self, name: str) -> MatrixEntry | None:
         """The whole and the place of d11, C12, g1, None for an answer that is no entry."""
         found = _ENTRY.fullmatch(name)
         if found is None:
@@ -78,7 +76,7 @@ class Graph:
         whole = {"d": "D", "C": "C", "g": "g"}[found[1]]
         if (whole == "g") != (found[3] is None):
             return None
-        return Entry(whole, int(found[2]) - 1, int(found[3] or 1) - 1)
+        return MatrixEntry(whole, int(found[2]) - 1, int(found[3] or 1) - 1)
 
     def whole(self, name: str) -> tuple[str, tuple[int, int]]:
         """The matrix that an answer is an entry of, and its place there, from 1; an empty name for others."""

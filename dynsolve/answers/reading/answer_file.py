@@ -34,7 +34,7 @@ _DELIMITERS = (("$$", "$$"), ("$", "$"), ("\\(", "\\)"), ("\\[", "\\]"))
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class KeyedText:
     """A key with the stretch of text that is its value."""
 
     key: str
@@ -68,12 +68,12 @@ def read_answer_file(session: Session, source: Source) -> tuple[tuple[str, str],
     return (head[0], head[1]), faults
 
 
-def _finding(source: Source, entry: Entry, message: str, help: str) -> Finding:
+def _finding(source: Source, entry: KeyedText, message: str, help: str) -> Finding:
     place = source.place(entry.start)
     return Finding(f"{entry.key}: {message}", help, source.file, place.line, place.column, 1, place.excerpt)
 
 
-def _block(text: str, start: int, end: int) -> Iterator[Entry]:
+def _block(text: str, start: int, end: int) -> Iterator[KeyedText]:
     """The entries of a block mapping: a key and all that follows up to the next key of its indentation."""
     indent: int | None = None
     current: tuple[str, int, int] | None = None
@@ -86,17 +86,17 @@ def _block(text: str, start: int, end: int) -> Iterator[Entry]:
         if found is not None and not blank and (indent is None or _width(found[1]) <= indent) and level <= 0:
             indent = _width(found[1]) if indent is None else indent
             if current is not None:
-                yield Entry(current[0], current[1], current[2], position)
+                yield KeyedText(current[0], current[1], current[2], position)
             current = (found[2].strip("'\"").strip(), found.start(2), found.end())
             level = _balance(text, found.end(), stop)
         elif current is not None:
             level = max(level + _balance(text, position, stop), 0) if not found or level < 5 else 0
             if found is not None and indent is not None and _width(found[1]) <= indent:
-                yield Entry(current[0], current[1], current[2], position)
+                yield KeyedText(current[0], current[1], current[2], position)
                 current, level = (found[2].strip("'\"").strip(), found.start(2), found.end()), 0
         position = stop + 1
     if current is not None:
-        yield Entry(current[0], current[1], current[2], end)
+        yield KeyedText(current[0], current[1], current[2], end)
 
 
 def _width(indent: str) -> int:
@@ -108,7 +108,7 @@ def _balance(text: str, start: int, stop: int) -> int:
     return text.count("[", start, stop) - text.count("]", start, stop)
 
 
-def _inner(text: str, entry: Entry | None) -> Iterator[Entry]:
+def _inner(text: str, entry: KeyedText | None) -> Iterator[KeyedText]:
     """The entries of a mapping in either style."""
     if entry is None:
         return
@@ -122,7 +122,7 @@ def _inner(text: str, entry: Entry | None) -> Iterator[Entry]:
     yield from _flow(text, opening + 1, closing if closing > opening else entry.end)
 
 
-def _flow(text: str, start: int, end: int) -> Iterator[Entry]:
+def _flow(text: str, start: int, end: int) -> Iterator[KeyedText]:
     """The entries of {key: value, key: value}."""
     level, piece = 0, start
     for position in range(start, end + 1):
@@ -136,7 +136,7 @@ def _flow(text: str, start: int, end: int) -> Iterator[Entry]:
                 text, _skip_blank(text, piece, position), position
             )
             if found is not None:
-                yield Entry(found[2].strip("'\"").strip(), found.start(2), found.end(), position)
+                yield KeyedText(found[2].strip("'\"").strip(), found.start(2), found.end(), position)
             piece = position + 1
 
 
@@ -149,14 +149,14 @@ def _skip_blank(text: str, start: int, end: int) -> int:
     return start
 
 
-def _word(text: str, entry: Entry | None) -> str:
+def _word(text: str, entry: KeyedText | None) -> str:
     if entry is None:
         return ""
     value = text[entry.start : entry.end].split("\n")[0].split(" #")[0].strip().strip("'\"")
     return value[:200]
 
 
-def _display(source: Source, entry: Entry) -> Display:
+def _display(source: Source, entry: KeyedText) -> Display:
     """The value of an entry as a display, without quotes, comments and the signs of block style."""
     text, start, end = source.text, entry.start, entry.end
     value = text[start:end].rstrip()

@@ -16,7 +16,7 @@ from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.left_side import side_of, sides
 from dynsolve.answers.reading.lexer import Token, scan
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
-from dynsolve.answers.reading.memory import Name, Side, Unknown
+from dynsolve.answers.reading.memory import NamedAnswers, Side, Unknown
 from dynsolve.answers.reading.prepare import Macro, expand, simplified
 from dynsolve.answers.reading.right_side import EXPECTED, Read, read_member
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_names
@@ -99,7 +99,7 @@ class Session:
         except ReadError:
             name = None
         place = display.locate(error.offset, error.length)
-        if isinstance(name, Name):
+        if isinstance(name, NamedAnswers):
             self.chains += 1
             self._unreadable(name.candidates, display, error, display.label, (self.chains, 1))
         else:
@@ -114,11 +114,11 @@ class Session:
             self.not_recognized.append(NotRecognized(shown(display.text[start:]), equation.label, place))
             return
         found_sides = sides(self.vocabulary, members)
-        names = list(dict.fromkeys(side.candidates for side in found_sides if isinstance(side, Name)))
+        names = list(dict.fromkeys(side.candidates for side in found_sides if isinstance(side, NamedAnswers)))
         owners = tuple(name for candidates in names for name in candidates)
         read: list[tuple[int, Read | ReadError]] = []
         for index, member in enumerate(members):
-            if not isinstance(found_sides[index], (Name, Unknown)):
+            if not isinstance(found_sides[index], (NamedAnswers, Unknown)):
                 read.append((index, self._member(display, member, owners)))
         if names and self._is_own_letter(members, names, read):
             self.define(key(members[0][0].text), next(f for _, f in read if isinstance(f, Read)))
@@ -135,13 +135,13 @@ class Session:
         """Read the value that an answer file gives under a name."""
         self.chains += 1
         side = self._key(name)
-        if not isinstance(side, Name):
+        if not isinstance(side, NamedAnswers):
             family = side.family if isinstance(side, Unknown) else ()
             refused = NotRecognized(shown(f"{name}: {display.text}"), "", place)
             if not family:
                 self.not_recognized.append(refused)
                 return
-            side = Name(family[:1])
+            side = NamedAnswers(family[:1])
         before = len(self.answers)
         self._given(side.candidates, display)
         if isinstance(self._key(name), Unknown):
@@ -152,7 +152,7 @@ class Session:
     def _key(self, name: str) -> Side:
         """What a key of an answer file names."""
         if name.startswith("I") and name in self.vocabulary.shapes:
-            return Name((name,))
+            return NamedAnswers((name,))
         memory = self.vocabulary.memory
         return recalled(memory.keys, name, lambda: self._scanned_key(name), memory.most)
 
@@ -175,7 +175,7 @@ class Session:
             self._unreadable(candidates, display, fault, label, (self.chains, 0))
             return
         side = side_of(self.vocabulary, members[0]) if len(members) > 1 else None
-        if isinstance(side, Name) and set(side.candidates) & set(candidates):
+        if isinstance(side, NamedAnswers) and set(side.candidates) & set(candidates):
             members = members[1:]
         for index, member in enumerate(members):
             where = (self.chains, index)

@@ -6,7 +6,7 @@ from dynsolve.answers.reading.derivatives import UnknownVariable
 from dynsolve.answers.reading.forms import Form
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.memory import Name, Side, Unknown, signs
+from dynsolve.answers.reading.memory import NamedAnswers, Side, Unknown, signs
 from dynsolve.answers.reading.name_resolution import UnknownName
 from dynsolve.answers.reading.prepare import cut_names
 from dynsolve.answers.reading.reader import Reader
@@ -25,13 +25,13 @@ def sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[Side]:
         last = index == len(members) - 1
         if index == 0:
             side = side_of(vocabulary, member)
-        elif not last or not any(isinstance(side, Name) for side in found):
+        elif not last or not any(isinstance(side, NamedAnswers) for side in found):
             side = side_of(vocabulary, member)
             if isinstance(side, Unknown) or (last and _is_symbol(vocabulary, member)):
                 side = None
         elif member[0].kind in ("begin", "[") and not any(t.kind in ("+", "-") for t in member):
             side = side_of(vocabulary, member)
-            side = side if isinstance(side, Name) else None
+            side = side if isinstance(side, NamedAnswers) else None
         found.append(side)
     return found
 
@@ -64,7 +64,7 @@ def _read_side(vocabulary: Vocabulary, member: list[Token]) -> Side:
     except ReadError:
         return None
     candidates = _named(vocabulary, value, reader.candidates)
-    return Name(candidates) if candidates else None
+    return NamedAnswers(candidates) if candidates else None
 
 
 def _is_simple(tokens: list[Token], form: Form) -> bool:

@@ -64,7 +64,7 @@ def extent(tokens: list[Token], start: int) -> int:
 
 
 @dataclass(frozen=True, slots=True)
-class Name:
+class NamedAnswers:
     """The answers that a side of an equation may name."""
 
     candidates: tuple[str, ...]
@@ -80,7 +80,7 @@ class Unknown:
     message: str
 
 
-Side = Name | Unknown | None
+Side = NamedAnswers | Unknown | None
 """What a side of an equation names; None where it is something else."""
 
 

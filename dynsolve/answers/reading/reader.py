@@ -283,7 +283,7 @@ class Reader(NameCursor):
     def number(self) -> Value:
         """A number, with its degrees."""
         token = self.take()
-        value = plain.rational(plain.Token("number", token.text, token.start, token.end))
+        value = plain.rational(plain.FormulaToken("number", token.text, token.start, token.end))
         if self.token.kind == "°" or (self.token.kind == "name" and self.token.text == "deg"):
             self.take()
             return Degrees(value.numerator, value.denominator)

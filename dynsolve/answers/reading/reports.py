@@ -42,7 +42,7 @@ _TRAILING = frozenset("=+-*/,([{&\\")
 
 
 @dataclass(frozen=True, slots=True)
-class Definition:
+class MacroDefinition:
     """A macro with the offset from which it holds."""
 
     offset: int
@@ -65,9 +65,9 @@ def read_report(session: Session, source: Source, latex: bool = False) -> None:
         session.display(display)
 
 
-def _macros(text: str) -> tuple[str, list[Definition]]:
+def _macros(text: str) -> tuple[str, list[MacroDefinition]]:
     """The student's commands, and the text with blanks in their place."""
-    found: list[Definition] = []
+    found: list[MacroDefinition] = []
     pieces: list[str] = []
     done = tried = 0
     for match in _MACRO.finditer(text):
@@ -84,7 +84,7 @@ def _macros(text: str) -> tuple[str, list[Definition]]:
         name = match["name"] or match["bare"] or match["defined"]
         takes = 1 if match["count"] or match["hash"] else 0
         if not match["count"] or match["count"] == "1":
-            found.append(Definition(match.start(), name, Macro(tuple(body), takes)))
+            found.append(MacroDefinition(match.start(), name, Macro(tuple(body), takes)))
         pieces += [text[done : match.start()], " " * (end - match.start())]
         done = end
     return "".join([*pieces, text[done:]]), found

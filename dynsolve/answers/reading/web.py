@@ -23,7 +23,7 @@ _HIDDEN = re.compile(r"[^\n]")
 
 def read_page(session: Session, source: Source) -> None:
     """Read the displayed equations of a web page."""
-    page = _Page()
+    page = _WebPage()
     page.feed(_closed(_without_comments(source.text)))
     page.close()
     read_report(session, Source("".join(page.pieces), source.file, tuple(page.origins) or ((0, 1, 1),)))
@@ -49,7 +49,7 @@ def _closed(text: str) -> str:
     return text[:last] + text[last:].replace("<", " ")
 
 
-class _Page(HTMLParser):
+class _WebPage(HTMLParser):
     """Gathers text with its places; what MathJax and KaTeX render is taken from its LaTeX source."""
 
     def __init__(self) -> None:

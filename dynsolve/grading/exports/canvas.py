@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
-from dynsolve.grading.exports.roster import Roster, Row, number, unmatched
+from dynsolve.grading.exports.roster import Cells, Roster, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.tables import decimal
@@ -42,7 +42,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     students = _Students(header, standings(record))
     of = sum(most(problems).values(), Fraction(0))
     title = header[column] if column is not None else problems.title
-    out: list[Row] = [(*(header[place] for place in kept), title)]
+    out: list[Cells] = [(*(header[place] for place in kept), title)]
     seen: set[str] = set()
     without: list[str] = []
     points = ""
@@ -89,7 +89,7 @@ def _assignment(roster: Roster, title: str) -> int | None:
     return next(iter(named or titled), None)
 
 
-def _is_remark(row: Row) -> bool:
+def _is_remark(row: Cells) -> bool:
     """Whether a row is about the assignments, such as the one that names those posted by hand."""
     return all(re.fullmatch(r"\s*(muted|manual posting.*)?\s*", cell, re.IGNORECASE) for cell in row)
 
@@ -97,14 +97,14 @@ def _is_remark(row: Row) -> bool:
 class _Students:
     """Whose row it is: by Canvas's number where the hand-in has one, else by the names of the registry."""
 
-    def __init__(self, header: Row, found: Iterator[Standing]) -> None:
+    def __init__(self, header: Cells, found: Iterator[Standing]) -> None:
         self.all = list(found)
         self._id = header.index("ID")
         self._names = [place for place, name in enumerate(header) if name in _NAMES]
         self._by_id = {s.id: s for s in self.all if s.id}
         self._by_name = {s.student: s for s in self.all if not s.id.isdigit()}
 
-    def of(self, row: Row) -> Standing | None:
+    def of(self, row: Cells) -> Standing | None:
         """The standing of a row's student."""
         found = self._by_id.get(row[self._id].strip()) or self._by_name.get(row[self._id].strip())
         names = (self._by_name[row[place]] for place in self._names if row[place] in self._by_name)

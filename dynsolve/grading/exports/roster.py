@@ -18,7 +18,7 @@ from dynsolve.render.files import write_changed
 SEPARATORS = (",", ";", "\t")
 MOST_NAMED = 5
 
-Row = tuple[str, ...]
+Cells = tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,17 +30,17 @@ class Roster:
     """
 
     file: str
-    rows: tuple[Row, ...]
+    rows: tuple[Cells, ...]
     separator: str = ","
     mark: bool = False
     comma: bool = False
 
     @property
-    def header(self) -> Row:
+    def header(self) -> Cells:
         """The names of the columns, nothing where there are none."""
         return self.rows[0] if self.rows else ()
 
-    def write(self, path: Path, rows: Iterable[Row], trusted: int | None = None) -> None:
+    def write(self, path: Path, rows: Iterable[Cells], trusted: int | None = None) -> None:
         """Write rows as this CSV is written, every cell safe but those of the column `trusted`."""
         text = ("\ufeff" if self.mark else "") + table(rows, self.separator, trusted)
         write_changed(path, text.encode("utf-8", errors="replace"))
@@ -76,7 +76,7 @@ def read_roster(path: Path) -> Roster:
     return Roster(str(path), rows, separator, wide or data.startswith(b"\xef\xbb\xbf"), comma)
 
 
-def _rows(text: str, separator: str) -> tuple[Row, ...]:
+def _rows(text: str, separator: str) -> tuple[Cells, ...]:
     before = csv.field_size_limit(len(text) + 1)  # a text that a student typed online may be long
     try:
         lines = csv.reader(io.StringIO(text, newline=""), delimiter=separator)

@@ -14,7 +14,7 @@ from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.robot.model import Robot
 from dynsolve.solution.numbers import quantities, units
 from dynsolve.solution.numbers.beside import Numbers, needed
-from dynsolve.solution.numbers.given import Entry
+from dynsolve.solution.numbers.given import GivenValue
 from dynsolve.solution.numbers.names import Shown, all_results, main_results
 from dynsolve.solution.numbers.state import State
 
@@ -54,14 +54,14 @@ def _values(numbers: Numbers) -> Iterator[Block]:
         yield Text((*_names("Without a value, and so still a symbol: ", numbers.lacking), "."))
 
 
-def _table(rows: Iterable[tuple[Node, Entry, str]]) -> Table:
+def _table(rows: Iterable[tuple[Node, GivenValue, str]]) -> Table:
     cells: list[tuple[Inline, ...]] = [
         (symbol, _written(entry), units.node(unit) if unit else "") for symbol, entry, unit in rows
     ]
     return Table(("symbol", "value", "unit"), tuple(cells))
 
 
-def _written(entry: Entry) -> str:
+def _written(entry: GivenValue) -> str:
     """A value as it was given: 30° for 30deg."""
     return entry.text.replace(" deg", "°").replace("deg", "°").replace("-", "−")
 
@@ -155,7 +155,7 @@ def _walk(node: Node) -> Iterator[Node]:
 def _state(numbers: Numbers, state: State, detail: Detail, stages: set[str] | None) -> Iterator[Block]:
     robot = numbers.robot
     yield Heading("At a state", 2)
-    rows: list[tuple[Node, Entry, str]] = []
+    rows: list[tuple[Node, GivenValue, str]] = []
     still = []
     for dots in (0, 1, 2):
         for q in robot.coordinates:

@@ -13,7 +13,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.robot.model import Robot
 from dynsolve.solution.numbers import quantities
 from dynsolve.solution.numbers.beside import Numbers
-from dynsolve.solution.numbers.given import Entry
+from dynsolve.solution.numbers.given import GivenValue
 from dynsolve.solution.numbers.rounding import DIGITS
 
 _DIGITS = 15
@@ -53,7 +53,7 @@ def _digits(asked: int) -> int:
     return asked if asked != DIGITS else _DIGITS
 
 
-def _entry(entry: Entry) -> dict[str, str]:
+def _entry(entry: GivenValue) -> dict[str, str]:
     return {"value": entry.text, "unit": entry.unit or "rad"}
 
 

@@ -23,14 +23,14 @@ from dynsolve.problem import Problem
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.solution.numbers import quantities, units
 from dynsolve.solution.numbers.assignments import Assignment
-from dynsolve.solution.numbers.substitution import Values
+from dynsolve.solution.numbers.substitution import Replacements
 
 Key = tuple[str, int]
 """A name and its number of dots: ("theta1", 1) is a velocity."""
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class GivenValue:
     """One value: its formula in SI units, the text it was given as, its unit and whether it is a decimal."""
 
     tree: Node
@@ -43,11 +43,11 @@ class Entry:
 class Given:
     """Values by name; `warnings` are what deserves a look."""
 
-    entries: Mapping[Key, Entry] = field(default_factory=dict)
+    entries: Mapping[Key, GivenValue] = field(default_factory=dict)
     warnings: tuple[Finding, ...] = ()
 
     @property
-    def values(self) -> Values:
+    def values(self) -> Replacements:
         """The formulas alone."""
         return {key: entry.tree for key, entry in self.entries.items()}
 
@@ -76,10 +76,10 @@ def parameters(problem: Problem, assignments: Iterable[Assignment]) -> Given:
     what cannot be read.
     """
     reader = _Reader(problem)
-    entries: dict[Key, Entry] = {}
+    entries: dict[Key, GivenValue] = {}
     for assignment in of_file(problem):
         reader.take(entries, assignment, _parameter_key)
-    set_here: dict[Key, Entry] = {}
+    set_here: dict[Key, GivenValue] = {}
     for assignment in assignments:
         reader.take(set_here, assignment, _parameter_key)
     return reader.finished({**entries, **set_here})
@@ -110,7 +110,7 @@ def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
     Raises InputError with every fault, a coordinate that is missing among them.
     """
     reader = _Reader(problem)
-    entries: dict[Key, Entry] = {}
+    entries: dict[Key, GivenValue] = {}
     assignments = tuple(assignments)
     option = next((assignment.file for assignment in assignments), "")
     for assignment in assignments:
@@ -125,7 +125,9 @@ def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
         message = f"the state lacks {_listed(lacking)}"
         reader.report(Finding(message, f"a state gives every coordinate: add {example}", option))
     whole = {
-        (q.name, dots): entries.get((q.name, dots), Entry(Number(0), "0", quantities.of_coordinate(q, dots)))
+        (q.name, dots): entries.get(
+            (q.name, dots), GivenValue(Number(0), "0", quantities.of_coordinate(q, dots))
+        )
         for dots in (0, 1, 2)
         for q in robot.coordinates
     }
@@ -183,12 +185,12 @@ class _Reader:
     def report(self, finding: Finding) -> None:
         self.findings.append(finding)
 
-    def finished(self, entries: Mapping[Key, Entry]) -> Given:
+    def finished(self, entries: Mapping[Key, GivenValue]) -> Given:
         if self.findings:
             raise InputError(self.findings)
         return Given(entries, tuple(self.warnings))
 
-    def take(self, entries: dict[Key, Entry], assignment: Assignment, find: _Find) -> None:
+    def take(self, entries: dict[Key, GivenValue], assignment: Assignment, find: _Find) -> None:
         key = find(self, assignment)
         if key is None:
             return
@@ -218,7 +220,7 @@ class _Reader:
         help += f"The {what} are {some}" if known else f"this robot has no {what}"
         self.report(assignment.at_name(f"{name} does not occur in this problem", help))
 
-    def entry(self, key: Key, assignment: Assignment) -> Entry | None:
+    def entry(self, key: Key, assignment: Assignment) -> GivenValue | None:
         """The value, exact and in SI units; None (reported) where it has none."""
         written = self.read(assignment)
         if written is None:
@@ -228,12 +230,12 @@ class _Reader:
             checked = self.angle(assignment, written, unit)
             if checked is None:
                 return None
-            return Entry(checked, assignment.value, "" if written.turned else unit, written.decimal)
+            return GivenValue(checked, assignment.value, "" if written.turned else unit, written.decimal)
         if written.turned and not self.is_rate_of_angle(key):
             what = "no angle" if key[0] in self.robot.parameters else "a length"
             self.report(assignment.at_value(f"{assignment.name} is {what}, and is given an angle"))
             return None
-        return self.measured(key, Entry(written.tree, assignment.value, unit, written.decimal))
+        return self.measured(key, GivenValue(written.tree, assignment.value, unit, written.decimal))
 
     def read(self, assignment: Assignment) -> _Written | None:
         """The formula of a value, without names; None (reported) where it is none."""
@@ -292,7 +294,7 @@ class _Reader:
                 return quantities.of_coordinate(q, dots) if dots or name not in self.angles else ""
         return units.si(self.dimensions[name]) if name in self.dimensions else ""
 
-    def measured(self, key: Key, entry: Entry) -> Entry:
+    def measured(self, key: Key, entry: GivenValue) -> GivenValue:
         """The value in SI units; a unit that is unknown or of another kind draws a warning."""
         name, dots = key
         given = self.problem.units.get(name) if not dots else None
@@ -309,7 +311,7 @@ class _Reader:
             self.warn(place, message, "results are in SI units only where the units of the values fit")
         if unit.size == 1:
             return entry
-        return Entry(_scaled(entry.tree, unit.size), entry.text, entry.unit, entry.decimal)
+        return GivenValue(_scaled(entry.tree, unit.size), entry.text, entry.unit, entry.decimal)
 
     def warn(self, place: tuple[str, str], message: str, help: str) -> None:
         finding = self.problem.finding(place, message, help, "unit")

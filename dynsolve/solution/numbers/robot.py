@@ -8,10 +8,10 @@ from fractions import Fraction
 from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.notation.tree import Degrees, Node, Number, Parenthesized, Symbol, number
 from dynsolve.robot.model import Body, Joint, Robot
-from dynsolve.solution.numbers.substitution import Substitution, Values, replaced
+from dynsolve.solution.numbers.substitution import Replacements, Substitution, replaced
 
 
-def put_in(robot: Robot, values: Values) -> Robot:
+def put_in(robot: Robot, values: Replacements) -> Robot:
     """The robot with these values for its parameters.
 
     Raises AlgebraError where a formula has no meaning with them.
@@ -43,7 +43,7 @@ def _joint(joint: Joint, put: Substitution) -> Joint:
     )
 
 
-def _written(node: Node, values: Values) -> Node:
+def _written(node: Node, values: Replacements) -> Node:
     """A cell of the table with values in it; one that is a number is written as one."""
     if isinstance(node, Symbol | Number | Degrees):
         tree = replaced(node, values)

@@ -25,11 +25,11 @@ from dynsolve.notation.tree import (
     Symbol,
 )
 
-Values = Mapping[tuple[str, int], Node]
+Replacements = Mapping[tuple[str, int], Node]
 """Constant formulas by (name, number of dots): ("theta1", 1) is a velocity."""
 
 
-def replaced(node: Node, values: Values) -> Node:
+def replaced(node: Node, values: Replacements) -> Node:
     """A tree with formulas in place of symbols.
 
     >>> replaced(Product((Number(2), Symbol("L1"))), {("L1", 0): Number(2, 5)})
@@ -70,7 +70,7 @@ class Substitution:
     Expr(1/2*m)
     """
 
-    def __init__(self, source: Ring, values: Values, angles: Iterable[Angle] = ()) -> None:
+    def __init__(self, source: Ring, values: Replacements, angles: Iterable[Angle] = ()) -> None:
         self.source, self.values = source, values
         coordinates = [(name, kind) for name, kind in source.coordinates if (name, 0) not in values]
         basic = [self.angle(pair.angle) for pair in source.pairs]
