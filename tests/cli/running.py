@@ -1,4 +1,8 @@
-"""Running the program as a user does."""
+"""Running the program as a user does.
+
+`dynsolve` waits for the end of a run, `started` hands over one that goes on, and `in_terminal`
+gives it a terminal to write to.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +13,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent.parent
+
+INTERRUPTIBLE = """
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+os.execv(sys.argv[1], sys.argv[1:])
+"""
+"""Runs a command that heeds Ctrl-C, also where a shell has started the tests in the background.
+
+There SIGINT is ignored, and what ignores a signal hands that on to its children.
+"""
 
 
 @dataclass(frozen=True)
@@ -33,6 +47,13 @@ def dynsolve(*words: str, stdin: str | bytes = "", cwd: Path = ROOT, **extra: st
         command, input=data, capture_output=True, cwd=cwd, env=environment(**extra), check=False
     )
     return Ran(done.returncode, done.stdout.decode(), done.stderr.decode())
+
+
+def started(*words: str) -> subprocess.Popen[bytes]:
+    """`dynsolve words...` on its way, with pipes to it and from it; it heeds Ctrl-C."""
+    pipe = subprocess.PIPE
+    command = [sys.executable, "-c", INTERRUPTIBLE, sys.executable, "-m", "dynsolve", *words]
+    return subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, cwd=ROOT, env=environment())
 
 
 def in_terminal(*words: str, columns: int = 80, **extra: str) -> Ran:

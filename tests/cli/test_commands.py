@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,18 +11,28 @@ from pathlib import Path
 import jsonschema
 import pytest
 
+from dynsolve.cli.main import app
 from dynsolve.notation.unicode import width
-from tests.cli.running import ROOT, dynsolve, environment, in_terminal
+from tests.cli.running import ROOT, dynsolve, environment, in_terminal, started
 
-COMMANDS = ["solve", "lint", "new", "schema", "problems"]
+COMMANDS = {command.callback.__name__: command.callback for command in app().registered_commands}
+LINE = 66
+"""The columns that `--help` leaves for the sentence of a command."""
 
 
 def test_help_lists_every_command_with_its_help() -> None:
     ran = dynsolve("--help")
     assert ran.code == 0 and not ran.err
-    for command in COMMANDS:
+    for command, function in COMMANDS.items():
         (line,) = (line for line in ran.out.splitlines() if line.startswith(f"  {command} "))
-        assert line.rstrip().endswith(".") and "..." not in line
+        sentence, shown = str(function.__doc__).splitlines()[0], line.split(maxsplit=1)[1]
+        assert sentence.endswith(".")
+        assert shown == sentence if len(sentence) <= LINE else sentence.startswith(shown.removesuffix("..."))
+
+
+def test_the_readme_has_a_row_for_every_command() -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert COMMANDS.keys() == set(re.findall(r"^\| `dynsolve (\w+)\b[^`]*` \|", readme, re.MULTILINE))
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -136,7 +147,6 @@ def test_a_terminal_has_colour_and_its_own_width() -> None:
 
 
 def test_colour_changes_no_text() -> None:
-    import re
 
     coloured = in_terminal("solve", "planar-2r")
     plain = in_terminal("solve", "planar-2r", NO_COLOR="1")
@@ -144,10 +154,7 @@ def test_colour_changes_no_text() -> None:
 
 
 def test_whoever_stops_reading_gets_no_complaint() -> None:
-    with subprocess.Popen(
-        [sys.executable, "-m", "dynsolve", "solve", "puma560-first3"],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, env=environment(),
-    ) as process:  # fmt: skip
+    with started("solve", "puma560-first3") as process:
         assert process.stdout is not None and process.stderr is not None
         process.stdout.readline()
         process.stdout.close()

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.running import ROOT, dynsolve, environment
+from tests.cli.running import ROOT, dynsolve, environment, started
 from tests.grading.generate import course, problem_set
 
 RIGHT = "problem: in3140-rp\nanswers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n  g: [0, 0]\n"
@@ -67,20 +67,7 @@ def _dump(folder: Path) -> list[tuple[object, ...]]:
 
 
 def _grade(problems: Path, hand_ins: Path, out: Path, *words: str) -> subprocess.Popen[bytes]:
-    command = [
-        sys.executable,
-        "-m",
-        "dynsolve",
-        "grade",
-        str(problems),
-        str(hand_ins),
-        "-o",
-        str(out),
-        *words,
-    ]
-    return subprocess.Popen(
-        command, cwd=ROOT, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    )
+    return started("grade", str(problems), str(hand_ins), "-o", str(out), *words)
 
 
 CANVAS = {
@@ -315,7 +302,6 @@ def test_a_full_disk_is_said_and_the_same_command_goes_on(tmp_path: Path) -> Non
     assert len(_csv(tmp_path / "out" / "grades.csv")) == 12
 
 
-@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 def test_a_file_in_place_of_the_folder_is_said(tmp_path: Path, set_folder: Path) -> None:
     where = _write(tmp_path / "in", {"ada.yaml": RIGHT}), _write(tmp_path, {"out": "notes"}) / "out"
     run = dynsolve("grade", str(set_folder), str(where[0]), "-o", str(where[1]))
@@ -323,6 +309,7 @@ def test_a_file_in_place_of_the_folder_is_said(tmp_path: Path, set_folder: Path)
     assert "is a file; name a folder" in run.err and "goes on" not in run.err
 
 
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 def test_ctrl_c_ends_cleanly_leaves_no_process_and_says_how_to_go_on(tmp_path: Path) -> None:
     problem_set(tmp_path / "set")
     course(tmp_path / "in", 200)
