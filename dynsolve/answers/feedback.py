@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from dynsolve.answers.reading.shapes import with_names
 from dynsolve.answers.submission import Place
-from dynsolve.answers.verdict import Diagnosis, EntryVerdict, Judged, Report, Verdict
+from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Report, Verdict
 from dynsolve.document import (
     Block,
     Document,
@@ -135,15 +135,15 @@ def _number(value: object) -> str:
     return f"{float(value):g}"  # type: ignore[arg-type]
 
 
-def _named(answer: Judged) -> str:
+def _named(answer: JudgedAnswer) -> str:
     return f"{answer.name} {answer.label}".strip()
 
 
-def _where(answer: Judged) -> str:
+def _where(answer: JudgedAnswer) -> str:
     return f" ({answer.place})" if answer.place and answer.place.line else ""
 
 
-def _wrong(answer: Judged, view: FeedbackView) -> Iterator[Block]:
+def _wrong(answer: JudgedAnswer, view: FeedbackView) -> Iterator[Block]:
     yield from _reading(f"Read{_where(answer)} as", answer)
     bad = [e for e in answer.entries if e.verdict is Verdict.WRONG]
     if bad:
@@ -158,7 +158,7 @@ def _wrong(answer: Judged, view: FeedbackView) -> Iterator[Block]:
         yield Note((_NOTES.get(note, note),))
 
 
-def _differences(answer: Judged, bad: Sequence[EntryVerdict]) -> Iterator[Block]:
+def _differences(answer: JudgedAnswer, bad: Sequence[EntryVerdict]) -> Iterator[Block]:
     if answer.difference is not None:
         yield Text(("Yours minus what was expected:",))
         yield Formula(answer.difference)
@@ -168,7 +168,7 @@ def _differences(answer: Judged, bad: Sequence[EntryVerdict]) -> Iterator[Block]
             yield Formula(entry.difference)
 
 
-def _places(entries: Sequence[EntryVerdict], answer: Judged) -> str:
+def _places(entries: Sequence[EntryVerdict], answer: JudgedAnswer) -> str:
     """Some entries of an answer: `entry 2` of a column, `entries (1, 1), (2, 2)`, `row 1` of C."""
     is_column = all(e.index[-1] == 1 for e in answer.entries)
     word = "row" if len(entries[0].index) == 1 else "entry"
@@ -176,7 +176,7 @@ def _places(entries: Sequence[EntryVerdict], answer: Judged) -> str:
     return f"{plural} {', '.join(str(e.index[0]) if is_column else _index(e) for e in entries)}"
 
 
-def _where_told(told: Diagnosis, bad: Sequence[EntryVerdict], answer: Judged) -> str:
+def _where_told(told: Diagnosis, bad: Sequence[EntryVerdict], answer: JudgedAnswer) -> str:
     """Which of several wrong entries a slip is in, where it is not in all of them.
 
     A number for everything is of the entries that it is said of, where others are right.
@@ -189,7 +189,7 @@ def _where_told(told: Diagnosis, bad: Sequence[EntryVerdict], answer: Judged) ->
     return f"{places[0].upper()}{places[1:]}: "
 
 
-def _slips(answer: Judged, bad: Sequence[EntryVerdict], view: FeedbackView) -> Iterator[Block]:
+def _slips(answer: JudgedAnswer, bad: Sequence[EntryVerdict], view: FeedbackView) -> Iterator[Block]:
     told = answer.diagnosis
     if view.level >= 3 or view.teacher:
         items = [typeset(_where_told(d, bad, answer) + f"{d.message} {d.look}".strip()) for d in told]
@@ -237,7 +237,7 @@ def _index(entry: EntryVerdict) -> str:
     return str(entry.index[0]) if len(entry.index) == 1 else f"({entry.index[0]}, {entry.index[1]})"
 
 
-def _unreadable(answer: Judged) -> Iterator[Block]:
+def _unreadable(answer: JudgedAnswer) -> Iterator[Block]:
     place = answer.place
     where = f"{place}: " if place and place.line else ""
     yield Text((f"{where[:1].upper()}{where[1:]}{answer.fault}.",))
@@ -262,11 +262,11 @@ def findings(report: Report) -> Iterator[Finding]:
             )  # fmt: skip
 
 
-def _row(answer: Judged) -> tuple[str | Node, ...]:
+def _row(answer: JudgedAnswer) -> tuple[str | Node, ...]:
     return _named(answer), _SAID[answer.verdict], "; ".join(_remarks(answer))
 
 
-def _remarks(answer: Judged) -> Iterator[str]:
+def _remarks(answer: JudgedAnswer) -> Iterator[str]:
     if answer.follows_from:
         yield "from " + ", ".join(answer.follows_from)
     if answer.verdict is not Verdict.WRONG:  # what is wrong has its remarks above, beside the slip
@@ -274,7 +274,7 @@ def _remarks(answer: Judged) -> Iterator[str]:
         yield from _times(answer)
 
 
-def _times(answer: Judged) -> Iterator[str]:
+def _times(answer: JudgedAnswer) -> Iterator[str]:
     """Where an answer was given, if more than once."""
     if len(answer.occurrences) > 1:
         each = ", ".join(f"{o.label or o.place} {o.verdict}" for o in answer.occurrences)
@@ -293,7 +293,7 @@ def readings(report: Report, view: FeedbackView) -> Iterator[Block]:
         yield from _reading(f"{_named(answer)}{_where(answer)}{told}", answer)
 
 
-def _reading(said: str, answer: Judged) -> Iterator[Block]:
+def _reading(said: str, answer: JudgedAnswer) -> Iterator[Block]:
     """What was read: as a formula where it is to be looked at, else, or where it is too long, as text."""
     if answer.verdict is not Verdict.CORRECT and answer.written is not None and len(answer.read_as) <= _MOST:
         yield Text((f"{said}:",))

@@ -17,22 +17,23 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.derivation import DerivationSlips
-from dynsolve.answers.diagnosis.diagnose import Diagnoser, Question
+from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
+from dynsolve.answers.diagnosis.diagnoser import Diagnoser, WrongEntry
+from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.judging.answer_ring import Field
-from dynsolve.answers.judging.compare import Comparison
-from dynsolve.answers.judging.follow import Candidate, Follow
+from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues, same
+from dynsolve.answers.judging.entry_comparison import EntryComparer
+from dynsolve.answers.judging.follow_through import FollowThrough, PossibleValue
 from dynsolve.answers.judging.fraction import Frac, as_expr
-from dynsolve.answers.judging.given import Given, Hand, same
-from dynsolve.answers.judging.graph import Graph
-from dynsolve.answers.judging.key_comparison import Held, Holder, Target
-from dynsolve.answers.judging.student_values import own_values
-from dynsolve.answers.judging.zero_height import find_level
+from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison, Target
+from dynsolve.answers.judging.student_values import student_values
+from dynsolve.answers.judging.zero_height import potential_at_zero_height
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import (
     EntryVerdict,
-    Judged,
+    JudgedAnswer,
     Occurrence,
     Report,
     Verdict,
@@ -73,7 +74,7 @@ class Checker:
     @cached_property
     def derivations(self) -> DerivationSlips:
         """The derivations with a rule replaced, in the problem's own ring."""
-        return DerivationSlips(Graph(self.field))
+        return DerivationSlips(AnswerGraph(self.field))
 
     def __call__(self, submission: Submission) -> Report:
         """Judge a hand-in."""
@@ -92,23 +93,23 @@ class Judge:
         self.checker = checker
         self.problem = problem = checker.problem
         self.submission = submission
-        self.hand = Hand(checker.field, submission.answers)
+        self.hand = AnswerValues(checker.field, submission.answers)
         self.field = self.hand.field
         self.dimensions = self.field.dimensions
-        self.compare = Comparison(problem.values)
-        self.graph = Graph(self.field)
-        self.hold = Holder(self.graph, self.compare, self.hand.moved)
+        self.compare = EntryComparer(problem.values)
+        self.graph = AnswerGraph(self.field)
+        self.hold = KeyComparer(self.graph, self.compare, self.hand.moved)
         self.groups = self._grouped()
-        level = find_level(self.field, dict(self._energies()), self.dimensions)
+        level = potential_at_zero_height(self.field, dict(self._energies()), self.dimensions)
         self.graph.shift = level
         self.held = {name: self.hold(name, self._value(chains)) for name, chains in self.groups.items()}
         self.assembled = self._assembled()
 
     # -- what was handed in ------------------------------------------------------------------------
 
-    def _grouped(self) -> dict[str, list[list[Given]]]:
+    def _grouped(self) -> dict[str, list[list[AnswerValue]]]:
         """The answers by name, and of each name by the equation they stand in."""
-        groups: dict[str, list[list[Given]]] = {}
+        groups: dict[str, list[list[AnswerValue]]] = {}
         for given in self.hand.given:
             chains = groups.setdefault(self._name(given), [])
             if chains and chains[-1][0].answer.occurrence[0] == given.answer.occurrence[0]:
@@ -117,7 +118,7 @@ class Judge:
                 chains.append([given])
         return groups
 
-    def _name(self, given: Given) -> str:
+    def _name(self, given: AnswerValue) -> str:
         """The quantity that is meant where the notation leaves two: the one that it equals."""
         answer = given.answer
         for name in (answer.name, *answer.alternatives) if answer.alternatives and given.rows else ():
@@ -125,7 +126,7 @@ class Judge:
                 return name
         return self.graph.answer(answer.name)
 
-    def _value(self, chains: list[list[Given]]) -> Given:
+    def _value(self, chains: list[list[AnswerValue]]) -> AnswerValue:
         """The answer that counts: the last member of the last equation."""
         return chains[-1][-1]
 
@@ -139,7 +140,7 @@ class Judge:
                 if value is not None:
                     yield name, value
 
-    def _assembled(self) -> Held | None:
+    def _assembled(self) -> KeyComparison | None:
         """C put together from its entries where all were given: free as a whole, it is held by row."""
         n = self.problem.robot.n
         names = [[f"C{i + 1}{j + 1}" for j in range(n)] for i in range(n)]
@@ -155,16 +156,16 @@ class Judge:
         node = tree.Matrix(tuple(tuple(given.nodes[0][0] for given in row) for row in rows))
         answer = replace(rows[0][0].answer, name="C", node=node)
         values = tuple(tuple(given.entries[0] for given in row) for row in rows)
-        return self.hold("C", Given(answer, values, node.rows))
+        return self.hold("C", AnswerValue(answer, values, node.rows))
 
     # -- held against what the student's own answers lead to ---------------------------------------
 
     @cached_property
-    def follow(self) -> Follow:
+    def follow(self) -> FollowThrough:
         """The candidates that the student's own answers lead to."""
-        return Follow(self.graph, own_values(self.graph, self.held))
+        return FollowThrough(self.graph, student_values(self.graph, self.held))
 
-    def _candidates(self, held: Held) -> Sequence[Candidate]:
+    def _candidates(self, held: KeyComparison) -> Sequence[PossibleValue]:
         return self.follow.derived(held.target.node)
 
     # -- verdicts ----------------------------------------------------------------------------------
@@ -176,12 +177,12 @@ class Judge:
         derivations = self.checker.derivations if shared else DerivationSlips(self.graph)
         return Diagnoser(self.problem, self.graph, self.follow, self.dimensions, derivations)
 
-    def judged(self, name: str) -> Judged:
+    def judged(self, name: str) -> JudgedAnswer:
         """What is said of one answer."""
         chains = self.groups[name]
         held = self.held[name]
         answer = held.given.answer
-        base = Judged(
+        base = JudgedAnswer(
             name,
             Verdict.WRONG,
             answer.label,
@@ -203,11 +204,11 @@ class Judge:
             return self._scored(self._as_correct(base, name, held))
         return self._scored(self._as_other(base, name, held))
 
-    def _scored(self, judged: Judged) -> Judged:
+    def _scored(self, judged: JudgedAnswer) -> JudgedAnswer:
         earned = judged.of if judged.verdict in (Verdict.CORRECT, Verdict.FOLLOWS) else Fraction(0)
         return replace(judged, marks=earned)
 
-    def _as_correct(self, base: Judged, name: str, held: Held) -> Judged:
+    def _as_correct(self, base: JudgedAnswer, name: str, held: KeyComparison) -> JudgedAnswer:
         notes = list(base.notes)
         if held.rounded:
             notes.append("rounded")
@@ -218,13 +219,13 @@ class Judge:
         entries = tuple(EntryVerdict(index, Verdict.CORRECT) for index, _, _ in self._entries(name, held))
         return replace(base, verdict=Verdict.CORRECT, notes=tuple(notes), entries=entries)
 
-    def _is_christoffel(self, given: Given) -> bool:
+    def _is_christoffel(self, given: AnswerValue) -> bool:
         assert given.rows is not None
         C: Matrix = self.field.key("C")
         key = tuple(tuple(Frac(entry) for entry in row) for row in C.rows)
         return same(given.rows, key)
 
-    def _not_from_own(self, held: Held) -> bool:
+    def _not_from_own(self, held: KeyComparison) -> bool:
         """Whether the student's own wrong answers lead elsewhere."""
         if held.target.node in ("Cqd", "C", "christoffel") and not self.problem.robot.bodies:
             return False
@@ -232,22 +233,22 @@ class Judge:
             return False
         key = self.hold.key(held.target)
         led = False
-        for value in self._nearest_of_ways(held.target):
+        for value in self._nearest_of_routes(held.target):
             if _equal(value, key):
                 return False
             led = True
         return led
 
-    def _nearest_of_ways(self, target: Target) -> Iterator[Any]:
-        """The value of each way from the nearest own answers."""
-        for way in self.graph.ways(target.node):
-            if not any(self.follow.own.get(i) or self.follow.touched(i) for i in way.inputs):
+    def _nearest_of_routes(self, target: Target) -> Iterator[Any]:
+        """The value of each route from the nearest own answers."""
+        for route in self.graph.routes(target.node):
+            if not any(self.follow.own.get(i) or self.follow.touched(i) for i in route.inputs):
                 continue
-            one = next(iter(self.follow._combinations(way)), None)
+            one = next(iter(self.follow._combinations(route)), None)
             if one is not None:
                 yield target.of(one.value)
 
-    def _entries(self, name: str, held: Held) -> Iterator[tuple[tuple[int, ...], int, int]]:
+    def _entries(self, name: str, held: KeyComparison) -> Iterator[tuple[tuple[int, ...], int, int]]:
         """(index from 1, row, column) of the entries that are judged one by one; none of a scalar."""
         if len(held.rows) == 1 and len(held.rows[0]) == 1:
             return
@@ -255,9 +256,9 @@ class Judge:
             for j in range(len(row)):
                 yield ((i + 1,) if name == "C" else (i + 1, j + 1)), i, j
 
-    def _as_other(self, base: Judged, name: str, held: Held) -> Judged:
-        if not held.rows or held.spoilt:
-            return replace(base, diagnosis=held.spoilt)
+    def _as_other(self, base: JudgedAnswer, name: str, held: KeyComparison) -> JudgedAnswer:
+        if not held.rows or held.obstacles:
+            return replace(base, diagnosis=tuple(slip(one.code, yours=one.yours) for one in held.obstacles))
         whole = self._whole_follows(held)
         entries = tuple(
             self._entry(name, held, index, i, j, whole) for index, i, j in self._entries(name, held)
@@ -288,12 +289,12 @@ class Judge:
     def _sorted(self, names: Sequence[str]) -> tuple[str, ...]:
         return tuple(sorted(dict.fromkeys(names), key=self.graph.place))
 
-    def _matches(self, held: Held, candidate: Candidate, i: int, j: int) -> bool:
+    def _matches(self, held: KeyComparison, candidate: PossibleValue, i: int, j: int) -> bool:
         value = held.target.of(candidate.value)
         expected = value[i, j] if isinstance(value, Matrix) else value
         return self.compare(expected, held.rows[i][j]) is not None
 
-    def _whole_follows(self, held: Held) -> Candidate | None:
+    def _whole_follows(self, held: KeyComparison) -> PossibleValue | None:
         """The first candidate that explains every entry that is not right by itself."""
         places = [(i, j) for i, row in enumerate(held.right) for j, r in enumerate(row) if r is None]
         for one in self._candidates(held):
@@ -301,7 +302,7 @@ class Judge:
                 return one
         return None
 
-    def _row_follows(self, held: Held, i: int) -> Candidate | None:
+    def _row_follows(self, held: KeyComparison, i: int) -> PossibleValue | None:
         """The force that an entry of τ is taken from."""
         for one in self.follow.choices(f"tau{i + 1}"):
             if one.used and one.value is not None and self.compare(one.value, held.rows[i][0]) is not None:
@@ -309,7 +310,13 @@ class Judge:
         return None
 
     def _entry(
-        self, name: str, held: Held, index: tuple[int, ...], i: int, j: int, whole: Candidate | None
+        self,
+        name: str,
+        held: KeyComparison,
+        index: tuple[int, ...],
+        i: int,
+        j: int,
+        whole: PossibleValue | None,
     ) -> EntryVerdict:
         if held.right[i][j] is not None:
             return EntryVerdict(index, Verdict.CORRECT)
@@ -323,9 +330,9 @@ class Judge:
             index, Verdict.WRONG, self.diagnoser(question), difference=self.diagnoser.difference(question)
         )
 
-    def _question(self, name: str, held: Held, i: int, j: int) -> Question:
+    def _question(self, name: str, held: KeyComparison, i: int, j: int) -> WrongEntry:
         key = self.hold.key(held.target)
-        return Question(
+        return WrongEntry(
             name=name,
             target=held.target,
             written=held.rows[i][j],
@@ -342,7 +349,7 @@ class Judge:
 
     # -- places ------------------------------------------------------------------------------------
 
-    def _occurrences(self, name: str, chains: list[list[Given]]) -> tuple[Occurrence, ...]:
+    def _occurrences(self, name: str, chains: list[list[AnswerValue]]) -> tuple[Occurrence, ...]:
         """Each place where it was given, where there are several."""
         if len(chains) < 2:
             return ()
@@ -352,13 +359,13 @@ class Judge:
             found.append(Occurrence(last.answer.place, last.answer.label, self._verdict_of(name, last)))
         return tuple(found)
 
-    def _verdict_of(self, name: str, given: Given) -> Verdict:
+    def _verdict_of(self, name: str, given: AnswerValue) -> Verdict:
         held = self.hold(name, given)
         if given.rows is None:
             return Verdict.UNREADABLE
         if held.correct:
             return Verdict.CORRECT
-        if not held.rows or held.spoilt:
+        if not held.rows or held.obstacles:
             return Verdict.WRONG
         whole = self._whole_follows(held)
         if whole is not None:
@@ -372,7 +379,7 @@ class Judge:
                 )
         return worst(verdicts)
 
-    def _with_chain(self, base: Judged, chain: list[Given]) -> Judged:
+    def _with_chain(self, base: JudgedAnswer, chain: list[AnswerValue]) -> JudgedAnswer:
         """The place of the slip in a = b = c: the first member that differs from the one before it."""
         for before, after in pairwise(chain):
             if before.rows is None or after.rows is None or same(before.rows, after.rows):
@@ -405,11 +412,13 @@ class Judge:
             self.submission.faults,
         )
 
-    def _by_row(self, whole: Held, answers: dict[str, Judged]) -> Iterator[tuple[str, Judged]]:
+    def _by_row(
+        self, whole: KeyComparison, answers: dict[str, JudgedAnswer]
+    ) -> Iterator[tuple[str, JudgedAnswer]]:
         """The entries of C, each with the verdict of its row of C q̇."""
-        base = Judged("C", Verdict.WRONG)
+        base = JudgedAnswer("C", Verdict.WRONG)
         one = self._as_correct(base, "C", whole) if whole.correct else self._as_other(base, "C", whole)
-        if whole.spoilt:
+        if whole.obstacles:
             return
         for entry in one.entries:
             for j in range(self.problem.robot.n):
@@ -428,17 +437,17 @@ class Judge:
                     ),
                 )
 
-    def _unwritten(self, name: str, answers: dict[str, Judged]) -> Judged:
+    def _unwritten(self, name: str, answers: dict[str, JudgedAnswer]) -> JudgedAnswer:
         """A whole that is not written: judged by its parts where all of them are, else missing."""
         of = Fraction(self.problem.marks.get(name, 0))
         parts = self._written_parts(name, answers)
         if parts is None:
-            base = Judged(name, Verdict.MISSING, of=of, given=False)
+            base = JudgedAnswer(name, Verdict.MISSING, of=of, given=False)
             return self._scored(self._within_whole(base, answers) or base)
         verdict = worst([part.verdict for part in parts])
         used = [n for part in parts for n in part.follows_from] if verdict is Verdict.FOLLOWS else []
         return self._scored(
-            Judged(
+            JudgedAnswer(
                 name,
                 verdict,
                 parts[0].label,
@@ -450,7 +459,7 @@ class Judge:
             )
         )
 
-    def _within_whole(self, base: Judged, answers: dict[str, Judged]) -> Judged | None:
+    def _within_whole(self, base: JudgedAnswer, answers: dict[str, JudgedAnswer]) -> JudgedAnswer | None:
         """An entry that is not written by itself: judged in the matrix, or as the one it mirrors in D."""
         name, place = self.graph.whole(base.name)
         mirrored = answers.get(f"d{place[1]}{place[0]}") if name == "D" else None
@@ -467,9 +476,9 @@ class Judge:
             expected=whole.expected, difference=found.difference if found else None,
         )  # fmt: skip
 
-    def _written_parts(self, name: str, answers: dict[str, Judged]) -> list[Judged] | None:
+    def _written_parts(self, name: str, answers: dict[str, JudgedAnswer]) -> list[JudgedAnswer] | None:
         parts = self.graph.parts(name)
-        found: list[Judged] = []
+        found: list[JudgedAnswer] = []
         for part in parts:
             mirrored = f"d{part[2]}{part[1]}" if name == "D" else part
             if part in answers:

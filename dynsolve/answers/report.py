@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from dynsolve.answers.verdict import Diagnosis, EntryVerdict, Judged, Report
+from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Report
 
 FORMAT = "dynsolve-check/1"
 
@@ -27,7 +27,7 @@ def to_json(report: Report, *, level: int = 3, teacher: bool = False) -> dict[st
     }
 
 
-def _answer(answer: Judged, level: int, teacher: bool) -> dict[str, Any]:
+def _answer(answer: JudgedAnswer, level: int, teacher: bool) -> dict[str, Any]:
     place = answer.place
     found: dict[str, Any] = {
         "name": answer.name,

@@ -63,7 +63,7 @@ class Occurrence:
 
 
 @dataclass(frozen=True, slots=True)
-class Judged:
+class JudgedAnswer:
     """What is said of one answer; `written` is the tree of what the student wrote."""
 
     name: str
@@ -93,7 +93,7 @@ class Report:
     problem: str
     student: str
     file: str
-    answers: tuple[Judged, ...]
+    answers: tuple[JudgedAnswer, ...]
     not_recognized: tuple[NotRecognized, ...] = ()
     first_wrong: str = ""
     faults: tuple[Finding, ...] = ()

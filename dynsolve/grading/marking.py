@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from dynsolve.answers.verdict import Judged, Verdict
+from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.grading.policy import Policy, rounded, shown, stage_of
 
 HALF = Fraction(1, 2)
@@ -23,11 +23,11 @@ class Marked:
 
 
 def mark(
-    answers: Iterable[Judged],
+    answers: Iterable[JudgedAnswer],
     policy: Policy,
     late: bool = False,
     losses: dict[str, str] | None = None,
-    parts: dict[str, tuple[Judged, ...]] | None = None,
+    parts: dict[str, tuple[JudgedAnswer, ...]] | None = None,
 ) -> tuple[Marked, ...]:
     """The marks of a hand-in's answers, in their order.
 
@@ -40,7 +40,7 @@ def mark(
     return tuple(_capped(found, policy))
 
 
-def _one(answer: Judged, policy: Policy, loss: str, parts: tuple[Judged, ...]) -> Marked:
+def _one(answer: JudgedAnswer, policy: Policy, loss: str, parts: tuple[JudgedAnswer, ...]) -> Marked:
     if not answer.of:
         return Marked(answer.name, Fraction(0), Fraction(0), f"{answer.verdict}; it carries no marks")
     share, why = _share(answer, policy, loss, parts)
@@ -59,7 +59,9 @@ def _rounding(exact: Fraction, marks: Fraction, policy: Policy) -> str:
     return f" ({shown(exact)}, rounded to steps of {shown(policy.rounding)})" if exact != marks else ""
 
 
-def _share(answer: Judged, policy: Policy, loss: str, parts: tuple[Judged, ...]) -> tuple[Fraction, str]:
+def _share(
+    answer: JudgedAnswer, policy: Policy, loss: str, parts: tuple[JudgedAnswer, ...]
+) -> tuple[Fraction, str]:
     """The share of its marks that an answer earns, and why."""
     if answer.verdict is Verdict.CORRECT:
         return Fraction(1), "correct"
@@ -80,7 +82,7 @@ def _share(answer: Judged, policy: Policy, loss: str, parts: tuple[Judged, ...])
     return (right + following * follow) / len(pieces), ", ".join(said)
 
 
-def _word(answer: Judged) -> str:
+def _word(answer: JudgedAnswer) -> str:
     if not answer.entries:
         return "parts"
     return "rows" if len(answer.entries[0].index) == 1 else "entries"

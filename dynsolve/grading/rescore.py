@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import NamedTuple
 
-from dynsolve.answers.verdict import EntryVerdict, Judged, Verdict
+from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.grading.marking import Marked, mark
 from dynsolve.grading.policy import Policy
 
@@ -28,7 +28,7 @@ class Kept(NamedTuple):
     basis: str
 
 
-def basis(answer: Judged, parts: tuple[Judged, ...]) -> str:
+def basis(answer: JudgedAnswer, parts: tuple[JudgedAnswer, ...]) -> str:
     """What the marks of an answer are made from beside its verdict, as the record keeps it.
 
     >>> basis(Judged("K", Verdict.FOLLOWS, follows_from=("K1",)), ())
@@ -51,7 +51,7 @@ def remarked(
     for name, verdict, loss, text in kept:
         follows_from, entries, pieces = json.loads(text)
         answers.append(
-            Judged(
+            JudgedAnswer(
                 name,
                 Verdict(verdict),
                 follows_from=tuple(follows_from),
@@ -60,7 +60,7 @@ def remarked(
             )
         )
         losses[name] = loss
-        parts[name] = tuple(Judged(name, Verdict(of)) for of in pieces)
+        parts[name] = tuple(JudgedAnswer(name, Verdict(of)) for of in pieces)
     return mark(answers, policy, late, losses, parts)
 
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import dynsolve
-from dynsolve.answers.verdict import Judged, Verdict
+from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.hand_ins import File, HandIn, Intake
 from dynsolve.grading.marking import mark
@@ -299,7 +299,7 @@ def _unread(problems: ProblemSet, student: str, stem: str, reason: str) -> Data:
     html, markdown = bare_page(item.problem.title, student, reason) if reason else ("", "")
     verdict = Verdict.UNREADABLE if reason else Verdict.MISSING
     blank = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form", "basis"), "")
-    marked = mark((Judged(n, verdict, of=of) for n, of in item.problem.marks.items()), problems.policy)
+    marked = mark((JudgedAnswer(n, verdict, of=of) for n, of in item.problem.marks.items()), problems.policy)
     answers = [
         {
             **blank, "name": m.name, "verdict": str(verdict), "marks": "0", "of": str(m.of), "line": 0,

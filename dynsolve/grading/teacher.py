@@ -10,7 +10,7 @@ from importlib.resources import files
 from math import floor
 from urllib.parse import quote
 
-from dynsolve.answers.diagnosis.table import SLIPS
+from dynsolve.answers.diagnosis.slips import SLIPS
 from dynsolve.grading.cohort import VERDICTS, Cohort, counted
 from dynsolve.grading.output_paths import folder_name
 from dynsolve.grading.policy import shown

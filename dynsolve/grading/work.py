@@ -16,7 +16,7 @@ from typing import Any
 
 from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.submission import Submission
-from dynsolve.answers.verdict import Judged, Report, Verdict
+from dynsolve.answers.verdict import JudgedAnswer, Report, Verdict
 from dynsolve.grading.answer_by_answer import sound
 from dynsolve.grading.losses import losses
 from dynsolve.grading.marking import Marked, mark
@@ -106,7 +106,7 @@ def _joined(read: list[Submission]) -> Submission:
     )
 
 
-def _parts(judge: Judge, report: Report) -> dict[str, tuple[Judged, ...]]:
+def _parts(judge: Judge, report: Report) -> dict[str, tuple[JudgedAnswer, ...]]:
     """The parts of the wholes that are not written; of a matrix also where some of them are missing."""
     given = {answer.name: answer for answer in report.answers if answer.given}
     found = {}
@@ -118,17 +118,17 @@ def _parts(judge: Judge, report: Report) -> dict[str, tuple[Judged, ...]]:
         written = [piece for piece in pieces if piece is not None]
         of_matrix = all(judge.graph.whole(name)[0] == answer.name for name in names)
         if written and (of_matrix or len(written) == len(pieces)):
-            missing = (Judged(name, Verdict.MISSING) for name in names)
+            missing = (JudgedAnswer(name, Verdict.MISSING) for name in names)
             found[answer.name] = tuple(p or m for p, m in zip(pieces, missing, strict=True))
     return found
 
 
-def _part(name: str, given: dict[str, Judged]) -> Judged | None:
+def _part(name: str, given: dict[str, JudgedAnswer]) -> JudgedAnswer | None:
     mirrored = f"d{name[2]}{name[1]}" if name[0] == "d" and len(name) == 3 else name
     return given.get(name) or given.get(mirrored)
 
 
-def _answer(answer: Judged, marked: Marked) -> Data:
+def _answer(answer: JudgedAnswer, marked: Marked) -> Data:
     place = answer.place
     slips: dict[str, str] = {}
     for said in (*answer.diagnosis, *(d for entry in answer.entries for d in entry.diagnosis)):
@@ -150,13 +150,13 @@ def _answer(answer: Judged, marked: Marked) -> Data:
     }
 
 
-def _notes(answer: Judged) -> Iterator[str]:
+def _notes(answer: JudgedAnswer) -> Iterator[str]:
     if answer.place and answer.place.file:
         yield str(answer.place)
     yield from answer.notes
 
 
-def _form(judge: Judge, answer: Judged) -> str:
+def _form(judge: Judge, answer: JudgedAnswer) -> str:
     """What is the same for wrong answers of the same value, however they are written."""
     held = judge.held.get(answer.name)
     if answer.verdict is not Verdict.WRONG or held is None or not held.rows:

@@ -5,9 +5,9 @@ second person that says what happened, and what to look at.  How a slip is
 recognized stands in one of three files:
 
 - `terms`: in single terms: a sign, a factor, a lost mass, square or dot;
-- `stage`: a step of the derivation done otherwise from the student's own inputs;
-- `derivation`: the whole derivation with one rule replaced.
+- `steps`: a step of the derivation done otherwise from the student's own inputs;
+- `changed_rules`: the whole derivation with one rule replaced.
 
-To add a slip, write its record in `table` with an example, and its recognition in
+To add a slip, write its record in `slips` with an example, and its recognition in
 one of the three; the tests run every example.
 """

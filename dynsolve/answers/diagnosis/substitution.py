@@ -10,9 +10,9 @@ from flint import fmpq
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr, Generator
 from dynsolve.algebra.ring import Ring
-from dynsolve.answers.diagnosis.table import slip
-from dynsolve.answers.diagnosis.words import TermWriter
-from dynsolve.answers.judging.graph import Graph
+from dynsolve.answers.diagnosis.slips import slip
+from dynsolve.answers.diagnosis.term_writer import TermWriter
+from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.ring_extension import children, is_opaque
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
@@ -53,7 +53,7 @@ def _point(ring: Ring) -> list[fmpq]:
     return point
 
 
-def substitutions(graph: Graph, words: TermWriter, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
+def substitutions(graph: AnswerGraph, words: TermWriter, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
     """The substitutions that turn what was expected into the answer."""
     if max(len(mine), len(expected)) > MOST_TERMS or mine.is_zero or expected.is_zero:
         return
@@ -73,7 +73,7 @@ def _used(expr: Expr) -> list[int]:
     return [i for i, degree in enumerate(expr.poly.degrees()) if degree > 0]
 
 
-def _gravity(graph: Graph, values: _Pair) -> Iterator[Diagnosis]:
+def _gravity(graph: AnswerGraph, values: _Pair) -> Iterator[Diagnosis]:
     ring, expected = values.ring, values.expected
     strength = {i for entry in graph.robot.gravity.entries if entry.poly for i in _used(entry)}
     symbols = [i for i in strength if ring.generators[i].kind == "symbol"]
@@ -86,7 +86,7 @@ def _gravity(graph: Graph, values: _Pair) -> Iterator[Diagnosis]:
             yield slip("gravity_missing")
 
 
-def _angles(graph: Graph, words: TermWriter, values: _Pair) -> Iterator[Diagnosis]:
+def _angles(graph: AnswerGraph, words: TermWriter, values: _Pair) -> Iterator[Diagnosis]:
     """An angle for another throughout, or sine and cosine of one exchanged."""
     ring, mine, expected = values.ring, values.mine, values.expected
     used = set(_used(expected))
@@ -140,7 +140,7 @@ def _holds(node: Node, part: Node) -> bool:
     return node == part or any(_holds(child, part) for child in children(node))
 
 
-def _symbols(graph: Graph, words: TermWriter, values: _Pair) -> Iterator[Diagnosis]:
+def _symbols(graph: AnswerGraph, words: TermWriter, values: _Pair) -> Iterator[Diagnosis]:
     """One parameter for another throughout, or two exchanged."""
     ring, mine, expected = values.ring, values.mine, values.expected
     parameters = [

@@ -26,8 +26,8 @@ from dynsolve.answers.diagnosis.fourier import (
     parts,
     wave_expr,
 )
-from dynsolve.answers.diagnosis.table import slip
-from dynsolve.answers.diagnosis.words import TermWriter
+from dynsolve.answers.diagnosis.slips import slip
+from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.judging.dimensions import INERTIA, MASS, Dimensions
 from dynsolve.answers.judging.ring_extension import is_opaque
 from dynsolve.answers.verdict import Diagnosis
@@ -40,12 +40,12 @@ Told = str | Callable[[], str]
 """A piece of a message, or how to make it."""
 
 
-def _found(weight: int, code: str, **what: Told) -> Found:
-    return Found(weight, code, what)
+def _found(weight: int, code: str, **what: Told) -> TermSlip:
+    return TermSlip(weight, code, what)
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class TermSlip:
     """A slip between two parts: how far-fetched it is, and what is said."""
 
     weight: int
@@ -63,7 +63,7 @@ class Found:
         return told if isinstance(told, str) else told()
 
 
-class TermSlips:
+class TermDiagnoser:
     """Finds slips in terms; `words` writes them."""
 
     def __init__(self, ring: Ring, dimensions: Dimensions, words: TermWriter) -> None:
@@ -84,12 +84,12 @@ class TermSlips:
             return slip("sign_all") if len(parts(mine)) > 1 else slip("sign", term=self.words.of(expected))
         return slip("factor_all", part=self.words.number(ratio))
 
-    def __call__(self, mine: Expr, expected: Expr) -> list[Found] | None:
+    def __call__(self, mine: Expr, expected: Expr) -> list[TermSlip] | None:
         """The slips that lead from what was expected to the answer; None where there are too many terms."""
         if not (is_small(mine) and is_small(expected)):
             return None
         ours, theirs = differing(mine, expected)
-        found: list[Found] = []
+        found: list[TermSlip] = []
         for monomial in [m for m in ours if m in theirs]:
             found += self._same_monomial(ours.pop(monomial), theirs.pop(monomial))
         return found + self._matched(list(ours.values()), list(theirs.values()))
@@ -100,7 +100,7 @@ class TermSlips:
 
     # -- the same monomial -------------------------------------------------------------------------
 
-    def _same_monomial(self, mine: Part, expected: Part) -> list[Found]:
+    def _same_monomial(self, mine: Part, expected: Part) -> list[TermSlip]:
         ratio = _ratio(mine, expected)
         if ratio is not None:
             return [self._factor(expected, ratio, self._number_of(mine), self._number_of(expected))]
@@ -109,7 +109,7 @@ class TermSlips:
             return [single]
         return self._waves_apart(mine, expected)
 
-    def _factor(self, expected: Part, ratio: Fraction, yours: Fraction, other: Fraction) -> Found:
+    def _factor(self, expected: Part, ratio: Fraction, yours: Fraction, other: Fraction) -> TermSlip:
         if ratio == -1:
             return _found(1, "sign", term=self._said(expected))
         weight = 1 if abs(ratio) in (2, Fraction(1, 2)) else 2
@@ -124,7 +124,7 @@ class TermSlips:
     def _number_of(self, part: Part) -> Fraction:
         return part.waves[0][1]
 
-    def _waves(self, mine: Part, expected: Part) -> Found | None:
+    def _waves(self, mine: Part, expected: Part) -> TermSlip | None:
         """A slip in the one wave of a part: the wrong function, the wrong angle."""
         m, e = mine.single, expected.single
         if m is None or e is None or abs(m[1]) != abs(e[1]):
@@ -167,13 +167,13 @@ class TermSlips:
 
         return told
 
-    def _waves_apart(self, mine: Part, expected: Part) -> list[Found]:
+    def _waves_apart(self, mine: Part, expected: Part) -> list[TermSlip]:
         """Each wave by itself: one that is missing, one too many, one with another number."""
         ours, theirs = dict(mine.waves), dict(expected.waves)
         missing = {w: c for w, c in theirs.items() if w not in ours}
         extra = {w: c for w, c in ours.items() if w not in theirs}
         other = [w for w in ours if w in theirs and ours[w] != theirs[w]]
-        found: list[Found] = []
+        found: list[TermSlip] = []
         for wave in other:
             have, want = ours[wave], theirs[wave]
             found.append(self._factor(Part(expected.monomial, ((wave, want),)), have / want, have, want))
@@ -198,7 +198,7 @@ class TermSlips:
 
     # -- other monomials ---------------------------------------------------------------------------
 
-    def _matched(self, mine: list[Part], expected: list[Part]) -> list[Found]:
+    def _matched(self, mine: list[Part], expected: list[Part]) -> list[TermSlip]:
         """Pairs of parts with the slip between them, the lightest first; what is left is missing or extra."""
         if len(mine) * len(expected) > 2_500:
             return [*map(self._missing, expected), *map(self._extra, mine)]
@@ -213,7 +213,7 @@ class TermSlips:
         )
         used_mine: set[int] = set()
         used_theirs: set[int] = set()
-        result: list[Found] = []
+        result: list[TermSlip] = []
         for _, i, j, found in pairs:
             if i not in used_mine and j not in used_theirs:
                 used_mine.add(i)
@@ -223,10 +223,10 @@ class TermSlips:
         result += [self._extra(m) for i, m in enumerate(mine) if i not in used_mine]
         return result
 
-    def _missing(self, part: Part) -> Found:
+    def _missing(self, part: Part) -> TermSlip:
         return _found(4, "missing_term", term=self._said(part))
 
-    def _extra(self, part: Part) -> Found:
+    def _extra(self, part: Part) -> TermSlip:
         unknown = [
             g for i, _ in part.monomial
             if (g := self.ring.generators[i]).kind == "symbol" and self.words.is_unknown(g)
@@ -237,7 +237,7 @@ class TermSlips:
             return _found(4, "unknown_symbol", part=self.words.generator(unknown[0]))
         return _found(4, "extra_term", term=self._said(part))
 
-    def _between(self, mine: Part, expected: Part) -> Found | None:
+    def _between(self, mine: Part, expected: Part) -> TermSlip | None:
         """The slip that turns an expected part into the one that was written."""
         ratio = _ratio(mine, expected)
         weight = 0
@@ -249,7 +249,7 @@ class TermSlips:
         found = next(self._named(change, mine), None)
         return None if found is None else replace(found, weight=found.weight + weight)
 
-    def _named(self, change: dict[int, int], mine: Part) -> Iterator[Found]:
+    def _named(self, change: dict[int, int], mine: Part) -> Iterator[TermSlip]:
         """The slip of a change of exponents (expected minus written)."""
         yours = self._said(mine)
         generators = self.ring.generators
@@ -292,7 +292,7 @@ class TermSlips:
 
     def _exchanged(
         self, wanted: Generator, p: int, written: Generator, q: int, present: int, yours: Told
-    ) -> Iterator[Found]:
+    ) -> Iterator[TermSlip]:
         """One symbol where another belongs, or the same with another number of dots."""
         part: Told = self.words.power(written, q)
         other: Told = self.words.power(wanted, p)
@@ -333,6 +333,3 @@ def _change(mine: Monomial, expected: Monomial) -> dict[int, int]:
     for index, power in mine:
         change[index] = change.get(index, 0) - power
     return {i: p for i, p in change.items() if p}
-
-
-__all__ = ["LIGHT", "Found", "TermSlips", "is_opaque"]

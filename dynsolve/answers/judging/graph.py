@@ -1,6 +1,6 @@
 """The derivation as a grader sees it: which answers lead to which, what is part of what, in which order.
 
-A quantity has one way or several to it (D from τ or from K, g from τ or from P).
+A quantity has one route or several to it (D from τ or from K, g from τ or from P).
 The formulas are the textbook's rules on the field's robot; here stands only what
 they are fed with.  The Coriolis term is held by its vector C q̇, since C is free.
 """
@@ -26,7 +26,7 @@ _SYMBOL = re.compile(r"c([1-9])([1-9])([1-9])")
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class Route:
     """value = compute(*inputs); compute gives None where these inputs lead nowhere.
 
     `linear`: sums and derivatives alone, whose work grows with the inputs and not with their products.
@@ -46,7 +46,7 @@ class MatrixEntry:
     column: int
 
 
-class Graph:
+class AnswerGraph:
     """The graph of one robot in one field; `shift` is the potential a mass of 1 has at zero height."""
 
     def __init__(self, field: Field, shift: Expr | None = None) -> None:
@@ -161,30 +161,30 @@ class Graph:
             total = total + body.mass
         return total
 
-    def ways(self, node: str) -> Sequence[Way]:
-        """The ways to a node; none for what the table gives."""
+    def routes(self, node: str) -> Sequence[Route]:
+        """The routes to a node; none for what the table gives."""
         if node not in self.field.rules or node.startswith(("I_body", "A")) or node == "H0":
             return ()
         rule = self.field.rules[node]
         match node:
             case "D":
-                return (Way(("tau",), self._inertia), Way(("K",), self._inertia_from_energy))
+                return (Route(("tau",), self._inertia), Route(("K",), self._inertia_from_energy))
             case "Cqd":
                 return (
-                    Way(("tau",), self._coriolis),
-                    Way(("D",), self._coriolis_from_inertia),
-                    Way(("D",), self._coriolis_entry_by_entry),
+                    Route(("tau",), self._coriolis),
+                    Route(("D",), self._coriolis_from_inertia),
+                    Route(("D",), self._coriolis_entry_by_entry),
                 )
             case "g":
-                return (Way(("tau",), self._gravity), Way(("P",), self._gravity_vector))
+                return (Route(("tau",), self._gravity), Route(("P",), self._gravity_vector))
             case "C" | "christoffel":
-                return (Way(("D",), self._symbols if node == "christoffel" else self._coriolis_matrix),)
+                return (Route(("D",), self._symbols if node == "christoffel" else self._coriolis_matrix),)
         if self.shift is not None and any(node == f"P{b.name}" for b in self.robot.bodies):
             mass = next(b.mass for b in self.robot.bodies if node == f"P{b.name}")
             lift = self.shift * mass
-            return (Way(rule.inputs, lambda rc: rule.compute(rc) + lift, linear=False),)
+            return (Route(rule.inputs, lambda rc: rule.compute(rc) + lift, linear=False),)
         linear = node in self._sums or node.startswith(("dLdq", "ddt", "tau"))
-        return (Way(rule.inputs, rule.compute, linear),) if rule.inputs else ()
+        return (Route(rule.inputs, rule.compute, linear),) if rule.inputs else ()
 
     @cached_property
     def _sums(self) -> frozenset[str]:

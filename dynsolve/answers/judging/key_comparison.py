@@ -7,16 +7,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.table import slip
-from dynsolve.answers.judging.compare import Comparison, Written
+from dynsolve.answers.judging.answer_values import AnswerValue, fitted
+from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry
 from dynsolve.answers.judging.fraction import Frac, as_expr
-from dynsolve.answers.judging.given import Given, fitted
-from dynsolve.answers.judging.graph import Graph
-from dynsolve.answers.verdict import Diagnosis
+from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node, Product, Sum, Symbol
 
-Rows = tuple[tuple[Written, ...], ...]
+Rows = tuple[tuple[WrittenEntry, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,19 +33,29 @@ class Target:
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
+class Obstacle:
+    """Why an answer cannot be compared with the key: the code of a slip, and what was written instead."""
+
+    code: str
+    yours: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class KeyComparison:
     """An answer held against the key: its entries as they are compared, and whether each is right."""
 
-    given: Given
+    given: AnswerValue
     target: Target
-    rows: tuple[tuple[Written, ...], ...] = ()
+    rows: tuple[tuple[WrittenEntry, ...], ...] = ()
     right: tuple[tuple[str | None, ...], ...] = ()
-    spoilt: tuple[Diagnosis, ...] = ()
+    obstacles: tuple[Obstacle, ...] = ()
 
     @property
     def correct(self) -> bool:
         """Whether every entry is right."""
-        return bool(self.rows) and not self.spoilt and all(r is not None for row in self.right for r in row)
+        return (
+            bool(self.rows) and not self.obstacles and all(r is not None for row in self.right for r in row)
+        )
 
     @property
     def rounded(self) -> bool:
@@ -55,10 +63,10 @@ class Held:
         return any(r for row in self.right for r in row)
 
 
-class Holder:
+class KeyComparer:
     """Holds answers against the key in a graph; `moved` evaluates a changed tree."""
 
-    def __init__(self, graph: Graph, compare: Comparison, moved: Callable[[Node], Frac]) -> None:
+    def __init__(self, graph: AnswerGraph, compare: EntryComparer, moved: Callable[[Node], Frac]) -> None:
         self.graph = graph
         self.robot = graph.robot
         self.field = graph.field
@@ -79,30 +87,30 @@ class Holder:
         """The key's value of a target."""
         return target.of(self.graph.key(target.node))
 
-    def __call__(self, name: str, given: Given) -> Held:
+    def __call__(self, name: str, given: AnswerValue) -> KeyComparison:
         """Hold one answer; where it is too large to be compared, it has a fault."""
         try:
             return self._hold(name, given)
         except AlgebraError as error:
             refused = replace(given, rows=None, fault=error.message, expected=error.help)
-            return Held(refused, self.target(name))
+            return KeyComparison(refused, self.target(name))
 
-    def _hold(self, name: str, given: Given) -> Held:
+    def _hold(self, name: str, given: AnswerValue) -> KeyComparison:
         target = self.target(name)
         if given.rows is None or target.node not in self.field.rules:
-            return Held(given, target)
+            return KeyComparison(given, target)
         key = self.key(target)
-        rows, spoilt = self._coriolis(given) if name == "C" else self._rows(given, key)
+        rows, obstacles = self._coriolis(given) if name == "C" else self._rows(given, key)
         if not rows:
-            return Held(given, target, spoilt=spoilt)
+            return KeyComparison(given, target, obstacles=obstacles)
         matrix = key if isinstance(key, Matrix) else Matrix(self.field.ring, ((key,),))
         right = tuple(
             tuple(map(self.compare, expected, written))
             for expected, written in zip(matrix.rows, rows, strict=True)
         )
-        return Held(given, target, rows, right, spoilt)
+        return KeyComparison(given, target, rows, right, obstacles)
 
-    def _rows(self, given: Given, key: Any) -> tuple[Rows, tuple[Diagnosis, ...]]:
+    def _rows(self, given: AnswerValue, key: Any) -> tuple[Rows, tuple[Obstacle, ...]]:
         """The entries as they are compared, in the key's shape."""
         assert given.rows is not None
         rows = fitted(given.rows, key)
@@ -111,19 +119,19 @@ class Holder:
         nodes = iter([node for row in given.nodes for node in row])
         blank = given.nodes[0][0]  # one 0 for a whole vector, and the last row of a transformation
         return tuple(
-            tuple(Written(value, next(nodes, blank), self.moved) for value in row) for row in rows
+            tuple(WrittenEntry(value, next(nodes, blank), self.moved) for value in row) for row in rows
         ), ()
 
-    def _misfit(self, given: Given, key: Any) -> Diagnosis:
+    def _misfit(self, given: AnswerValue, key: Any) -> Obstacle:
         assert given.rows is not None
         shape = key.shape if isinstance(key, Matrix) else (1, 1)
         wanted = f"a {shape[0]}×{shape[1]} matrix" if shape != (1, 1) else "a single expression"
         mine = (
             f"a {len(given.rows)}×{len(given.rows[0])} matrix" if given.is_matrix else "a single expression"
         )
-        return slip("shape", yours=f"You wrote {mine}; {given.answer.name} is {wanted}.")
+        return Obstacle("shape", f"You wrote {mine}; {given.answer.name} is {wanted}.")
 
-    def _coriolis(self, given: Given) -> tuple[Rows, tuple[Diagnosis, ...]]:
+    def _coriolis(self, given: AnswerValue) -> tuple[Rows, tuple[Obstacle, ...]]:
         """C as its C q̇, n×1; a C with accelerations in it is none."""
         assert given.rows is not None
         n, ring = self.robot.n, self.field.ring
@@ -134,10 +142,10 @@ class Holder:
         for row in given.nodes if not zero else ((given.nodes[0][0],) * n,) * n:
             factors = zip(row, ring.names, strict=True)
             node: Node = Sum(tuple(Product((entry, Symbol(name, 1))) for entry, name in factors))
-            rows.append((Written(self.moved(node), node, self.moved),))
+            rows.append((WrittenEntry(self.moved(node), node, self.moved),))
         return tuple(rows), tuple(self._unfit(given))
 
-    def _unfit(self, given: Given) -> Iterator[Diagnosis]:
+    def _unfit(self, given: AnswerValue) -> Iterator[Obstacle]:
         """What no C may hold: accelerations, or joint variables in a denominator."""
         ring = self.field.ring
         accelerations = [ring.symbol(name, 2).poly.degrees() for name in ring.names]
@@ -145,9 +153,9 @@ class Holder:
         for entry in given.entries:
             value = as_expr(entry)
             if value is None:
-                yield slip("C_not_polynomial")
+                yield Obstacle("C_not_polynomial")
                 return
             degrees = value.poly.degrees() if value.poly else ()
             if degrees and any(degrees[i] > 0 for i in indices):
-                yield slip("acceleration_in_C")
+                yield Obstacle("acceleration_in_C")
                 return

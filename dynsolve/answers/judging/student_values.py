@@ -7,24 +7,24 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.follow import Own
+from dynsolve.answers.judging.answer_values import as_value
+from dynsolve.answers.judging.follow_through import StudentValue
 from dynsolve.answers.judging.fraction import as_expr
-from dynsolve.answers.judging.given import as_value
-from dynsolve.answers.judging.graph import Graph
-from dynsolve.answers.judging.key_comparison import Held
+from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.key_comparison import KeyComparison
 
 
-def own_values(graph: Graph, held: Mapping[str, Held]) -> dict[str, Own]:
+def student_values(graph: AnswerGraph, held: Mapping[str, KeyComparison]) -> dict[str, StudentValue]:
     """The values of the nodes that a student handed in, a matrix also by its entries."""
     return dict(_Owner(graph, held).all())
 
 
 @dataclass(frozen=True, slots=True)
 class _Owner:
-    graph: Graph
-    held: Mapping[str, Held]
+    graph: AnswerGraph
+    held: Mapping[str, KeyComparison]
 
-    def all(self) -> Iterator[tuple[str, Own]]:
+    def all(self) -> Iterator[tuple[str, StudentValue]]:
         for name, held in self.held.items():
             target = held.target
             complete = target.entry is None and target.christoffel is None
@@ -36,14 +36,14 @@ class _Owner:
             if whole not in self.held:
                 yield from self._whole(whole)
 
-    def _value(self, name: str, held: Held) -> Own:
+    def _value(self, name: str, held: KeyComparison) -> StudentValue:
         key = self.graph.key(held.target.node)
         if held.correct:
-            return Own(key)
+            return StudentValue(key)
         rows = tuple(tuple(written.value for written in row) for row in held.rows)
-        return Own(as_value(rows, key) if rows else None, (name,))
+        return StudentValue(as_value(rows, key) if rows else None, (name,))
 
-    def _whole(self, whole: str) -> Iterator[tuple[str, Own]]:
+    def _whole(self, whole: str) -> Iterator[tuple[str, StudentValue]]:
         """A matrix that was given entry by entry; of a symmetric one half is enough."""
         if not self.graph.robot.bodies:
             return
@@ -63,4 +63,4 @@ class _Owner:
                     return
                 entries[-1].append(value)
                 names += [] if held.correct else [name]
-        yield whole, Own(Matrix.of(self.graph.field.ring, entries), tuple(dict.fromkeys(names)))
+        yield whole, StudentValue(Matrix.of(self.graph.field.ring, entries), tuple(dict.fromkeys(names)))

@@ -15,7 +15,7 @@ from dynsolve.answers.judging.answer_ring import Field
 from dynsolve.answers.judging.dimensions import LENGTH, Dimensions
 
 
-def find_level(field: Field, own: Mapping[str, Expr], dimensions: Dimensions) -> Expr | None:
+def potential_at_zero_height(field: Field, own: Mapping[str, Expr], dimensions: Dimensions) -> Expr | None:
     """φ as most of P_i and P have it, or as L has it where there is no P; None for the key's own level.
 
     `own` are the student's values of P_i, P and L.
@@ -43,11 +43,11 @@ def _levels(field: Field, own: Mapping[str, Expr], dimensions: Dimensions) -> It
             yield difference
             continue
         level = _quotient(difference, masses[name])
-        if level is not None and is_level(field, level, dimensions):
+        if level is not None and is_zero_height(field, level, dimensions):
             yield level
 
 
-def is_level(field: Field, level: Expr, dimensions: Dimensions) -> bool:
+def is_zero_height(field: Field, level: Expr, dimensions: Dimensions) -> bool:
     """Whether a potential is |g| times a height that may be chosen."""
     ring, robot = field.ring, field.robot
     if ring.depends_on_coordinates(level):

@@ -14,7 +14,7 @@ import pytest
 
 from dynsolve.answers.judge import check
 from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.verdict import Judged, Report
+from dynsolve.answers.verdict import JudgedAnswer, Report
 from dynsolve.solution.solution import load
 
 FILE = Path(__file__).with_name("dynamics-overview.md")
@@ -47,7 +47,7 @@ def report() -> Report:
     return check(problem, read_submission(problem, FILE.read_bytes(), FILE.name))
 
 
-def one(name: str) -> Judged:
+def one(name: str) -> JudgedAnswer:
     return next(a for a in report().answers if a.name == name)
 
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.submission import Answer, Place, Submission
-from dynsolve.answers.verdict import Judged, Report
+from dynsolve.answers.verdict import JudgedAnswer, Report
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import derive
 from dynsolve.notation import tree
@@ -66,7 +66,7 @@ def judge(stem: str, answers: Mapping[str, Text]) -> Report:
     return checker(stem)(submission(answers))
 
 
-def judged(stem: str, name: str, text: Text, **beside: Text) -> Judged:
+def judged(stem: str, name: str, text: Text, **beside: Text) -> JudgedAnswer:
     """What is said of one answer, with others beside it."""
     report = judge(stem, {**beside, name: text})
     return next(a for a in report.answers if a.name == name)
@@ -77,6 +77,6 @@ def verdicts(report: Report) -> dict[str, str]:
     return {a.name: str(a.verdict) for a in report.answers}
 
 
-def codes(answer: Judged) -> list[str]:
+def codes(answer: JudgedAnswer) -> list[str]:
     """The codes of an answer's diagnosis."""
     return [d.code for d in answer.diagnosis]

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import pytest
 
-from dynsolve.answers.verdict import Judged, Report
+from dynsolve.answers.verdict import JudgedAnswer, Report
 from tests.unit.answers.course import COURSE
 from tests.unit.answers.hands import codes, judge
 
@@ -20,7 +20,7 @@ def report() -> Report:
     return judge("in3140-rp", COURSE)
 
 
-def one(name: str) -> Judged:
+def one(name: str) -> JudgedAnswer:
     return next(a for a in report().answers if a.name == name)
 
 

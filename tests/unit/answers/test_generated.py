@@ -9,11 +9,11 @@ import pytest
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.derivation import Replaced
+from dynsolve.answers.diagnosis.changed_rules import ChangedDerivation
 from dynsolve.answers.diagnosis.fourier import part_expr, parts
 from dynsolve.answers.judge import check
 from dynsolve.answers.judging.answer_ring import Field
-from dynsolve.answers.judging.graph import Graph
+from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.submission import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
 from tests.unit.answers.hands import key, problem
@@ -23,9 +23,9 @@ START = ("rc", "v", "Kv", "Kw", "K", "P", "L", "dLdqd", "ddt", "dLdq", "tau")
 
 
 @lru_cache
-def graph(stem: str) -> Graph:
+def graph(stem: str) -> AnswerGraph:
     robot = problem(stem).robot
-    return Graph(Field(robot, key(stem)))
+    return AnswerGraph(Field(robot, key(stem)))
 
 
 @lru_cache
@@ -64,7 +64,7 @@ def test_a_slip_is_found_and_what_comes_after_it_follows(seed: int) -> None:
     wrong = spoilt(g.key(start), draw)
     if wrong is None:
         return
-    carried = Replaced(g, {start: wrong})
+    carried = ChangedDerivation(g, {start: wrong})
     handed = [n for n in nodes(stem) if n == start or draw.random() < 0.7]
     answers = tuple(
         Answer(g.answer(n), "", forms(stem).of(carried(n)), Place(i + 1, 1), "", occurrence=(i, 0))
@@ -113,10 +113,10 @@ def test_two_slips_are_two_and_all_else_follows(seed: int) -> None:
     wrong = spoilt(g.key(first), draw)
     if wrong is None:
         return
-    worse = spoilt(Replaced(g, {first: wrong})(second), draw)
+    worse = spoilt(ChangedDerivation(g, {first: wrong})(second), draw)
     if worse is None or _same(worse, g.key(second)):
         return
-    carried = Replaced(g, {first: wrong, second: worse})
+    carried = ChangedDerivation(g, {first: wrong, second: worse})
     answers = tuple(
         Answer(g.answer(n), "", forms(stem).of(carried(n)), Place(i + 1, 1), "", occurrence=(i, 0))
         for i, n in enumerate(nodes(stem))

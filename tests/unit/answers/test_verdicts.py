@@ -8,7 +8,7 @@ import pytest
 
 from dynsolve.answers.judge import NOT_CHRISTOFFEL, NOT_FROM_OWN, Checker, check
 from dynsolve.answers.submission import Submission, reference
-from dynsolve.answers.verdict import Judged
+from dynsolve.answers.verdict import JudgedAnswer
 from dynsolve.notation import tree
 from dynsolve.problem.reader import read_problem
 from tests.unit.answers.hands import (
@@ -410,7 +410,7 @@ def _referring(*names: str) -> tree.Node:
     return tree.Sum(tuple(tree.Symbol(reference(name)) for name in names))
 
 
-def _with_reference(own: dict[str, Text], name: str, value: tree.Node) -> Judged:
+def _with_reference(own: dict[str, Text], name: str, value: tree.Node) -> JudgedAnswer:
     """A hand-in whose last answer names others."""
     hand = submission(own)
     one = replace(answer(name, "0", 99), node=value)

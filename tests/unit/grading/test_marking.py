@@ -9,17 +9,17 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dynsolve.answers.verdict import EntryVerdict, Judged, Verdict
+from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.grading.marking import mark, maximum
 from dynsolve.grading.policy import STAGES, Policy, rounded, shown, stage_of
 
 F = Fraction
 
 
-def _answer(name: str, verdict: Verdict, of: int = 4, entries: str = "", **rest: object) -> Judged:
+def _answer(name: str, verdict: Verdict, of: int = 4, entries: str = "", **rest: object) -> JudgedAnswer:
     said = {"c": Verdict.CORRECT, "f": Verdict.FOLLOWS, "w": Verdict.WRONG}
     pieces = tuple(EntryVerdict((i, 1), said[letter]) for i, letter in enumerate(entries, 1))
-    return Judged(name, verdict, of=F(of), entries=pieces, **rest)  # type: ignore[arg-type]
+    return JudgedAnswer(name, verdict, of=F(of), entries=pieces, **rest)  # type: ignore[arg-type]
 
 
 def test_shares() -> None:
@@ -86,7 +86,7 @@ def test_a_matrix_that_is_written_in_part_earns_what_is_there() -> None:
 
 def test_rounding_takes_nothing_from_all_and_gives_no_more_than_all() -> None:
     policy = Policy(rounding=F(1, 2), late=F(1, 2))
-    answers = [Judged("K", Verdict.CORRECT, of=F(1, 3)), _answer("D", Verdict.WRONG, 0, "cccw")]
+    answers = [JudgedAnswer("K", Verdict.CORRECT, of=F(1, 3)), _answer("D", Verdict.WRONG, 0, "cccw")]
     answers[1] = replace(answers[1], of=F(1, 3))
     assert [m.marks for m in mark(answers, policy)] == [F(1, 3), F(1, 3)]
     assert [m.marks for m in mark(answers, policy, late=True)] == [0, 0]
@@ -105,7 +105,7 @@ _NAMES = ("A1", "Jv", "I1", "P", "K", "K1", "L", "tau", "f2", "D", "C", "g", "d1
 
 
 @st.composite
-def _answers(draw: st.DrawFn) -> list[Judged]:
+def _answers(draw: st.DrawFn) -> list[JudgedAnswer]:
     found = []
     for name in draw(st.lists(st.sampled_from(_NAMES), unique=True)):
         verdict = draw(st.sampled_from(Verdict))
@@ -113,7 +113,7 @@ def _answers(draw: st.DrawFn) -> list[Judged]:
         kinds = [Verdict.CORRECT, Verdict.FOLLOWS] + [Verdict.WRONG] * (verdict is Verdict.WRONG)
         pieces = draw(st.lists(st.sampled_from(kinds), min_size=size, max_size=size))
         entries = tuple(EntryVerdict((i, 1), piece) for i, piece in enumerate([*pieces, verdict], 1))
-        found.append(Judged(name, verdict, of=draw(_POINTS), entries=entries if size else ()))
+        found.append(JudgedAnswer(name, verdict, of=draw(_POINTS), entries=entries if size else ()))
     return found
 
 
@@ -129,7 +129,7 @@ _POLICIES = st.builds(
 @given(_answers(), _POLICIES, st.booleans(), st.booleans())
 @settings(max_examples=300, deadline=None)
 def test_marks_hold_together_whatever_the_policy(
-    answers: list[Judged], policy: Policy, late: bool, lost: bool
+    answers: list[JudgedAnswer], policy: Policy, late: bool, lost: bool
 ) -> None:
     losses = {answer.name: "body 2 is lost on the way" for answer in answers if lost}
     found = mark(answers, policy, late, losses)
@@ -154,7 +154,7 @@ def test_marks_hold_together_whatever_the_policy(
 
 @given(_answers(), _POLICIES)
 @settings(max_examples=200, deadline=None)
-def test_what_is_right_earns_no_less_than_what_is_not(answers: list[Judged], policy: Policy) -> None:
+def test_what_is_right_earns_no_less_than_what_is_not(answers: list[JudgedAnswer], policy: Policy) -> None:
     before = sum((m.marks for m in mark(answers, policy)), F(0))
     better = [replace(a, verdict=Verdict.CORRECT, entries=()) for a in answers]
     assert sum((m.marks for m in mark(better, policy)), F(0)) >= before

@@ -8,11 +8,11 @@ import pytest
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.derivation import DerivationSlips
-from dynsolve.answers.diagnosis.stage import variants
-from dynsolve.answers.diagnosis.table import SLIPS, Slip
+from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
+from dynsolve.answers.diagnosis.slips import SLIPS, Slip
+from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.judging.answer_ring import Field
-from dynsolve.answers.judging.graph import Graph
+from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.submission import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
 from tests.unit.answers.hands import checker, codes, judged, key, problem
@@ -31,9 +31,9 @@ def test_the_example_of_a_slip_shows_it(slip: Slip) -> None:
 
 
 @lru_cache
-def graph(stem: str) -> Graph:
+def graph(stem: str) -> AnswerGraph:
     robot = problem(stem).robot
-    return Graph(Field(robot, key(stem)))
+    return AnswerGraph(Field(robot, key(stem)))
 
 
 def _equal(a: Expr | Matrix, b: Expr | Matrix) -> bool:

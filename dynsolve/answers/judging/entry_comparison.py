@@ -32,7 +32,7 @@ _SLACK = 1 + 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
+class WrittenEntry:
     """An answer's scalar: its value, the tree it came from, and how to evaluate a changed tree."""
 
     value: Frac
@@ -41,12 +41,12 @@ class Written:
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class EntryComparer:
     """Compares scalars; `values` are the numbers that the problem file gives for symbols."""
 
     values: Mapping[str, Fraction]
 
-    def __call__(self, expected: Expr, written: Written) -> str | None:
+    def __call__(self, expected: Expr, written: WrittenEntry) -> str | None:
         """Empty where they are equal, `rounded` where a decimal rounds, None where they differ."""
         if equal(Frac(expected), written.value):
             return ""
@@ -91,7 +91,7 @@ class Comparison:
             for ours in ([int(e) for e in exponents] for exponents in mine.above.poly.monoms())
         )
 
-    def _steps(self, written: Written) -> Iterator[Expr]:
+    def _steps(self, written: WrittenEntry) -> Iterator[Expr]:
         """How far the answer moves when one of its decimals moves by half a unit of its last place."""
         for changed in moved_decimals(written.node):
             value = simplified(written.evaluate(changed))

@@ -22,14 +22,13 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.derivation import OF_THE_MATRIX, DerivationSlips
+from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, DerivationSlips
 from dynsolve.answers.diagnosis.fourier import is_small, monomial_expr, monomials
-from dynsolve.answers.diagnosis.stage import variants
+from dynsolve.answers.diagnosis.slips import slip
+from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.diagnosis.substitution import substitutions
-from dynsolve.answers.diagnosis.table import slip
-from dynsolve.answers.diagnosis.terms import LIGHT, Found, TermSlips
-from dynsolve.answers.diagnosis.words import TermWriter
-from dynsolve.answers.judging.compare import Written
+from dynsolve.answers.diagnosis.term_writer import TermWriter
+from dynsolve.answers.diagnosis.terms import LIGHT, TermDiagnoser, TermSlip
 from dynsolve.answers.judging.dimensions import (
     ENERGY,
     INERTIA,
@@ -41,9 +40,10 @@ from dynsolve.answers.judging.dimensions import (
     dimension,
     times,
 )
-from dynsolve.answers.judging.follow import Follow
+from dynsolve.answers.judging.entry_comparison import WrittenEntry
+from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.fraction import as_expr
-from dynsolve.answers.judging.graph import Graph
+from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
@@ -57,7 +57,7 @@ MOST_OF_IT = Fraction(1, 2)
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class WrongEntry:
     """One scalar that is wrong: what was written, and what its own inputs lead to, the nearest first.
 
     The last one that is expected is the key.
@@ -65,7 +65,7 @@ class Question:
 
     name: str
     target: Any
-    written: Written
+    written: WrittenEntry
     expected: tuple[Expr, ...]
     row: int = 0
     column: int = 0
@@ -82,8 +82,8 @@ class Diagnoser:
     def __init__(
         self,
         problem: Problem,
-        graph: Graph,
-        follow: Follow,
+        graph: AnswerGraph,
+        follow: FollowThrough,
         dimensions: Dimensions,
         derivations: DerivationSlips,
     ) -> None:
@@ -102,11 +102,11 @@ class Diagnoser:
         return words
 
     @cached_property
-    def terms(self) -> TermSlips:
+    def terms(self) -> TermDiagnoser:
         """Finds slips in terms."""
-        return TermSlips(self.ring, self.dimensions, self.words)
+        return TermDiagnoser(self.ring, self.dimensions, self.words)
 
-    def __call__(self, question: Question) -> tuple[Diagnosis, ...]:
+    def __call__(self, question: WrongEntry) -> tuple[Diagnosis, ...]:
         """The slips in one scalar."""
         mine = question.mine
         if mine is None or not is_small(mine):
@@ -114,7 +114,7 @@ class Diagnoser:
         found = tuple(dict.fromkeys(self._named(question, mine)))
         return (*found, *(d for d in self._misfits(question, mine) if d not in found))
 
-    def expected(self, question: Question) -> Expr:
+    def expected(self, question: WrongEntry) -> Expr:
         """The nearest value that the answer may be held against: one whose terms can be added.
 
         What follows from a term that cannot be added tells nobody how to mend this one.
@@ -129,7 +129,7 @@ class Diagnoser:
                 return key
         return nearest
 
-    def _nearest_fit(self, question: Question) -> Expr:
+    def _nearest_fit(self, question: WrongEntry) -> Expr:
         wanted = self._dimension(question)
         if wanted is not None and not self.problem.values:
             for value in question.expected:
@@ -137,7 +137,7 @@ class Diagnoser:
                     return value
         return question.expected[0]
 
-    def _named(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
+    def _named(self, question: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
         expected = self.expected(question)
         if self._is_constant(question, mine):
             yield slip("constant_term")
@@ -160,7 +160,7 @@ class Diagnoser:
         yield from self._told(found or [], _in_common(mine, expected))
 
     def _first_of(
-        self, values: Iterator[tuple[Any, Diagnosis]], question: Question, mine: Expr
+        self, values: Iterator[tuple[Any, Diagnosis]], question: WrongEntry, mine: Expr
     ) -> Diagnosis | None:
         """The first slip that gives what was written; one entry alone shows no slip of its matrix."""
         return next(
@@ -172,20 +172,20 @@ class Diagnoser:
             None,
         )
 
-    def _derived(self, question: Question, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
+    def _derived(self, question: WrongEntry, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
         """What slips long before lead to; to 0 leads what was left out, not what was mistaken."""
         is_zero = all(value.is_zero for value in mine)
         for value, told in self.derivations.values(question.target.node):
             if not is_zero or told.code.endswith("_missing"):
                 yield value, told
 
-    def _refined(self, one: Diagnosis, question: Question) -> Diagnosis:
+    def _refined(self, one: Diagnosis, question: WrongEntry) -> Diagnosis:
         """A wrong sign of everything that is gravity is gravity's."""
         if one.code in ("sign", "sign_all") and question.target.node.rstrip("0123456789") in ("P", "g"):
             return slip("gravity_sign")
         return one
 
-    def _told(self, found: list[Found], right: int) -> Iterator[Diagnosis]:
+    def _told(self, found: list[TermSlip], right: int) -> Iterator[Diagnosis]:
         """The slips where they are few; of many, which terms are written that should not be.
 
         Missing terms are named only beside as many right ones: who writes 0 is not told the answer.
@@ -218,7 +218,7 @@ class Diagnoser:
         value = choices[0].value if choices else None
         return self.graph.key(node) if value is None else value
 
-    def _variants(self, question: Question, node: str) -> Iterator[tuple[Any, Diagnosis]]:
+    def _variants(self, question: WrongEntry, node: str) -> Iterator[tuple[Any, Diagnosis]]:
         nodes = {"C": "Cqd", "christoffel": "Cqd"}
         if question.target.christoffel is not None or nodes.get(node):
             return
@@ -234,7 +234,7 @@ class Diagnoser:
         except Exception:  # noqa: BLE001  inputs of the student's from which the step cannot be taken
             return
 
-    def _at(self, question: Question, value: Any) -> Expr | None:
+    def _at(self, question: WrongEntry, value: Any) -> Expr | None:
         found = question.target.of(value)
         if isinstance(found, Matrix):
             rows, columns = found.shape
@@ -245,7 +245,7 @@ class Diagnoser:
 
     # -- constants, dimensions ---------------------------------------------------------------------
 
-    def _is_constant(self, question: Question, mine: Expr) -> bool:
+    def _is_constant(self, question: WrongEntry, mine: Expr) -> bool:
         """Whether a potential energy differs by a constant only."""
         bodies = {f"P{b.name}" for b in self.graph.robot.bodies}
         if question.target.node not in {"P", "L", *bodies}:
@@ -253,7 +253,7 @@ class Diagnoser:
         difference = mine - self.expected(question)
         return not difference.is_zero and not self.ring.depends_on_coordinates(difference)
 
-    def _misfits(self, question: Question, mine: Expr) -> Iterator[Diagnosis]:
+    def _misfits(self, question: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
         """Terms that cannot be added to the others."""
         wanted = self._dimension(question)
         if wanted is None or not self.dimensions.known or self.problem.values:
@@ -273,7 +273,7 @@ class Diagnoser:
                 )
                 return
 
-    def _dimension(self, question: Question) -> Dimension | None:
+    def _dimension(self, question: WrongEntry) -> Dimension | None:
         """The dimension of an answer, by its name."""
         node = question.target.node
         entry = question.target.entry
@@ -336,7 +336,7 @@ class Diagnoser:
 
     # -- matrices, differences ---------------------------------------------------------------------
 
-    def whole(self, question: Question, held: Any, found: tuple[Diagnosis, ...]) -> tuple[Diagnosis, ...]:
+    def whole(self, question: WrongEntry, held: Any, found: tuple[Diagnosis, ...]) -> tuple[Diagnosis, ...]:
         """The slips of a matrix, given those of its entries: one for all, where one explains all."""
         mine = [[as_expr(w.value) for w in row] for row in held.rows]
         if len(mine) * len(mine[0]) == 1 or any(e is None for row in mine for e in row):
@@ -357,7 +357,7 @@ class Diagnoser:
         if isinstance(right, Matrix) and right.shape[0] == right.shape[1] > 1:
             yield right.T, slip("transposed")
 
-    def difference(self, question: Question) -> Node | None:
+    def difference(self, question: WrongEntry) -> Node | None:
         """The answer minus what was expected, in compact form."""
         mine = question.mine
         if mine is None:

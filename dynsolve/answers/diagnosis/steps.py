@@ -12,7 +12,7 @@ from typing import Any
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.table import slip
+from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.derivation import energy, inertia, jacobian, kinematics, vectorized
 from dynsolve.notation.printing import PLAIN

@@ -17,7 +17,7 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.graph import Graph, Way
+from dynsolve.answers.judging.graph import AnswerGraph, Route
 from dynsolve.errors import AlgebraError
 
 MOST_CANDIDATES = 64
@@ -27,7 +27,7 @@ MOST_WORK = 4_000_000
 
 
 @dataclass(frozen=True, slots=True)
-class Own:
+class StudentValue:
     """A student's own value of a node, None where it cannot be worked with.
 
     `names` are the answers it stands in that are not correct; none where it is the key's.
@@ -43,7 +43,7 @@ class Own:
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class PossibleValue:
     """A value that a node may have; `derived` counts derived inputs, `used` are the answers it rests on."""
 
     value: Any
@@ -52,23 +52,23 @@ class Candidate:
 
 
 @dataclass
-class Follow:
+class FollowThrough:
     """The candidates of every node, given what a student handed in."""
 
-    graph: Graph
-    own: Mapping[str, Own]
+    graph: AnswerGraph
+    own: Mapping[str, StudentValue]
     work: int = 0
     _touched: dict[str, bool] = field(default_factory=dict)
-    _choices: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
-    _derived: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
+    _choices: dict[str, tuple[PossibleValue, ...]] = field(default_factory=dict)
+    _derived: dict[str, tuple[PossibleValue, ...]] = field(default_factory=dict)
 
     def touched(self, node: str) -> bool:
         """Whether an answer that is not correct lies before a node."""
         if node not in self._touched:
             self._touched[node] = any(
                 self._wrong(name) or self.touched(name)
-                for way in self.graph.ways(node)
-                for name in way.inputs
+                for route in self.graph.routes(node)
+                for name in route.inputs
             )
         return self._touched[node]
 
@@ -76,28 +76,28 @@ class Follow:
         own = self.own.get(node)
         return own is not None and not own.correct
 
-    def choices(self, node: str) -> tuple[Candidate, ...]:
+    def choices(self, node: str) -> tuple[PossibleValue, ...]:
         """What may stand for a node where it is an input: the student's own answer first."""
         if node not in self._choices:
-            found: list[Candidate] = []
+            found: list[PossibleValue] = []
             own = self.own.get(node)
             if own is not None:
-                found.append(Candidate(own.value, 0, frozenset(own.names)))
+                found.append(PossibleValue(own.value, 0, frozenset(own.names)))
             if self.touched(node):
                 for one in self.derived(node):
-                    _keep(found, Candidate(one.value, one.derived + 1, one.used))
+                    _keep(found, PossibleValue(one.value, one.derived + 1, one.used))
             elif own is None or not own.correct:
                 untouched = 1 if own is not None else 0
-                _keep(found, Candidate(self.graph.key(node), untouched))
+                _keep(found, PossibleValue(self.graph.key(node), untouched))
             found.sort(key=lambda c: c.derived)
             self._choices[node] = tuple(found[:MOST_CANDIDATES])
         return self._choices[node]
 
-    def derived(self, node: str) -> tuple[Candidate, ...]:
+    def derived(self, node: str) -> tuple[PossibleValue, ...]:
         """The values that a node's inputs lead to, fewest derived inputs first."""
         if node not in self._derived:
-            found: list[Candidate] = []
-            streams = [self._combinations(way) for way in self.graph.ways(node)]
+            found: list[PossibleValue] = []
+            streams = [self._combinations(route) for route in self.graph.routes(node)]
             for one in _merged(streams):
                 _keep(found, one)
                 if len(found) >= MOST_CANDIDATES:
@@ -105,9 +105,9 @@ class Follow:
             self._derived[node] = tuple(found)
         return self._derived[node]
 
-    def _combinations(self, way: Way) -> Iterator[Candidate]:
-        """The values of one way, over all choices of its inputs, cheapest first."""
-        lists = [self.choices(name) for name in way.inputs]
+    def _combinations(self, route: Route) -> Iterator[PossibleValue]:
+        """The values of one route, over all choices of its inputs, cheapest first."""
+        lists = [self.choices(name) for name in route.inputs]
         start = (0,) * len(lists)
         waiting = [(self._derivations(lists, start), start)]
         seen = {start}
@@ -116,9 +116,9 @@ class Follow:
             derived, places = heappop(waiting)
             tried += 1
             chosen = [choices[i] for choices, i in zip(lists, places, strict=True)]
-            value = self._value(way, chosen)
+            value = self._value(route, chosen)
             if value is not None:
-                yield Candidate(value, derived, frozenset().union(*(c.used for c in chosen)))
+                yield PossibleValue(value, derived, frozenset().union(*(c.used for c in chosen)))
             for k, choices in enumerate(lists):
                 if places[k] + 1 < len(choices):
                     following = (*places[:k], places[k] + 1, *places[k + 1 :])
@@ -126,25 +126,25 @@ class Follow:
                         seen.add(following)
                         heappush(waiting, (self._derivations(lists, following), following))
 
-    def _derivations(self, lists: Sequence[Sequence[Candidate]], places: tuple[int, ...]) -> int:
+    def _derivations(self, lists: Sequence[Sequence[PossibleValue]], places: tuple[int, ...]) -> int:
         return sum(choices[i].derived for choices, i in zip(lists, places, strict=True))
 
-    def _value(self, way: Way, chosen: Sequence[Candidate]) -> Any:
+    def _value(self, route: Route, chosen: Sequence[PossibleValue]) -> Any:
         if any(c.value is None for c in chosen):
             return None
-        cost = _estimate([c.value for c in chosen], way.linear)
+        cost = _estimate([c.value for c in chosen], route.linear)
         if self.work + cost > MOST_WORK:
             return None
         self.work += cost
         try:
-            return way.compute(*(c.value for c in chosen))
+            return route.compute(*(c.value for c in chosen))
         except (AlgebraError, ValueError, ZeroDivisionError):
             return None
 
 
-def _merged(streams: list[Iterator[Candidate]]) -> Iterator[Candidate]:
-    """The candidates of several ways, fewest derived inputs first; of equal ones the first way's."""
-    heads: list[tuple[int, int, Candidate]] = []
+def _merged(streams: list[Iterator[PossibleValue]]) -> Iterator[PossibleValue]:
+    """The candidates of several routes, fewest derived inputs first; of equal ones the first route's."""
+    heads: list[tuple[int, int, PossibleValue]] = []
     for place, stream in enumerate(streams):
         first = next(stream, None)
         if first is not None:
@@ -158,7 +158,7 @@ def _merged(streams: list[Iterator[Candidate]]) -> Iterator[Candidate]:
             heads.append((following.derived, place, following))
 
 
-def _keep(found: list[Candidate], one: Candidate) -> None:
+def _keep(found: list[PossibleValue], one: PossibleValue) -> None:
     if not any(_same(one.value, other.value) for other in found):
         found.append(one)
 
@@ -170,7 +170,7 @@ def _same(a: Any, b: Any) -> bool:
 
 
 def _estimate(values: Sequence[Any], linear: bool) -> int:
-    """The products of terms that a way forms, at most about so many."""
+    """The products of terms that a route forms, at most about so many."""
     sizes = [
         sum(map(len, value.entries)) if isinstance(value, Matrix) else len(value)
         for value in values

@@ -1,7 +1,7 @@
 """Slips that run through the derivation: the graph with one rule replaced.
 
 A wrong step is told by what it makes of everything after it.  Each variant of a
-step (see `stage`) is put into the key's derivation, and the answer is held against
+step (see `steps`) is put into the key's derivation, and the answer is held against
 what comes out at its own place.
 """
 
@@ -12,8 +12,8 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.stage import variants
-from dynsolve.answers.judging.graph import Graph
+from dynsolve.answers.diagnosis.steps import variants
+from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Diagnosis
 
 MOST_TERMS = 1_500
@@ -24,10 +24,10 @@ OF_THE_MATRIX = ("transposed", "rows_swapped")
 """What is said of a matrix itself: of what comes after it, it would be false."""
 
 
-class Replaced:
+class ChangedDerivation:
     """The key's derivation with the value of one node, or of one kind of node, replaced."""
 
-    def __init__(self, graph: Graph, values: dict[str, Any]) -> None:
+    def __init__(self, graph: AnswerGraph, values: dict[str, Any]) -> None:
         self.graph = graph
         self._values = values
         self._reached: dict[str, bool] = {}
@@ -36,7 +36,7 @@ class Replaced:
         """Whether the replacement changes a node."""
         if node not in self._reached:
             self._reached[node] = node in self._values or any(
-                self.reached(name) for way in self.graph.ways(node)[:1] for name in way.inputs
+                self.reached(name) for route in self.graph.routes(node)[:1] for name in route.inputs
             )
         return self._reached[node]
 
@@ -45,17 +45,17 @@ class Replaced:
         if node not in self._values:
             if not self.reached(node):
                 return self.graph.key(node)
-            way = self.graph.ways(node)[0]
-            self._values[node] = way.compute(*(self(name) for name in way.inputs))
+            route = self.graph.routes(node)[0]
+            self._values[node] = route.compute(*(self(name) for name in route.inputs))
         return self._values[node]
 
 
 class DerivationSlips:
     """The derivations with a rule replaced, made when first asked for."""
 
-    def __init__(self, graph: Graph) -> None:
+    def __init__(self, graph: AnswerGraph) -> None:
         self.graph = graph
-        self._made: list[tuple[str, Replaced, Diagnosis]] | None = None
+        self._made: list[tuple[str, ChangedDerivation, Diagnosis]] | None = None
 
     def values(self, node: str) -> Iterator[tuple[Any, Diagnosis]]:
         """What a node becomes under every slip that reaches it."""
@@ -66,13 +66,13 @@ class DerivationSlips:
                 except Exception:  # noqa: BLE001, S112  a step that cannot be taken from there tells nothing
                     continue
 
-    def made(self) -> list[tuple[str, Replaced, Diagnosis]]:
+    def made(self) -> list[tuple[str, ChangedDerivation, Diagnosis]]:
         """(node that goes wrong first, derivation, slip); what was left out before what was mistaken."""
         if self._made is None:
             self._made = sorted(self._make(), key=lambda made: not made[2].code.endswith("_missing"))
         return self._made
 
-    def _make(self) -> Iterator[tuple[str, Replaced, Diagnosis]]:
+    def _make(self) -> Iterator[tuple[str, ChangedDerivation, Diagnosis]]:
         graph, robot = self.graph, self.graph.robot
         if not robot.bodies or len(graph.key("K")) > MOST_TERMS:
             return
@@ -80,7 +80,7 @@ class DerivationSlips:
             right = graph.key(node)
             for wrong, told in variants(robot, node, graph.key):
                 if told.code not in OF_THE_MATRIX and not _equal(wrong, right):
-                    yield node, Replaced(graph, {node: wrong}), told
+                    yield node, ChangedDerivation(graph, {node: wrong}), told
         yield from self._everywhere()
 
     def _sources(self) -> Iterator[str]:
@@ -96,7 +96,7 @@ class DerivationSlips:
         for q in robot.coordinates:
             yield from (f"ddt{q.index}", f"tau{q.index}")
 
-    def _everywhere(self) -> Iterator[tuple[str, Replaced, Diagnosis]]:
+    def _everywhere(self) -> Iterator[tuple[str, ChangedDerivation, Diagnosis]]:
         """The same slip for every body or coordinate at once."""
         robot, graph = self.graph.robot, self.graph
         kinds: list[tuple[str, list[str]]] = [
@@ -114,7 +114,7 @@ class DerivationSlips:
                         told_as.setdefault(told.code, told)
             for code, changed in by_code.items():
                 if len(changed) > 1:
-                    yield head, Replaced(graph, dict(changed)), told_as[code]
+                    yield head, ChangedDerivation(graph, dict(changed)), told_as[code]
 
 
 def _equal(a: Any, b: Any) -> bool:
@@ -123,6 +123,3 @@ def _equal(a: Any, b: Any) -> bool:
     if isinstance(a, Expr) and isinstance(b, Expr):
         return a == b
     return False
-
-
-__all__ = ["DerivationSlips", "Replaced"]

@@ -15,7 +15,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import Field, FieldBuilder
 from dynsolve.answers.judging.evaluate import Evaluator
 from dynsolve.answers.judging.fraction import Frac, as_expr, equal
-from dynsolve.answers.judging.graph import Graph, MatrixEntry
+from dynsolve.answers.judging.graph import AnswerGraph, MatrixEntry
 from dynsolve.answers.submission import Answer, referred
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
@@ -28,7 +28,7 @@ MOST_ENTRIES = 144
 
 
 @dataclass(frozen=True, slots=True)
-class Given:
+class AnswerValue:
     """One answer with its value: rows of entries, a scalar as 1×1; `fault` where there is none."""
 
     answer: Answer
@@ -48,7 +48,7 @@ class Given:
         return tuple(entry for row in self.rows or () for entry in row)
 
 
-class Hand:
+class AnswerValues:
     """All answers of one hand-in, valued in a field that refines `base`, the problem's."""
 
     def __init__(self, base: Field, answers: Sequence[Answer]) -> None:
@@ -63,15 +63,15 @@ class Hand:
             except AlgebraError as error:
                 self._faults[place] = error.message, error.help
         self.field: Field = builder.field()
-        self.graph = Graph(self.field)
+        self.graph = AnswerGraph(self.field)
         self.answers = tuple(answers)
         self._last = {a.name: place for place, a in enumerate(answers) if place not in self._faults}
-        self._values: dict[int, Given] = {}
+        self._values: dict[int, AnswerValue] = {}
         self._busy: set[int] = set()
         self.evaluator = Evaluator(self.field.ring, self.lookup, self.field.values)
-        self.given: tuple[Given, ...] = tuple(self._given(place) for place in range(len(answers)))
+        self.given: tuple[AnswerValue, ...] = tuple(self._given(place) for place in range(len(answers)))
 
-    def _given(self, place: int) -> Given:
+    def _given(self, place: int) -> AnswerValue:
         found = self._values.get(place)
         if found is None:
             self._busy.add(place)
@@ -79,20 +79,22 @@ class Hand:
             self._busy.discard(place)
         return found
 
-    def _evaluate(self, place: int) -> Given:
+    def _evaluate(self, place: int) -> AnswerValue:
         answer = self.answers[place]
         if place in self._faults:
-            return Given(answer, None, (), *self._faults[place])
+            return AnswerValue(answer, None, (), *self._faults[place])
         assert answer.node is not None
         nodes = _entries(answer.node)
         if len(nodes) * len(nodes[0]) > MOST_ENTRIES:
-            return Given(answer, None, nodes, "the matrix is too large", f"at most {MOST_ENTRIES} entries")
+            return AnswerValue(
+                answer, None, nodes, "the matrix is too large", f"at most {MOST_ENTRIES} entries"
+            )
         self.evaluator.work = 0
         try:
             rows = tuple(tuple(self.evaluator.more(node) for node in row) for row in nodes)
         except AlgebraError as error:
-            return Given(answer, None, nodes, error.message, error.help)
-        return Given(answer, rows, nodes)
+            return AnswerValue(answer, None, nodes, error.message, error.help)
+        return AnswerValue(answer, rows, nodes)
 
     def lookup(self, symbol: str) -> Frac:
         """The value of an answer that occurs inside another."""
