@@ -14,6 +14,7 @@ from dynsolve.cli.numbers import AtOption, DigitsOption, SetOption, with_numbers
 from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer
 from dynsolve.cli.output import chosen as chosen_output
 from dynsolve.errors import ExitCode, ProblemError, UsageError
+from dynsolve.quantities.stages import Stage
 from dynsolve.render.formats import Format
 
 if TYPE_CHECKING:
@@ -28,18 +29,6 @@ class DetailName(StrEnum):
     FULL = "full"
 
 
-class StageName(StrEnum):
-    """A part of the derivation."""
-
-    KINEMATICS = "kinematics"
-    JACOBIAN = "jacobian"
-    INERTIA = "inertia"
-    ENERGY = "energy"
-    LAGRANGIAN = "lagrangian"
-    TORQUE = "torque"
-    VECTORIZED = "vectorized"
-
-
 class AbbreviateName(StrEnum):
     """Whether long results are written in names."""
 
@@ -50,13 +39,11 @@ class AbbreviateName(StrEnum):
 
 JsonOption = Annotated[bool, typer.Option("--json", help="JSON with everything, one object a line.")]
 StageOption = Annotated[
-    list[StageName] | None,
+    list[Stage] | None,
     typer.Option(metavar="STAGE", help="Show this stage alone; may be given more than once."),
 ]
-FromOption = Annotated[
-    StageName | None, typer.Option("--from", metavar="STAGE", help="Show from this stage on.")
-]
-ToOption = Annotated[StageName | None, typer.Option("--to", metavar="STAGE", help="Show up to this stage.")]
+FromOption = Annotated[Stage | None, typer.Option("--from", metavar="STAGE", help="Show from this stage on.")]
+ToOption = Annotated[Stage | None, typer.Option("--to", metavar="STAGE", help="Show up to this stage.")]
 DetailOption = Annotated[DetailName, typer.Option(help="How much is shown.")]
 LatexOption = Annotated[bool, typer.Option("--latex", help="A LaTeX document.")]
 FragmentOption = Annotated[bool, typer.Option("--fragment", help="LaTeX for another document's \\input.")]
@@ -68,7 +55,7 @@ AbbreviateOption = Annotated[
     AbbreviateName, typer.Option(help="Write long results in names, which are defined first.")
 ]
 HintOption = Annotated[
-    StageName | None,
+    Stage | None,
     typer.Option(metavar="STAGE", help="What to do in this stage, without its result or a later one."),
 ]
 
@@ -159,11 +146,9 @@ def _solve_all(
     return code
 
 
-def _chosen(
-    stage: list[StageName] | None, first: StageName | None, last: StageName | None
-) -> list[str] | None:
+def _chosen(stage: list[Stage] | None, first: Stage | None, last: Stage | None) -> list[str] | None:
     """The stages that are shown, None for all."""
-    order = list(StageName)
+    order = list(Stage)
     if stage and (first or last):
         raise typer.BadParameter("--stage names stages one by one; it does not go with --from or --to")
     if stage:

@@ -10,31 +10,28 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from dynsolve.explain import energy, inertia, jacobian, kinematics, lagrangian, torque, vectorized
-from dynsolve.explain.step import STAGES, Detail, Step
+from dynsolve.explain.step import Detail, Step
+from dynsolve.quantities.stages import Stage
 
 if TYPE_CHECKING:
     from dynsolve.explain.course import Course
 
-__all__ = ["STAGES", "Detail", "Step", "explain"]
+__all__ = ["Detail", "Step", "explain"]
 
-_EXPLAINED: dict[str, Callable[[Course], Iterator[Step]]] = {
-    "kinematics": kinematics.steps,
-    "jacobian": jacobian.steps,
-    "inertia": inertia.steps,
-    "energy": energy.steps,
-    "lagrangian": lagrangian.steps,
-    "torque": torque.steps,
-    "vectorized": vectorized.steps,
+_EXPLAINED: dict[Stage, Callable[[Course], Iterator[Step]]] = {
+    Stage.KINEMATICS: kinematics.steps,
+    Stage.JACOBIAN: jacobian.steps,
+    Stage.INERTIA: inertia.steps,
+    Stage.ENERGY: energy.steps,
+    Stage.LAGRANGIAN: lagrangian.steps,
+    Stage.TORQUE: torque.steps,
+    Stage.VECTORIZED: vectorized.steps,
 }
-
-WITHOUT_MASSES = ("kinematics", "jacobian")
-"""How far the derivation goes where no body has mass."""
 
 
 def explain(course: Course, stages: Iterable[str] | None = None) -> Iterator[Step]:
     """The steps of the given stages, or of all, in the order of the course."""
-    wanted = set(STAGES if stages is None else stages)
-    possible = STAGES if course.robot.bodies else WITHOUT_MASSES
-    for stage in possible:
-        if stage in wanted:
-            yield from _EXPLAINED[stage](course)
+    wanted = set(Stage if stages is None else stages)
+    for stage, steps in _EXPLAINED.items():
+        if stage in wanted and (course.robot.bodies or not stage.needs_masses):
+            yield from steps(course)

@@ -10,10 +10,10 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.agreement import Agreement
 from dynsolve.derivation.graph import Derivation
 from dynsolve.document import Inline, Prose
-from dynsolve.explain import letters
 from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Row, Symbol, Words
+from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
 
 LARGEST_WORKING = 260

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
-from dynsolve.explain import letters
 from dynsolve.explain.course import Course, is_small, listed, shv, side_by_side
 from dynsolve.explain.inertia import name_of
 from dynsolve.explain.jacobian import ZERO, coordinate_column
@@ -26,9 +25,11 @@ from dynsolve.notation.tree import (
     column,
     equation,
 )
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
 
-STAGE = "energy"
+STAGE = Stage.ENERGY
 
 _BESIDE = 2
 """Up to this number of columns J_v and J_ω in letters stand on one line."""

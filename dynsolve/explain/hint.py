@@ -13,11 +13,13 @@ from dataclasses import dataclass, field
 
 from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Prose, Table, Text
 from dynsolve.errors import UsageError
-from dynsolve.explain import WITHOUT_MASSES, explain, letters
+from dynsolve.explain import explain
 from dynsolve.explain.course import Course, is_small, listed
 from dynsolve.explain.pitfalls import pitfalls
-from dynsolve.explain.step import STAGES, Step
+from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Node, Product, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 
 _INSTEAD: Mapping[str, str] = {
@@ -76,26 +78,27 @@ def hint_document(title: str, course: Course, stage: str) -> Document:
 
     Raises UsageError for a stage that a robot without masses does not have.
     """
-    if not course.robot.bodies and stage not in WITHOUT_MASSES:
+    asked = Stage(stage)
+    if not course.robot.bodies and asked.needs_masses:
         raise UsageError(
             f"no body has mass, so there is no stage {stage}: the derivation ends with the Jacobian"
         )
     return Document((
         Heading(title, 1),
-        Heading(f"Hint: {STAGES[stage][0].lower()}{STAGES[stage][1:]}"),
-        *_given(course, stage),
-        *_tasks(course, stage),
-        *_look_out(course, stage),
+        Heading(f"Hint: {asked.heading[0].lower()}{asked.heading[1:]}"),
+        *_given(course, asked),
+        *_tasks(course, asked),
+        *_look_out(course, asked),
     ))  # fmt: skip
 
 
 # -- what there is ---------------------------------------------------------------------------------
 
 
-def _given(course: Course, stage: str) -> Iterator[Block]:
-    if stage == "kinematics":
+def _given(course: Course, stage: Stage) -> Iterator[Block]:
+    if stage is Stage.KINEMATICS:
         yield Text(("You have the Denavit-Hartenberg table:",))
-        table = next(step.table for step in explain(course, ["kinematics"]) if step.table)
+        table = next(step.table for step in explain(course, [Stage.KINEMATICS]) if step.table)
         yield Table(table.header, table.rows)
         return
     yield Text((_AT_HAND[stage],))
@@ -111,37 +114,39 @@ def _given(course: Course, stage: str) -> Iterator[Block]:
 
 
 _AT_HAND = {
-    "jacobian": "You have the frames of the forward kinematics:",
-    "inertia": "You have the frames of the forward kinematics, and what the problem says of each body:",
-    "energy": "You have the axes and origins of the joints, and of each body its mass centre and its tensor:",
-    "lagrangian": "You have the two energies:",
-    "torque": "You have the Lagrangian:",
-    "vectorized": "You have the forces, one for each coordinate:",
+    Stage.JACOBIAN: "You have the frames of the forward kinematics:",
+    Stage.INERTIA: "You have the frames of the forward kinematics, and what the problem says of each body:",
+    Stage.ENERGY: (
+        "You have the axes and origins of the joints, and of each body its mass centre and its tensor:"
+    ),
+    Stage.LAGRANGIAN: "You have the two energies:",
+    Stage.TORQUE: "You have the Lagrangian:",
+    Stage.VECTORIZED: "You have the forces, one for each coordinate:",
 }
 
 
-def _inputs(course: Course, stage: str) -> Iterator[tuple[Node, str]]:
+def _inputs(course: Course, stage: Stage) -> Iterator[tuple[Node, str]]:
     """What the stage starts from, by letter and name."""
     robot = course.robot
-    if stage in ("jacobian", "inertia"):
+    if stage in (Stage.JACOBIAN, Stage.INERTIA):
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)
-    elif stage == "energy":
+    elif stage is Stage.ENERGY:
         for body in robot.bodies:
             yield letters.rc(body), f"rc{body.name}"
             if not body.is_point:
                 yield letters.of_body("I", body, "script"), f"I{body.name}"
-    elif stage == "lagrangian":
+    elif stage is Stage.LAGRANGIAN:
         yield from ((letters.K, "K"), (letters.P, "P"))
-    elif stage == "torque":
+    elif stage is Stage.TORQUE:
         yield letters.L, "L"
-    elif stage == "vectorized":
+    elif stage is Stage.VECTORIZED:
         yield from ((letters.force(q), f"tau{q.index}") for q in robot.coordinates)
 
 
 # -- what to do ------------------------------------------------------------------------------------
 
 
-def _tasks(course: Course, stage: str) -> Iterator[Block]:
+def _tasks(course: Course, stage: Stage) -> Iterator[Block]:
     for number, task in enumerate(_grouped(course.robot, explain(course, [stage])), start=1):
         blocks: list[Block] = [Text(task.why)] if task.why else []
         blocks += [Formula(node, source) for node, source in task.formulas]
@@ -194,7 +199,7 @@ def _lowered(title: str) -> str:
 # -- what to look out for --------------------------------------------------------------------------
 
 
-def _look_out(course: Course, stage: str) -> Iterator[Block]:
+def _look_out(course: Course, stage: Stage) -> Iterator[Block]:
     items = tuple(pitfalls(course.robot, stage))
     if items:
         yield Text(("Look out:",))

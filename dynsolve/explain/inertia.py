@@ -9,7 +9,6 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import inertia
 from dynsolve.document import Prose
 from dynsolve.errors import ReadError
-from dynsolve.explain import letters
 from dynsolve.explain.course import Course, block_of, is_small, shv, side_by_side
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.text import read
@@ -28,9 +27,11 @@ from dynsolve.notation.tree import (
     Words,
     equation,
 )
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import AxesKind, Body
 
-STAGE = "inertia"
+STAGE = Stage.INERTIA
 
 _SHAPES = {
     "box": "rectangular solid",

@@ -9,7 +9,6 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Prose
-from dynsolve.explain import letters
 from dynsolve.explain.course import (
     Course,
     block_of,
@@ -39,9 +38,11 @@ from dynsolve.notation.tree import (
     equation,
     number,
 )
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
 
-STAGE = "jacobian"
+STAGE = Stage.JACOBIAN
 
 ZERO = Letter("0", style="bold")
 """The zero vector."""

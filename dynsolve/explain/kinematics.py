@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.document import Prose, Table
-from dynsolve.explain import letters
 from dynsolve.explain.course import Course, craig, is_small, listed, shv, side_by_side, turns
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import (
@@ -25,9 +24,11 @@ from dynsolve.notation.tree import (
     number,
 )
 from dynsolve.notation.unicode import lowered
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Joint, JointType
 
-STAGE = "kinematics"
+STAGE = Stage.KINEMATICS
 
 _ZERO, _ONE = Number(0), Number(1)
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.explain import letters
 from dynsolve.explain.course import Course, shv
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Negative, Sum, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 
-STAGE = "lagrangian"
+STAGE = Stage.LAGRANGIAN
 
 
 def steps(course: Course) -> Iterator[Step]:

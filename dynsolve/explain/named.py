@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from dynsolve.document import Block, Equations, Fold, Heading, Prose, Text
-from dynsolve.explain import letters
 from dynsolve.explain.abbreviations import Abbreviated, Definition
 from dynsolve.explain.course import Course
 from dynsolve.explain.step import Detail, Step
@@ -31,6 +30,8 @@ from dynsolve.notation.tree import (
     Symbol,
     equation,
 )
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
 
 LONGEST = 80
@@ -45,7 +46,7 @@ def in_names(steps: Iterable[Step], course: Course, short: Abbreviated) -> Itera
         change = names.changes.get(step.id)
         if change is not None:
             yield change(step)
-        elif step.stage == "vectorized" and not short.long:
+        elif step.stage is Stage.VECTORIZED and not short.long:
             yield replace(step, result=tuple(map(names.swapped, step.result)))
         elif short.long and names.is_too_long(step):
             kind = step.id.rstrip("0123456789")
@@ -164,7 +165,7 @@ class _Names:
 
     def is_too_long(self, step: Step) -> bool:
         """Whether a step on the way would fill pages."""
-        on_the_way = step.stage == "inertia" or step.stage == "energy"
+        on_the_way = step.stage in (Stage.INERTIA, Stage.ENERGY)
         return on_the_way and max(map(_size, step.result), default=0) > LONGEST
 
     def left_out(self, step: Step, first: bool, again: bool) -> Step:

@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from dynsolve.document import Prose
-from dynsolve.explain import letters
 from dynsolve.explain.course import listed
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Sum, Symbol, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import AxesKind, Body, Convention, JointType, Robot
 
 
-def pitfalls(robot: Robot, stage: str) -> Iterator[Prose]:
+def pitfalls(robot: Robot, stage: Stage) -> Iterator[Prose]:
     """The pitfalls of a stage that this robot has."""
     yield from _PITFALLS[stage](robot)
 
@@ -169,12 +170,12 @@ def listed_words(names: Sequence[str]) -> Iterator[str]:
         yield (" and " if i == len(names) - 1 else ", ") * bool(i) + name
 
 
-_PITFALLS: Mapping[str, Callable[[Robot], Iterator[Prose]]] = {
-    "kinematics": _kinematics,
-    "jacobian": _jacobian,
-    "inertia": _inertia,
-    "energy": _energy,
-    "lagrangian": _lagrangian,
-    "torque": _torque,
-    "vectorized": _vectorized,
+_PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
+    Stage.KINEMATICS: _kinematics,
+    Stage.JACOBIAN: _jacobian,
+    Stage.INERTIA: _inertia,
+    Stage.ENERGY: _energy,
+    Stage.LAGRANGIAN: _lagrangian,
+    Stage.TORQUE: _torque,
+    Stage.VECTORIZED: _vectorized,
 }

@@ -12,6 +12,7 @@ from enum import IntEnum
 
 from dynsolve.document import Prose, Table
 from dynsolve.notation.tree import Node
+from dynsolve.quantities.stages import Stage
 
 
 class Detail(IntEnum):
@@ -20,18 +21,6 @@ class Detail(IntEnum):
     BRIEF = 1
     NORMAL = 2
     FULL = 3
-
-
-STAGES = {
-    "kinematics": "Forward kinematics",
-    "jacobian": "The Jacobian",
-    "inertia": "The bodies: mass centres and inertia",
-    "energy": "Potential and kinetic energy",
-    "lagrangian": "The Lagrangian",
-    "torque": "The Euler-Lagrange equations",
-    "vectorized": "The vectorized form",
-}
-"""The stages in the order of the course, with their headings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +35,7 @@ class Step:
     """
 
     id: str
-    stage: str
+    stage: Stage
     title: str
     why: Prose = ()
     formula: Node | None = None

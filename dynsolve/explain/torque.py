@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.document import Prose
-from dynsolve.explain import letters
 from dynsolve.explain.course import Course, listed, shv, turns
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Negative, Node, Number, Sum, Symbol, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
 
-STAGE = "torque"
+STAGE = Stage.TORQUE
 
 
 def steps(course: Course) -> Iterator[Step]:

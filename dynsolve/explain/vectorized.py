@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.agreement import agreement
 from dynsolve.document import Prose
-from dynsolve.explain import letters
 from dynsolve.explain.course import Course, is_small, listed, shv
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import (
@@ -25,9 +24,11 @@ from dynsolve.notation.tree import (
     column,
     equation,
 )
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
 
-STAGE = "vectorized"
+STAGE = Stage.VECTORIZED
 
 LONGEST_IN_PARTS = 150
 """Up to this number of terms in D its parts are shown too."""

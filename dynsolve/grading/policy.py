@@ -8,9 +8,6 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-STAGES = ("kinematics", "jacobian", "inertia", "energy", "lagrangian", "torque", "vectorized")
-"""The stages of a derivation, for `caps`."""
-
 _OF_LETTERS = {
     "kinematics": ("A", "H", "rc"),
     "jacobian": ("J", "Jv", "Jw", "v", "w"),

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.errors import Finding, ProblemError
-from dynsolve.grading.policy import STAGES, Policy
+from dynsolve.grading.policy import Policy
 from dynsolve.problem.answer_names import AnswerNames
 from dynsolve.problem.cells import read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, free_text, items, mapping, whole_number
@@ -27,6 +27,7 @@ from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.source import Faults, as_source
 from dynsolve.problem.yaml_nodes import Faulty, Scalar, YamlNode, read_nodes
 from dynsolve.problem.yaml_nodes import Mapping as MappingNode
+from dynsolve.quantities.stages import Stage
 
 SET_FILE = "set.yaml"
 KEYS = ("title", "problems", "marks", "policy")
@@ -191,7 +192,7 @@ def _policy(report: Faults, node: YamlNode | None) -> Policy:
     step = _number(report, fields.get("rounding"), "rounding") if "rounding" in fields else None
     if step == 0:
         report.error(fields.span_of("rounding"), "marks cannot be rounded to steps of 0", "write 0.5 or 0.01")
-    caps = mapping(report, fields.get("caps"), STAGES, "caps", "write caps: {energy: 5}")
+    caps = mapping(report, fields.get("caps"), tuple(Stage), "caps", "write caps: {energy: 5}")
     return Policy(
         plain.follow if follow is None else follow,
         {

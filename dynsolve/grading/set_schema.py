@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from dynsolve.grading.policy import STAGES
+from dynsolve.quantities.stages import Stage
 
 _NUMBER = {"type": ["string", "number"], "description": "4, 0.5 or 1/2"}
 
@@ -20,7 +20,7 @@ def set_schema() -> dict[str, Any]:
         "caps": {
             "type": "object",
             "additionalProperties": False,
-            "properties": dict.fromkeys(STAGES, _NUMBER),
+            "properties": {stage.value: _NUMBER for stage in Stage},
             "description": "The most marks that the answers of a stage earn together.",
         },
         "rounding": _told("The step that the marks of an answer are rounded to. Default 0.01."),

@@ -11,7 +11,8 @@ from dynsolve.derivation.rules import course_rules
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Table, Text, Uses
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
 from dynsolve.explain.named import definition_blocks
-from dynsolve.explain.step import STAGES, Detail, Step
+from dynsolve.explain.step import Detail, Step
+from dynsolve.quantities.stages import Stage
 
 if TYPE_CHECKING:
     from dynsolve.solution.solution import Solution
@@ -54,22 +55,22 @@ def _stages(
     solution: Solution, detail: Detail, stages: Iterable[str] | None, short: Abbreviated | None
 ) -> Iterator[Block]:
     """Stages and their steps, numbered as in the whole derivation."""
-    numbers = {stage: number for number, stage in enumerate(STAGES, start=1)}
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
-    stage, place, extra = "", 0, 0
+    stage: Stage | None = None
+    place, extra = 0, 0
     heading: Heading | None = None
     for step in solution.explain(stages, short):
         if step.stage != stage:
-            if short is not None and step.stage == "vectorized":
+            if short is not None and step.stage is Stage.VECTORIZED:
                 yield from definition_blocks(short)
             stage, place, extra = step.stage, 0, 0
-            heading = Heading(f"{numbers[stage]}. {STAGES[stage]}", 2)
+            heading = Heading(f"{stage.number}. {stage.heading}", 2)
         if step.detail is Detail.FULL:  # 7.3.1, so that the others have the same number in every detail
             extra += 1
-            number = f"{numbers[stage]}.{place}.{extra}"
+            number = f"{stage.number}.{place}.{extra}"
         else:
             place, extra = place + 1, 0
-            number = f"{numbers[stage]}.{place}"
+            number = f"{stage.number}.{place}"
         if step.detail <= detail:
             if heading:  # none over a stage of which nothing is shown
                 yield heading

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from dynsolve.quantities.stages import Stage
 from dynsolve.render.formats import Format
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ def report(
     style = style_of(solution, star)
     shown = Detail.FULL if format is Format.HTML else detail
     document = solution_document(solution, shown, stages, Abbreviate(abbreviate))
-    if format in PICTURED and (stages is None or "kinematics" in stages):
+    if format in PICTURED and (stages is None or Stage.KINEMATICS in stages):
         document = _with_picture(document, solution, star)
     return rendered(document, style, format, detail, fragment)
 

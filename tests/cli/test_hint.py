@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 import dynsolve as package
-from dynsolve.explain.step import STAGES
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem.library import bundled
+from dynsolve.quantities.stages import Stage
 from dynsolve.render.terminal import render
 from tests.cli.running import dynsolve
 
@@ -29,12 +29,12 @@ def hint(problem: str, stage: str) -> str:
     return "\n".join(line.text for line in lines)
 
 
-@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("stage", Stage)
 @pytest.mark.parametrize("problem", SMALL)
 def test_no_result_of_the_stage_or_of_a_later_one(problem: str, stage: str) -> None:
     """What is to be done holds no formula that comes out; what there is came out of an earlier stage."""
     solution = solved(problem)
-    order = list(STAGES)
+    order = list(Stage)
     there_is, _, to_do = hint(problem, stage).partition("\n1. ")
     for result in _results(solution, order[order.index(stage) :]):
         assert result not in to_do, result
@@ -61,7 +61,7 @@ def _results(solution: package.Solution, stages: list[str]) -> set[str]:
     return {text for text in found if re.search(r"[θqLdmI].*[-+ ].*[₀-₉]", text) and len(text) > 12}
 
 
-@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("stage", Stage)
 def test_every_stage_says_what_there_is_what_to_do_and_what_to_look_out_for(stage: str) -> None:
     ran = dynsolve("solve", "in3140-rp", "--hint", stage)
     assert ran.code == 0 and not ran.err
@@ -81,7 +81,7 @@ def test_formulas_and_inputs_of_this_robot() -> None:
 
 def test_it_does_not_tell_what_is_zero() -> None:
     """The slope of P, Christoffel symbols that vanish, a mass centre that stands still are results."""
-    for stage in STAGES:
+    for stage in Stage:
         for problem in ("in3140-rp", "cartesian-pp"):
             text = " ".join(hint(problem, stage).split())
             for words in ("so g is zero", "does not move.", "Zero:", "is constant, so", "at rest here"):

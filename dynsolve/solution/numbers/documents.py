@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
-from dynsolve.explain import letters
 from dynsolve.explain.course import children
-from dynsolve.explain.step import STAGES, Detail
+from dynsolve.explain.step import Detail
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equation
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 from dynsolve.solution.numbers import quantities, units
 from dynsolve.solution.numbers.beside import Numbers, needed
@@ -78,7 +79,7 @@ def _names(words: str, names: Iterable[str]) -> Iterator[Inline]:
 
 
 def _results(
-    robot: Robot, shown: dict[str, list[Shown]], tree: Callable[[str], Node], stages: set[str] | None
+    robot: Robot, shown: dict[Stage, list[Shown]], tree: Callable[[str], Node], stages: set[str] | None
 ) -> Iterator[Block]:
     """The results of each stage with their units."""
     for stage, results in shown.items():
@@ -86,7 +87,7 @@ def _results(
             formulas = [
                 block for name, letter in results for block in _shown(robot, name, letter, tree(name))
             ]
-            yield Fold(STAGES[stage], (*_remark(robot, stage), *formulas), Detail.BRIEF)
+            yield Fold(stage.heading, (*_remark(robot, stage), *formulas), Detail.BRIEF)
 
 
 def _entries(robot: Robot, name: str) -> tuple[tuple[Node, ...], ...]:
@@ -96,12 +97,12 @@ def _entries(robot: Robot, name: str) -> tuple[tuple[Node, ...], ...]:
     return letters.entries(small[name][0], n, small[name][1]) if name in small else ()
 
 
-def _remark(robot: Robot, stage: str) -> Iterator[Block]:
+def _remark(robot: Robot, stage: Stage) -> Iterator[Block]:
     """Where the entries of one matrix are measured in several units."""
     kinds = {q.type for q in robot.coordinates}
-    if stage == "kinematics":
+    if stage is Stage.KINEMATICS:
         yield Text(("The fourth column of H is a position, in m.",))
-    if stage == "jacobian" and len(kinds) > 1:
+    if stage is Stage.JACOBIAN and len(kinds) > 1:
         words = (
             "The columns of the linear part that belong to an angle are in m, those of a length pure numbers."
         )

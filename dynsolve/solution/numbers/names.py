@@ -4,29 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.explain import letters
 from dynsolve.notation.tree import Node, Product, Symbol
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Robot
 
 Shown = tuple[str, Node]
 """The name of a result, and the letter it is shown by."""
 
 
-def main_results(robot: Robot) -> dict[str, list[Shown]]:
+def main_results(robot: Robot) -> dict[Stage, list[Shown]]:
     """The results that an exercise asks for, by stage."""
     last = len(robot.joints)
-    found: dict[str, list[Shown]] = {
-        "kinematics": [(f"H{last}", letters.H(robot, last))],
-        "jacobian": [("Jv", letters.JV), ("Jw", letters.JW)],
+    found: dict[Stage, list[Shown]] = {
+        Stage.KINEMATICS: [(f"H{last}", letters.H(robot, last))],
+        Stage.JACOBIAN: [("Jv", letters.JV), ("Jw", letters.JW)],
     }
     if not robot.bodies:
         return found
     return found | {
-        "inertia": [],
-        "energy": [("P", letters.P), ("K", letters.K)],
-        "lagrangian": [("L", letters.L)],
-        "torque": [(f"tau{q.index}", letters.force(q)) for q in robot.coordinates],
-        "vectorized": [
+        Stage.INERTIA: [],
+        Stage.ENERGY: [("P", letters.P), ("K", letters.K)],
+        Stage.LAGRANGIAN: [("L", letters.L)],
+        Stage.TORQUE: [(f"tau{q.index}", letters.force(q)) for q in robot.coordinates],
+        Stage.VECTORIZED: [
             ("D", letters.D),
             ("C", letters.C),
             ("Cqd", Product((letters.C, letters.QD))),
@@ -35,28 +36,28 @@ def main_results(robot: Robot) -> dict[str, list[Shown]]:
     }
 
 
-def all_results(robot: Robot) -> dict[str, list[Shown]]:
+def all_results(robot: Robot) -> dict[Stage, list[Shown]]:
     """Every result of the derivation, by stage."""
     found = main_results(robot)
-    found["kinematics"] = [
+    found[Stage.KINEMATICS] = [
         *((f"A{joint.index}", letters.A(joint.index)) for joint in robot.joints),
         *((f"H{joint.index}", letters.H(robot, joint.index)) for joint in robot.joints),
     ]
     if not robot.bodies:
         return found
-    found["inertia"] = [shown for body in robot.bodies for shown in _inertia(body)]
+    found[Stage.INERTIA] = [shown for body in robot.bodies for shown in _inertia(body)]
     energies = [(f"P{body.name}", letters.of_body("P", body)) for body in robot.bodies]
-    found["energy"] = [
+    found[Stage.ENERGY] = [
         *energies,
         ("P", letters.P),
         *(shown for body in robot.bodies for shown in _motion(body)),
         ("K", letters.K),
     ]
-    found["torque"] = []
+    found[Stage.TORQUE] = []
     for q in robot.coordinates:
         rate, k = letters.rate(q), q.index
         momentum = letters.slope(letters.L, rate)
-        found["torque"] += [
+        found[Stage.TORQUE] += [
             (f"dLdqd{k}", momentum),
             (f"ddt{k}", letters.time_rate(momentum)),
             (f"dLdq{k}", letters.slope(letters.L, Symbol(q.name))),

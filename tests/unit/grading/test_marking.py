@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.grading.marking import mark, maximum
-from dynsolve.grading.policy import STAGES, Policy, rounded, shown, stage_of
+from dynsolve.grading.policy import Policy, rounded, shown, stage_of
+from dynsolve.quantities.stages import Stage
 
 F = Fraction
 
@@ -121,7 +122,7 @@ _POLICIES = st.builds(
     Policy,
     follow=_SHARES,
     late=_SHARES,
-    caps=st.dictionaries(st.sampled_from(STAGES), _POINTS),
+    caps=st.dictionaries(st.sampled_from(Stage), _POINTS),
     rounding=st.sampled_from([F(1, 100), F(1, 4), F(1, 2), F(1), F(1, 3)]),
 )
 
