@@ -11,7 +11,6 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from dynsolve.answers.reading.shapes import with_names
 from dynsolve.answers.submission import Place
 from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Report, Verdict
 from dynsolve.document import (
@@ -297,7 +296,7 @@ def _reading(said: str, answer: JudgedAnswer) -> Iterator[Block]:
     """What was read: as a formula where it is to be looked at, else, or where it is too long, as text."""
     if answer.verdict is not Verdict.CORRECT and answer.written is not None and len(answer.read_as) <= _MOST:
         yield Text((f"{said}:",))
-        yield Formula(_equation(answer.name, with_names(answer.written)))
+        yield Formula(_equation(answer.name, answer.written))
     elif answer.read_as:
         yield Text((f"{said}: ", Verbatim(_short(answer.read_as))))
 

@@ -13,9 +13,6 @@ from dataclasses import dataclass
 from dynsolve.errors import Finding
 from dynsolve.notation.tree import Node
 
-REFERENCE_MARK = "@"
-"""What the name of a placeholder symbol begins with: `@K1`, `@I1[1,3]`."""
-
 
 @dataclass(frozen=True, slots=True)
 class Place:
@@ -43,8 +40,8 @@ class Answer:
     I_body1 or I1).  `node` is a scalar tree or a `Matrix` of scalar trees, None where the
     text could not be read: `fault` then says why, `expected` what to write, `place` where.
 
-    `references` are the answers that occur inside the value: a scalar one as the symbol
-    `@K1`, a matrix one entry by entry as `@I1[1,3]` (row and column from 1).  `free` are
+    `references` are the answers that occur inside the value: a scalar one as
+    `Reference("K1")`, a matrix one entry by entry as `Reference("I1", 1, 3)`.  `free` are
     the names of symbols that are no symbol of the problem (h0, a zero level of height).
     `occurrence` is (chain, member): which equation of the file, and which member of
     `a = b = c` from 0; answers stand in the order of the file.
@@ -84,27 +81,3 @@ class Submission:
     answers: tuple[Answer, ...]
     not_recognized: tuple[NotRecognized, ...] = ()
     faults: tuple[Finding, ...] = ()
-
-
-def reference(name: str, row: int | None = None, column: int | None = None) -> str:
-    """The placeholder's name for an answer, or for an entry of one (from 1).
-
-    >>> reference("K1"), reference("I1", 1, 3)
-    ('@K1', '@I1[1,3]')
-    """
-    return f"{REFERENCE_MARK}{name}" if row is None else f"{REFERENCE_MARK}{name}[{row},{column}]"
-
-
-def referred(symbol: str) -> tuple[str, int | None, int | None] | None:
-    """The answer that a placeholder's name stands for, with row and column; None for other symbols.
-
-    >>> referred("@I1[1,3]"), referred("@K1"), referred("m1")
-    (('I1', 1, 3), ('K1', None, None), None)
-    """
-    if not symbol.startswith(REFERENCE_MARK):
-        return None
-    name, bracket, index = symbol[1:].partition("[")
-    if not bracket:
-        return name, None, None
-    row, _, column = index[:-1].partition(",")
-    return name, int(row), int(column)

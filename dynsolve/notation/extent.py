@@ -25,6 +25,7 @@ from dynsolve.notation.tree import (
     Power,
     Product,
     Quotient,
+    Reference,
     Relation,
     Row,
     Sum,
@@ -128,6 +129,8 @@ class Ruler:
                 return sum(map(self.width, parts))
             case Words(text):
                 return words_width(text)
+            case Reference():
+                return words_width(str(node))
             case Transpose(argument):
                 return self._factor(argument) + 0.6
             case Cross(left, right):

@@ -26,6 +26,7 @@ from dynsolve.notation.tree import (
     Power,
     Product,
     Quotient,
+    Reference,
     Relation,
     Row,
     Sum,
@@ -78,6 +79,7 @@ _METHODS: Mapping[type[Node], str] = {
     BigSum: "_big_sum",
     Parenthesized: "_in_parentheses",
     Relation: "_relation",
+    Reference: "_reference",
 }
 
 # Sub-trees that are shared come as these; leaves and short nodes cost less than their entry.
@@ -162,6 +164,9 @@ class FormulaPrinter(Printer):
 
     def _row(self, node: Row) -> str:
         return self.between.join(map(self.text, node.parts))
+
+    def _reference(self, node: Reference) -> str:
+        return self.text(Words(str(node)))
 
     def _operand(self, node: Node) -> str:
         text = self.text(node)

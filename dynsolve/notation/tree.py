@@ -75,6 +75,22 @@ class Symbol(Node):
 
 
 @node_class
+class Reference(Node):
+    """A quantity of the derivation that stands in a formula by its name, K1, or an entry of it (from 1).
+
+    >>> str(Reference("K1")), str(Reference("I1", 1, 3))
+    ('K1', 'I1[1,3]')
+    """
+
+    quantity: str
+    row: int | None = None
+    column: int | None = None
+
+    def __str__(self) -> str:
+        return self.quantity if self.row is None else f"{self.quantity}[{self.row},{self.column}]"
+
+
+@node_class
 class Sum(Node):
     """t₁ + t₂ + ...; a `Negative` term is printed with a minus."""
 

@@ -16,10 +16,10 @@ from dynsolve.answers.judging.answer_ring import Field, FieldBuilder
 from dynsolve.answers.judging.evaluate import Evaluator
 from dynsolve.answers.judging.fraction import Frac, as_expr, equal
 from dynsolve.answers.judging.graph import AnswerGraph, MatrixEntry
-from dynsolve.answers.submission import Answer, referred
+from dynsolve.answers.submission import Answer
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Node, Reference
 
 Rows = tuple[tuple[Frac, ...], ...]
 
@@ -96,12 +96,9 @@ class AnswerValues:
             return AnswerValue(answer, None, nodes, error.message, error.help)
         return AnswerValue(answer, rows, nodes)
 
-    def lookup(self, symbol: str) -> Frac:
+    def lookup(self, reference: Reference) -> Frac:
         """The value of an answer that occurs inside another."""
-        found = referred(symbol)
-        if found is None:
-            raise AlgebraError(f"{symbol} is not a symbol of this problem")
-        name, row, column = found
+        name, row, column = reference.quantity, reference.row, reference.column
         own = self._own(name, row, column)
         return self._from_key(name, row, column) if own is None else own
 

@@ -20,7 +20,6 @@ from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.answers.judging.fraction import Frac, simplified
 from dynsolve.answers.judging.ring_extension import dotted, expected_angle, opaque, plain_radicand
-from dynsolve.answers.submission import REFERENCE_MARK
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.bounded import keep
 from dynsolve.notation.tree import (
@@ -33,6 +32,7 @@ from dynsolve.notation.tree import (
     Power,
     Product,
     Quotient,
+    Reference,
     Sum,
     Symbol,
 )
@@ -54,8 +54,8 @@ MOST_KNOWN = 4096
 """So many functions and terms are remembered."""
 
 
-Lookup = Callable[[str], Frac]
-"""The value of an answer that occurs inside another, by its placeholder's name."""
+Lookup = Callable[[Reference], Frac]
+"""The value of an answer that occurs inside another."""
 
 
 @dataclass(slots=True)
@@ -70,8 +70,8 @@ class Values:
     terms: dict[Node, _Value] = field(default_factory=dict)
 
 
-def _nothing(name: str) -> Frac:
-    raise AlgebraError(f"{name} stands for no answer")
+def _nothing(reference: Reference) -> Frac:
+    raise AlgebraError(f"{reference} stands for no answer")
 
 
 class _Value(NamedTuple):
@@ -238,6 +238,9 @@ class Evaluator:
                     self._gather(factor, term, power)
             case Symbol():
                 self._symbol(node, term, power)
+            case Reference():
+                self._asked += 1
+                term.others.append(self._power_of(self.lookup(node), power))
             case Degrees(p, q):
                 self._number(Fraction(p, 180 * q), term, power)
                 self._symbol(Symbol("pi"), term, power)
@@ -269,10 +272,6 @@ class Evaluator:
     def _symbol(self, node: Symbol, term: _Term, power: int) -> None:
         index = self.ring._symbols.get((node.name, node.dots))
         if index is None:
-            if node.name.startswith(REFERENCE_MARK):
-                self._asked += 1
-                term.others.append(self._power_of(self.lookup(node.name), power))
-                return
             index = self._unknown(dotted(node.name, node.dots))
         term.exponents[index] = term.exponents.get(index, 0) + power
 

@@ -10,7 +10,6 @@ from hashlib import sha256
 from dynsolve.algebra.angles import Angle, angle_from_tree, names_of
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import rational_value
-from dynsolve.answers.submission import referred
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.bounded import keep
@@ -103,7 +102,7 @@ class _Collector:
                     if here not in self.there.terms:
                         waiting.extend(parts)
                 case Symbol(name, dots):
-                    if not self.known.has_symbol(name, dots) and referred(name) is None:
+                    if not self.known.has_symbol(name, dots):
                         self.symbols.setdefault(dotted(name, dots))
                 case Number():
                     pass

@@ -8,7 +8,7 @@ from dynsolve.answers.reading import functions, name_resolution
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import Reference, Symbol
 
 if TYPE_CHECKING:
     from dynsolve.answers.reading.reader import Reader
@@ -108,8 +108,8 @@ def _derivative(reader: Reader, opening: Token) -> Value:
 
 def total_rate(of: Value) -> Value:
     """d/dt of what is no coordinate: of an answer it is one, of an expression it is left undone."""
-    if isinstance(of, Symbol) and of.name.startswith("@dLdqd"):
-        return Symbol("@ddt" + of.name[6:])
+    if isinstance(of, Reference) and of.quantity.startswith("dLdqd"):
+        return Reference("ddt" + of.quantity[5:])
     return Abstract("a derivative that is not carried out")
 
 

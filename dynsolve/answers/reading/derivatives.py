@@ -10,7 +10,7 @@ from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.vocabulary import key
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import Reference, Symbol
 
 if TYPE_CHECKING:
     from dynsolve.answers.reading.reader import Reader
@@ -103,11 +103,11 @@ def _operand(reader: Reader) -> Value:
 
 def by_time(reader: Reader, of: Value, order: int) -> Value:
     """d/dt of a value."""
-    if isinstance(of, Symbol) and of.name.startswith("@"):
+    if isinstance(of, Reference):
         found = calls.total_rate(of)
-        if isinstance(found, Symbol):
-            reader.references.pop(of.name[1:], None)
-            reader.references.setdefault(found.name[1:])
+        if isinstance(found, Reference):
+            reader.references.pop(of.quantity, None)
+            reader.references.setdefault(found.quantity)
         return found
     dotted = name_resolution.rate(of, reader.vocabulary, order)
     return dotted if dotted is not None else calls.total_rate(of)
@@ -115,7 +115,7 @@ def by_time(reader: Reader, of: Value, order: int) -> Value:
 
 def _by(reader: Reader, of: Value, variable: list[Token]) -> Value:
     """∂of/∂variable"""
-    letter = of.name[1:] if isinstance(of, Symbol) and of.name.startswith("@") else ""
+    letter = of.quantity if isinstance(of, Reference) else ""
     try:
         by = variable_of(reader, variable)
     except ReadError:
@@ -140,7 +140,7 @@ def variable_of(reader: Reader, tokens: list[Token]) -> Value:
 
 def partial(reader: Reader, of: Value, by: Value) -> Value:
     """The partial derivative of L (or K, or P) by a coordinate or its velocity, as an answer's name."""
-    letter = of.name[1:] if isinstance(of, Symbol) and of.name.startswith("@") else ""
+    letter = of.quantity if isinstance(of, Reference) else ""
     if letter in ("L", "K", "P"):
         reader.references.pop(letter, None)
     if isinstance(by, Grid):
@@ -157,11 +157,11 @@ def partial(reader: Reader, of: Value, by: Value) -> Value:
     return Abstract("a derivative that is not carried out")
 
 
-def _named(reader: Reader, name: str) -> Symbol:
+def _named(reader: Reader, name: str) -> Reference:
     reader.references.setdefault(name)
     reader.candidates = (name,)
     reader.names_used += 1
-    return Symbol("@" + name)
+    return Reference(name)
 
 
 # In plain text: dL/dtheta1_dot, ∂L/∂q1, d/dt(dL/dq1')

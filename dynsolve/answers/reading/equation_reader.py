@@ -19,7 +19,7 @@ from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_ME
 from dynsolve.answers.reading.memory import NamedAnswers, Side, Unknown
 from dynsolve.answers.reading.prepare import Macro, expand, simplified
 from dynsolve.answers.reading.right_side import EXPECTED, Read, read_member
-from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_names
+from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, key
 from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
@@ -286,7 +286,7 @@ class Session:
                 node=node,
                 place=place,
                 text=shown(text),
-                read_as=self.printer.text(with_names(node) if found.references else node),
+                read_as=self.printer.text(node),
                 notes=notes,
                 alternatives=tuple(other for other, _, _ in fits[1:]),
                 references=found.references,

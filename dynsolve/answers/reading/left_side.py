@@ -11,10 +11,9 @@ from dynsolve.answers.reading.name_resolution import UnknownName
 from dynsolve.answers.reading.prepare import cut_names
 from dynsolve.answers.reading.reader import Reader
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
-from dynsolve.answers.submission import referred
 from dynsolve.errors import ReadError
 from dynsolve.notation.bounded import recalled
-from dynsolve.notation.tree import Negative, Sum, Symbol
+from dynsolve.notation.tree import Negative, Reference, Sum
 
 
 def sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[Side]:
@@ -80,9 +79,9 @@ def _defined_key(form: Form) -> str:
 
 
 def _named(vocabulary: Vocabulary, value: Value, candidates: tuple[str, ...]) -> tuple[str, ...]:
-    """The answers that a value consisting of placeholders alone names."""
-    if isinstance(value, Symbol) and (found := referred(value.name)):
-        return candidates if found[0] in candidates else (found[0],)
+    """The answers that a value consisting of references alone names."""
+    if isinstance(value, Reference):
+        return candidates if value.quantity in candidates else (value.quantity,)
     if force := _force(vocabulary, value):
         return (force,)
     if isinstance(value, Grid):
@@ -95,7 +94,7 @@ def _named(vocabulary: Vocabulary, value: Value, candidates: tuple[str, ...]) ->
 def _force(vocabulary: Vocabulary, value: Value) -> str:
     """The force that d/dt(∂L/∂q̇_i) - ∂L/∂q_i is."""
     for q in vocabulary.coordinates:
-        terms = (Symbol(f"@ddt{q.index}"), Negative(Symbol(f"@dLdq{q.index}")))
+        terms = (Reference(f"ddt{q.index}"), Negative(Reference(f"dLdq{q.index}")))
         if value == Sum(terms):
             return q.force
     return ""
@@ -112,5 +111,5 @@ def _whole(vocabulary: Vocabulary, value: Grid) -> tuple[str, ...]:
         "D": [[f"d{i}{j}" for j in numbers] for i in numbers],
         "C": [[f"C{i}{j}" for j in numbers] for i in numbers],
     }
-    written = [[entry.name[1:] if isinstance(entry, Symbol) else "" for entry in row] for row in value.rows]
+    written = [[str(entry) if isinstance(entry, Reference) else "" for entry in row] for row in value.rows]
     return next(((name,) for name, rows in wholes.items() if rows == written), ())

@@ -23,6 +23,7 @@ from dynsolve.notation.tree import (
     Power,
     Product,
     Quotient,
+    Reference,
     Sum,
     Symbol,
 )
@@ -31,7 +32,7 @@ _HELP = "write it shorter, or as a sum of its terms"
 Measure = tuple[int, int, int, int]
 """Nodes, depth, terms, degree."""
 
-_LEAVES = frozenset({Symbol, Number, Degrees})
+_LEAVES = frozenset({Symbol, Reference, Number, Degrees})
 _LEAF: Measure = (1, 1, 1, 1)
 
 

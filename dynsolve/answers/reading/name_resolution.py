@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from dynsolve.answers.reading.forms import Form
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, is_running, key
-from dynsolve.answers.submission import reference
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import (
     ZERO,
@@ -19,6 +18,7 @@ from dynsolve.notation.tree import (
     Number,
     Product,
     Quotient,
+    Reference,
     Sum,
     Symbol,
 )
@@ -290,15 +290,13 @@ def _framed(form: Form, names: tuple[str, ...]) -> tuple[tuple[str, ...], bool]:
 
 
 def placeholder(vocabulary: Vocabulary, name: str) -> Value:
-    """The symbols that stand for an answer: one, or a matrix of them."""
+    """What stands for an answer: a reference to it, or the matrix of those to its entries."""
     shape = vocabulary.shapes.get(name)
     if shape is None:
-        return Symbol(reference(name))
+        return Reference(name)
     rows, columns = shape
     return Grid(
-        tuple(
-            tuple(Symbol(reference(name, i, j)) for j in range(1, columns + 1)) for i in range(1, rows + 1)
-        ),
+        tuple(tuple(Reference(name, i, j) for j in range(1, columns + 1)) for i in range(1, rows + 1)),
         quantity=name,
     )
 
@@ -454,7 +452,7 @@ def _is_constant(node: Node, vocabulary: Vocabulary) -> bool:
         case Number() | Degrees():
             return True
         case Symbol():
-            return vocabulary.coordinate(node) is None and not node.name.startswith("@")
+            return vocabulary.coordinate(node) is None
         case Negative(argument):
             return _is_constant(argument, vocabulary)
         case Product(parts) | Sum(parts):

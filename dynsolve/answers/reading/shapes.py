@@ -7,16 +7,8 @@ from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import (
     ZERO,
-    Function,
     Matrix,
-    Negative,
     Node,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    Symbol,
-    Words,
 )
 from dynsolve.notation.unicode import printable
 
@@ -80,28 +72,6 @@ def misfit(
     found = f"a {value.shape[0]}×{value.shape[1]} matrix" if isinstance(value, Grid) else "one expression"
     wanted = f"a {shape[0]}×{shape[1]} matrix" if shape else "one expression"
     return ReadError(f"{name} is {wanted}; this is {found}", start, max(end - start, 1), f"write {wanted}")
-
-
-def with_names(node: Node) -> Node:
-    """The tree with the names of answers for their placeholders, to be printed."""
-    match node:
-        case Symbol(name) if name.startswith("@"):
-            return Words(name[1:])
-        case Sum(terms):
-            return Sum(tuple(map(with_names, terms)))
-        case Product(factors):
-            return Product(tuple(map(with_names, factors)))
-        case Quotient(numerator, denominator):
-            return Quotient(with_names(numerator), with_names(denominator))
-        case Power(base, exponent):
-            return Power(with_names(base), exponent)
-        case Negative(argument):
-            return Negative(with_names(argument))
-        case Function(name, argument):
-            return Function(name, with_names(argument))
-        case Matrix(rows):
-            return Matrix(tuple(tuple(map(with_names, row)) for row in rows))
-    return node
 
 
 def shown(text: str) -> str:

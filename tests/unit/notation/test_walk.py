@@ -18,6 +18,7 @@ ONE_OF_EACH: list[tuple[Node, tuple[Node, ...]]] = [
     (Number(1, 2), ()),
     (tree.Degrees(90), ()),
     (A, ()),
+    (tree.Reference("I1", 1, 3), ()),
     (Sum((A, B, TWO)), (A, B, TWO)),
     (Product((A, B)), (A, B)),
     (tree.Quotient(A, B), (A, B)),
