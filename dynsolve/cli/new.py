@@ -17,15 +17,15 @@ def new(
     force: Annotated[bool, typer.Option("--force", help="Overwrite a file that is there.")] = False,
 ) -> None:
     """Write a commented problem file to start from."""
-    from dynsolve.problem.template import TEMPLATE
+    from dynsolve.problem.template import template
 
     if file == "-":
-        typer.echo(TEMPLATE, nl=False)
+        typer.echo(template(), nl=False)
         return
     path = Path(file)
     try:
         with path.open("w" if force else "x", encoding="utf-8") as stream:
-            stream.write(TEMPLATE)
+            stream.write(template())
     except FileExistsError:
         raise UsageError(f"{file} exists; --force overwrites it") from None
     except OSError as error:

@@ -9,9 +9,10 @@ from dynsolve.problem.cells import Cell, constant_value, forbid, made_cell, read
 from dynsolve.problem.fields import Fields, describe
 from dynsolve.problem.rotations import RotationSheet, read_rotation
 from dynsolve.problem.source import Faults
+from dynsolve.problem.specification import BASE, NO_VALUE, PROBLEM
 from dynsolve.problem.yaml_nodes import Faulty, Mapping, Scalar, Sequence, YamlNode
 
-_GRAVITY_HELP = "write gravity: [0, 0, -g], the acceleration of gravity, or none"
+_GRAVITY_HELP = PROBLEM["gravity"].help
 _CONSTANT = "joint variables stand in the table alone"
 
 
@@ -38,7 +39,7 @@ def read_gravity(report: Faults, fields: Fields, coordinates: tuple[str, ...]) -
                 fields.key_span("dh"), message, "give one of them another letter, or write gravity: none"
             )
         return _components("0", "0", "-g")
-    if isinstance(node, Scalar) and node.text == "none":
+    if isinstance(node, Scalar) and node.text in NO_VALUE.choices:
         return _components("0", "0", "0")
     if not isinstance(node, Sequence):
         span = fields.span_of("gravity")
@@ -83,7 +84,7 @@ def read_base(report: Faults, node: YamlNode | None, coordinates: tuple[str, ...
 
 def _read_base(report: Faults, node: YamlNode | None) -> BaseSheet:
     if isinstance(node, Mapping):
-        fields = Fields(report, node, ("rotate", "move"), "base")
+        fields = Fields(report, node, BASE.names, "base")
         rotation = read_rotation(report, fields.get("rotate"), "base")
         move = read_vector(report, fields.get("move"), "the position of the base")
         return BaseSheet(rotation, move)

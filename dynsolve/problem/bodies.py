@@ -10,21 +10,27 @@ from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix, read_ve
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items, whole_number, word
 from dynsolve.problem.rotations import RotationSheet, check_moving, read_rotation
 from dynsolve.problem.source import Faults
+from dynsolve.problem.specification import (
+    ABOUT,
+    AXIS,
+    BODY,
+    CENTERS,
+    FROM_BASE,
+    MAX_BODIES,
+    MEASURED,
+    NO_VALUE,
+    PROBLEM,
+    TENSOR,
+    dimensions,
+)
 from dynsolve.problem.yaml_nodes import Faulty, Scalar, Sequence, Span, YamlNode
 from dynsolve.problem.yaml_nodes import Mapping as MappingNode
 from dynsolve.robot.model import AxesKind
 from dynsolve.robot.shapes import AXES, KINDS
 
-MAX_BODIES = 100
-KEYS = ("mass", "name", "link", "center", "shape", "inertia", "about", "axes")
-CENTERS = ("tip", "origin", "midpoint")
-ABOUT = ("center", "origin", "joint")
-TENSOR = ("xx", "yy", "zz", "xy", "xz", "yz")
 _NAME = re.compile(r"[A-Za-uxyzXYZ]?[0-9]*")
-_EXAMPLE = "a body is written {mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}"
-_CENTER_HELP = "write tip, origin, midpoint, {along: 1/2}, {near: [lc1, 0, 0]} or [x, y, z]"
-_SHAPE_HELP = "write point, or a shape with its dimensions: {rod: {length: l1}}"
-_TENSOR_HELP = "write {zz: I1}, {xx: ..., yy: ..., zz: ...} or a symmetric 3×3 list"
+_EXAMPLE = PROBLEM["masses"].help
+_CENTER_HELP, _SHAPE_HELP, _TENSOR_HELP = (BODY[key].help for key in ("center", "shape", "inertia"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +126,7 @@ def read_bodies(
 
 
 def _is_empty(node: YamlNode | None) -> bool:
-    return isinstance(node, Scalar) and node.text in ("", "none")
+    return isinstance(node, Scalar) and node.text in ("", *NO_VALUE.choices)
 
 
 def _read_body(
@@ -131,11 +137,10 @@ def _read_body(
         if not isinstance(node, Faulty):
             report.error(node.span, f"body {index} is not a mapping but {describe(node)}", _EXAMPLE)
         return None
-    fields = Fields(report, node, KEYS, f"body {index}")
-    for key in ("mass", "link"):
-        if fields.lacks(key):
-            help = "mass: m1" if key == "mass" else "link: 1, the row of the table that the body moves with"
-            report.error(node.span, f"body {index} has no `{key}`", f"add {help}")
+    fields = Fields(report, node, BODY.names, f"body {index}")
+    for key in BODY.required:
+        if fields.lacks(key.name):
+            report.error(node.span, f"body {index} has no `{key.name}`", f"add {key.help}")
     shape = _read_shape(report, fields.get("shape"), f"body {index}")
     tensor = _read_tensor(report, fields.get("inertia"), f"body {index}")
     sheet = BodySheet(
@@ -167,8 +172,7 @@ def _read_name(report: Faults, node: YamlNode | None, index: int) -> str:
     text = node.text if isinstance(node, Scalar) else ""
     if text and len(text) <= 8 and _NAME.fullmatch(text):
         return text
-    help = "a name is at most one letter, not v or w, and then digits: 2, p, m2"
-    report.error(node.span, f"the name of body {index} cannot be {describe(node)}", help)
+    report.error(node.span, f"the name of body {index} cannot be {describe(node)}", BODY["name"].help)
     return str(index)
 
 
@@ -212,12 +216,12 @@ def _read_center(report: Faults, fields: Fields, index: int) -> CenterSheet | No
         return CenterSheet("at", node.span, cells) if cells else None
     if isinstance(node, MappingNode):
         return _read_measured(report, node, what)
-    kind = word(report, node, CENTERS, what, _CENTER_HELP)
+    kind = word(report, node, CENTERS.choices, what, _CENTER_HELP)
     return CenterSheet(kind, node.span) if kind else None
 
 
 def _read_measured(report: Faults, node: MappingNode, what: str) -> CenterSheet | None:
-    fields = Fields(report, node, ("along", "near"), what)
+    fields = Fields(report, node, MEASURED.names, what)
     given = tuple(fields)
     if len(given) == 2 or not node.entries:
         report.error(node.span, f"{what} takes one of along and near", _CENTER_HELP)
@@ -266,24 +270,24 @@ def _bare_shape(report: Faults, node: Scalar, body: str) -> ShapeSheet | None:
 
 
 def _missing_dimensions(report: Faults, span: Span, kind: str) -> None:
-    dimensions = ", ".join(f"{key}: ..." for key in KINDS[kind].keys)
-    report.error(span, f"a {kind} needs its dimensions", f"write shape: {{{kind}: {{{dimensions}}}}}")
+    written = ", ".join(f"{key.name}: ..." for key in dimensions(kind).required)
+    report.error(span, f"a {kind} needs its dimensions", f"write shape: {{{kind}: {{{written}}}}}")
 
 
 def _read_dimensions(
     report: Faults, kind: str, node: MappingNode, body: str, span: Span
 ) -> ShapeSheet | None:
-    record = KINDS[kind]
-    known = (*record.keys, "axis") if record.has_axis else record.keys
-    fields = Fields(report, node, known, f"the {kind} of {body}")
-    missing = [key for key in record.keys if fields.lacks(key)]
+    record = dimensions(kind)
+    lengths = [key.name for key in record.required]
+    fields = Fields(report, node, record.names, f"the {kind} of {body}")
+    missing = [name for name in lengths if fields.lacks(name)]
     if missing:
-        help = f"a {kind} has {', '.join(record.keys)}"
+        help = f"a {kind} has {', '.join(lengths)}"
         report.error(node.span, f"the {kind} of {body} lacks {' and '.join(missing)}", help)
-    cells = {key: read_cell(report, fields.get(key), f"{key} of the {kind}") for key in record.keys}
-    axis = word(report, fields.get("axis"), AXES, f"axis of the {kind}") if "axis" in fields else ""
+    cells = {name: read_cell(report, fields.get(name), f"{name} of the {kind}") for name in lengths}
+    axis = word(report, fields.get("axis"), AXIS.choices, f"axis of the {kind}") if "axis" in fields else ""
     found = {key: cell for key, cell in cells.items() if cell}
-    if len(found) < len(record.keys) or axis is None:
+    if len(found) < len(lengths) or axis is None:
         return None
     return ShapeSheet(kind, span, found, axis)
 
@@ -303,7 +307,7 @@ def _read_tensor(report: Faults, node: YamlNode | None, body: str) -> TensorShee
     if not isinstance(node, MappingNode) or not node.entries:
         report.error(node.span, f"the inertia of {body} is a tensor, not {describe(node)}", _TENSOR_HELP)
         return None
-    fields = Fields(report, node, TENSOR, f"the inertia of {body}")
+    fields = Fields(report, node, TENSOR.names, f"the inertia of {body}")
     cells = {key: read_cell(report, fields.get(key), f"I_{key} of {body}") for key in fields}
     if None in cells.values():
         return None
@@ -312,7 +316,7 @@ def _read_tensor(report: Faults, node: YamlNode | None, body: str) -> TensorShee
 
 
 def _read_about(report: Faults, fields: Fields, index: int) -> str:
-    about = word(report, fields.get("about"), ABOUT, f"about of body {index}") or "center"
+    about = word(report, fields.get("about"), ABOUT.choices, f"about of body {index}") or "center"
     if about != "center" and "inertia" not in fields:
         message = f"body {index} has `about: {about}` but no `inertia` that it belongs to"
         report.error(
@@ -332,7 +336,7 @@ def _read_axes(
     if isinstance(node, Scalar) and node.text == "base":
         return AxesSheet(AxesKind.REST, node.span, None, "base")
     if isinstance(node, MappingNode):
-        fields = Fields(report, node, ("base",), what)
+        fields = Fields(report, node, FROM_BASE.names, what)
         if fields.lacks("base"):
             report.error(node.span, f"{what}: the key `base` is expected", "write axes: {base: Rz(theta1)}")
             return None

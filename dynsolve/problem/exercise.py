@@ -20,11 +20,12 @@ from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.model import FIND
 from dynsolve.problem.sheet import Sheet
 from dynsolve.problem.source import Faults
+from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.yaml_nodes import Faulty, Scalar, YamlNode
 from dynsolve.problem.yaml_nodes import Mapping as MappingNode
 
 _UNIT = re.compile(r"[A-Za-zµμΩ°%0-9²³⁻¹·*/^ .()-]{1,30}")
-_FIND_HELP = "write find: [tau, D, C, g]"
+_FIND_HELP = PROBLEM["find"].help
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,19 +87,17 @@ def _answer(report: Faults, node: YamlNode, names: AnswerNames | None) -> str | 
     return canonical
 
 
-def _entries(
-    report: Faults, node: YamlNode | None, what: str, example: str
-) -> tuple[tuple[Scalar, YamlNode], ...]:
+def _entries(report: Faults, node: YamlNode | None, key: str) -> tuple[tuple[Scalar, YamlNode], ...]:
     if isinstance(node, MappingNode):
         return node.entries
     if node is not None and not isinstance(node, Faulty):
-        report.error(node.span, f"{what} is a mapping, not {describe(node)}", f"write {what}: {example}")
+        report.error(node.span, f"{key} is a mapping, not {describe(node)}", PROBLEM[key].help)
     return ()
 
 
 def _read_marks(report: Faults, node: YamlNode | None, names: AnswerNames | None) -> dict[str, Fraction]:
     marks: dict[str, Fraction] = {}
-    for key, value in _entries(report, node, "marks", "{P: 2, K: 4, tau: 6}"):
+    for key, value in _entries(report, node, "marks"):
         name = _answer(report, key, names)
         points = _number(report, value, f"the marks for {key.decoded}")
         if points is not None and points < 0:
@@ -116,7 +115,7 @@ def _read_values(report: Faults, node: YamlNode | None) -> tuple[dict[str, Fract
     """The values as numbers, and as they are written."""
     values: dict[str, Fraction] = {}
     written: dict[str, str] = {}
-    for key, value in _entries(report, node, "values", "{l1: 0.4, m1: 2, g: 9.81}"):
+    for key, value in _entries(report, node, "values"):
         name = _symbol(report, key)
         number = _number(report, value, f"the value of {key.decoded}", angles=True)
         if name in values:
@@ -128,7 +127,7 @@ def _read_values(report: Faults, node: YamlNode | None) -> tuple[dict[str, Fract
 
 def _read_units(report: Faults, node: YamlNode | None) -> dict[str, str]:
     units: dict[str, str] = {}
-    for key, value in _entries(report, node, "units", "{l1: m, m1: kg}"):
+    for key, value in _entries(report, node, "units"):
         name = _symbol(report, key)
         if isinstance(value, Scalar) and _UNIT.fullmatch(value.decoded):
             if name:

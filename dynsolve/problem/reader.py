@@ -20,28 +20,11 @@ from dynsolve.problem.fields import Fields, describe, free_text, word
 from dynsolve.problem.model import FilePlace, Problem
 from dynsolve.problem.sheet import Sheet
 from dynsolve.problem.source import MAX_BYTES, Faults, as_source
+from dynsolve.problem.specification import CONVENTION, PROBLEM
 from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import read_table
 from dynsolve.problem.yaml_nodes import Mapping, Sequence, YamlNode, read_nodes
 from dynsolve.robot.model import Convention
-
-KEYS = (
-    "title",
-    "source",
-    "convention",
-    "gravity",
-    "base",
-    "dh",
-    "coordinates",
-    "masses",
-    "values",
-    "units",
-    "marks",
-    "find",
-)
-"""The keys of a problem file, in the order of the documentation."""
-
-_CONVENTION_HELP = "`standard` is that of Spong, `modified` that of Craig"
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +110,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
 
 def _root_fields(report: Faults, root: YamlNode | None) -> Fields | None:
     if isinstance(root, Mapping):
-        return Fields(report, root, KEYS, "a problem file")
+        return Fields(report, root, PROBLEM.names, "a problem file")
     if not report.errors:
         help = "`dynsolve new problem.yaml` writes one to start from"
         message = (
@@ -139,7 +122,7 @@ def _root_fields(report: Faults, root: YamlNode | None) -> Fields | None:
 
 def _sheet(report: Faults, fields: Fields) -> Sheet:
     named = word(
-        report, fields.get("convention"), [c.value for c in Convention], "convention", _CONVENTION_HELP
+        report, fields.get("convention"), CONVENTION.choices, "convention", PROBLEM["convention"].help
     )
     convention = Convention(named or "standard")
     table = read_table(report, fields, convention is Convention.MODIFIED)

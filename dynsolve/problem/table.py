@@ -14,14 +14,14 @@ from dynsolve.problem.cells import Cell, made_cell, read_angle, read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.linear import NotLinear, linear_rates
 from dynsolve.problem.source import Faults
+from dynsolve.problem.specification import MAX_ROWS, PROBLEM, ROW
 from dynsolve.problem.yaml_nodes import Faulty, Scalar, Span, YamlNode
 from dynsolve.problem.yaml_nodes import Mapping as MappingNode
 from dynsolve.problem.yaml_nodes import Sequence as ListNode
 
-COLUMNS = ("theta", "d", "a", "alpha")
-MAX_ROWS = 30
+COLUMNS = ROW.names
 _KINDS = {"theta": "revolute", "d": "prismatic"}
-_EXAMPLE = "a row is written {theta: theta1*, d: 0, a: l1, alpha: 0}"
+_EXAMPLE = PROBLEM["dh"].help
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,42 +1,60 @@
-"""The problem file that `dynsolve new` writes: valid as it stands, with comments on what else there is."""
+"""The problem file that `dynsolve new` writes: valid as it stands, with every key and its meaning.
+
+It is made from the specification of the keys: an `active` key stands with its example,
+any other as a comment that can be uncommented.
+"""
 
 from __future__ import annotations
 
-TEMPLATE = """\
-title: RP manipulator
-source: my course, exercise 1            # free text, shown in the solution
+import re
+from textwrap import wrap
 
-# standard (Spong) or modified (Craig); in a modified table a and alpha of row i are a_{i-1}, alpha_{i-1}
-convention: standard
+from dynsolve.problem.kinds import BRACKETS, Key, Kind, ListOf, OneOf, Record, Shared, Word, either, ways
+from dynsolve.problem.specification import PROBLEM
 
-# The acceleration of gravity in base-frame coordinates. An arm in a vertical x-y plane: [0, -g, 0].
-gravity: [0, 0, -g]
+_WIDTH = 110
+_SENTENCE_END = re.compile(r"(?<=[.]) (?=[A-Za-z])")
+_FIXED_BLANK = "\N{NO-BREAK SPACE}"
 
-# The Denavit-Hartenberg table, a row a frame. The star marks the joint variable: in theta the joint
-# is revolute, in d prismatic; a row without a star is a fixed frame. Angles: 90deg, pi/2, beta.
-dh:
-  - {theta: theta1* + 90deg, d: L1,  a: 0, alpha: 90deg}
-  - {theta: 0,               d: L2*, a: 0, alpha: 0}
 
-# Every body that has mass; a link without one is massless.
-#   link     the row of the table that it moves with
-#   center   tip, origin, midpoint, {along: 1/3}, {near: [lc1, 0, 0]} or [x, y, z] in the frame of its link
-#   inertia  {xx: .., yy: .., zz: .., xy: .., xz: .., yz: ..} or a 3x3 list; without it:
-#   shape    point, or {rod: {length: l1}}, {cylinder: {radius: r, length: l1}}, {box: {x: a, y: b, z: c}},
-#            {hollow_cylinder: {outer: ro, inner: ri, length: l1}}, {disk: {radius: r}},
-#            {sphere: {radius: r}}, {shell: {radius: r}}
-#   axes     of the body-attached frame: those of the link's frame (default), Rx(30deg) relative to it, base
-#            (parallel to frame 0 at q = 0), or {base: Rz(theta1)}
-masses:
-  - {mass: m1, link: 1, center: midpoint, inertia: {zz: I1zz}, axes: {base: Rz(theta1)}}
-  - {mass: m2, link: 2, shape: point, center: tip}
+def template() -> str:
+    """A commented, valid example: the manipulator of the README."""
+    return "\n".join(map(_entry, PROBLEM.keys))
 
-# What the exercise asks for, and the points for it.
-find: [tau, D, C, g]
-# marks: {P: 2, K: 4, tau: 6}
 
-# Numbers for numeric results and plots.
-# values: {L1: 0.4, m1: 2, m2: 1, I1zz: 0.05, g: 9.81}
-# units: {L1: m, m1: kg, m2: kg, I1zz: kg m^2}
-"""
-"""A commented, valid example: the manipulator of the README."""
+def _entry(key: Key) -> str:
+    """A key with its example, under a comment that says what it means."""
+    sentences = _SENTENCE_END.split(f"{key.described} {key.more}".strip())
+    comment = [line for sentence in sentences for line in _wrapped("# ", sentence)]
+    example = f"{key.name}: {key.example}".replace(": \n", ":\n").replace("\n", "\n  ")
+    if not key.active:
+        example = "# " + example.replace("\n", "\n# ")
+    return "\n".join([*comment, *_parts(key), example, ""])
+
+
+def _parts(key: Key) -> list[str]:
+    """The keys of each item of a list, a line each."""
+    items = key.kind.items if isinstance(key.kind, ListOf) else None
+    record = items.kind if isinstance(items, Shared) else items
+    if not isinstance(record, Record):
+        return []
+    width = max(map(len, record.names)) + 2
+    return [
+        line
+        for part in record.keys
+        for line in _wrapped(f"#   {part.name:{width}}", part.described + _choice(part.kind))
+    ]
+
+
+def _choice(kind: Kind) -> str:
+    """The ways in which a value can be written, where there are several."""
+    kind = kind.kind if isinstance(kind, Shared) else kind
+    return f" Write {either(ways(kind))}.".replace("`", "") if isinstance(kind, OneOf | Word) else ""
+
+
+def _wrapped(head: str, text: str) -> list[str]:
+    """The lines of a comment after its head; what stands in brackets is not broken."""
+    whole = BRACKETS.sub(lambda found: found[0].replace(" ", _FIXED_BLANK), text)
+    indent = "#" + " " * (len(head) - 1)
+    lines = wrap(whole, _WIDTH, initial_indent=head, subsequent_indent=indent, break_on_hyphens=False)
+    return [line.replace(_FIXED_BLANK, " ") for line in lines]

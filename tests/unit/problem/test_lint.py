@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.problem.lint import lint, lint_text
-from dynsolve.problem.template import TEMPLATE
+from dynsolve.problem.template import template
 from tests.support import LIBRARY, TEXTBOOKS
 from tests.unit.problem.marked import PLANAR, places, unmarked
 
@@ -63,7 +63,7 @@ def test_the_library_and_the_textbooks_are_clean(path: Path) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        TEMPLATE,
+        template(),
         PLANAR,
         body("mass: M2, link: 1"),
         body("mass: C, link: 1"),

@@ -11,7 +11,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation.text import read
 from dynsolve.problem import load, read_problem
-from dynsolve.problem.template import TEMPLATE
+from dynsolve.problem.template import template
 from dynsolve.robot.model import AxesKind, Convention, JointType
 from tests.support import LIBRARY, TEXTBOOKS
 from tests.unit.problem.marked import PLANAR, RP
@@ -38,7 +38,7 @@ def test_every_file_of_the_library_and_of_the_textbooks_loads(path: Path) -> Non
 
 
 def test_the_course_manipulator() -> None:
-    problem = read_problem(TEMPLATE, "rp.yaml")
+    problem = read_problem(template(), "rp.yaml")
     robot = problem.robot
     assert problem.title == "RP manipulator"
     assert problem.find == ("tau", "D", "C", "g")

@@ -9,11 +9,9 @@ import jsonschema
 import pytest
 import yaml
 
-from dynsolve.problem.bodies import ABOUT, CENTERS, KEYS, TENSOR
-from dynsolve.problem.reader import KEYS as ROOT_KEYS
 from dynsolve.problem.schema import schema
-from dynsolve.problem.table import COLUMNS
-from dynsolve.problem.template import TEMPLATE
+from dynsolve.problem.specification import ABOUT, BODY, CENTERS, PROBLEM, ROW, TENSOR
+from dynsolve.problem.template import template
 from dynsolve.robot.shapes import KINDS
 from tests.support import LIBRARY, TEXTBOOKS
 
@@ -34,7 +32,7 @@ def test_it_accepts_the_library_and_the_textbooks(path: Path) -> None:
 
 
 def test_it_accepts_the_template() -> None:
-    VALIDATOR.validate(yaml.safe_load(TEMPLATE))
+    VALIDATOR.validate(yaml.safe_load(template()))
 
 
 @pytest.mark.parametrize(
@@ -59,12 +57,12 @@ def test_it_refuses_what_the_reader_refuses(text: str) -> None:
 def test_it_knows_every_key_and_describes_it() -> None:
     made = schema()
     body = made["$defs"]["body"]["properties"]
-    assert tuple(made["properties"]) == ROOT_KEYS
-    assert set(body) == set(KEYS)
-    assert tuple(made["$defs"]["row"]["properties"]) == COLUMNS
-    assert body["center"]["anyOf"][0]["enum"] == list(CENTERS)
-    assert body["about"]["enum"] == list(ABOUT)
-    assert tuple(body["inertia"]["anyOf"][0]["properties"]) == TENSOR
+    assert tuple(made["properties"]) == PROBLEM.names
+    assert set(body) == set(BODY.names)
+    assert tuple(made["$defs"]["row"]["properties"]) == ROW.names
+    assert body["center"]["anyOf"][0]["enum"] == list(CENTERS.choices)
+    assert body["about"]["enum"] == list(ABOUT.choices)
+    assert tuple(body["inertia"]["anyOf"][0]["properties"]) == TENSOR.names
     shapes = [next(iter(s["properties"])) for s in made["$defs"]["shape"]["anyOf"] if "properties" in s]
     assert set(shapes) == set(KINDS) - {"point"}
     assert all(described(node) for node in (*made["properties"].values(), *body.values()))

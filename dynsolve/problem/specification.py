@@ -1,0 +1,274 @@
+"""Every key of a problem file, said once.
+
+A `Key` has a name, a kind of value, one sentence on what it means, an example and a
+default.  From these records come
+
+- the keys, the words and the limits that the reader knows, and what it advises
+  (`table.py`, `bodies.py`, `base.py`, `exercise.py`),
+- the JSON Schema (`schema.py`),
+- the commented file that `dynsolve new` writes (`template.py`),
+- the tables of keys in `problems/README.md` (`reference.py`).
+
+To add a key, write its record here, read it with `Fields.get` in the module it belongs
+to, and give what was read a place in `Problem` or `Robot`.
+"""
+
+from __future__ import annotations
+
+from dynsolve.problem.kinds import Key, ListOf, MapOf, OneOf, Plain, Record, Shared, Word
+from dynsolve.robot.model import Convention
+from dynsolve.robot.shapes import AXES, KINDS
+
+# -- kinds that many keys have ---------------------------------------------------------------------
+
+TEXT = Plain("a line of text", {"type": ["string", "number"]})
+NUMBER = Plain("a number", {"type": ["string", "number"]})
+NAME = Plain("a name", {"type": "string"})
+EXPRESSION = Shared(
+    "expression",
+    Plain("an expression", {"type": ["string", "number"]}),
+    "an expression",
+    "A number, a name or a formula: m1*lc1^2, 9.81, sqrt(3)/2, 90deg.",
+)
+VECTOR = Shared("vector", ListOf(EXPRESSION, "", 3, 3), "`[x, y, z]`")
+MATRIX = Shared("matrix", ListOf(VECTOR, "", 3, 3), "a 3×3 list")
+ROTATION = Shared(
+    "rotation",
+    OneOf((Plain("`Rz(90deg) Rx(30deg)`", {"type": "string", "pattern": "^R[xyz] ?\\("}), MATRIX)),
+    "a rotation",
+    "A product of rotations, left to right: Rz(90deg) Rx(30deg); or a 3×3 list.",
+)
+
+# -- a row of the table ----------------------------------------------------------------------------
+
+ROW = Record(
+    (
+        Key(
+            "theta",
+            EXPRESSION,
+            "θ, the turn about z. A star marks the variable of a revolute joint: theta1*.",
+            "theta1* + 90deg",
+            "0",
+        ),
+        Key(
+            "d",
+            EXPRESSION,
+            "d, the way along z. A star marks the variable of a prismatic joint: d2*.",
+            "L2*",
+            "0",
+        ),
+        Key("a", EXPRESSION, "a, the way along x. Constant.", "l1", "0"),
+        Key("alpha", EXPRESSION, "α, the turn about x. Constant.", "90deg", "0"),
+    )
+)
+
+# -- a body ----------------------------------------------------------------------------------------
+
+AXIS = Word(AXES)
+CENTERS = Word(("tip", "origin", "midpoint"))
+ABOUT = Word(("center", "origin", "joint"))
+ALONG = Record((Key("along", EXPRESSION, example="1/2", required=True),))
+NEAR = Record((Key("near", VECTOR, example="[lc1, 0, 0]", required=True),))
+MEASURED = Record((*ALONG.keys, *NEAR.keys))
+TENSOR = Record(tuple(Key(name, EXPRESSION) for name in ("xx", "yy", "zz", "xy", "xz", "yz")), least=1)
+FROM_BASE = Record((Key("base", ROTATION, example="Rz(theta1)", required=True),))
+POINT = Word(("point",))
+NO_VALUE = Word(("none",))
+
+
+def dimensions(shape: str) -> Record:
+    """The dimensions of a shape."""
+    kind = KINDS[shape]
+    keys = [Key(name, EXPRESSION, example="...", required=True) for name in kind.keys]
+    if kind.has_axis:
+        keys.append(Key("axis", AXIS, "The axis in the body-attached frame.", "x"))
+    return Record(tuple(keys))
+
+
+def _shape(name: str) -> Key:
+    record = dimensions(name)
+    example = ", ".join(f"{key.name}: {key.example}" for key in record.keys)
+    return Key(name, record, example=f"{{{example}}}", required=True)
+
+
+SHAPE = Shared(
+    "shape",
+    OneOf((POINT, *(Record((_shape(name),)) for name in KINDS if KINDS[name].dimensions))),
+    "`point`, or a shape with its dimensions",
+    "A uniform body: {rod: {length: l1, axis: x}}.",
+)
+
+BODY = Record(
+    (
+        Key(
+            "mass",
+            EXPRESSION,
+            "A symbol, a number or an expression.",
+            "m1",
+            required=True,
+            remedy="mass: m1",
+        ),
+        Key(
+            "name",
+            Plain("a name", {"type": ["string", "integer"]}),
+            "Its index in symbols (K_1): one letter at most, not v or w, then digits.",
+            "p",
+            "its place in the list",
+            remedy="a name is at most one letter, not v or w, and then digits: 2, p, m2",
+        ),
+        Key(
+            "link",
+            Plain("a whole number", {"type": "integer", "minimum": 1}),
+            "The row of the table that it moves with.",
+            "1",
+            required=True,
+            remedy="link: 1, the row of the table that the body moves with",
+        ),
+        Key(
+            "center",
+            OneOf((CENTERS, ALONG, NEAR, VECTOR)),
+            "The mass centre. Default tip, for a point.",
+            "midpoint",
+            "`tip`, for a point",
+            remedy="write tip, origin, midpoint, {along: 1/2}, {near: [lc1, 0, 0]} or [x, y, z]",
+        ),
+        Key(
+            "shape",
+            SHAPE,
+            example="{rod: {length: l1}}",
+            default="`point`",
+            remedy="write point, or a shape with its dimensions: {rod: {length: l1}}",
+        ),
+        Key(
+            "inertia",
+            OneOf((TENSOR, MATRIX)),
+            "The tensor in the body-attached frame. Wins over a shape.",
+            "{zz: I1}",
+            "that of the shape",
+            remedy="write {zz: I1}, {xx: ..., yy: ..., zz: ...} or a symmetric 3×3 list",
+        ),
+        Key("about", ABOUT, "The point that the inertia is about.", "joint", "center"),
+        Key(
+            "axes",
+            OneOf((Word(("base",)), ROTATION, FROM_BASE)),
+            "The body-attached axes. Default: those of the link's frame.",
+            "Rx(30deg)",
+            "those of frame i",
+        ),
+    )
+)
+
+# -- the whole file --------------------------------------------------------------------------------
+
+MAX_ROWS = 30
+MAX_BODIES = 100
+CONVENTION = Word(tuple(convention.value for convention in Convention))
+ROWS = ListOf(Shared("row", ROW, "a row"), "a list of rows", 1, MAX_ROWS)
+BODIES = ListOf(Shared("body", BODY, "a body"), "a list of bodies", 0, MAX_BODIES)
+BASE = Record((Key("rotate", ROTATION, example="Rz(90deg)"), Key("move", VECTOR, example="[0, 0, h]")))
+
+PROBLEM = Record(
+    (
+        Key(
+            "title",
+            TEXT,
+            "The name of the robot or of the exercise.",
+            "RP manipulator",
+            "the name of the file",
+            active=True,
+        ),
+        Key(
+            "source",
+            TEXT,
+            "Where it comes from; shown in the solution.",
+            "my course, exercise 1",
+            active=True,
+        ),
+        Key(
+            "convention",
+            CONVENTION,
+            "standard (Spong): A_i = Rot_z(θ) Trans_z(d) Trans_x(a) Rot_x(α). "
+            "modified (Craig): A_i = Rot_x(α) Trans_x(a) Rot_z(θ) Trans_z(d).",
+            "standard",
+            "standard",
+            active=True,
+            more="In a modified table a and alpha of row i are a_{i-1}, alpha_{i-1}.",
+            remedy="`standard` is that of Spong, `modified` that of Craig",
+        ),
+        Key(
+            "gravity",
+            OneOf((VECTOR, NO_VALUE)),
+            "The acceleration of gravity in base coordinates, or none. Default [0, 0, -g].",
+            "[0, 0, -g]",
+            "`[0, 0, -g]`",
+            active=True,
+            more="An arm in a vertical x-y plane: [0, -g, 0].",
+            remedy="write gravity: [0, 0, -g], the acceleration of gravity, or none",
+        ),
+        Key(
+            "base",
+            OneOf((ROTATION, BASE)),
+            "Frame 0 in the world: a rotation, or {rotate: ..., move: [0, 0, h]}.",
+            "Rz(90deg) Rx(90deg)",
+            "the world",
+        ),
+        Key(
+            "dh",
+            ROWS,
+            "The Denavit-Hartenberg table, a row a frame; missing columns are 0.",
+            "\n- {theta: theta1* + 90deg, d: L1,  a: 0, alpha: 90deg}"
+            "\n- {theta: 0,               d: L2*, a: 0, alpha: 0}",
+            required=True,
+            active=True,
+            more="The star marks the joint variable: in theta the joint is revolute, in d prismatic; "
+            "a row without a star is a fixed frame. Angles: 90deg, pi/2, beta.",
+            remedy="a row is written {theta: theta1*, d: 0, a: l1, alpha: 0}",
+        ),
+        Key(
+            "coordinates",
+            ListOf(NAME, "a list of names"),
+            "Another order of the generalized coordinates than that of the table.",
+            "[L2, theta1]",
+            "order of first appearance",
+        ),
+        Key(
+            "masses",
+            BODIES,
+            "Every body that has mass; a link without one is massless.",
+            "\n- {mass: m1, link: 1, center: midpoint, inertia: {zz: I1zz}, axes: {base: Rz(theta1)}}"
+            "\n- {mass: m2, link: 2, shape: point, center: tip}",
+            "none",
+            active=True,
+            remedy="a body is written {mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}",
+        ),
+        Key(
+            "values",
+            MapOf(NUMBER, "numbers by symbol"),
+            "Numbers for numeric results and plots: {L1: 0.4, g: 9.81}.",
+            "{L1: 0.4, m1: 2, m2: 1, I1zz: 0.05, g: 9.81}",
+            remedy="write values: {l1: 0.4, m1: 2, g: 9.81}",
+        ),
+        Key(
+            "units",
+            MapOf(Plain("a unit", {"type": "string"}), "units by symbol"),
+            "Units of symbols: {L1: m}.",
+            "{L1: m, m1: kg, m2: kg, I1zz: kg m^2}",
+            remedy="write units: {l1: m, m1: kg}",
+        ),
+        Key(
+            "marks",
+            MapOf(OneOf((Plain("a number", {"type": "number", "minimum": 0}), NAME)), "points by answer"),
+            "Points for grading, by the name of the answer: {P: 2, K: 4, tau: 6}.",
+            "{P: 2, K: 4, tau: 6}",
+        ),
+        Key(
+            "find",
+            OneOf((NAME, ListOf(NAME, "a list of answers"))),
+            "What the exercise asks for. Default [tau, D, C, g].",
+            "[tau, D, C, g]",
+            "`[tau, D, C, g]`",
+            active=True,
+        ),
+    )
+)
+"""The keys of a problem file, in the order of the documentation."""

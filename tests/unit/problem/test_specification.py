@@ -1,0 +1,71 @@
+"""The reader, the schema and `dynsolve new` know the same keys; every example in the specification holds."""
+
+from __future__ import annotations
+
+import re
+
+import jsonschema
+import pytest
+import yaml
+
+from dynsolve.problem import read_problem
+from dynsolve.problem.kinds import Key
+from dynsolve.problem.lint import lint_text
+from dynsolve.problem.schema import schema
+from dynsolve.problem.specification import BODY, PROBLEM, ROW, dimensions
+from dynsolve.problem.template import template
+from dynsolve.robot.shapes import KINDS
+from tests.unit.problem.marked import RP, errors
+
+VALIDATOR = jsonschema.Draft202012Validator(schema())
+
+
+def names(keys: tuple[Key, ...]) -> list[str]:
+    return [key.name for key in keys]
+
+
+def holds(text: str) -> None:
+    """The reader, and the schema, accept a text."""
+    assert not errors(text)
+    VALIDATOR.validate(yaml.safe_load(text))
+
+
+def test_what_new_writes_has_every_key_and_its_meaning() -> None:
+    written = template()
+    assert names(PROBLEM.keys) == re.findall(r"^(?:# )?([a-z]+): ?(?:\S.*)?$", written, re.MULTILINE)
+    folded = " ".join(written.replace("#", " ").split())
+    for record in (PROBLEM, ROW, BODY):
+        assert all(" ".join(key.described.split()) in folded for key in record.keys)
+        assert all(key.described for key in record.keys)
+    assert all(f"{{{shape}: {{" in folded for shape in KINDS if shape != "point")
+
+
+def test_what_new_writes_as_a_comment_can_be_uncommented() -> None:
+    whole = re.sub(rf"^# (?=(?:{'|'.join(PROBLEM.names)}):)", "", template(), flags=re.MULTILINE)
+    assert list(yaml.safe_load(whole)) == list(PROBLEM.names)
+    holds(whole)
+    assert not lint_text(whole)
+
+
+@pytest.mark.parametrize("key", BODY.keys, ids=names(BODY.keys))
+def test_the_example_of_a_body_s_key_holds(key: Key) -> None:
+    given = {"mass": "m1", "link": "1", "center": "midpoint", "inertia": "{zz: I1}"} | {key.name: key.example}
+    entries = ", ".join(f"{name}: {value}" for name, value in given.items())
+    holds(f"{RP}masses:\n  - {{{entries}}}\n")
+
+
+@pytest.mark.parametrize("key", ROW.keys, ids=names(ROW.keys))
+def test_the_example_of_a_column_holds(key: Key) -> None:
+    holds(f"dh:\n  - {{theta: q1*}}\n  - {{{key.name}: {key.example}}}\n")
+
+
+@pytest.mark.parametrize("shape", [shape for shape in KINDS if shape != "point"])
+def test_the_dimensions_of_a_shape_are_those_of_its_record(shape: str) -> None:
+    record = dimensions(shape)
+    assert tuple(names(record.required)) == KINDS[shape].keys
+    written = ", ".join(f"{key.name}: {'x' if key.name == 'axis' else 'b'}" for key in record.keys)
+    robot = read_problem(
+        f"{RP}masses: [{{mass: m1, link: 1, center: midpoint, shape: {{{shape}: {{{written}}}}}}}]"
+    ).robot
+    assert robot.bodies[0].shape is not None
+    assert tuple(key for key, _ in robot.bodies[0].shape.dimensions) == KINDS[shape].keys
