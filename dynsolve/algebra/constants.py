@@ -17,7 +17,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_poly
 
-from dynsolve.algebra.integer_basis import rational_gcd
+from dynsolve.algebra.rationals import rational_gcd
 from dynsolve.errors import AlgebraError
 
 LARGEST_DEGREE = 12
@@ -97,6 +97,19 @@ def _in_field(prime: int, delta: Fraction) -> bool:
     return angle is not None and (angle / delta).denominator == 1
 
 
+def minimal_polynomial(generator: fmpq_mpoly, degrees: Fraction) -> tuple[fmpq_mpoly, int]:
+    """(polynomial that vanishes where the generator is the cosine of so many degrees, its degree)
+
+    Its leading coefficient is 1; the angle is 360° divided by a whole number.
+    """
+    minimal = fmpz_poly.cos_minpoly(int(360 / degrees))
+    total: Any = 0
+    for k, coefficient in enumerate(minimal.coeffs()):
+        total = total + (2 * generator) ** k * fmpq(coefficient)
+    degree = int(minimal.degree())
+    return total / fmpq(2) ** degree, degree
+
+
 @dataclass(frozen=True, slots=True)
 class ConstantAngles:
     """Cosines, sines and roots of numbers as polynomials of one ring.
@@ -109,16 +122,6 @@ class ConstantAngles:
     root: Callable[[int], fmpq_mpoly | None]
     pair: Callable[[int, int], tuple[fmpq_mpoly, fmpq_mpoly]]
     generator: fmpq_mpoly | None
-
-    def relation(self, generator: fmpq_mpoly) -> tuple[fmpq_mpoly, int]:
-        """(polynomial that vanishes at cos δ, its degree), leading coefficient 1."""
-        assert self.plan.generator_degrees is not None
-        minimal = fmpz_poly.cos_minpoly(int(360 / self.plan.generator_degrees))
-        total: Any = 0
-        for k, coefficient in enumerate(minimal.coeffs()):
-            total = total + (2 * generator) ** k * fmpq(coefficient)
-        degree = int(minimal.degree())
-        return total / fmpq(2) ** degree, degree
 
     def cos_sin(self, degrees: Fraction, ctx: fmpq_mpoly_ctx) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         """(cos, sin) of a constant angle."""
@@ -145,7 +148,7 @@ class ConstantAngles:
     def _multiple(self, angle: Fraction, ctx: fmpq_mpoly_ctx) -> fmpq_mpoly:
         """cos of a multiple of δ, by Chebyshev's recursion T_{k+1} = 2x T_k - T_{k-1}."""
         assert self.generator is not None and self.plan.generator_degrees is not None
-        relation, _ = self.relation(self.generator)
+        relation, _ = minimal_polynomial(self.generator, self.plan.generator_degrees)
         values: list[fmpq_mpoly] = [ctx.constant(1), self.generator]
         count = int(angle / self.plan.generator_degrees)
         for _ in range(count - 1):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from math import comb
-from typing import TYPE_CHECKING
 
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Ring
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import (
     Degrees,
@@ -23,9 +23,6 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
-
-if TYPE_CHECKING:
-    from dynsolve.algebra.ring import Ring
 
 MOST_TERMS = 200_000
 """A product that may have more terms than this is refused before it is formed."""

@@ -1,44 +1,21 @@
-"""The elements of a ring, and what its variables stand for."""
+"""The elements of a ring.
+
+An element and its ring know each other; when the program runs, `ring` imports this
+file, and this file imports `ring` for its type alone.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from flint import fmpq, fmpq_mpoly
 
-from dynsolve.algebra.angles import Angle
-from dynsolve.notation.tree import Node
+from dynsolve.algebra.generators import Generator, dotted
+from dynsolve.algebra.rationals import fraction, rational
 
 if TYPE_CHECKING:
     from dynsolve.algebra.ring import Ring
-
-
-@dataclass(frozen=True, slots=True)
-class Generator:
-    """What a variable of the polynomial ring stands for.
-
-    kind is one of `sin`, `cos` (with `angle`), `symbol` (with `name`, `dots`),
-    `root` (√ of `node`), `inverse` (1 / `node`'s value, set when first met) or
-    `constant` (cos of a constant `angle` of some degrees).
-    """
-
-    kind: str
-    index: int
-    name: str = ""
-    dots: int = 0
-    angle: Angle = Angle()
-    node: Node | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Pair:
-    """The sine and cosine of a basic angle, by the indices of their generators."""
-
-    angle: Angle
-    sine: int
-    cosine: int
 
 
 class Expr:
@@ -82,9 +59,13 @@ class Expr:
         return hash(str(self.poly))
 
     def __repr__(self) -> str:
-        from dynsolve.algebra.values import describe
-
-        return f"Expr({describe(self)})"
+        """The normal form as text, for people who debug."""
+        names = [_text(g) for g in self.ring.generators]
+        terms = []
+        for exponents, coefficient in self.poly.to_dict().items():
+            powers = [f"{names[i]}^{e}" if e > 1 else names[i] for i, e in enumerate(exponents) if e]
+            terms.append("*".join([str(coefficient), *powers]))
+        return f"Expr({' + '.join(terms) or '0'})"
 
     @property
     def is_zero(self) -> bool:
@@ -104,9 +85,10 @@ class Expr:
     def number(self) -> Fraction:
         """Its value where `is_number`."""
         value = self.poly.leading_coefficient() if self.poly else fmpq(0)
-        return Fraction(int(value.p), int(value.q))
+        return fraction(value)
 
 
-def rational(value: int | Fraction) -> fmpq:
-    """A rational number as FLINT's."""
-    return fmpq(value) if isinstance(value, int) else fmpq(value.numerator, value.denominator)
+def _text(g: Generator) -> str:
+    if g.kind in ("sin", "cos"):
+        return f"{g.kind}({' + '.join(f'{rate}*{atom}' for atom, rate in g.angle.terms)})"
+    return dotted(g.name, g.dots) or f"{g.kind}{g.index}"

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from dynsolve.algebra.expr import Expr
-    from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.ring import Ring
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,8 @@ from fractions import Fraction
 
 from dynsolve.algebra.angles import Angle, Atom, angle_from_tree, names_of
 from dynsolve.algebra.constants import ConstantPlan, plan_constants
-from dynsolve.algebra.integer_basis import Vector, integer_coordinates, lattice_basis, rational_gcd
+from dynsolve.algebra.integer_basis import Vector, coordinates_in, integer_basis
+from dynsolve.algebra.rationals import rational_gcd
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import (
     Degrees,
@@ -26,7 +27,7 @@ from dynsolve.notation.tree import (
 
 
 @dataclass(frozen=True, slots=True)
-class Survey:
+class RingPlan:
     """The plan of a ring: what becomes a generator, and how angles are made of the basic ones.
 
     `turning` are the basic angles that turn with coordinates, each as its vector of
@@ -74,7 +75,7 @@ class Survey:
         """What is left of an angle at q = 0."""
         return Angle(tuple(sorted(_split(angle, self.coordinates)[1].items())), angle.degrees)
 
-    def with_more_inverses(self) -> Survey:
+    def with_more_inverses(self) -> RingPlan:
         """The same plan with room for more denominators."""
         return replace(self, inverses=2 * self.inverses + 1)
 
@@ -94,7 +95,7 @@ def _without_turning(
     Raises AlgebraError where the angle turns otherwise.
     """
     vector, _ = _split(angle, coordinates)
-    multiples = integer_coordinates([v for v, _ in turning], vector)
+    multiples = coordinates_in([v for v, _ in turning], vector)
     if multiples is None:
         raise AlgebraError("this angle does not occur in the problem")
     for times, (_, offset) in zip(multiples, turning, strict=True):
@@ -159,10 +160,10 @@ class _Collector:
             self.symbols.setdefault(name)
 
 
-def survey(
+def plan_ring(
     coordinates: Sequence[str], trees: Iterable[Node], preferred: Sequence[Angle], angles: Sequence[Angle]
-) -> Survey:
-    """The plan for these formulas and angles; see `Survey`."""
+) -> RingPlan:
+    """The plan for these formulas and angles; see `RingPlan`."""
     collector = _Collector()
     for tree in trees:
         collector.walk(tree)
@@ -170,7 +171,7 @@ def survey(
         collector.angle(angle)
     every = [*preferred, *collector.angles]
     offsets = _offsets(every, coordinates)
-    vectors = lattice_basis([_split(angle, coordinates)[0] for angle in every])
+    vectors = integer_basis([_split(angle, coordinates)[0] for angle in every])
     turning = tuple((vector, offsets.get(vector, Angle())) for vector in vectors)
     constant = [_without_turning(angle, turning, coordinates)[1] for angle in every]
     constant += [offset for _, offset in turning]
@@ -178,7 +179,7 @@ def survey(
     for atom, rate in (term for angle in constant for term in angle.terms):
         rates.setdefault(atom, []).append(rate)
     constants = plan_constants((angle.degrees for angle in constant), collector.radicands)
-    return Survey(
+    return RingPlan(
         coordinates=tuple(coordinates),
         symbols=tuple(collector.symbols),
         roots=(*(Number(p) for p in constants.primes), *collector.roots),

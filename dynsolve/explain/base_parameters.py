@@ -20,9 +20,11 @@ from typing import TypeVar
 
 from flint import fmpq
 
+from dynsolve.algebra.build import with_symbols
 from dynsolve.algebra.compact.terms import Exponents, primitive
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
 from dynsolve.robot.model import Robot
 
@@ -120,7 +122,7 @@ class BaseParameters:
         for e, f in expr.poly.to_dict().items():
             motion = tuple(0 if i in self._parameters else int(x) for i, x in enumerate(e))
             own = tuple(int(x) if i in self._parameters else 0 for i, x in enumerate(e))
-            result.setdefault(motion, {})[own] = Fraction(int(f.p), int(f.q))
+            result.setdefault(motion, {})[own] = fraction(f)
         return result
 
     def _without_lengths(self, coefficient: Coefficient) -> tuple[Exponents, Coefficient]:
@@ -195,7 +197,7 @@ class BaseParameters:
     @cached_property
     def ring(self) -> Ring:
         """The robot's ring with the base parameters as further symbols."""
-        return self.robot.ring.with_symbols([name for name in self.symbols if name])
+        return with_symbols(self.robot.ring, [name for name in self.symbols if name])
 
     @cached_property
     def meanings(self) -> Mapping[str, Expr]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from dynsolve.algebra.build import build_ring
+from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
@@ -27,7 +29,7 @@ class CellValues:
         if id(cell) in self._left_out:
             return None
         try:
-            return self.ring.expr(cell.tree)
+            return value_of(self.ring, cell.tree)
         except AlgebraError as error:
             self.report.error(cell.span, f"{cell.what}: {error.message}", error.help)
             return None
@@ -104,7 +106,7 @@ def _ring(sheet: Sheet, cells: list[Cell]) -> Ring:
         if len(row.angles) == 2
     ]
     preferred = absolute_angles(turns, sheet.table.names, sheet.convention is Convention.MODIFIED)
-    return Ring.build(
+    return build_ring(
         sheet.table.coordinates,
         [cell.tree for cell in cells],
         [angle for _, angle in sheet.angles],
@@ -115,7 +117,7 @@ def _ring(sheet: Sheet, cells: list[Cell]) -> Ring:
 def _fails(report: Faults, sheet: Sheet, cell: Cell) -> bool:
     """Whether no ring can hold this cell by itself (reported)."""
     try:
-        Ring.build(sheet.table.coordinates, [cell.tree])
+        build_ring(sheet.table.coordinates, [cell.tree])
     except AlgebraError as error:
         report.error(cell.span, f"{cell.what}: {error.message}", error.help)
         return True

@@ -12,7 +12,8 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
-from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.bounded import recalled
 from dynsolve.notation.unicode import raised
@@ -60,7 +61,7 @@ class Dimensions:
         for q in self.robot.coordinates:
             base = NONE if q.type is JointType.REVOLUTE else LENGTH
             for dots in (0, 1, 2):
-                self._of[self.ring._symbols[(q.name, dots)]] = times(base, dimension(time=-dots))
+                self._of[self.ring.symbol_indices[(q.name, dots)]] = times(base, dimension(time=-dots))
         for g in self.ring.generators:
             if g.kind in ("sin", "cos", "constant"):
                 self._of[g.index] = NONE
@@ -89,8 +90,8 @@ class Dimensions:
         if g.index in self._of:
             return self._of[g.index]
         found: Dimension | None = None
-        if g.kind == "root" and g.node is not None:
-            inner = self.of(self.ring.expr(g.node))
+        if g.kind == "root":
+            inner = self.of(Expr(self.ring, self.ring.radicands[g.index]))
             found = None if inner is None else tuple(x / 2 for x in inner)  # type: ignore[assignment]
         elif g.kind == "inverse" and g.index in self.ring.inverses:
             inner = self.of(Expr(self.ring, self.ring.inverses[g.index]))

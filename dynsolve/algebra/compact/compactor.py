@@ -36,7 +36,8 @@ from dynsolve.algebra.compact.terms import (
     split_tail,
 )
 from dynsolve.algebra.compact.trig_forms import Monomial
-from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation import tree
@@ -57,9 +58,9 @@ class Compactor:
     mentions them; `parallel` are groups of coordinates that turn about parallel axes;
     `decimal` says that numbers are decimals, which are not drawn out of sums.
 
-    >>> from dynsolve.notation.printing import Style
+    >>> from dynsolve.algebra.build import build_ring
     >>> from dynsolve.notation.python import to_python
-    >>> ring = Ring.build([("q1", "revolute")], [Symbol("l")], [Angle.of("q1")])
+    >>> ring = build_ring([("q1", "revolute")], [Symbol("l")], [Angle.of("q1")])
     >>> s, c, l = ring.sin(Angle.of("q1")), ring.cos(Angle.of("q1")), ring.symbol("l")
     >>> to_python(Compactor(ring).form(l * c * c - l * s * s))
     'l*cos(2*q1)'

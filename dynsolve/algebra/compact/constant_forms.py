@@ -16,6 +16,7 @@ from flint import fmpq, fmpq_poly, fmpz_poly
 
 from dynsolve.algebra.compact.terms import exact
 from dynsolve.algebra.compact.trig_forms import Dress, Monomial, Poly
+from dynsolve.algebra.rationals import fraction
 
 _KNOWN: dict[Fraction, tuple[Monomial, Fraction]] = {
     Fraction(0): ((), Fraction(1)),
@@ -58,7 +59,7 @@ class ConstantDresses:
 
     def _vector(self, polynomial: fmpq_poly) -> tuple[Fraction, ...]:
         rest = polynomial % self._relation
-        coefficients = [Fraction(int(c.p), int(c.q)) for c in rest.coeffs()]
+        coefficients = [fraction(c) for c in rest.coeffs()]
         return (*coefficients, *(Fraction(0) for _ in range(self._degree - len(coefficients))))
 
     @staticmethod

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.compact.choice import Wardrobe
 from dynsolve.algebra.compact.constant_forms import ConstantDresses
-from dynsolve.algebra.expr import Pair
+from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.ring import Ring
 
 

@@ -14,7 +14,8 @@ from math import prod
 from typing import Any
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr, rational
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.rationals import fraction, rational
 from dynsolve.algebra.ring import Ring
 
 Monomial = tuple[tuple[int, int], ...]
@@ -92,7 +93,7 @@ def _groups(expr: Expr) -> dict[Monomial, dict[tuple[int, ...], Fraction]]:
     for exponents, value in expr.poly.to_dict().items():
         monomial = tuple((i, int(e)) for i, e in enumerate(exponents) if e and i not in turning)
         trig = tuple(int(exponents[i]) for i in places)
-        groups.setdefault(monomial, {})[trig] = Fraction(int(value.p), int(value.q))
+        groups.setdefault(monomial, {})[trig] = fraction(value)
     return groups
 
 

@@ -8,7 +8,8 @@ from typing import Any
 from flint import fmpq
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.ring import Ring
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter

@@ -5,7 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator
 from dynsolve.answers.judging.answer_ring import Field
 from dynsolve.explain.forms import leading_names
 from dynsolve.explain.style import style_of

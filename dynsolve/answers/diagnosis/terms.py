@@ -12,7 +12,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
 from dynsolve.answers.diagnosis.fourier import (
     Monomial,
@@ -76,7 +78,7 @@ class TermDiagnoser:
         if mine.is_zero or expected.is_zero or len(mine) != len(expected):
             return None
         ratio = Fraction(
-            _fraction(mine.poly.leading_coefficient()) / _fraction(expected.poly.leading_coefficient())
+            fraction(mine.poly.leading_coefficient()) / fraction(expected.poly.leading_coefficient())
         )
         if mine != expected * ratio:
             return None
@@ -313,10 +315,6 @@ class TermDiagnoser:
                 return
             light = self.dimensions.of_generator(wanted) == self.dimensions.of_generator(written)
             yield _found(2 if light else 4, "symbol", yours=yours, part=part, other=other)
-
-
-def _fraction(value: object) -> Fraction:
-    return Fraction(int(value.p), int(value.q))  # type: ignore[attr-defined]
 
 
 def _ratio(mine: Part, expected: Part) -> Fraction | None:

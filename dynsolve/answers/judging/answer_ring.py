@@ -19,20 +19,22 @@ from functools import cached_property
 from math import prod
 from typing import Any, TypeVar
 
-from dynsolve.algebra.angles import Angle, Atom, names_of
+from dynsolve.algebra.angles import Angle, Atom
+from dynsolve.algebra.build import ring_of
 from dynsolve.algebra.constants import plan_constants
+from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.integer_basis import Vector, lattice_basis, rational_gcd
+from dynsolve.algebra.integer_basis import Vector, integer_basis
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.rationals import rational_gcd
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.ring_plan import Survey
+from dynsolve.algebra.ring_plan import RingPlan
 from dynsolve.answers.judging.dimensions import Dimensions
 from dynsolve.answers.judging.evaluate import Values
 from dynsolve.answers.judging.ring_extension import Known, Needs, needs_of
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules
 from dynsolve.errors import AlgebraError
-from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number
 from dynsolve.robot.model import Robot
 
@@ -43,55 +45,6 @@ FINEST = 8
 """The largest multiple of a refined angle that an angle of the problem may become."""
 
 _T = TypeVar("_T")
-
-
-class AnswerRing(Ring):
-    """A ring whose angles may be products of coordinates: sin(θ₂ θ₃) has a derivative too."""
-
-    @cached_property
-    def _products(self) -> tuple[tuple[tuple[Any, Any], ...], ...]:
-        """For each coordinate the pairs whose angle holds it in a product, with ∂angle/∂q."""
-        found: list[tuple[tuple[Any, Any], ...]] = []
-        for name in self.names:
-            pairs = []
-            for pair in self.pairs:
-                rate = self.zero
-                for atom, factor in pair.angle.terms:
-                    if atom != ((name, 1),) and dict(atom).get(name, 0) > 0:
-                        rate = rate + self._atom_slope(atom, name) * factor
-                if not rate.is_zero:
-                    pairs.append((pair, rate.poly))
-            found.append(tuple(pairs))
-        return tuple(found)
-
-    def _atom_slope(self, atom: Atom, name: str) -> Expr:
-        slope = self.constant(dict(atom)[name])
-        for other, exponent in atom:
-            power = exponent - (other == name)
-            if power < 0:
-                raise AlgebraError("an angle divided by a name")
-            slope = slope * self.symbol(other) ** power
-        return slope
-
-    def diff(self, expr: Expr, k: int) -> Expr:
-        """∂expr/∂q_k, k from 0, at constant velocities."""
-        slope = super().diff(expr, k)
-        poly = expr.poly
-        for pair, rate in self._products[k]:
-            turned = poly.derivative(pair.sine) * self._gens[pair.cosine]
-            turned -= poly.derivative(pair.cosine) * self._gens[pair.sine]
-            slope = slope + Expr(self, self.reduce(turned * rate))
-        return slope
-
-    @cached_property
-    def _moving(self) -> frozenset[int]:
-        turning = {
-            i
-            for pair in self.pairs
-            if not set(self.names).isdisjoint(names_of(pair.angle))
-            for i in (pair.sine, pair.cosine)
-        }
-        return frozenset(turning | {i for (name, _), i in self._symbols.items() if name in self.names})
 
 
 @dataclass(frozen=True)
@@ -137,9 +90,9 @@ class Plan:
                 raise AlgebraError("the answer divides an angle too finely")
 
     @cached_property
-    def survey(self) -> Survey:
+    def survey(self) -> RingPlan:
         """The plan as a ring is laid out by."""
-        plan = self.base._plan
+        plan = self.base.plan
         vectors, rates = _split_all(self.angles, plan)
         offsets = dict(plan.turning)
         known = dict(plan.fixed)
@@ -154,12 +107,12 @@ class Plan:
             constants = plan_constants(degrees, [*map(Fraction, constant.primes), *self.radicands])
         old = plan.roots[len(constant.primes) :]
         roots = (*(Number(p) for p in constants.primes), *_joined(old, self.roots))
-        return Survey(
+        return RingPlan(
             coordinates=plan.coordinates,
             symbols=_joined(plan.symbols, self.symbols),
             roots=roots,
             denominators=plan.denominators,
-            turning=tuple((v, offsets.get(v, Angle())) for v in lattice_basis([*offsets, *vectors])),
+            turning=tuple((v, offsets.get(v, Angle())) for v in integer_basis([*offsets, *vectors])),
             fixed=tuple(known.items()),
             constants=constants,
             inverses=plan.inverses + 2 * self.denominators,
@@ -168,14 +121,14 @@ class Plan:
     @property
     def is_the_problems(self) -> bool:
         """Whether the problem's ring holds everything as it is."""
-        return self.survey == self.base._plan
+        return self.survey == self.base.plan
 
 
 def _joined(first: tuple[_T, ...], second: Iterable[_T]) -> tuple[_T, ...]:
     return tuple(dict.fromkeys((*first, *second)))
 
 
-def _split_all(angles: Iterable[Angle], plan: Survey) -> tuple[list[Vector], dict[Atom, list[Fraction]]]:
+def _split_all(angles: Iterable[Angle], plan: RingPlan) -> tuple[list[Vector], dict[Atom, list[Fraction]]]:
     """The coordinate parts of angles as vectors, and the rates of their other atoms."""
     vectors: list[Vector] = []
     others: dict[Atom, list[Fraction]] = {}
@@ -204,10 +157,7 @@ class Field:
         self.plan = plan = Plan(robot.ring) if plan is None else plan
         self.same = plan.is_the_problems
         self.opaque = dict(plan.opaque)
-        self.ring: Ring = robot.ring if self.same else AnswerRing(robot.ring.coordinates, plan.survey)
-        if not self.same:
-            for node in plan.survey.denominators:
-                self.ring.expr(tree.Quotient(Number(1), node))
+        self.ring: Ring = robot.ring if self.same else ring_of(robot.ring.coordinates, plan.survey)
         self._moved: dict[str, Any] = {}
         self.values = Values()
 
@@ -294,7 +244,7 @@ class Field:
                     images.append(ring.symbol(g.name, g.dots))
                 case "root":
                     assert g.node is not None
-                    images.append(ring.root(g.node, ring.expr(g.node)))
+                    images.append(ring.root(g.node, value_of(ring, g.node)))
                 case _:
                     waiting.append(g.index)
                     images.append(ring.zero)

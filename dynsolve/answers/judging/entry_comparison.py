@@ -18,7 +18,8 @@ from fractions import Fraction
 from math import cos, pi, radians, sqrt
 from typing import Any
 
-from dynsolve.algebra.expr import Expr, rational
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.rationals import rational
 from dynsolve.answers.judging.fraction import Frac, equal, simplified
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number
@@ -66,9 +67,9 @@ class EntryComparer:
         ring = expected.ring
         used = _used(mine.above) | (_used(mine.below) if mine.below else set())
         put = {
-            ring._symbols[(name, 0)]: value
+            ring.symbol_indices[(name, 0)]: value
             for name, value in self.values.items()
-            if ring.has_symbol(name) and ring._symbols[(name, 0)] not in used
+            if ring.has_symbol(name) and ring.symbol_indices[(name, 0)] not in used
         }
         return substituted(expected, put), mine
 
@@ -79,7 +80,7 @@ class EntryComparer:
         its symbols, so that two lengths of one value are not taken for each other.
         """
         ring = expected.ring
-        put = {ring._symbols[(n, 0)]: v for n, v in self.values.items() if ring.has_symbol(n)}
+        put = {ring.symbol_indices[(n, 0)]: v for n, v in self.values.items() if ring.has_symbol(n)}
         if mine.below is not None or substituted(expected, put) != substituted(mine.above, put):
             return False
         theirs = [[int(e) for e in exponents] for exponents in expected.poly.monoms()]

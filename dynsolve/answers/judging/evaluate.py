@@ -15,7 +15,8 @@ from math import comb
 from typing import Any, NamedTuple
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.expr import Expr, rational
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.answers.judging.fraction import Frac, simplified
@@ -270,13 +271,13 @@ class Evaluator:
             raise AlgebraError("a number is too large")
 
     def _symbol(self, node: Symbol, term: _Term, power: int) -> None:
-        index = self.ring._symbols.get((node.name, node.dots))
+        index = self.ring.symbol_indices.get((node.name, node.dots))
         if index is None:
             index = self._unknown(dotted(node.name, node.dots))
         term.exponents[index] = term.exponents.get(index, 0) + power
 
     def _unknown(self, name: str) -> int:
-        index = self.ring._symbols.get((name, 0))
+        index = self.ring.symbol_indices.get((name, 0))
         if index is None:
             raise AlgebraError(f"{name} is not a symbol of this problem")
         return index

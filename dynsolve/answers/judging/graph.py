@@ -241,4 +241,4 @@ def _has_dots(ring: Any, expr: Expr, dots: int) -> bool:
     if not expr.poly:
         return False
     degrees = expr.poly.degrees()
-    return any(degrees[ring._symbols[(name, dots)]] > 0 for name in ring.names)
+    return any(degrees[ring.symbol_indices[(name, dots)]] > 0 for name in ring.names)

@@ -71,7 +71,7 @@ class Known:
     def holds(self, angle: Angle) -> bool:
         """Whether the ring has the sine and cosine of an angle as they are."""
         try:
-            _, degrees = self.ring._plan.multiples(angle)
+            _, degrees = self.ring.plan.multiples(angle)
         except AlgebraError:
             return False
         return degrees % 90 == 0

@@ -7,8 +7,11 @@ from functools import cached_property
 from typing import Any
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
+from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.expr import Expr, Generator
+from dynsolve.algebra.evaluate import value_of
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation import tree
@@ -64,7 +67,7 @@ class Substitution:
     one or none.  Raises AlgebraError where a value leaves a formula without a
     meaning: a denominator that becomes 0, the root of a negative number.
 
-    >>> ring = Ring.build([], [Symbol("L"), Symbol("m")])
+    >>> ring = build_ring([], [Symbol("L"), Symbol("m")])
     >>> put = Substitution(ring, {("L", 0): Number(1, 2)})
     >>> put(ring.symbol("L") * ring.symbol("m"))
     Expr(1/2*m)
@@ -76,7 +79,7 @@ class Substitution:
         basic = [self.angle(pair.angle) for pair in source.pairs]
         trees = [tree for g in source.generators for tree in self._needs(g)]
         every = [*basic, *(self.angle(angle) for angle in angles)]
-        self.ring = Ring.build(coordinates, trees, every, basic)
+        self.ring = build_ring(coordinates, trees, every, basic)
 
     def angle(self, angle: Angle) -> Angle:
         """An angle with values in it; numbers that are left are radians."""
@@ -117,11 +120,11 @@ class Substitution:
             case "cos" | "constant":
                 return self.ring.cos(self.angle(g.angle))
             case "symbol":
-                return self.ring.expr(replaced(Symbol(g.name, g.dots), self.values))
+                return value_of(self.ring, replaced(Symbol(g.name, g.dots), self.values))
             case "root":
-                return self.ring.expr(self._root(g))
+                return value_of(self.ring, self._root(g))
             case "inverse" if g.index in self.source.inverses:
-                return self.ring.expr(Quotient(Number(1), self._denominator(g)))
+                return value_of(self.ring, Quotient(Number(1), self._denominator(g)))
         return self.ring.zero  # an inverse that was set aside and never used
 
     def __call__(self, expr: Expr) -> Expr:

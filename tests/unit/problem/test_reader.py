@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation.text import read
 from dynsolve.problem import load, read_problem
@@ -18,7 +19,7 @@ from tests.unit.problem.marked import PLANAR, RP
 
 
 def column(robot, *texts: str) -> Matrix:
-    return Matrix.column(robot.ring, [robot.ring.expr(read(text).tree) for text in texts])
+    return Matrix.column(robot.ring, [value_of(robot.ring, read(text).tree) for text in texts])
 
 
 def center(fields: str, table: str = PLANAR) -> tuple[Matrix, Matrix]:

@@ -8,6 +8,7 @@ from functools import cache
 import pytest
 import sympy as sp
 
+from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Symbol
@@ -20,7 +21,7 @@ s, phi, theta = sp.symbols("s phi theta", real=True)
 
 
 def ring() -> Ring:
-    return Ring.build([("q1", "revolute")], [Symbol(name) for name in NAMES])
+    return build_ring([("q1", "revolute")], [Symbol(name) for name in NAMES])
 
 
 def about(position, density, *ranges) -> tuple[sp.Expr, sp.Expr, sp.Expr]:

@@ -6,8 +6,9 @@ import pytest
 from hypothesis import given, settings
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.evaluate import value_of
 from dynsolve.derivation.rules import derive
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.evaluate import compile_trees
@@ -28,10 +29,10 @@ def compact(text: str) -> str:
         Angle.of("q1") + Angle.of("q2"),
         Angle.of("q1") + Angle.of("q2") + Angle.of("q3"),
     ]
-    ring = Ring.build(COORDINATES, [tree], preferred=absolute)
+    ring = build_ring(COORDINATES, [tree], preferred=absolute)
     leading = [name for name in ring.parameters if name[0] in "mI"]
     return to_python(
-        Compactor(ring, sorted(leading, key=lambda name: (name[0] != "m", name))).form(ring.expr(tree))
+        Compactor(ring, sorted(leading, key=lambda name: (name[0] != "m", name))).form(value_of(ring, tree))
     )
 
 

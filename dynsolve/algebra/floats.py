@@ -1,4 +1,4 @@
-"""The values of exact expressions in floating point, and their normal forms as text."""
+"""The values of exact expressions in floating point."""
 
 from __future__ import annotations
 
@@ -8,10 +8,8 @@ from math import cos, pi, radians, sin, sqrt
 from flint import fmpq_mpoly
 
 from dynsolve.algebra.angles import Atom, names_of
-from dynsolve.algebra.evaluate import value_of
-from dynsolve.algebra.expr import Expr, Generator
-
-DOTS = ("", "_dot", "_ddot")
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator, dotted
 
 
 def evaluate(expr: Expr, values: Mapping[str, float]) -> float:
@@ -26,7 +24,7 @@ def evaluate(expr: Expr, values: Mapping[str, float]) -> float:
 
 
 def _require(g: Generator, values: Mapping[str, float]) -> None:
-    names = [g.name + DOTS[g.dots]] if g.kind == "symbol" else names_of(g.angle)
+    names = [dotted(g.name, g.dots)] if g.kind == "symbol" else names_of(g.angle)
     for name in names:
         if name != "pi" and name not in values:
             raise KeyError(name)
@@ -39,7 +37,7 @@ def _point(expr: Expr, values: Mapping[str, float]) -> list[float]:
     later: list[Generator] = []
     for g in ring.generators:
         if g.kind == "symbol":
-            name = g.name + DOTS[g.dots]
+            name = dotted(g.name, g.dots)
             point[g.index] = pi if g.name == "pi" else values.get(name, 0.0)
         elif g.kind in ("sin", "cos", "constant"):
             turn = sum(float(rate) * _atom_value(atom, values) for atom, rate in g.angle.terms)
@@ -49,8 +47,8 @@ def _point(expr: Expr, values: Mapping[str, float]) -> list[float]:
             later.append(g)
     # Roots are of symbols and of roots laid out after them; denominators may hold both.
     for g in sorted(later, key=lambda g: (g.kind == "inverse", -g.index)):
-        if g.node is not None:
-            point[g.index] = sqrt(_value(value_of(ring, g.node).poly, point))
+        if g.kind == "root":
+            point[g.index] = sqrt(_value(ring.radicands[g.index], point))
         elif g.index in ring.inverses:
             point[g.index] = 1 / _value(ring.inverses[g.index], point)
     return point
@@ -72,19 +70,3 @@ def _value(poly: fmpq_mpoly, point: Sequence[float]) -> float:
                 term *= value ** int(exponent)
         total += term
     return total
-
-
-def describe(expr: Expr) -> str:
-    """The normal form as text, for people who debug."""
-    names = [_describe(g) for g in expr.ring.generators]
-    terms = []
-    for exponents, coefficient in expr.poly.to_dict().items():
-        powers = [f"{names[i]}^{e}" if e > 1 else names[i] for i, e in enumerate(exponents) if e]
-        terms.append("*".join([str(coefficient), *powers]))
-    return " + ".join(terms) or "0"
-
-
-def _describe(g: Generator) -> str:
-    if g.kind in ("sin", "cos"):
-        return f"{g.kind}({' + '.join(f'{rate}*{atom}' for atom, rate in g.angle.terms)})"
-    return g.name + DOTS[g.dots] or f"{g.kind}{g.index}"
