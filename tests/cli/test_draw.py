@@ -65,6 +65,7 @@ def test_a_failure_leaves_the_old_file(tmp_path: Path) -> None:
     assert missing.code == 2 and "no folder" in missing.err
 
 
+@pytest.mark.latex
 @pytest.mark.skipif(not shutil.which("pdflatex"), reason="needs pdflatex")
 def test_the_picture_for_latex_compiles_without_packages(tmp_path: Path) -> None:
     for name in ("in3140-rp", "puma560"):

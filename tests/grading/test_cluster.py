@@ -22,10 +22,13 @@ from dynsolve.grading.pool import Bounds, Data
 from tests.cli.running import ROOT, dynsolve, environment
 from tests.grading.generate import course, problem_set
 
-pytestmark = pytest.mark.skipif(
-    importlib.util.find_spec("distributed") is None and not os.environ.get("CI"),  # CI must have it
-    reason="the extra [cluster] is not installed",
-)
+pytestmark = [
+    pytest.mark.cluster,
+    pytest.mark.skipif(
+        importlib.util.find_spec("distributed") is None and not os.environ.get("CI"),  # CI must have it
+        reason="the extra [cluster] is not installed",
+    ),
+]
 
 
 @contextmanager

@@ -13,6 +13,8 @@ import dynsolve
 from tests.grading.generate import course, problem_set
 from tests.reports.browser import Page, chromium
 
+pytestmark = pytest.mark.browser
+
 NAME = '<img src=x onerror="document.title=1">"\'=1+1'
 HIDDEN = "gnp\u202e.yaml"
 SLIP = "answers:\n  K: I1zz*theta1'^2/2 + m2*(L2'^2 + L2*theta1'^2)/2\n  P: m1*g*L1 + m2*g*L1\n"

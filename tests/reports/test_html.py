@@ -12,6 +12,8 @@ from tests.reports.browser import Page, chromium
 from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made
 from tests.support import LIBRARY
 
+pytestmark = pytest.mark.browser
+
 LONGEST = 5_000_000
 WIDTHS = (400, 1200)
 

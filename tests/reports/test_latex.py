@@ -14,6 +14,7 @@ from tests.support import LIBRARY, TEXTBOOKS
 RP = next(path for path in LIBRARY if path.stem == "in3140-rp")
 
 
+@pytest.mark.latex
 @pytest.mark.parametrize("problem", LIBRARY, ids=lambda path: path.stem)
 def test_every_problem_of_the_library_compiles_without_complaint(problem: Path, tmp_path: Path) -> None:
     done = typeset(made(problem, Format.LATEX).decode(), tmp_path)
@@ -21,12 +22,14 @@ def test_every_problem_of_the_library_compiles_without_complaint(problem: Path, 
     assert done.code == 0
 
 
+@pytest.mark.latex
 @pytest.mark.parametrize("problem", TEXTBOOKS, ids=lambda path: path.stem)
 def test_with_stars_too(problem: Path, tmp_path: Path) -> None:
     done = typeset(made(problem, Format.LATEX, star=True).decode(), tmp_path)
     assert (done.code, done.complaints) == (0, [])
 
 
+@pytest.mark.latex
 @pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r", "puma560-first3"])
 @pytest.mark.parametrize("size", ["10pt", "11pt", "12pt"])
 def test_a_fragment_fits_the_standard_classes(name: str, size: str, tmp_path: Path) -> None:
@@ -70,6 +73,7 @@ def test_equations_are_numbered_and_the_text_refers_to_them() -> None:
         assert places[reference] < source.index(f"\\eqref{{{reference}}}"), "only what stands before is used"
 
 
+@pytest.mark.latex
 def test_a_hostile_title_is_text(tmp_path: Path) -> None:
     done = typeset(made(HOSTILE_PROBLEM, Format.LATEX).decode(), tmp_path)
     assert (done.code, done.complaints) == (0, [])

@@ -31,6 +31,7 @@ def test_displays_stand_alone_and_survive_markdown(problem: Path) -> None:
     assert re.search(r"\\tag\{1\}", text)
 
 
+@pytest.mark.latex
 @pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r"])
 def test_its_mathematics_is_sound_latex(name: str, tmp_path: Path) -> None:
     problem = next(path for path in LIBRARY if path.stem == name)

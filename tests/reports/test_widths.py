@@ -15,6 +15,8 @@ from dynsolve.render.references import formulas
 from dynsolve.solution.documents import solution_document
 from tests.reports.tools import typeset
 
+pytestmark = pytest.mark.latex
+
 EM = 10.95
 LONGEST = 300  # what TeX can still measure as one box
 
