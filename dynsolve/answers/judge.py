@@ -16,6 +16,7 @@ from itertools import pairwise
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import RationalExpr, as_expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser, WrongEntry
@@ -24,7 +25,6 @@ from dynsolve.answers.judging.answer_ring import Field
 from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues, same
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.follow_through import FollowThrough, PossibleValue
-from dynsolve.answers.judging.fraction import Frac, as_expr
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison, Target
 from dynsolve.answers.judging.student_values import student_values
@@ -222,7 +222,7 @@ class Judge:
     def _is_christoffel(self, given: AnswerValue) -> bool:
         assert given.rows is not None
         C: Matrix = self.field.key("C")
-        key = tuple(tuple(Frac(entry) for entry in row) for row in C.rows)
+        key = tuple(tuple(RationalExpr(entry) for entry in row) for row in C.rows)
         return same(given.rows, key)
 
     def _not_from_own(self, held: KeyComparison) -> bool:

@@ -38,7 +38,12 @@ def losses(judge: Judge, report: Report) -> dict[str, str]:
 def _loss(judge: Judge, held: Any) -> str:
     key = held.target.of(judge.graph.key(held.target.node))
     expected = list(key.entries) if isinstance(key, Matrix) else [key]
-    written = [part for row in held.rows for entry in row for part in (entry.value.above, entry.value.bottom)]
+    written = [
+        part
+        for row in held.rows
+        for entry in row
+        for part in (entry.value.numerator, entry.value.denominator)
+    ]
     before, after = _names(expected), _names(written)
     for body in judge.problem.robot.bodies:
         mass = _names([body.mass])
@@ -48,7 +53,7 @@ def _loss(judge: Judge, held: Any) -> str:
     for coordinate in judge.problem.robot.coordinates:
         if coordinate.name in before and coordinate.name not in after:
             return f"{coordinate.name} is lost on the way"
-    kept = sum(len(entry.value.above) for row in held.rows for entry in row)
+    kept = sum(len(entry.value.numerator) for row in held.rows for entry in row)
     wanted = sum(len(expr) for expr in expected)
     return f"it keeps {kept} of {wanted} terms" if 2 * kept < wanted else ""
 

@@ -161,7 +161,9 @@ def _form(judge: Judge, answer: JudgedAnswer) -> str:
     held = judge.held.get(answer.name)
     if answer.verdict is not Verdict.WRONG or held is None or not held.rows:
         return ""
-    entries = ["/".join(map(_terms, (e.value.above, e.value.bottom))) for row in held.rows for e in row]
+    entries = [
+        "/".join(map(_terms, (e.value.numerator, e.value.denominator))) for row in held.rows for e in row
+    ]
     return sha256(";".join(entries).encode()).hexdigest()[:16]
 
 

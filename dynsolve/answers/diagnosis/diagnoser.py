@@ -21,6 +21,7 @@ from functools import cached_property
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, DerivationSlips
 from dynsolve.answers.diagnosis.fourier import is_small, monomial_expr, monomials
@@ -42,7 +43,6 @@ from dynsolve.answers.judging.dimensions import (
 )
 from dynsolve.answers.judging.entry_comparison import WrittenEntry
 from dynsolve.answers.judging.follow_through import FollowThrough
-from dynsolve.answers.judging.fraction import as_expr
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node

@@ -11,17 +11,17 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import RationalExpr, as_expr, equal
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import Field, FieldBuilder
 from dynsolve.answers.judging.evaluate import Evaluator
-from dynsolve.answers.judging.fraction import Frac, as_expr, equal
 from dynsolve.answers.judging.graph import AnswerGraph, MatrixEntry
 from dynsolve.answers.submission import Answer
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Reference
 
-Rows = tuple[tuple[Frac, ...], ...]
+Rows = tuple[tuple[RationalExpr, ...], ...]
 
 MOST_ENTRIES = 144
 """The most entries of a matrix that is judged."""
@@ -43,7 +43,7 @@ class AnswerValue:
         return isinstance(self.answer.node, tree.Matrix)
 
     @property
-    def entries(self) -> tuple[Frac, ...]:
+    def entries(self) -> tuple[RationalExpr, ...]:
         """All entries, row by row."""
         return tuple(entry for row in self.rows or () for entry in row)
 
@@ -96,13 +96,13 @@ class AnswerValues:
             return AnswerValue(answer, None, nodes, error.message, error.help)
         return AnswerValue(answer, rows, nodes)
 
-    def lookup(self, reference: Reference) -> Frac:
+    def lookup(self, reference: Reference) -> RationalExpr:
         """The value of an answer that occurs inside another."""
         name, row, column = reference.quantity, reference.row, reference.column
         own = self._own(name, row, column)
         return self._from_key(name, row, column) if own is None else own
 
-    def _own(self, name: str, row: int | None, column: int | None) -> Frac | None:
+    def _own(self, name: str, row: int | None, column: int | None) -> RationalExpr | None:
         """The student's own value: of the answer itself, or of the matrix that it is an entry of."""
         place = self._last.get(name)
         if place is None:
@@ -121,10 +121,10 @@ class AnswerValues:
         self.evaluator.work = work
         return None if given.rows is None else _entry(given.rows, row, column)
 
-    def _from_key(self, name: str, row: int | None, column: int | None) -> Frac:
+    def _from_key(self, name: str, row: int | None, column: int | None) -> RationalExpr:
         symbol = self.graph.christoffel(name)
         if symbol is not None:
-            return Frac(self.field.key("christoffel")[symbol])
+            return RationalExpr(self.field.key("christoffel")[symbol])
         entry = self.graph.entry(name)
         if entry is not None:
             name, row, column = entry.whole, entry.row + 1, entry.column + 1
@@ -135,10 +135,10 @@ class AnswerValues:
         if isinstance(value, Matrix):
             if row is None or column is None or row > value.shape[0] or column > value.shape[1]:
                 raise AlgebraError(f"{name} is a matrix and stands where a number should")
-            return Frac(value[row - 1, column - 1])
-        return Frac(value)
+            return RationalExpr(value[row - 1, column - 1])
+        return RationalExpr(value)
 
-    def moved(self, node: Node) -> Frac:
+    def moved(self, node: Node) -> RationalExpr:
         """The value of a changed tree."""
         return self.evaluator.value(node)
 
@@ -147,7 +147,7 @@ def _entries(node: Node) -> tuple[tuple[Node, ...], ...]:
     return node.rows if isinstance(node, tree.Matrix) else ((node,),)
 
 
-def _entry(rows: Rows, row: int | None, column: int | None) -> Frac | None:
+def _entry(rows: Rows, row: int | None, column: int | None) -> RationalExpr | None:
     if row is None or column is None:
         return rows[0][0] if len(rows) == 1 and len(rows[0]) == 1 else None
     if row <= len(rows) and column <= len(rows[0]):
@@ -185,9 +185,9 @@ def fitted(rows: Rows, like: Expr | Matrix) -> Rows | None:
         return tuple((entry,) for entry in flat) if shape[1] == 1 else (flat,)
     if mine == (1, 1) and flat[0].is_zero:
         return ((flat[0],) * shape[1],) * shape[0]
-    if shape == (3, 1) and len(flat) == 4 and 1 in mine and equal(flat[3], Frac(flat[3].ring.one)):
+    if shape == (3, 1) and len(flat) == 4 and 1 in mine and equal(flat[3], RationalExpr(flat[3].ring.one)):
         return tuple((entry,) for entry in flat[:3])
     if shape == (4, 4) and mine == (3, 4):
         ring = flat[0].ring
-        return (*rows, (*(Frac(ring.zero),) * 3, Frac(ring.one)))
+        return (*rows, (*(RationalExpr(ring.zero),) * 3, RationalExpr(ring.one)))
     return None

@@ -19,8 +19,8 @@ from math import cos, pi, radians, sqrt
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import RationalExpr, equal, simplified
 from dynsolve.algebra.rationals import rational
-from dynsolve.answers.judging.fraction import Frac, equal, simplified
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number
 
@@ -36,9 +36,9 @@ _SLACK = 1 + 1e-6
 class WrittenEntry:
     """An answer's scalar: its value, the tree it came from, and how to evaluate a changed tree."""
 
-    value: Frac
+    value: RationalExpr
     node: Node
-    evaluate: Callable[[Node], Frac]
+    evaluate: Callable[[Node], RationalExpr]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,23 +49,23 @@ class EntryComparer:
 
     def __call__(self, expected: Expr, written: WrittenEntry) -> str | None:
         """Empty where they are equal, `rounded` where a decimal rounds, None where they differ."""
-        if equal(Frac(expected), written.value):
+        if equal(RationalExpr(expected), written.value):
             return ""
         mine = written.value
         if self.values:
             if self._mixed(expected, mine):
                 return ""
             expected, mine = self._with_numbers(expected, mine)
-            if equal(Frac(expected), mine):
+            if equal(RationalExpr(expected), mine):
                 return ""
-        if mine.below is None and _rounds(expected, mine.above, self._steps(written)):
+        if mine.divisor is None and _rounds(expected, mine.numerator, self._steps(written)):
             return ROUNDED
         return None
 
-    def _with_numbers(self, expected: Expr, mine: Frac) -> tuple[Expr, Frac]:
+    def _with_numbers(self, expected: Expr, mine: RationalExpr) -> tuple[Expr, RationalExpr]:
         """Both with numbers for those valued symbols that do not occur in the answer."""
         ring = expected.ring
-        used = _used(mine.above) | (_used(mine.below) if mine.below else set())
+        used = _used(mine.numerator) | (_used(mine.divisor) if mine.divisor else set())
         put = {
             ring.symbol_indices[(name, 0)]: value
             for name, value in self.values.items()
@@ -73,7 +73,7 @@ class EntryComparer:
         }
         return substituted(expected, put), mine
 
-    def _mixed(self, expected: Expr, mine: Frac) -> bool:
+    def _mixed(self, expected: Expr, mine: RationalExpr) -> bool:
         """Whether they are equal with all numbers put in: a symbol may stand as either, term by term.
 
         Every term of the answer must be one of the expected with numbers for some of
@@ -81,7 +81,7 @@ class EntryComparer:
         """
         ring = expected.ring
         put = {ring.symbol_indices[(n, 0)]: v for n, v in self.values.items() if ring.has_symbol(n)}
-        if mine.below is not None or substituted(expected, put) != substituted(mine.above, put):
+        if mine.divisor is not None or substituted(expected, put) != substituted(mine.numerator, put):
             return False
         theirs = [[int(e) for e in exponents] for exponents in expected.poly.monoms()]
         return all(
@@ -89,15 +89,15 @@ class EntryComparer:
                 all(a == b or (a < b and i in put) for i, (a, b) in enumerate(zip(ours, one, strict=True)))
                 for one in theirs
             )
-            for ours in ([int(e) for e in exponents] for exponents in mine.above.poly.monoms())
+            for ours in ([int(e) for e in exponents] for exponents in mine.numerator.poly.monoms())
         )
 
     def _steps(self, written: WrittenEntry) -> Iterator[Expr]:
         """How far the answer moves when one of its decimals moves by half a unit of its last place."""
         for changed in moved_decimals(written.node):
             value = simplified(written.evaluate(changed))
-            if value.below is None and written.value.below is None:
-                yield value.above - written.value.above
+            if value.divisor is None and written.value.divisor is None:
+                yield value.numerator - written.value.numerator
 
 
 def _used(expr: Expr) -> set[int]:

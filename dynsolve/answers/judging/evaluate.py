@@ -16,10 +16,10 @@ from typing import Any, NamedTuple
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import RationalExpr, simplified
 from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import rational_value
-from dynsolve.answers.judging.fraction import Frac, simplified
 from dynsolve.answers.judging.ring_extension import dotted, expected_angle, opaque, plain_radicand
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.bounded import keep
@@ -55,7 +55,7 @@ MOST_KNOWN = 4096
 """So many functions and terms are remembered."""
 
 
-Lookup = Callable[[Reference], Frac]
+Lookup = Callable[[Reference], RationalExpr]
 """The value of an answer that occurs inside another."""
 
 
@@ -67,11 +67,11 @@ class Values:
     or unreduced products, each with the work that it cost.
     """
 
-    turns: dict[Function, Frac | tuple[int, int]] = field(default_factory=dict)
+    turns: dict[Function, RationalExpr | tuple[int, int]] = field(default_factory=dict)
     terms: dict[Node, _Value] = field(default_factory=dict)
 
 
-def _nothing(reference: Reference) -> Frac:
+def _nothing(reference: Reference) -> RationalExpr:
     raise AlgebraError(f"{reference} stands for no answer")
 
 
@@ -89,7 +89,7 @@ class _Term:
 
     coefficient: Fraction
     exponents: dict[int, int]
-    others: list[Frac]
+    others: list[RationalExpr]
 
 
 class Evaluator:
@@ -105,9 +105,9 @@ class Evaluator:
         self._width = len(ring.generators)
         self._values = Values() if values is None else values
         self._asked = 0
-        self._roots: dict[Function, Frac] = {}
+        self._roots: dict[Function, RationalExpr] = {}
 
-    def value(self, node: Node) -> Frac:
+    def value(self, node: Node) -> RationalExpr:
         """The exact value of a scalar tree.
 
         Raises AlgebraError for a zero denominator, or for work over the bound.
@@ -115,29 +115,29 @@ class Evaluator:
         self.work = 0
         return self._value(node)
 
-    def more(self, node: Node) -> Frac:
+    def more(self, node: Node) -> RationalExpr:
         """The same, with the work added to what was counted before: entries of one answer share a bound."""
         return self._value(node)
 
     # -- descent -----------------------------------------------------------------------------------
 
-    def _value(self, node: Node) -> Frac:
+    def _value(self, node: Node) -> RationalExpr:
         match node:
             case Sum(terms):
                 return self._sum(terms)
             case Negative(argument) | Parenthesized(argument) if isinstance(argument, Sum):
                 value = self._sum(argument.terms)
-                return Frac(-value.above, value.below) if isinstance(node, Negative) else value
+                return -value if isinstance(node, Negative) else value
             case Power(base, exponent):
                 return self._power(self._value(base), exponent)
         term = _Term(Fraction(1), {}, [])
         self._gather(node, term, 1)
         return self._finish(term)
 
-    def _sum(self, terms: Iterable[Node]) -> Frac:
+    def _sum(self, terms: Iterable[Node]) -> RationalExpr:
         flat: dict[tuple[int, ...], Any] = {}
         polys: list[Expr] = []
-        fractions: list[Frac] = []
+        fractions: list[RationalExpr] = []
         unreduced: Any = None
         for node in terms:
             inner, is_negative = _unwrapped(node)
@@ -145,8 +145,8 @@ class Evaluator:
                 self._put(self._value(node), polys, fractions)
                 continue
             value = self._term(inner)
-            if isinstance(value, Frac):
-                self._put(Frac(-value.above, value.below) if is_negative else value, polys, fractions)
+            if isinstance(value, RationalExpr):
+                self._put(-value if is_negative else value, polys, fractions)
                 continue
             key, number = value.exponents, -value.value if is_negative else value.value
             if key is None:
@@ -160,10 +160,10 @@ class Evaluator:
         total = self.ring.reduce(flat_poly) if flat_poly else self.ring.zero.poly
         for poly in polys:
             total = total + poly.poly
-        result = Frac(Expr(self.ring, total))
+        result = RationalExpr(Expr(self.ring, total))
         return self._add_fractions(result, fractions)
 
-    def _term(self, node: Node) -> _Value | Frac:
+    def _term(self, node: Node) -> _Value | RationalExpr:
         """A term of a sum: known, multiplied out and not yet reduced, or finished where it is long."""
         known = self._values.terms
         found = known.get(node)
@@ -188,31 +188,31 @@ class Evaluator:
         """A term multiplied out and not yet reduced; None where it is no short product of polynomials."""
         size = 1
         for other in term.others:
-            size *= len(other.above)
-            if other.below is not None or size > SHORT:
+            size *= len(other.numerator)
+            if other.divisor is not None or size > SHORT:
                 return None
         if not term.coefficient or not size:
             return self.ring.zero.poly
         self.work += size
         poly = self.ring.ctx.from_dict({self._key(term): rational(term.coefficient)})
         for other in term.others:
-            poly = poly * other.above.poly
+            poly = poly * other.numerator.poly
         return poly
 
-    def _put(self, value: Frac, polys: list[Expr], fractions: list[Frac]) -> None:
-        if value.below is None:
-            polys.append(value.above)
+    def _put(self, value: RationalExpr, polys: list[Expr], fractions: list[RationalExpr]) -> None:
+        if value.divisor is None:
+            polys.append(value.numerator)
         else:
             fractions.append(value)
 
-    def _add_fractions(self, total: Frac, fractions: list[Frac]) -> Frac:
+    def _add_fractions(self, total: RationalExpr, fractions: list[RationalExpr]) -> RationalExpr:
         groups: dict[Expr, Expr] = {}
         for fraction in fractions:
-            below = fraction.bottom
-            groups[below] = groups[below] + fraction.above if below in groups else fraction.above
+            below = fraction.denominator
+            groups[below] = groups[below] + fraction.numerator if below in groups else fraction.numerator
         for below, above in groups.items():
-            top = self._times(total.above, below) + self._times(above, total.bottom)
-            total = Frac(top, self._times(total.bottom, below))
+            top = self._times(total.numerator, below) + self._times(above, total.denominator)
+            total = RationalExpr(top, self._times(total.denominator, below))
         return simplified(total) if groups else total
 
     def _key(self, term: _Term) -> tuple[int, ...]:
@@ -286,7 +286,7 @@ class Evaluator:
 
     def _function(self, node: Function, term: _Term, power: int) -> None:
         found = self._root(node) if node.name == "sqrt" else self._turn(node)
-        if isinstance(found, Frac):
+        if isinstance(found, RationalExpr):
             term.others.append(self._power_of(found, power))
             return
         index, sign = found
@@ -294,7 +294,7 @@ class Evaluator:
         if sign < 0 and power % 2:
             term.coefficient = -term.coefficient
 
-    def _turn(self, node: Function) -> Frac | tuple[int, int]:
+    def _turn(self, node: Function) -> RationalExpr | tuple[int, int]:
         """The value of a sine, cosine or tangent, which no answer of the hand-in can change."""
         known = self._values.turns
         found = known.get(node)
@@ -304,18 +304,18 @@ class Evaluator:
             self.work = work  # what is remembered costs nothing, nor must the first who writes it pay
         return found
 
-    def _turn_value(self, node: Function) -> Frac | tuple[int, int]:
+    def _turn_value(self, node: Function) -> RationalExpr | tuple[int, int]:
         """The value of a function of an angle, or (generator, ±1) where it is one."""
         angle = expected_angle(node, self.ring.names)
         if angle is None:
             return self._unknown(opaque(node)), 1
         if node.name == "tan":
             c, s = self._turned("cos", angle), self._turned("sin", angle)
-            return self._product(Frac(s), self._inverse(Frac(c)))
+            return self._product(RationalExpr(s), self._inverse(RationalExpr(c)))
         if node.name not in ("sin", "cos"):
             raise AlgebraError(f"{node.name} is not a function that occurs here")
         value = self._turned(node.name, angle)
-        return self._generator(value) or Frac(value)
+        return self._generator(value) or RationalExpr(value)
 
     def _generator(self, value: Expr) -> tuple[int, int] | None:
         """(generator, ±1) where a value is one."""
@@ -333,44 +333,44 @@ class Evaluator:
             raise AlgebraError(f"an angle is more than {MOST_TURNS} times those of the problem")
         return self.ring.cos(angle) if name == "cos" else self.ring.sin(angle)
 
-    def _root(self, node: Function) -> Frac:
+    def _root(self, node: Function) -> RationalExpr:
         found = self._roots.get(node)
         if found is None:
             found = self._roots[node] = self._root_value(node)
         return found
 
-    def _root_value(self, node: Function) -> Frac:
+    def _root_value(self, node: Function) -> RationalExpr:
         value = rational_value(node.argument)
         if value is not None:
             if value < 0:
                 raise AlgebraError("the root of a negative number", "lengths and masses are real")
             root = self.ring.constant(0) if not value else self.ring.root(node, self.ring.constant(value))
-            return Frac(root)
+            return RationalExpr(root)
         if not plain_radicand(node.argument, self.ring.names):
-            return Frac(self.ring.generator(self._unknown(opaque(node))))
+            return RationalExpr(self.ring.generator(self._unknown(opaque(node))))
         inner = self._value(node.argument)
-        if inner.below is None:
-            exact = _exact_root(inner.above)
+        if inner.divisor is None:
+            exact = _exact_root(inner.numerator)
             if exact is not None:
-                return Frac(exact)
-        return Frac(self.ring.root(node.argument, inner.above))
+                return RationalExpr(exact)
+        return RationalExpr(self.ring.root(node.argument, inner.numerator))
 
     # -- products ----------------------------------------------------------------------------------
 
-    def _finish(self, term: _Term) -> Frac:
+    def _finish(self, term: _Term) -> RationalExpr:
         if not term.coefficient:
-            return Frac(self.ring.zero)
+            return RationalExpr(self.ring.zero)
         poly = self.ring.ctx.from_dict({self._key(term): rational(term.coefficient)})
-        result = Frac(Expr(self.ring, self.ring.reduce(poly)))
-        for other in sorted(term.others, key=lambda f: len(f.above)):
+        result = RationalExpr(Expr(self.ring, self.ring.reduce(poly)))
+        for other in sorted(term.others, key=lambda f: len(f.numerator)):
             result = self._product(result, other)
         return result
 
-    def _product(self, a: Frac, b: Frac) -> Frac:
-        above = self._times(a.above, b.above)
-        if a.below is None and b.below is None:
-            return Frac(above)
-        return Frac(above, self._times(a.bottom, b.bottom))
+    def _product(self, a: RationalExpr, b: RationalExpr) -> RationalExpr:
+        above = self._times(a.numerator, b.numerator)
+        if a.divisor is None and b.divisor is None:
+            return RationalExpr(above)
+        return RationalExpr(above, self._times(a.denominator, b.denominator))
 
     def _times(self, a: Expr, b: Expr) -> Expr:
         cost = len(a) * len(b)
@@ -386,14 +386,14 @@ class Evaluator:
             raise AlgebraError("a number is too large")
         return product
 
-    def _inverse(self, value: Frac) -> Frac:
+    def _inverse(self, value: RationalExpr) -> RationalExpr:
         if value.is_zero:
             raise AlgebraError("the denominator is zero", "check what stands below the fraction line")
-        if value.below is None and value.above.is_number:
-            return Frac(self.ring.one / value.above.number)
-        return Frac(value.bottom, value.above)
+        if value.divisor is None and value.numerator.is_number:
+            return RationalExpr(self.ring.one / value.numerator.number)
+        return RationalExpr(value.denominator, value.numerator)
 
-    def _power(self, base: Frac, exponent: Node) -> Frac:
+    def _power(self, base: RationalExpr, exponent: Node) -> RationalExpr:
         match exponent:
             case Number(p, 1):
                 count = p
@@ -403,13 +403,13 @@ class Evaluator:
                 raise AlgebraError("an exponent must be a whole number", "write sqrt(...) for a root")
         return self._power_of(base, count)
 
-    def _power_of(self, base: Frac, count: int) -> Frac:
+    def _power_of(self, base: RationalExpr, count: int) -> RationalExpr:
         if count == 1:
             return base
-        size = max(len(base.above), len(base.bottom), 1)
+        size = max(len(base.numerator), len(base.denominator), 1)
         if count > MOST_POWER or comb(size + count - 1, count) > MOST_TERMS:
             raise AlgebraError(f"the power {count} is too large")
-        result = Frac(self.ring.one)
+        result = RationalExpr(self.ring.one)
         for _ in range(count):
             result = self._product(result, base)
         return result

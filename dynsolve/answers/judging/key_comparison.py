@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from dynsolve.algebra.fraction import RationalExpr, as_expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_values import AnswerValue, fitted
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry
-from dynsolve.answers.judging.fraction import Frac, as_expr
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node, Product, Sum, Symbol
@@ -66,7 +66,9 @@ class KeyComparison:
 class KeyComparer:
     """Holds answers against the key in a graph; `moved` evaluates a changed tree."""
 
-    def __init__(self, graph: AnswerGraph, compare: EntryComparer, moved: Callable[[Node], Frac]) -> None:
+    def __init__(
+        self, graph: AnswerGraph, compare: EntryComparer, moved: Callable[[Node], RationalExpr]
+    ) -> None:
         self.graph = graph
         self.robot = graph.robot
         self.field = graph.field

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_values import as_value
 from dynsolve.answers.judging.follow_through import StudentValue
-from dynsolve.answers.judging.fraction import as_expr
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison
 
