@@ -35,7 +35,7 @@ def _findings(name: str) -> list[Finding]:
     from dynsolve.problem.library import find
     from dynsolve.problem.lint import lint_text
     from dynsolve.problem.reader import read_file
-    from dynsolve.solution.solution import check_axes
+    from dynsolve.solution.given_axes import check_axes
 
     content, file = (
         (standard_input(), STDIN_NAME) if name == STDIN else (read_file(find(name)), str(find(name)))

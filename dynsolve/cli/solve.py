@@ -180,11 +180,11 @@ def _print_json(solution: Solution, view: _View) -> None:
 
 def _report(solution: Solution, output: Output, view: _View) -> bytes:
     from dynsolve.explain.step import Detail
-    from dynsolve.solution.reports import rendered, report, style_of
+    from dynsolve.solution.reports import rendered, report, report_style
 
     detail = Detail[view.detail.name]
     if view.hint:
-        style = style_of(solution, view.star)
+        style = report_style(solution, view.star)
         return rendered(solution.hint(view.hint), style, output.format, detail, view.fragment)
     return report(
         solution,
@@ -202,7 +202,7 @@ def _print_document(solution: Solution, view: _View, follows_another: bool) -> N
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
     from dynsolve.solution.documents import solution_document
-    from dynsolve.solution.reports import style_of
+    from dynsolve.solution.reports import report_style
 
     if follows_another:
         typer.echo()
@@ -211,4 +211,4 @@ def _print_document(solution: Solution, view: _View, follows_another: bool) -> N
     else:
         detail = Detail[view.detail.name]
         document = solution_document(solution, detail, view.stages, Abbreviate(view.abbreviate))
-    print_document(document, style_of(solution, view.star))
+    print_document(document, report_style(solution, view.star))

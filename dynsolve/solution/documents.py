@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import count
-from typing import TYPE_CHECKING
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Table, Text, Uses
@@ -13,9 +12,7 @@ from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
 from dynsolve.explain.named import definition_blocks
 from dynsolve.explain.step import Detail, Step
 from dynsolve.quantities.stages import Stage
-
-if TYPE_CHECKING:
-    from dynsolve.solution.solution import Solution
+from dynsolve.solution.dynamics import Dynamics
 
 CONVENTIONS = {
     "standard": "standard Denavit-Hartenberg (Spong)",
@@ -24,7 +21,7 @@ CONVENTIONS = {
 
 
 def solution_document(
-    solution: Solution,
+    solution: Dynamics,
     detail: Detail = Detail.NORMAL,
     stages: Iterable[str] | None = None,
     abbreviate: Abbreviate = Abbreviate.AUTO,
@@ -37,12 +34,20 @@ def solution_document(
     return Document((
         *_opening(solution),
         *_stages(solution, detail, stages, solution.abbreviated(abbreviate)),
-        *solution.number_blocks(detail, stages),
+        *_numbers(solution, detail, stages),
         *_closing(solution),
     ))  # fmt: skip
 
 
-def _opening(solution: Solution) -> Iterator[Block]:
+def _numbers(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
+    """What the document says in numbers, where they were asked for."""
+    if solution.numbers is not None:
+        from dynsolve.solution.numbers.blocks import blocks
+
+        yield from blocks(solution.numbers, detail, stages)
+
+
+def _opening(solution: Dynamics) -> Iterator[Block]:
     problem = solution.problem
     yield Heading(problem.title, 1)
     facts = [problem.source] if problem.source else []
@@ -52,7 +57,7 @@ def _opening(solution: Solution) -> Iterator[Block]:
 
 
 def _stages(
-    solution: Solution, detail: Detail, stages: Iterable[str] | None, short: Abbreviated | None
+    solution: Dynamics, detail: Detail, stages: Iterable[str] | None, short: Abbreviated | None
 ) -> Iterator[Block]:
     """Stages and their steps, numbered as in the whole derivation."""
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
@@ -143,7 +148,7 @@ def _labels(step: Step) -> Iterator[str]:
         yield f"{step.id}-{place}"
 
 
-def _closing(solution: Solution) -> Iterator[Block]:
+def _closing(solution: Dynamics) -> Iterator[Block]:
     verification = solution.verification
     how = verification.method
     if not solution.robot.bodies:

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
     from dynsolve.notation.printing import Style
-    from dynsolve.solution.solution import Solution
+    from dynsolve.solution.dynamics import Dynamics
 
 
 def report(
-    solution: Solution,
+    solution: Dynamics,
     format: Format,
     *,
     detail: Detail | None = None,
@@ -50,8 +50,10 @@ def report(
     if format is Format.JSON:
         from json import dumps
 
-        return (dumps(solution.to_json(abbreviate), ensure_ascii=False) + "\n").encode()
-    style = style_of(solution, star)
+        from dynsolve.solution.json_export import to_json
+
+        return (dumps(to_json(solution, abbreviate), ensure_ascii=False) + "\n").encode()
+    style = report_style(solution, star)
     shown = Detail.FULL if format is Format.HTML else detail
     document = solution_document(solution, shown, stages, Abbreviate(abbreviate))
     if format in PICTURED and (stages is None or Stage.KINEMATICS in stages):
@@ -63,7 +65,7 @@ PICTURED = (Format.LATEX, Format.PDF, Format.HTML)
 """The forms that can show the manipulator."""
 
 
-def _with_picture(document: Document, solution: Solution, star: bool) -> Document:
+def _with_picture(document: Document, solution: Dynamics, star: bool) -> Document:
     """The document with the manipulator drawn before its first section."""
     from dynsolve.document import Heading
     from dynsolve.draw import picture
@@ -75,7 +77,7 @@ def _with_picture(document: Document, solution: Solution, star: bool) -> Documen
     return replace(document, blocks=(*blocks[:place], drawn, *blocks[place:]))
 
 
-def style_of(solution: Solution, star: bool = False) -> Style:
+def report_style(solution: Dynamics, star: bool = False) -> Style:
     """How a solution's formulas look; with `star` every joint variable carries its mark."""
     if not star:
         return solution.style

@@ -1,42 +1,35 @@
-"""From a problem to its verified solution: what Python users hold in their hands."""
+"""What a Python user holds: `solve(problem)` gives a `Solution`.
+
+`Solution` adds to the derived and verified `Dynamics` what a user asks of it: results as
+SymPy, NumPy and JSON, numbers put in, hints.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from dynsolve.derivation.agreement import Agreement, agreement, given_axes_agree
-from dynsolve.derivation.graph import Derivation
-from dynsolve.derivation.inertia import turns_with_link
-from dynsolve.derivation.rules import course_rules, derive
-from dynsolve.derivation.verification import Verification, verify
-from dynsolve.errors import Finding, ProblemError, UsageError, VerificationError
-from dynsolve.explain.forms import Forms
-from dynsolve.explain.step import Step
-from dynsolve.explain.style import style_of
-from dynsolve.notation.printing import Style
+from dynsolve.errors import AlgebraError, UsageError
+from dynsolve.explain.forms import is_numeric
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem, read_problem
 from dynsolve.problem import load as load_file
-from dynsolve.robot.model import Robot
-from dynsolve.solution.numbers.given import Given
+from dynsolve.solution.dynamics import Dynamics, Progress
+from dynsolve.solution.numbers.given import Given, parameters
+from dynsolve.solution.numbers.given import state as read_state
+from dynsolve.solution.numbers.rounding import DIGITS
 
 if TYPE_CHECKING:
     import sympy
 
-    from dynsolve.document import Block, Document
-    from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
-    from dynsolve.explain.step import Detail
+    from dynsolve.document import Document
+    from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.solution.numbers.assignments import Assignment, Plain
-    from dynsolve.solution.numbers.beside import Numbers
-    from dynsolve.solution.numbers.state import State
+    from dynsolve.solution.numbers.results import State
     from dynsolve.solution.numeric import NumericFunction
-
-CHECKED = ("J", "D", "C", "g", "tau", "K", "P")
-"""The results that are held against the independent computation, besides the last H."""
 
 
 def load(problem: str | os.PathLike[str]) -> Problem:
@@ -53,10 +46,7 @@ def load(problem: str | os.PathLike[str]) -> Problem:
 
 
 def solve(
-    problem: Problem | str | os.PathLike[str],
-    *,
-    states: int = 5,
-    progress: Callable[[int, int], None] | None = None,
+    problem: Problem | str | os.PathLike[str], *, states: int = 5, progress: Progress | None = None
 ) -> Solution:
     """Derive the dynamics of a robot, and verify the result.
 
@@ -78,136 +68,16 @@ def solve(
         problem = read_problem(problem)
     elif not isinstance(problem, Problem):
         problem = load(problem)
-    values = derive(problem.robot)
-    warnings = (*problem.warnings, *_given_axes(problem, values))
-    forms = _forms(problem.robot, values, progress)
-    held = None
-    if problem.robot.bodies:
-        held = agreement(problem.robot, values)
-        if not held.holds:
-            raise VerificationError(
-                "what is read off from the forces differs from what is assembled directly"
-            )
-    verification = verify(problem.robot, _checked(problem.robot, forms), states)
-    return Solution(problem, values, forms, verification, held, warnings)
+    return Solution.of(problem, states, progress)
 
 
-def _forms(robot: Robot, values: Derivation, progress: Callable[[int, int], None] | None) -> Forms:
-    """The compact forms; where somebody watches, all of them are made now."""
-    forms = Forms(robot, values)
-    if progress is not None:
-        shown = [rule.name for rule in course_rules(robot) if rule.name != "christoffel"]
-        for done, name in enumerate(shown):
-            progress(done, len(shown))
-            forms(name)
-    return forms
+class Solution(Dynamics):
+    """A robot's dynamics, derived and verified, in the forms that a user asks for.
 
-
-def check_axes(problem: Problem) -> tuple[Finding, ...]:
-    """What there is to say about given R_b that do not turn with their links.
-
-    Raises ProblemError where the kinetic energy would come out wrong.
+    `D`, `C`, `g`, `tau` and the others are SymPy objects in real symbols, velocities
+    `theta1_dot`, accelerations `theta1_ddot`.  A robot without masses has no more than
+    `A`, `H`, `J`, `Jv`, `Jw`.
     """
-    return tuple(_given_axes(problem, derive(problem.robot)))
-
-
-def _checked(robot: Robot, forms: Forms) -> dict[str, Node]:
-    names = CHECKED if robot.bodies else ("J",)
-    return {"H": forms(f"H{len(robot.joints)}"), **{name: forms(name) for name in names}}
-
-
-def _given_axes(problem: Problem, values: Derivation) -> Iterator[Finding]:
-    """What there is to say about given R_b that do not turn with their links; raises where they are wrong."""
-    robot = problem.robot
-    faults = []
-    for place, body in enumerate(robot.bodies):
-        if turns_with_link(robot, body, values[f"H{body.link}"]):
-            continue
-        path = ("masses", place, "axes")
-        what = f"the given rotation of body {body.name} does not turn with link {body.link}"
-        if given_axes_agree(robot, body, values):
-            message = f"{what}; it is used as given, since the kinetic energy comes out the same"
-            yield problem.finding(path, message, "write `axes: base` for a frame that turns", "axes-fixed")
-        else:
-            message = f"{what}, and the kinetic energy would come out wrong"
-            help = (
-                "a body's frame turns with its link: `axes: base` is parallel to frame 0 at q = 0 and turns"
-            )
-            faults.append(problem.finding(path, message, help, "axes-fixed"))
-    if faults:
-        raise ProblemError(faults)
-
-
-@dataclass(frozen=True)
-class Solution:
-    """A robot's dynamics, derived and verified.
-
-    `values` are exact, by the names of the answer file (`H2`, `Jv1`, `K`, `D`);
-    `forms` are the same as compact trees.  `D`, `C`, `g`, `tau` and the others are
-    SymPy objects in real symbols, velocities `theta1_dot`, accelerations
-    `theta1_ddot`.  A robot without masses has no more than `A`, `H`, `J`, `Jv`, `Jw`.
-    """
-
-    problem: Problem
-    values: Derivation
-    forms: Forms
-    verification: Verification
-    agreement: Agreement | None = None
-    warnings: tuple[Finding, ...] = field(default=())
-    given: Given = field(default_factory=Given)
-    numbers: Numbers | None = None
-
-    @property
-    def robot(self) -> Robot:
-        """The robot."""
-        return self.problem.robot
-
-    @cached_property
-    def style(self) -> Style:
-        """How the formulas look: s_1 for sin θ_1 where that is clear."""
-        return style_of(self.robot)
-
-    @cached_property
-    def steps(self) -> tuple[Step, ...]:
-        """The whole derivation, step by step."""
-        return tuple(self.explain())
-
-    def explain(
-        self, stages: Iterable[str] | None = None, short: Abbreviated | None = None
-    ) -> Iterator[Step]:
-        """The steps of some stages, in the order of the course; with `short`, in its names."""
-        from dynsolve.explain import explain
-        from dynsolve.explain.course import Course
-        from dynsolve.explain.named import in_names
-
-        course = Course(self.robot, self.values, self.forms, self.agreement)
-        steps = explain(course, stages)
-        return steps if short is None else in_names(steps, course, short)
-
-    def abbreviated(self, abbreviate: Abbreviate | str = "always") -> Abbreviated | None:
-        """D, C and g with constants and recurring terms named; held against the independent computation.
-
-        With `auto` None where they are short enough to be read, with `never` always None.
-
-        >>> short = solve("planar-2r").abbreviated()
-        >>> [definition.name.name for definition in short.definitions]
-        ['h']
-        """
-        from dynsolve.explain.abbreviations import Abbreviate, is_long
-
-        asked = Abbreviate(abbreviate)
-        if not self.robot.bodies or asked is Abbreviate.NEVER:
-            return None
-        return self._abbreviated if asked is Abbreviate.ALWAYS or is_long(self.forms) else None
-
-    @cached_property
-    def _abbreviated(self) -> Abbreviated:
-        from dynsolve.explain.abbreviations import abbreviate, expanded
-
-        short = abbreviate(self.forms)
-        D, C, g = expanded(short.definitions, [short.D, short.C, short.g])
-        verify(self.robot, {"D": D, "C": C, "g": g}, self.verification.states)
-        return short
 
     def hint(self, stage: str) -> Document:
         """What to do in a stage, as a document that holds no result of it or of a later one.
@@ -224,9 +94,9 @@ class Solution:
 
     def to_json(self, abbreviate: Abbreviate | str = "never") -> dict[str, Any]:
         """The solution as JSON, `dynsolve-solution/1`; with `always` a section `abbreviated` too."""
-        from dynsolve.solution.export import to_json
+        from dynsolve.solution.json_export import to_json
 
-        return to_json(self, self.abbreviated("always") if abbreviate == "always" else None)
+        return to_json(self, abbreviate)
 
     def symbolic(self, name: str) -> Any:
         """A quantity as SymPy, by its name in an answer file: `H2`, `Jv1`, `Kw1`, `dLdqd1`, `D`.
@@ -235,9 +105,7 @@ class Solution:
         """
         from dynsolve.solution.symbolic import to_sympy
 
-        if name not in self.values.rules or name == "christoffel":
-            raise UsageError(f"{name} is no quantity of this robot")
-        return to_sympy(self.forms(name))
+        return to_sympy(self._form(name))
 
     def christoffel(self, i: int, j: int, k: int) -> sympy.Expr:
         """c_ijk, indices from 1 as in the textbook."""
@@ -254,9 +122,12 @@ class Solution:
         """
         from dynsolve.solution.numeric import NumericFunction
 
+        return NumericFunction.of(name, self._form(name), self.problem)
+
+    def _form(self, name: str) -> Node:
         if name not in self.values.rules or name == "christoffel":
             raise UsageError(f"{name} is no quantity of this robot")
-        return NumericFunction.of(name, self.forms(name), self.problem)
+        return self.forms(name)
 
     # -- numbers -----------------------------------------------------------------------------------
 
@@ -272,11 +143,20 @@ class Solution:
         >>> solution.D[1, 1]
         9/40
         """
-        from dynsolve.solution.numbered import with_values
         from dynsolve.solution.numbers.assignments import of_call
-        from dynsolve.solution.numbers.given import parameters
 
-        return with_values(self, parameters(self.problem, of_call(values)))
+        return self._with(parameters(self.problem, of_call(values)))
+
+    def _with(self, given: Given) -> Solution:
+        """The solution of the robot with these values in it."""
+        from dynsolve.solution.numbers.robot import robot_with
+
+        try:
+            robot = robot_with(self.robot, given.values)
+            valued = solve(replace(self.problem, robot=robot))
+        except AlgebraError as error:
+            raise UsageError(f"with these values the robot has no solution: {error.message}") from error
+        return replace(valued, given=Given({**self.given.entries, **given.entries}, given.warnings))
 
     def at(self, /, **state: Plain) -> State:
         """What holds at a state: every result with numbers for coordinates, velocities, accelerations.
@@ -291,11 +171,20 @@ class Solution:
         >>> solve("planar-2r").with_values(l1=1, lc1=0.5).at(q1="17deg", q2=0).number("H1")[0]
         [0.9563047559630354, -0.2923717047227367, 0.0, 0.9563047559630354]
         """
-        from dynsolve.solution.numbered import at_state
         from dynsolve.solution.numbers.assignments import of_call
-        from dynsolve.solution.numbers.given import state as read_state
 
-        return at_state(self, read_state(self.problem, of_call(state)))
+        return self._at(read_state(self.problem, of_call(state)))
+
+    def _at(self, state: Given, digits: int | None = None) -> State:
+        from dynsolve.solution.numbers.results import State
+
+        return State(
+            robot=self.robot,
+            values=self.values,
+            given=state,
+            decimal=self.given.decimal or digits is not None,
+            digits=digits or DIGITS,
+        )
 
     def beside(
         self,
@@ -309,16 +198,31 @@ class Solution:
         results with these values; with `state` every result at that state, too.  Results
         are exact where no decimal goes in, else, or with `digits`, decimals.
         """
-        from dynsolve.solution.numbered import beside
+        from dynsolve.solution.numbers.results import Numbers, Valued, needed
 
-        return beside(self, values, state, digits)
-
-    def number_blocks(self, detail: Detail, stages: Iterable[str] | None = None) -> Iterator[Block]:
-        """What a document says in numbers: nothing unless `beside` gave them."""
-        if self.numbers is not None:
-            from dynsolve.solution.numbers.documents import blocks
-
-            yield from blocks(self.numbers, detail, stages)
+        values = tuple(values)
+        all_parameters = set(needed(self.robot))
+        with_values = bool(values) or (bool(all_parameters) and all_parameters <= self.problem.written.keys())
+        if not with_values and state is None:
+            return self
+        given = parameters(self.problem, values)
+        at = None if state is None else read_state(self.problem, state)
+        numeric = self._with(given) if given.entries else self
+        valued = Valued(
+            robot=numeric.robot,
+            values=numeric.values,
+            forms=numeric.forms,
+            given=given,
+            decimal=given.decimal or digits is not None or is_numeric(self.robot),
+            digits=digits or DIGITS,
+        )
+        numbers = Numbers(
+            robot=self.robot,
+            given=given,
+            valued=valued if given.entries and with_values else None,
+            state=None if at is None else numeric._at(at, digits),
+        )
+        return replace(self, numbers=numbers)
 
     # -- the results by name -----------------------------------------------------------------------
 

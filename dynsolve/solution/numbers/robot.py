@@ -11,7 +11,7 @@ from dynsolve.robot.model import Body, Joint, Robot
 from dynsolve.solution.numbers.substitution import Replacements, Substitution, replaced
 
 
-def put_in(robot: Robot, values: Replacements) -> Robot:
+def robot_with(robot: Robot, values: Replacements) -> Robot:
     """The robot with these values for its parameters.
 
     Raises AlgebraError where a formula has no meaning with them.

@@ -168,9 +168,9 @@ def test_progress_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_ways_that_disagree_are_never_returned(monkeypatch: pytest.MonkeyPatch) -> None:
     from dynsolve.derivation import agreement
-    from dynsolve.solution import solution
+    from dynsolve.solution import dynamics
 
-    monkeypatch.setattr(solution, "agreement", lambda *_: agreement.Agreement(True, False, True, True))
+    monkeypatch.setattr(dynamics, "agreement", lambda *_: agreement.Agreement(True, False, True, True))
     with pytest.raises(VerificationError):
         dynsolve.solve("planar-2r")
 

@@ -2,11 +2,13 @@
 
 Every expression is plain text that Python evaluates once `sin`, `cos`, `sqrt` and
 the symbols have values.  A matrix is a list of rows, a vector a list of entries.
+Numbers, in the sections `values` and `at`, are exact where no decimal goes in, else
+decimals of 15 digits, or as many as were asked for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.document import Inline, Prose, Verbatim
@@ -15,22 +17,28 @@ from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.robot.model import Body, Robot
+from dynsolve.solution.dynamics import Dynamics
+from dynsolve.solution.numbers import quantities
+from dynsolve.solution.numbers.given import Given
+from dynsolve.solution.numbers.results import Numbers, State, Valued
+from dynsolve.solution.numbers.rounding import DIGITS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from dynsolve.explain.abbreviations import Abbreviated, Definition
-    from dynsolve.robot.model import Body
-    from dynsolve.solution.solution import Solution
+    from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
 
 FORMAT = "dynsolve-solution/1"
 
+NUMBER_DIGITS = 15
+"""The digits of decimals, unless a number of digits is asked for."""
 
-def to_json(solution: Solution, short: Abbreviated | None = None) -> dict[str, Any]:
+
+def to_json(solution: Dynamics, abbreviate: Abbreviate | str = "never") -> dict[str, Any]:
     """Everything: the problem, the coordinates, the results, the steps and the verification.
 
-    With `short` there is a section `abbreviated` of its definitions and forms too.
+    With `always` there is a section `abbreviated` of definitions, and of the forms in their names.
     """
+    short = solution.abbreviated("always") if abbreviate == "always" else None
     problem, verification = solution.problem, solution.verification
     exporter = _Exporter(solution)
     return {
@@ -59,23 +67,14 @@ def to_json(solution: Solution, short: Abbreviated | None = None) -> dict[str, A
             "max_relative_error": verification.max_relative_error,
         },
         **({} if short is None else {"abbreviated": exporter.abbreviated(short)}),
-        **_numbers(solution),
+        **({} if solution.numbers is None else _number_sections(solution, solution.numbers)),
     }
-
-
-def _numbers(solution: Solution) -> dict[str, Any]:
-    """The sections `values`, `at` and `units`, where numbers are asked for."""
-    if solution.numbers is None:
-        return {}
-    from dynsolve.solution.numbers.export import sections
-
-    return sections(solution.numbers, lambda tree: _Exporter(solution, tree).results())
 
 
 class _Exporter:
     """Keeps one printer of each notation, so that what trees share is printed once."""
 
-    def __init__(self, solution: Solution, forms: Callable[[str], Node] | None = None) -> None:
+    def __init__(self, solution: Dynamics, forms: Callable[[str], Node] | None = None) -> None:
         self.solution = solution
         self.forms = forms or solution.forms
         self.python = PythonPrinter()
@@ -188,3 +187,45 @@ class _Exporter:
             case Verbatim(text):
                 return text
         return self.unicode.text(part)
+
+
+# -- numbers ---------------------------------------------------------------------------------------
+
+
+def _number_sections(solution: Dynamics, numbers: Numbers) -> dict[str, Any]:
+    """`values` with what was given, and the results with it; `at` with the state, and the results there."""
+
+    def results(of: Valued | State) -> dict[str, Any]:
+        digits = of.digits if of.digits != DIGITS else NUMBER_DIGITS
+        return _Exporter(solution, lambda name: of.shown(name, digits)).results()
+
+    sections: dict[str, Any] = {}
+    if numbers.given.entries:
+        sections["values"] = {"given": _given(numbers.given)}
+        if numbers.valued is not None:
+            sections["values"]["results"] = results(numbers.valued)
+    if numbers.state is not None:
+        sections["at"] = {"given": _given(numbers.state.given), "results": results(numbers.state)}
+    if sections:
+        sections["units"] = {name: _plain(unit) for name, unit in _units(numbers.robot)}
+    return sections
+
+
+def _given(given: Given) -> dict[str, dict[str, str]]:
+    """What was given, by name; an angle without a unit of its own is in radians."""
+    return {
+        name + ("", "_dot", "_ddot")[dots]: {"value": entry.text, "unit": entry.unit or "rad"}
+        for (name, dots), entry in given.entries.items()
+    }
+
+
+def _units(robot: Robot) -> list[tuple[str, str | quantities.Units]]:
+    names = ["P", "K", "L", "tau", "D", "C", "g"] if robot.bodies else []
+    return [(name, quantities.of_result(robot, name)) for name in names]
+
+
+def _plain(unit: str | quantities.Units) -> Any:
+    if isinstance(unit, str):
+        return unit
+    rows = [list(row) for row in unit]
+    return [entry for (entry,) in rows] if all(len(row) == 1 for row in rows) else rows

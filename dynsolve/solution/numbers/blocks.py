@@ -14,10 +14,9 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 from dynsolve.solution.numbers import quantities, units
-from dynsolve.solution.numbers.beside import Numbers, needed
 from dynsolve.solution.numbers.given import GivenValue
 from dynsolve.solution.numbers.names import Shown, all_results, main_results
-from dynsolve.solution.numbers.state import State
+from dynsolve.solution.numbers.results import Numbers, State, needed
 
 _WIDEST = 50
 """A matrix that is wider, in characters, has its unit by itself."""

@@ -1,0 +1,141 @@
+"""A robot's dynamics, derived and verified: what documents, JSON and numbers are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Self
+
+from dynsolve.derivation.agreement import Agreement, agreement
+from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.rules import course_rules, derive
+from dynsolve.derivation.verification import Verification, verify
+from dynsolve.errors import Finding, VerificationError
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.step import Step
+from dynsolve.explain.style import style_of
+from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import Node
+from dynsolve.problem import Problem
+from dynsolve.robot.model import Robot
+from dynsolve.solution.given_axes import check_axes
+from dynsolve.solution.numbers.given import Given
+
+if TYPE_CHECKING:
+    from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
+    from dynsolve.solution.numbers.results import Numbers
+
+CHECKED = ("J", "D", "C", "g", "tau", "K", "P")
+"""The results that are held against the independent computation, besides the last H."""
+
+Progress = Callable[[int, int], None]
+"""progress(done, of)"""
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """A robot's dynamics, derived and verified.
+
+    `values` are exact, by the names of the answer file (`H2`, `Jv1`, `K`, `D`);
+    `forms` are the same as compact trees.  `given` are numbers that were put for
+    parameters, `numbers` the numeric results that are shown beside the symbolic ones.
+    """
+
+    problem: Problem
+    values: Derivation
+    forms: Forms
+    verification: Verification
+    agreement: Agreement | None = None
+    warnings: tuple[Finding, ...] = ()
+    given: Given = field(default_factory=Given)
+    numbers: Numbers | None = None
+
+    @classmethod
+    def of(cls, problem: Problem, states: int = 5, progress: Progress | None = None) -> Self:
+        """Derive a problem's dynamics, and verify them.
+
+        Raises ProblemError for given rotations with which the energy would be wrong,
+        VerificationError where two ways to a result differ.
+        """
+        robot = problem.robot
+        values = derive(robot)
+        warnings = (*problem.warnings, *check_axes(problem, values))
+        forms = Forms(robot, values)
+        if progress is not None:
+            _make_all(forms, progress)
+        agreed = None
+        if robot.bodies:
+            agreed = agreement(robot, values)
+            if not agreed.holds:
+                raise VerificationError(
+                    "what is read off from the forces differs from what is assembled directly"
+                )
+        verification = verify(robot, _checked(robot, forms), states)
+        return cls(problem, values, forms, verification, agreed, warnings)
+
+    @property
+    def robot(self) -> Robot:
+        """The robot."""
+        return self.problem.robot
+
+    @cached_property
+    def style(self) -> Style:
+        """How the formulas look: s_1 for sin θ_1 where that is clear."""
+        return style_of(self.robot)
+
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """The whole derivation, step by step."""
+        return tuple(self.explain())
+
+    def explain(
+        self, stages: Iterable[str] | None = None, short: Abbreviated | None = None
+    ) -> Iterator[Step]:
+        """The steps of some stages, in the order of the course; with `short`, in its names."""
+        from dynsolve.explain import explain
+        from dynsolve.explain.course import Course
+        from dynsolve.explain.named import in_names
+
+        course = Course(self.robot, self.values, self.forms, self.agreement)
+        steps = explain(course, stages)
+        return steps if short is None else in_names(steps, course, short)
+
+    def abbreviated(self, abbreviate: Abbreviate | str = "always") -> Abbreviated | None:
+        """D, C and g with constants and recurring terms named; held against the independent computation.
+
+        With `auto` None where they are short enough to be read, with `never` always None.
+
+        >>> import dynsolve
+        >>> short = dynsolve.solve("planar-2r").abbreviated()
+        >>> [definition.name.name for definition in short.definitions]
+        ['h']
+        """
+        from dynsolve.explain.abbreviations import Abbreviate, is_long
+
+        asked = Abbreviate(abbreviate)
+        if not self.robot.bodies or asked is Abbreviate.NEVER:
+            return None
+        return self._abbreviated if asked is Abbreviate.ALWAYS or is_long(self.forms) else None
+
+    @cached_property
+    def _abbreviated(self) -> Abbreviated:
+        from dynsolve.explain.abbreviations import abbreviate, expanded
+
+        short = abbreviate(self.forms)
+        D, C, g = expanded(short.definitions, [short.D, short.C, short.g])
+        verify(self.robot, {"D": D, "C": C, "g": g}, self.verification.states)
+        return short
+
+
+def _make_all(forms: Forms, progress: Progress) -> None:
+    """Make every compact form that is shown; done only where somebody watches the progress."""
+    shown = [rule.name for rule in course_rules(forms.robot) if rule.name != "christoffel"]
+    for done, name in enumerate(shown):
+        progress(done, len(shown))
+        forms(name)
+
+
+def _checked(robot: Robot, forms: Forms) -> dict[str, Node]:
+    names = CHECKED if robot.bodies else ("J",)
+    return {"H": forms(f"H{len(robot.joints)}"), **{name: forms(name) for name in names}}

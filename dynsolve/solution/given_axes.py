@@ -1,0 +1,43 @@
+"""Given orientations R_b of bodies that do not turn with their links: harmless or a fault.
+
+A problem file may give R_b as a function of the coordinates.  The frame of a rigid body
+turns with its link; one that does not is accepted where the kinetic energy is the same.
+"""
+
+from __future__ import annotations
+
+from dynsolve.derivation.agreement import given_axes_agree
+from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.inertia import turns_with_link
+from dynsolve.derivation.rules import derive
+from dynsolve.errors import Finding, ProblemError
+from dynsolve.problem import Problem
+
+
+def check_axes(problem: Problem, values: Derivation | None = None) -> tuple[Finding, ...]:
+    """Warnings about given R_b that do not turn with their links.
+
+    `values` is the robot's derivation, if it is at hand.  Raises ProblemError where the
+    kinetic energy would come out wrong.
+    """
+    robot = problem.robot
+    values = derive(robot) if values is None else values
+    warnings, faults = [], []
+    for place, body in enumerate(robot.bodies):
+        if turns_with_link(robot, body, values[f"H{body.link}"]):
+            continue
+        path = ("masses", place, "axes")
+        what = f"the given rotation of body {body.name} does not turn with link {body.link}"
+        if given_axes_agree(robot, body, values):
+            message = f"{what}; it is used as given, since the kinetic energy comes out the same"
+            help = "write `axes: base` for a frame that turns"
+            warnings.append(problem.finding(path, message, help, "axes-fixed"))
+        else:
+            message = f"{what}, and the kinetic energy would come out wrong"
+            help = (
+                "a body's frame turns with its link: `axes: base` is parallel to frame 0 at q = 0 and turns"
+            )
+            faults.append(problem.finding(path, message, help, "axes-fixed"))
+    if faults:
+        raise ProblemError(faults)
+    return tuple(warnings)
