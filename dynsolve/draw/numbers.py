@@ -8,12 +8,13 @@ that is given by symbols lies near the middle of its link.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.draw.vectors import IDENTITY, Rotation
+from dynsolve.notation.walk import names_in
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import Robot
 
@@ -118,26 +119,9 @@ def _all_values(robot: Robot, given: Mapping[str, float], factor: float, spread:
 def _lengths(robot: Robot) -> list[str]:
     """The parameters that stand in the columns d and a."""
     columns = [node for joint in robot.joints for node in joint.written[1:3]]
-    names = names_in(columns)
+    names = names_in(*columns)
     coordinates = {q.name for q in robot.coordinates}
     return [name for name in robot.ring.parameters if name in names - coordinates]
-
-
-def names_in(nodes: Iterable[object]) -> set[str]:
-    """The names of all symbols in trees."""
-    from dynsolve.notation.tree import Node, Symbol
-
-    found: set[str] = set()
-    waiting = list(nodes)
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, Symbol):
-            found.add(node.name)
-        elif isinstance(node, Node):
-            waiting.extend(getattr(node, name) for name in node.__dataclass_fields__)
-        elif isinstance(node, tuple):
-            waiting.extend(node)
-    return found
 
 
 def evaluate(robot: Robot, expr: Expr, values: Mapping[str, float]) -> float:

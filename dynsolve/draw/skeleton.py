@@ -28,6 +28,7 @@ from dynsolve.draw.vectors import (
     subtract,
     turned,
 )
+from dynsolve.notation.walk import names_in
 from dynsolve.robot.model import Body, Convention, Joint, JointType, Robot
 
 NEAR = 1e-6
@@ -245,9 +246,7 @@ def _best(direction: Vector, wanted: Vector, size: float, symbols: int) -> float
 
 def free_symbols(robot: Robot, body: Body) -> list[str]:
     """The parameters of a mass centre that the table does not have."""
-    from dynsolve.draw.numbers import names_in
-
-    fixed = names_in(node for joint in robot.joints for node in joint.written)
+    fixed = names_in(*(node for joint in robot.joints for node in joint.written))
     return [name for name in _symbols_of(robot, body) if name not in fixed]
 
 

@@ -32,6 +32,7 @@ from dynsolve.explain.recurring import Definition, name_recurring
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, times, total
 from dynsolve.notation.tree import ZERO, Node, Symbol
+from dynsolve.notation.walk import with_children
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "expanded", "is_long"]
 
@@ -201,26 +202,9 @@ def expanded(definitions: Sequence[Definition], nodes: Sequence[Node]) -> list[N
     def put(node: Node) -> Node:
         found = done.get(node)
         if found is None:
-            found = done[node] = inside(node)
+            found = meanings.get(node, node) if isinstance(node, Symbol) else with_children(node, put)
+            done[node] = found
         return found
-
-    def inside(node: Node) -> Node:
-        match node:
-            case Symbol():
-                return meanings.get(node, node)
-            case tree.Matrix(rows):
-                return tree.Matrix(tuple(tuple(map(put, row)) for row in rows))
-            case tree.Sum(parts):
-                return tree.Sum(tuple(map(put, parts)))
-            case tree.Product(parts):
-                return tree.Product(tuple(map(put, parts)))
-            case tree.Negative(part):
-                return tree.Negative(put(part))
-            case tree.Power(base, exponent):
-                return tree.Power(put(base), exponent)
-            case tree.Quotient(numerator, denominator):
-                return tree.Quotient(put(numerator), denominator)
-        return node
 
     for definition in definitions:
         meanings[definition.name] = put(definition.meaning)

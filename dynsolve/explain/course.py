@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -13,6 +14,7 @@ from dynsolve.document import Inline, Prose
 from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Row, Symbol, Words
+from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Convention, Coordinate, Joint, JointType, Robot
 
@@ -118,25 +120,4 @@ def listed(parts: Sequence[Prose | Node | str], conjunction: str = "and") -> Pro
 
 def is_small(*nodes: Node) -> bool:
     """Whether trees are small enough to be put into a formula and still be read."""
-    budget = LARGEST_WORKING
-    pending: list[Node] = list(nodes)
-    while pending:
-        budget -= 1
-        if budget < 0:
-            return False
-        pending.extend(children(pending.pop()))
-    return True
-
-
-def children(node: Node) -> tuple[Node, ...]:
-    """The parts of an expression's tree."""
-    match node:
-        case tree.Matrix(rows):
-            return tuple(part for row in rows for part in row)
-        case tree.Sum(parts) | tree.Product(parts) | tree.Relation(parts) | tree.Row(parts):
-            return parts
-        case tree.Quotient(a, b) | tree.Power(a, b) | tree.Cross(a, b):
-            return (a, b)
-        case tree.Negative(a) | tree.Function(_, a) | tree.Parenthesized(a) | tree.Transpose(a):
-            return (a,)
-    return ()
+    return next(islice(walk(*nodes), LARGEST_WORKING, None), None) is None

@@ -30,6 +30,7 @@ from dynsolve.notation.tree import (
     Symbol,
     equation,
 )
+from dynsolve.notation.walk import with_children
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
@@ -282,14 +283,7 @@ class _Names:
         found = self.swaps.get(node)
         if found is not None:
             return found
-        match node:
-            case Relation(parts, signs):
-                return Relation(tuple(map(self.swapped, parts)), signs)
-            case Sum(parts):
-                return Sum(tuple(map(self.swapped, parts)))
-            case Product(parts):
-                return Product(tuple(map(self.swapped, parts)))
-        return node
+        return with_children(node, self.swapped) if isinstance(node, Relation | Sum | Product) else node
 
     def entry(self, k: int, j: int) -> Node:
         """c_kj = Σ_i c_ijk q̇_i"""

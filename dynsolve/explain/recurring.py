@@ -13,6 +13,7 @@ from itertools import combinations
 
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
+from dynsolve.notation.walk import children
 
 SHORTEST_SUM = 5
 """The operations from which on a recurring sum is worth a name."""
@@ -190,7 +191,8 @@ class _Sharing:
             if node in met:
                 continue
             met.add(node)
-            pending.extend(self.terms[node] if isinstance(node, Symbol) else _parts(node))
+            if not isinstance(node, Function):  # nothing in an angle gets a name
+                pending.extend(self.terms[node] if isinstance(node, Symbol) else children(node))
         return uses
 
 
@@ -256,16 +258,3 @@ def _ordered(part: _Key, terms: Mapping[Symbol, tuple[Node, ...]], users: Sequen
 
 def _number(name: Symbol) -> int:
     return int(name.name)
-
-
-def _parts(node: Node) -> tuple[Node, ...]:
-    match node:
-        case Sum(parts) | Product(parts):
-            return parts
-        case Negative(part) | Power(part):
-            return (part,)
-        case Quotient(numerator, _):
-            return (numerator,)
-        case Function():
-            return ()
-    return ()

@@ -26,7 +26,7 @@ from itertools import chain
 from operator import attrgetter, is_
 from typing import Any, TypeVar
 
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Node, Symbol
 
 _N = TypeVar("_N", bound=Node)
 Change = Callable[[Node], Node]
@@ -54,6 +54,11 @@ def walk(*nodes: Node) -> Iterator[Node]:
         node = pending.pop()
         yield node
         pending += _READERS[type(node)](node)[::-1]
+
+
+def names_in(*nodes: Node) -> set[str]:
+    """The names of all symbols in trees."""
+    return {part.name for part in walk(*nodes) if isinstance(part, Symbol)}
 
 
 def with_children(node: _N, change: Change) -> _N:

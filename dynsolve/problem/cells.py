@@ -16,13 +16,10 @@ from dynsolve.notation.tree import (
     Function,
     Negative,
     Node,
-    Parenthesized,
     Power,
-    Product,
     Quotient,
-    Sum,
-    Symbol,
 )
+from dynsolve.notation.walk import walk
 from dynsolve.problem.fields import describe
 from dynsolve.problem.source import Faults
 from dynsolve.problem.yaml_nodes import Faulty, Scalar, Span
@@ -174,32 +171,6 @@ def _in_degrees(text: str) -> str:
 def constant_value(node: Node) -> Fraction | None:
     """The value of an expression made of numbers alone, else None."""
     return rational_value(node)
-
-
-def children(node: Node) -> tuple[Node, ...]:
-    """The parts of an expression's node."""
-    match node:
-        case Sum(parts) | Product(parts):
-            return parts
-        case Quotient(numerator, denominator):
-            return numerator, denominator
-        case Power(base, _):
-            return (base,)
-        case Negative(argument) | Parenthesized(argument) | Function(_, argument):
-            return (argument,)
-    return ()
-
-
-def walk(node: Node) -> Iterator[Node]:
-    """A node and everything in it."""
-    yield node
-    for part in children(node):
-        yield from walk(part)
-
-
-def names_in(node: Node) -> set[str]:
-    """The names of the symbols in an expression."""
-    return {part.name for part in walk(node) if isinstance(part, Symbol)}
 
 
 def denominators(node: Node) -> Iterator[Node]:

@@ -18,7 +18,7 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
-from dynsolve.problem.cells import names_in
+from dynsolve.notation.walk import names_in
 
 Rates = dict[str, Fraction]
 

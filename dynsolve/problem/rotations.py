@@ -12,7 +12,8 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Function
-from dynsolve.problem.cells import Cell, denominators, names_in, read_angle, read_matrix, read_text, walk
+from dynsolve.notation.walk import names_in, walk
+from dynsolve.problem.cells import Cell, denominators, read_angle, read_matrix, read_text
 from dynsolve.problem.fields import describe
 from dynsolve.problem.source import Faults
 from dynsolve.problem.yaml_nodes import Faulty, Scalar, Sequence, Span, YamlNode

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.notation.text import Name
 from dynsolve.notation.tree import Function, Negative, Node, Parenthesized, Product, Quotient, Sum, Symbol
-from dynsolve.problem.cells import Cell, denominators, walk
+from dynsolve.notation.walk import walk
+from dynsolve.problem.cells import Cell, denominators
 from dynsolve.problem.sheet import Sheet
 from dynsolve.problem.source import Faults
 

@@ -18,6 +18,7 @@ from dynsolve.notation.tree import (
     Transpose,
 )
 from dynsolve.notation.unicode import UnicodePrinter, width
+from dynsolve.notation.walk import children
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,18 +96,7 @@ def holds_matrix(node: Node, depth: int = _SHALLOW) -> bool:
         return True
     if depth == 0:
         return False
-    return any(holds_matrix(part, depth - 1) for part in _parts(node))
-
-
-def _parts(node: Node) -> tuple[Node, ...]:
-    match node:
-        case Relation(parts) | Sum(parts) | Product(parts) | Row(parts):
-            return parts
-        case Transpose(argument) | Negative(argument) | Parenthesized(argument):
-            return (argument,)
-        case Cross(left, right):
-            return (left, right)
-    return ()
+    return any(holds_matrix(part, depth - 1) for part in children(node))
 
 
 def pieces(node: Node, printer: UnicodePrinter) -> Iterator[TextBox | Matrix]:

@@ -14,9 +14,10 @@ from dynsolve.algebra.ring import Ring
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.ring_extension import children, is_opaque
+from dynsolve.answers.judging.ring_extension import is_opaque
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
+from dynsolve.notation.walk import walk
 
 MOST_TERMS = 400
 
@@ -138,7 +139,7 @@ def _is_seen(words: TermWriter, values: _Pair, written: Expr, right: Expr) -> bo
 
 
 def _holds(node: Node, part: Node) -> bool:
-    return node == part or any(_holds(child, part) for child in children(node))
+    return part in walk(node)
 
 
 def _symbols(graph: AnswerGraph, words: TermWriter, values: _Pair) -> Iterator[Diagnosis]:

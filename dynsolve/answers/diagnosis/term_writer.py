@@ -11,8 +11,9 @@ from dynsolve.answers.judging.answer_ring import Field
 from dynsolve.explain.forms import leading_names
 from dynsolve.explain.style import style_of
 from dynsolve.notation.build import power
-from dynsolve.notation.tree import Negative, Node, Power, Product, Quotient, Sum, Symbol, number
+from dynsolve.notation.tree import Node, Symbol, number
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.notation.walk import mapped
 
 LONGEST = 160
 
@@ -39,20 +40,7 @@ class TermWriter:
 
     def _restored(self, node: Node) -> Node:
         """The tree with the functions of unexpected arguments as they were written."""
-        match node:
-            case Symbol(name) if name in self._opaque:
-                return self._opaque[name]
-            case Sum(parts):
-                return Sum(tuple(map(self._restored, parts)))
-            case Product(parts):
-                return Product(tuple(map(self._restored, parts)))
-            case Quotient(numerator, denominator):
-                return Quotient(self._restored(numerator), self._restored(denominator))
-            case Power(base, exponent):
-                return Power(self._restored(base), exponent)
-            case Negative(argument):
-                return Negative(self._restored(argument))
-        return node
+        return mapped(node, lambda p: self._opaque.get(p.name, p) if isinstance(p, Symbol) else p)
 
     def of(self, expr: Expr) -> str:
         """An expression in one line."""

@@ -23,6 +23,7 @@ from dynsolve.algebra.fraction import RationalExpr, equal, simplified
 from dynsolve.algebra.rationals import rational
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Number
+from dynsolve.notation.walk import walk, with_children
 
 ROUNDED = "rounded"
 
@@ -175,14 +176,7 @@ def moved_decimals(node: Node) -> Iterator[Node]:
 
 
 def _decimals(node: Node) -> Iterator[Number]:
-    from dynsolve.answers.judging.ring_extension import children
-
-    waiting = [node]
-    while waiting:
-        here = waiting.pop()
-        if isinstance(here, Number) and _places(here):
-            yield here
-        waiting.extend(children(here))
+    return (part for part in walk(node) if isinstance(part, Number) and _places(part))
 
 
 def _places(value: Number) -> int:
@@ -210,19 +204,9 @@ class _Mover:
         match node:
             case Number():
                 return self.number(node)
-            case tree.Sum(parts):
-                return tree.Sum(tuple(map(self.tree, parts)))
-            case tree.Product(parts):
-                return tree.Product(tuple(map(self.tree, parts)))
-            case tree.Quotient(numerator, denominator):
-                return tree.Quotient(self.tree(numerator), self.tree(denominator))
-            case tree.Power(base, exponent):
-                return tree.Power(self.tree(base), exponent)
-            case tree.Negative(argument):
-                return tree.Negative(self.tree(argument))
-            case tree.Parenthesized(argument):
-                return self.tree(argument)
-        return node
+            case tree.Function():
+                return node
+        return with_children(node, self.tree)
 
     def number(self, node: Number) -> Node:
         places = _places(node)

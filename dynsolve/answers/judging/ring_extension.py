@@ -14,6 +14,7 @@ from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.bounded import keep
 from dynsolve.notation.tree import Degrees, Function, Node, Number, Symbol
+from dynsolve.notation.walk import children
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,26 +169,6 @@ class _Collector:
 def dotted(name: str, dots: int) -> str:
     """The plain name of a derivative."""
     return name + ("_" + "d" * dots + "ot" if dots else "")
-
-
-def children(node: Node) -> tuple[Node, ...]:
-    """The parts of a node."""
-    match node:
-        case tree.Sum(parts) | tree.Product(parts):
-            return parts
-        case tree.Quotient(numerator, denominator):
-            return numerator, denominator
-        case tree.Power(base, _):
-            return (base,)
-        case tree.Negative(argument) | tree.Parenthesized(argument) | tree.Function(_, argument):
-            return (argument,)
-        case tree.Transpose(argument):
-            return (argument,)
-        case tree.Cross(left, right):
-            return left, right
-        case tree.Matrix(rows):
-            return tuple(entry for row in rows for entry in row)
-    return ()
 
 
 def expected_angle(node: Function, coordinates: Iterable[str]) -> Angle | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from dynsolve.document import Block, Fold, Formula, Heading, Inline, Table, Text
-from dynsolve.explain.course import children
 from dynsolve.explain.step import Detail
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Matrix, Node, Row, Sum, Symbol, Words, equation
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
@@ -121,7 +121,7 @@ def _shown(robot: Robot, name: str, letter: Node, result: Node) -> Iterator[Bloc
         yield Formula(Row((letter, Words(" in "), unit)))
         yield Formula(formula, entries=_entries(robot, name))
     else:
-        plain = not any(isinstance(part, Symbol | Sum) for part in _walk(result))
+        plain = not any(isinstance(part, Symbol | Sum) for part in walk(result))
         lead = " " if plain and not isinstance(unit, Matrix) else " in "
         yield Formula(equation(letter, Row((result, Words(lead), unit))))
 
@@ -141,12 +141,6 @@ def _unit(unit: str | quantities.Units, letter: Node) -> Node | None:
 def _is_wide(matrix: Matrix) -> bool:
     printed = UnicodePrinter(PLAIN)
     return any(sum(len(printed.text(entry)) + 2 for entry in row) > _WIDEST for row in matrix.rows)
-
-
-def _walk(node: Node) -> Iterator[Node]:
-    yield node
-    for part in children(node):
-        yield from _walk(part)
 
 
 # -- a state ---------------------------------------------------------------------------------------

@@ -16,18 +16,13 @@ from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import (
     Function,
-    Matrix,
-    Negative,
+    Letter,
     Node,
     Number,
-    Parenthesized,
     Power,
-    Product,
     Quotient,
-    Relation,
-    Row,
-    Sum,
 )
+from dynsolve.notation.walk import with_children
 
 DIGITS = 4
 """Significant digits, unless others are asked for."""
@@ -58,34 +53,23 @@ def _zeros(size: Fraction) -> int:
 
 
 def rounded(node: Node, digits: int) -> Node:
-    """A tree with every number in it as a decimal of so many significant digits; exponents stay."""
+    """A tree with every number in it as a decimal of so many significant digits.
+
+    Exponents, angles and indices stay.
+    """
     match node:
         case Number(p, q):
             value = significant(Fraction(p, q), digits)
             return Number(value.numerator, value.denominator, decimal=True)
-        case Sum(terms):
-            return Sum(tuple(rounded(term, digits) for term in terms))
-        case Product(factors):
-            return Product(tuple(rounded(factor, digits) for factor in factors))
         case Quotient(Number(p, q), Number(r, s)):
             return rounded(Number(p * s, q * r), digits)
-        case Quotient(numerator, denominator):
-            return Quotient(rounded(numerator, digits), rounded(denominator, digits))
         case Power(base, exponent):
             return Power(rounded(base, digits), exponent)
-        case Negative(argument):
-            return Negative(rounded(argument, digits))
-        case Parenthesized(argument):
-            return Parenthesized(rounded(argument, digits))
-        case Function("sqrt", argument):
-            return Function("sqrt", rounded(argument, digits))
-        case Matrix(rows):
-            return Matrix(tuple(tuple(rounded(entry, digits) for entry in row) for row in rows))
-        case Relation(parts, signs):
-            return Relation(tuple(rounded(part, digits) for part in parts), signs)
-        case Row(parts):
-            return Row(tuple(rounded(part, digits) for part in parts))
-    return node
+        case Function(name) if name != "sqrt":
+            return node
+        case Letter():
+            return node
+    return with_children(node, lambda part: rounded(part, digits))
 
 
 def without_constants(expr: Expr) -> Expr:

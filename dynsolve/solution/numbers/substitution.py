@@ -14,19 +14,14 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
-from dynsolve.notation import tree
 from dynsolve.notation.tree import (
     Function,
-    Negative,
     Node,
     Number,
-    Parenthesized,
-    Power,
-    Product,
     Quotient,
-    Sum,
     Symbol,
 )
+from dynsolve.notation.walk import mapped
 
 Replacements = Mapping[tuple[str, int], Node]
 """Constant formulas by (name, number of dots): ("theta1", 1) is a velocity."""
@@ -35,29 +30,12 @@ Replacements = Mapping[tuple[str, int], Node]
 def replaced(node: Node, values: Replacements) -> Node:
     """A tree with formulas in place of symbols.
 
-    >>> replaced(Product((Number(2), Symbol("L1"))), {("L1", 0): Number(2, 5)})
-    Product(factors=(Number(p=2, q=1, decimal=False), Number(p=2, q=5, decimal=False)))
+    >>> replaced(Quotient(Symbol("L1"), Number(3)), {("L1", 0): Number(2, 5)}).numerator
+    Number(p=2, q=5, decimal=False)
     """
-    match node:
-        case Symbol(name, dots):
-            return values.get((name, dots), node)
-        case Sum(terms):
-            return Sum(tuple(replaced(term, values) for term in terms))
-        case Product(factors):
-            return Product(tuple(replaced(factor, values) for factor in factors))
-        case Quotient(numerator, denominator):
-            return Quotient(replaced(numerator, values), replaced(denominator, values))
-        case Power(base, exponent):
-            return Power(replaced(base, values), exponent)
-        case Negative(argument):
-            return Negative(replaced(argument, values))
-        case Parenthesized(argument):
-            return Parenthesized(replaced(argument, values))
-        case Function(name, argument):
-            return Function(name, replaced(argument, values))
-        case tree.Matrix(rows):
-            return tree.Matrix(tuple(tuple(replaced(entry, values) for entry in row) for row in rows))
-    return node
+    return mapped(
+        node, lambda part: values.get((part.name, part.dots), part) if isinstance(part, Symbol) else part
+    )
 
 
 class Substitution:
