@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from dynsolve.answers.judge import BY_PARTS
+from dynsolve.answers.unwritten import BY_PARTS
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record
 from dynsolve.grading.totals import standings

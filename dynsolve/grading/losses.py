@@ -18,12 +18,12 @@ def losses(judge: Judge, report: Report) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     for answer in report.answers:
-        held = judge.held.get(answer.name)
+        compared = judge.hand_in.comparisons.get(answer.name)
         following = answer.verdict is Verdict.FOLLOWS or any(
             entry.verdict is Verdict.FOLLOWS for entry in answer.entries
         )
-        if held is not None and held.rows and following:
-            loss = _loss(judge, held)
+        if compared is not None and compared.rows and following:
+            loss = _loss(judge, compared)
             if loss:
                 found[answer.name] = loss
     for answer in report.answers:
@@ -35,12 +35,12 @@ def losses(judge: Judge, report: Report) -> dict[str, str]:
     return found
 
 
-def _loss(judge: Judge, held: Any) -> str:
-    key = held.target.of(judge.graph.key(held.target.node))
+def _loss(judge: Judge, compared: Any) -> str:
+    key = compared.target.of(judge.graph.key(compared.target.node))
     expected = list(key.entries) if isinstance(key, Matrix) else [key]
     written = [
         part
-        for row in held.rows
+        for row in compared.rows
         for entry in row
         for part in (entry.value.numerator, entry.value.denominator)
     ]
@@ -53,7 +53,7 @@ def _loss(judge: Judge, held: Any) -> str:
     for coordinate in judge.problem.robot.coordinates:
         if coordinate.name in before and coordinate.name not in after:
             return f"{coordinate.name} is lost on the way"
-    kept = sum(len(entry.value.numerator) for row in held.rows for entry in row)
+    kept = sum(len(entry.value.numerator) for row in compared.rows for entry in row)
     wanted = sum(len(expr) for expr in expected)
     return f"it keeps {kept} of {wanted} terms" if 2 * kept < wanted else ""
 

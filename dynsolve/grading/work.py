@@ -158,11 +158,11 @@ def _notes(answer: JudgedAnswer) -> Iterator[str]:
 
 def _form(judge: Judge, answer: JudgedAnswer) -> str:
     """What is the same for wrong answers of the same value, however they are written."""
-    held = judge.held.get(answer.name)
-    if answer.verdict is not Verdict.WRONG or held is None or not held.rows:
+    compared = judge.hand_in.comparisons.get(answer.name)
+    if answer.verdict is not Verdict.WRONG or compared is None or not compared.rows:
         return ""
     entries = [
-        "/".join(map(_terms, (e.value.numerator, e.value.denominator))) for row in held.rows for e in row
+        "/".join(map(_terms, (e.value.numerator, e.value.denominator))) for row in compared.rows for e in row
     ]
     return sha256(";".join(entries).encode()).hexdigest()[:16]
 

@@ -36,7 +36,6 @@ from dynsolve.answers.judging.dimensions import (
     LENGTH,
     NONE,
     Dimension,
-    Dimensions,
     describe,
     dimension,
     times,
@@ -84,14 +83,13 @@ class Diagnoser:
         problem: Problem,
         graph: AnswerGraph,
         follow: FollowThrough,
-        dimensions: Dimensions,
-        derivations: DerivationSlips,
+        derivation_slips: DerivationSlips,
     ) -> None:
-        self.derivations = derivations
+        self.derivation_slips = derivation_slips
         self.problem = problem
         self.graph = graph
         self.follow = follow
-        self.dimensions = dimensions
+        self.dimensions = graph.field.dimensions
         self.ring = graph.field.ring
 
     @cached_property
@@ -175,7 +173,7 @@ class Diagnoser:
     def _derived(self, question: WrongEntry, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
         """What slips long before lead to; to 0 leads what was left out, not what was mistaken."""
         is_zero = all(value.is_zero for value in mine)
-        for value, told in self.derivations.values(question.target.node):
+        for value, told in self.derivation_slips.values(question.target.node):
             if not is_zero or told.code.endswith("_missing"):
                 yield value, told
 

@@ -69,9 +69,9 @@ class AnswerValues:
         self._values: dict[int, AnswerValue] = {}
         self._busy: set[int] = set()
         self.evaluator = Evaluator(self.field.ring, self.lookup, self.field.values)
-        self.given: tuple[AnswerValue, ...] = tuple(self._given(place) for place in range(len(answers)))
+        self.all: tuple[AnswerValue, ...] = tuple(self._value(place) for place in range(len(answers)))
 
-    def _given(self, place: int) -> AnswerValue:
+    def _value(self, place: int) -> AnswerValue:
         found = self._values.get(place)
         if found is None:
             self._busy.add(place)
@@ -117,9 +117,9 @@ class AnswerValues:
         if place is None or place in self._busy:
             return None
         work = self.evaluator.work
-        given = self._given(place)
+        value = self._value(place)
         self.evaluator.work = work
-        return None if given.rows is None else _entry(given.rows, row, column)
+        return None if value.rows is None else _entry(value.rows, row, column)
 
     def _from_key(self, name: str, row: int | None, column: int | None) -> RationalExpr:
         symbol = self.graph.christoffel(name)
@@ -138,8 +138,8 @@ class AnswerValues:
             return RationalExpr(value[row - 1, column - 1])
         return RationalExpr(value)
 
-    def moved(self, node: Node) -> RationalExpr:
-        """The value of a changed tree."""
+    def changed(self, node: Node) -> RationalExpr:
+        """The value of a tree that is an answer's but for a decimal."""
         return self.evaluator.value(node)
 
 

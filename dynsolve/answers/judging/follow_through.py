@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
+from itertools import islice
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
@@ -105,6 +106,12 @@ class FollowThrough:
             self._derived[node] = tuple(found)
         return self._derived[node]
 
+    def nearest_of_each_route(self, node: str) -> Iterator[PossibleValue]:
+        """The nearest value of each route to a node on which an answer of the student's lies."""
+        for route in self.graph.routes(node):
+            if any(name in self.own or self.touched(name) for name in route.inputs):
+                yield from islice(self._combinations(route), 1)
+
     def _combinations(self, route: Route) -> Iterator[PossibleValue]:
         """The values of one route, over all choices of its inputs, cheapest first."""
         lists = [self.choices(name) for name in route.inputs]
@@ -159,14 +166,8 @@ def _merged(streams: list[Iterator[PossibleValue]]) -> Iterator[PossibleValue]:
 
 
 def _keep(found: list[PossibleValue], one: PossibleValue) -> None:
-    if not any(_same(one.value, other.value) for other in found):
+    if not any(one.value == other.value for other in found):
         found.append(one)
-
-
-def _same(a: Any, b: Any) -> bool:
-    if isinstance(a, Matrix) and isinstance(b, Matrix):
-        return a.shape == b.shape and all(x == y for x, y in zip(a.entries, b.entries, strict=True))
-    return bool(a == b)
 
 
 def _estimate(values: Sequence[Any], linear: bool) -> int:

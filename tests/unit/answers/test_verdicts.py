@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from dynsolve.answers.judge import NOT_CHRISTOFFEL, NOT_FROM_OWN, Checker, check
+from dynsolve.answers.answer_verdict import NOT_CHRISTOFFEL, NOT_FROM_OWN
+from dynsolve.answers.judge import Checker, check
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import JudgedAnswer
 from dynsolve.notation import tree

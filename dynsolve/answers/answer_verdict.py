@@ -1,0 +1,221 @@
+"""The verdict of one answer that was given.
+
+    unreadable   it has no value (the reader or the ring refused it)
+    correct      every entry is the key's
+    follows      every entry that is not is explained by the student's own earlier answers
+    wrong        else; then each wrong entry is diagnosed
+
+A matrix has a verdict for each entry, C for each row of C q̇, and takes the worst.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+
+from dynsolve.algebra.fraction import RationalExpr
+from dynsolve.answers.diagnosis.diagnoser import Diagnoser, WrongEntry
+from dynsolve.answers.diagnosis.slips import slip
+from dynsolve.answers.judging.answer_values import AnswerValue, same
+from dynsolve.answers.judging.explanation import Explanations, entry_of
+from dynsolve.answers.judging.follow_through import PossibleValue
+from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.hand_in import Chain, ComparedHandIn, last
+from dynsolve.answers.judging.key_comparison import KeyComparison
+from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Occurrence, Verdict, worst
+from dynsolve.problem.model import Problem
+
+ROUNDED = "rounded"
+NOT_FROM_OWN = "not_from_own"
+NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's"
+UNAFFECTED = "tau is unaffected"
+
+
+class AnswerJudge:
+    """Judges the answers that were given in one hand-in."""
+
+    def __init__(
+        self, problem: Problem, hand_in: ComparedHandIn, explanations: Explanations, diagnoser: Diagnoser
+    ) -> None:
+        self.problem = problem
+        self.hand_in = hand_in
+        self.explanations = explanations
+        self.diagnoser = diagnoser
+
+    def __call__(self, name: str) -> JudgedAnswer:
+        """What is said of the answer to one quantity."""
+        chains = self.hand_in.chains[name]
+        compared = self.hand_in.comparisons[name]
+        value, answer = compared.given, compared.given.answer
+        base = JudgedAnswer(
+            name,
+            Verdict.UNREADABLE,
+            answer.label,
+            answer.place,
+            answer.read_as,
+            answer.notes,
+            of=Fraction(self.problem.marks.get(name, 0)),
+            occurrences=self._occurrences(name, chains),
+            written=answer.node,
+        )
+        if value.rows is None:
+            return replace(base, fault=value.fault, expected=value.expected)
+        base = _placed_in_chain(base, chains[-1])
+        if compared.target.node not in self.hand_in.field.rules:
+            return replace(base, fault=f"{name} is no quantity of this problem")
+        return with_marks(self.compared(base, compared))
+
+    def compared(self, base: JudgedAnswer, compared: KeyComparison) -> JudgedAnswer:
+        """The verdict of an answer that was compared with the key; `base` is what else is known of it."""
+        if compared.correct:
+            return self._correct(base, compared)
+        if not compared.rows or compared.obstacles:
+            found = tuple(slip(one.code, yours=one.yours) for one in compared.obstacles)
+            return replace(base, verdict=Verdict.WRONG, diagnosis=found)
+        whole = self.explanations.of_whole(compared)
+        entries = tuple(
+            self._entry(base.name, compared, index, i, j, whole)
+            for index, i, j in _entries(base.name, compared)
+        )
+        return self._matrix(base, compared, entries) if entries else self._scalar(base, compared, whole)
+
+    # -- correct -----------------------------------------------------------------------------------
+
+    def _correct(self, base: JudgedAnswer, compared: KeyComparison) -> JudgedAnswer:
+        notes = list(base.notes)
+        if compared.rounded:
+            notes.append(ROUNDED)
+        if self.explanations.lead_elsewhere(compared):
+            notes.append(NOT_FROM_OWN)
+        if base.name == "C" and not self._is_christoffel(compared.given):
+            notes.append(NOT_CHRISTOFFEL)
+        entries = tuple(EntryVerdict(index, Verdict.CORRECT) for index, _, _ in _entries(base.name, compared))
+        return replace(base, verdict=Verdict.CORRECT, notes=tuple(notes), entries=entries)
+
+    def _is_christoffel(self, value: AnswerValue) -> bool:
+        assert value.rows is not None
+        key = self.hand_in.field.key("C")
+        return same(value.rows, tuple(tuple(RationalExpr(entry) for entry in row) for row in key.rows))
+
+    # -- follows, or wrong -------------------------------------------------------------------------
+
+    def _scalar(
+        self, base: JudgedAnswer, compared: KeyComparison, whole: PossibleValue | None
+    ) -> JudgedAnswer:
+        one = self._entry(base.name, compared, (1, 1), 0, 0, whole)
+        is_constant = any(found.code == "constant_term" for found in one.diagnosis)
+        return replace(
+            base,
+            notes=(*base.notes, UNAFFECTED) if is_constant else base.notes,
+            verdict=one.verdict,
+            follows_from=one.follows_from,
+            diagnosis=one.diagnosis,
+            difference=one.difference,
+        )
+
+    def _matrix(
+        self, base: JudgedAnswer, compared: KeyComparison, entries: tuple[EntryVerdict, ...]
+    ) -> JudgedAnswer:
+        verdict = worst([entry.verdict for entry in entries])
+        found = tuple(dict.fromkeys(one for entry in entries for one in entry.diagnosis))
+        sources: tuple[str, ...] = ()
+        if verdict is Verdict.WRONG:
+            found = self.diagnoser.whole(self._wrong_entry(base.name, compared, 0, 0), compared, found)
+        elif verdict is Verdict.FOLLOWS:
+            used = (name for entry in entries for name in entry.follows_from)
+            sources = in_order(self.hand_in.graph, used)
+        return replace(base, verdict=verdict, entries=entries, diagnosis=found, follows_from=sources)
+
+    def _entry(
+        self,
+        name: str,
+        compared: KeyComparison,
+        index: tuple[int, ...],
+        i: int,
+        j: int,
+        whole: PossibleValue | None,
+    ) -> EntryVerdict:
+        if compared.right[i][j] is not None:
+            return EntryVerdict(index, Verdict.CORRECT)
+        source = self.explanations.of_entry(compared, i, j, whole)
+        if source is not None:
+            follows_from = in_order(self.hand_in.graph, source.used)
+            return EntryVerdict(index, Verdict.FOLLOWS, follows_from=follows_from)
+        wrong = self._wrong_entry(name, compared, i, j)
+        return EntryVerdict(
+            index, Verdict.WRONG, self.diagnoser(wrong), difference=self.diagnoser.difference(wrong)
+        )
+
+    def _wrong_entry(self, name: str, compared: KeyComparison, i: int, j: int) -> WrongEntry:
+        key = self.hand_in.compare.key(compared.target)
+        expected = (*self.explanations.expected(compared.target), key)
+        return WrongEntry(
+            name=name,
+            target=compared.target,
+            written=compared.rows[i][j],
+            expected=tuple(entry_of(value, i, j) for value in expected),
+            row=i,
+            column=j,
+        )
+
+    # -- where it was given several times ----------------------------------------------------------
+
+    def _occurrences(self, name: str, chains: list[Chain]) -> tuple[Occurrence, ...]:
+        """Each place where it was given, where there are several."""
+        if len(chains) < 2:
+            return ()
+        values = [last([chain]) for chain in chains]
+        return tuple(Occurrence(v.answer.place, v.answer.label, self._verdict(name, v)) for v in values)
+
+    def _verdict(self, name: str, value: AnswerValue) -> Verdict:
+        """The verdict of one occurrence, without its diagnosis."""
+        compared = self.hand_in.compare(name, value)
+        if value.rows is None:
+            return Verdict.UNREADABLE
+        if compared.correct:
+            return Verdict.CORRECT
+        if not compared.rows or compared.obstacles:
+            return Verdict.WRONG
+        if self.explanations.of_whole(compared) is not None:
+            return Verdict.FOLLOWS
+        verdicts = []
+        for i, row in enumerate(compared.right):
+            for j, right in enumerate(row):
+                follows = right is None and self.explanations.explains_entry(compared, i, j)
+                verdicts.append(
+                    Verdict.CORRECT if right is not None else Verdict.FOLLOWS if follows else Verdict.WRONG
+                )
+        return worst(verdicts)
+
+
+def _placed_in_chain(base: JudgedAnswer, chain: Chain) -> JudgedAnswer:
+    """The place of the slip in a = b = c: the first member that differs from the one before it."""
+    for before, after in pairwise(chain):
+        if before.rows is None or after.rows is None or same(before.rows, after.rows):
+            continue
+        note = f"differs from what stands before it, {before.answer.text.strip()}"
+        return replace(base, place=after.answer.place, notes=(*base.notes, note))
+    first = chain[0].answer
+    return replace(base, place=first.place if len(chain) > 1 else base.place)
+
+
+def _entries(name: str, compared: KeyComparison) -> Iterator[tuple[tuple[int, ...], int, int]]:
+    """(index from 1, row, column) of the entries that are judged one by one; none of a scalar."""
+    if len(compared.rows) == 1 and len(compared.rows[0]) == 1:
+        return
+    for i, row in enumerate(compared.rows):
+        for j in range(len(row)):
+            yield ((i + 1,) if name == "C" else (i + 1, j + 1)), i, j
+
+
+def with_marks(judged: JudgedAnswer) -> JudgedAnswer:
+    """An answer that is correct or follows earns its marks; a course's policy may say otherwise."""
+    earned = judged.of if judged.verdict in (Verdict.CORRECT, Verdict.FOLLOWS) else Fraction(0)
+    return replace(judged, marks=earned)
+
+
+def in_order(graph: AnswerGraph, names: Iterable[str]) -> tuple[str, ...]:
+    """Answers in the order of the derivation, each once."""
+    return tuple(sorted(dict.fromkeys(names), key=graph.place))

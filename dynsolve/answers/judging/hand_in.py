@@ -1,0 +1,104 @@
+"""One hand-in compared with the key: its answers by quantity, and which entries of each are right.
+
+    answers -> values in one ring -> by quantity -> each compared with the key
+
+A quantity may be given in several equations, and an equation may be a chain
+`K = a = b = c`: the last member of the last equation counts.  Where a notation leaves
+open which quantity is meant (I_1), it is the one that the value equals.  The zero of
+height is the student's own, see `zero_height`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import as_expr
+from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues
+from dynsolve.answers.judging.entry_comparison import EntryComparer
+from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison
+from dynsolve.answers.judging.zero_height import potential_at_zero_height
+from dynsolve.answers.submission import Answer
+from dynsolve.notation import tree
+
+Chain = list[AnswerValue]
+"""The members of one equation."""
+
+
+class ComparedHandIn:
+    """The answers of one hand-in, compared with the key.
+
+    `field` is the key's ring, extended by what the answers need; `numbers` are those that
+    the problem file gives for its symbols.  `chains` has the equations of each quantity,
+    `comparisons` the comparison of the answer that counts.
+    """
+
+    def __init__(self, field: Field, numbers: Mapping[str, Fraction], answers: Sequence[Answer]) -> None:
+        values = AnswerValues(field, answers)
+        self.field = values.field
+        self.compare_entry = EntryComparer(numbers)
+        self.graph = AnswerGraph(self.field)
+        self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
+        self.chains = self._by_quantity(values.all)
+        energies = dict(self._energies())
+        self.graph.shift = potential_at_zero_height(self.field, energies, self.field.dimensions)
+        self.comparisons = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
+        self.assembled_coriolis = self._assembled_coriolis()
+
+    def _by_quantity(self, values: Sequence[AnswerValue]) -> dict[str, list[Chain]]:
+        found: dict[str, list[Chain]] = {}
+        for value in values:
+            chains = found.setdefault(self._quantity(value), [])
+            if chains and chains[-1][0].answer.occurrence[0] == value.answer.occurrence[0]:
+                chains[-1].append(value)
+            else:
+                chains.append([value])
+        return found
+
+    def _quantity(self, value: AnswerValue) -> str:
+        """The name of the quantity that is meant: of several that the notation allows, the one it equals."""
+        answer = value.answer
+        for name in (answer.name, *answer.alternatives) if answer.alternatives and value.rows else ():
+            if self.compare(name, value).correct:
+                return name
+        return self.graph.answer(answer.name)
+
+    def _energies(self) -> Iterator[tuple[str, Expr]]:
+        """The student's P_i, P and L, where they are expressions of the ring."""
+        bodies = self.field.robot.bodies
+        names = {"P", "L"} | {f"P{body.name}" for body in bodies}
+        for name in names & self.chains.keys() if bodies else ():
+            value = last(self.chains[name])
+            if value.rows is not None and len(value.entries) == 1:
+                expr = as_expr(value.entries[0])
+                if expr is not None:
+                    yield name, expr
+
+    def _assembled_coriolis(self) -> KeyComparison | None:
+        """C put together from its entries, where all of them were given and C was not.
+
+        Many matrices C give the same C q̇: the entries are right or wrong a row at a time.
+        """
+        n = self.field.robot.n
+        if "C" in self.comparisons or not n:
+            return None
+        rows: list[Chain] = []
+        for i in range(n):
+            row = [self.comparisons.get(f"C{i + 1}{j + 1}") for j in range(n)]
+            found = [entry.given for entry in row if entry is not None and entry.given.rows is not None]
+            if len(found) < n or any(len(value.entries) != 1 for value in found):
+                return None
+            rows.append(found)
+        node = tree.Matrix(tuple(tuple(value.nodes[0][0] for value in row) for row in rows))
+        answer = replace(rows[0][0].answer, name="C", node=node)
+        values = tuple(tuple(value.entries[0] for value in row) for row in rows)
+        return self.compare("C", AnswerValue(answer, values, node.rows))
+
+
+def last(chains: Sequence[Chain]) -> AnswerValue:
+    """The answer that counts of those given for one quantity: the last member of the last equation."""
+    return chains[-1][-1]
