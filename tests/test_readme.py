@@ -1,43 +1,26 @@
 """The README's examples do what the README says.
 
-A block marked `console` holds commands after `$ ` and what they print; `...`
-stands for what is left out.  The commands of a section run one after the other in one
-folder.  The blocks marked `sh` install and test, and are run by CI.  Python examples
-are doctests.
+The commands of a section run one after the other in one folder.  The blocks marked `sh`
+install and test, and are run by CI.  Python examples are doctests.
 """
 
 from __future__ import annotations
 
-import doctest
-import os
 import re
 import shutil
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
 import pytest
 
+from tests.pages import blocks, examples, files, run, sections
 from tests.support import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-FILES = dict(re.findall(r"^`([\w.-]+)`:\n+```yaml\n(.*?)^```$", README, re.MULTILINE | re.DOTALL))
-SECTIONS = dict(re.findall(r"^## ([^\n]+)\n(.*?)(?=^## |\Z)", "## The beginning\n" + README, re.M | re.S))
-SHELL = re.findall(r"^```sh\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
-
-
-def _examples(section: str) -> list[tuple[str, str]]:
-    """The commands of a section, each with what it prints."""
-    blocks = re.findall(r"^```console\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
-    return [
-        (command.strip(), expected)
-        for block in blocks
-        for command, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", block, re.MULTILINE)
-    ]
-
-
-EXAMPLES = {name: found for name, section in SECTIONS.items() if (found := _examples(section))}
+FILES = files(README)
+SECTIONS = sections(README)
+SHELL = blocks(README, "sh")
+EXAMPLES = {name: found for name, section in SECTIONS.items() if (found := examples(section))}
 
 
 def test_there_are_examples() -> None:
@@ -82,14 +65,4 @@ def test_the_examples_print_what_they_say(section: str, tmp_path: Path) -> None:
         (tmp_path / name).write_text(text, encoding="utf-8")
     if "submissions.zip" in SECTIONS[section]:
         _course(tmp_path)
-    here = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    environment = {**os.environ, "PATH": here, "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"}
-    for command, expected in EXAMPLES[section]:
-        done = subprocess.run(
-            ["bash", "-c", command],
-            cwd=tmp_path, env=environment, capture_output=True, text=True, check=False,
-        )  # fmt: skip
-        assert done.returncode == 0 or "help:" in expected, f"{command}\n{done.stderr}"
-        printed = done.stdout + done.stderr
-        options = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-        assert doctest.OutputChecker().check_output(expected, printed, options), f"{command}\n{printed}"
+    run(EXAMPLES[section], tmp_path)

@@ -13,7 +13,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from dynsolve.cli import check, draw, grade, lint, new, override, problems, schema, solve
+from dynsolve.cli import check, docs, draw, grade, lint, new, override, problems, schema, solve
 from dynsolve.errors import DynsolveError, ExitCode, InputError
 
 TRACEBACK = "--traceback"
@@ -109,6 +109,7 @@ def app() -> typer.Typer:
         new.new,
         schema.schema,
         problems.problems,
+        docs.docs,
     ):
         program.command()(command)
     return program
