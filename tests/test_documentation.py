@@ -16,6 +16,7 @@ import pytest
 import yaml
 
 import dynsolve
+from dynsolve.answers.report import to_json
 from dynsolve.answers.verdict import Verdict
 from dynsolve.cli.docs import topics
 from dynsolve.errors import ExitCode
@@ -87,7 +88,7 @@ def keys(value: Any) -> set[str]:
 def test_every_key_of_the_json_is_in_its_table() -> None:
     solution = json.loads(json.dumps(dynsolve.solve(FILES["rp.yaml"]).to_json()))
     assert keys(solution) <= written(SECTIONS["Solution JSON"].replace("results.", ""))
-    judged = dynsolve.check(FILES["rp.yaml"], FILES["slips.yaml"]).to_json()
+    judged = to_json(dynsolve.check(FILES["rp.yaml"], FILES["slips.yaml"]))
     assert keys(judged) <= written(SECTIONS["Verdicts"])
 
 

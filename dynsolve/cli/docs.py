@@ -23,9 +23,8 @@ def docs(
     else:
         from dynsolve.problem.fields import did_you_mean
 
-        raise UsageError(
-            f"there is nothing about {topic}; {did_you_mean(topic, known) or 'topics are ' + ', '.join(known)}"
-        )
+        help = did_you_mean(topic, known) or f"topics are {', '.join(known)}"
+        raise UsageError(f"there is nothing about {topic[:40]}; {help}")
 
 
 def topics() -> dict[str, str]:
