@@ -53,11 +53,13 @@ def test_a_checker_judges_every_file_as_if_it_were_the_first(problem: str) -> No
         assert shared(shared.reader(text, name)) == fresh(fresh.reader(text, name))
 
 
-def test_a_memory_that_is_full_is_begun_anew() -> None:
+def test_a_memory_that_is_full_is_begun_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     model = load(find("planar-2r"))
     shared = FileReader(model)
-    shared.vocabulary.memory.most = 5
+    monkeypatch.setattr("dynsolve.answers.reading.files.MOST_PRINTED", 5)
     for name, text in _files("planar-2r", 8):
         assert shared(text, name) == FileReader(model)(text, name)
-    assert len(shared.vocabulary.memory.terms) <= 5
-    assert len(shared.vocabulary.memory.pieces) <= 5
+    full = shared.printer
+    shared("answers: {K: m1}", "last.yaml")
+    assert full.remembered > 5
+    assert shared.printer is not full

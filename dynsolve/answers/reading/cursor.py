@@ -8,19 +8,16 @@ from dynsolve.errors import ReadError
 
 
 class Cursor:
-    """A place in a list of tokens; `token` is the one that is looked at.
+    """A place in a list of tokens; `token` is the one that is looked at, `nesting` the level it is on."""
 
-    `nesting` is the level it is on, `deepest` the deepest one that was reached.
-    """
-
-    __slots__ = ("deepest", "nesting", "position", "token", "tokens")
+    __slots__ = ("nesting", "position", "token", "tokens")
 
     def __init__(self, tokens: list[Token]) -> None:
         end = tokens[-1].end if tokens else 0
         self.tokens = tokens if tokens and tokens[-1].kind == "end" else [*tokens, Token("end", "", end, end)]
         self.position = 0
         self.token = self.tokens[0]
-        self.nesting = self.deepest = 0
+        self.nesting = 0
 
     def take(self) -> Token:
         """The token that is looked at; the next one is looked at then."""
@@ -65,8 +62,6 @@ class Cursor:
     def enter(self) -> None:
         """One level deeper."""
         self.nesting += 1
-        if self.nesting > self.deepest:
-            self.deepest = self.nesting
         if self.nesting > MAX_NESTING:
             message = f"more than {MAX_NESTING} levels of brackets, fractions and signs"
             raise ReadError(message, self.token.start, 1, "name a part of it with an abbreviation")

@@ -7,30 +7,20 @@ to each of them, and what consists of names alone is left alone as a definition.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TypeVar
 
 from dynsolve.answers.reading.displays import Display, Equation, chain, equations
 from dynsolve.answers.reading.grids import Abstract
-from dynsolve.answers.reading.left_side import side_of, sides
+from dynsolve.answers.reading.left_side import NamedAnswers, Side, Unknown, side_of, sides
 from dynsolve.answers.reading.lexer import Token, scan
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
-from dynsolve.answers.reading.memory import NamedAnswers, Side, Unknown
 from dynsolve.answers.reading.prepare import Macro, expand, simplified
 from dynsolve.answers.reading.right_side import EXPECTED, Read, read_member
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, key
 from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
-from dynsolve.notation.bounded import keep, recalled
 from dynsolve.notation.unicode import UnicodePrinter
-
-_T = TypeVar("_T")
-
-MOST_CUTS = 500
-MOST_CHARACTERS = 2_000
-"""So many texts are remembered with their parts, none longer than this: copies are short."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +50,7 @@ class Session:
     def display(self, display: Display) -> None:
         """Read the equations of one display."""
         try:
-            found = self._cut(display, equations)
+            found = equations(self._tokens(display))
         except ReadError as error:
             self._unscanned(display, error)
             return
@@ -68,27 +58,9 @@ class Session:
             if len(self.answers) < MAX_ANSWERS:
                 self._equation(Equation(equation.members, equation.label or display.label), display)
 
-    def _cut(self, display: Display, cut: Callable[[list[Token]], _T]) -> _T:
-        """The text of a display cut into its parts; raises ReadError where it has no tokens."""
-        text = display.text
-        if self.macros or len(text) > MOST_CHARACTERS:
-            return cut(simplified(expand(scan(text), self.macros)))
-        cuts = self.vocabulary.memory.cuts
-        found: _T = recalled(cuts, (cut, text), lambda: cut(simplified(scan(text))), MOST_CUTS)
-        return found
-
-    def _member(self, display: Display, member: list[Token], owners: tuple[str, ...]) -> Read | ReadError:
-        """The value of a member, as one of these answers."""
-        if self.macros or not member or len(display.text) > MOST_CHARACTERS:
-            return read_member(self.vocabulary, member, owners)
-        key = (display.text, member[0].start, owners)
-        known = self.vocabulary.memory.members
-        found: Read | ReadError | None = known.get(key)
-        if found is None:
-            found = read_member(self.vocabulary, member, owners)
-            if isinstance(found, Read):  # an error may speak of what this student defined
-                keep(known, key, found, MOST_CUTS)
-        return found
+    def _tokens(self, display: Display) -> list[Token]:
+        """The tokens of a display, ready to be read; raises ReadError where it has none."""
+        return simplified(expand(scan(display.text), self.macros))
 
     def _unscanned(self, display: Display, error: ReadError) -> None:
         """A display that has no tokens: its left side alone may still say what it answers."""
@@ -119,7 +91,7 @@ class Session:
         read: list[tuple[int, Read | ReadError]] = []
         for index, member in enumerate(members):
             if not isinstance(found_sides[index], (NamedAnswers, Unknown)):
-                read.append((index, self._member(display, member, owners)))
+                read.append((index, read_member(self.vocabulary, member, owners)))
         if names and self._is_own_letter(members, names, read):
             self.define(key(members[0][0].text), next(f for _, f in read if isinstance(f, Read)))
         elif names and self._is_constant(members, names, read):
@@ -153,10 +125,6 @@ class Session:
         """What a key of an answer file names."""
         if name.startswith("I") and name in self.vocabulary.shapes:
             return NamedAnswers((name,))
-        memory = self.vocabulary.memory
-        return recalled(memory.keys, name, lambda: self._scanned_key(name), memory.most)
-
-    def _scanned_key(self, name: str) -> Side:
         try:
             return side_of(self.vocabulary, simplified(scan(name))[:-1])
         except ReadError:
@@ -166,7 +134,7 @@ class Session:
         """The members of a value, each of them an answer."""
         label = display.label
         try:
-            members = self._cut(display, chain)
+            members = chain(self._tokens(display))
         except ReadError as error:
             self._unreadable(candidates, display, error, label, (self.chains, 0))
             return
@@ -183,7 +151,7 @@ class Session:
                 fault = ReadError("nothing stands on one side of this `=`", 0, 1, "write the value alone")
                 self._unreadable(candidates, display, fault, label, where)
                 continue
-            found = self._member(display, member, candidates)
+            found = read_member(self.vocabulary, member, candidates)
             if isinstance(found, Read) and isinstance(found.value, Abstract):
                 found = ReadError(
                     found.value.why, member[0].start, 1, "write it in the symbols of the problem"

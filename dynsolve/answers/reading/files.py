@@ -6,7 +6,6 @@ from pathlib import PurePath
 
 from dynsolve.answers.reading.equation_reader import Session
 from dynsolve.answers.reading.limits import MAX_BYTES
-from dynsolve.answers.reading.memory import MOST
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source, decoded
 from dynsolve.answers.reading.vocabulary import vocabulary
@@ -22,6 +21,9 @@ ENDINGS = (".yaml", ".yml", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html
 
 _REPORTS = (".md", ".markdown", ".tex", ".txt")
 _ANSWER_FILES = (".yaml", ".yml")
+
+MOST_PRINTED = 8_000
+"""So many parts of trees a printer remembers before it is begun anew."""
 
 
 def _is_report(text: str) -> bool:
@@ -43,7 +45,7 @@ class FileReader:
         if len(content) > MAX_BYTES:
             message = f"the file is larger than {MAX_BYTES // 1_000_000} MB"
             return Submission("", "", file, (), (), (Finding(message, "hand in the text alone", file),))
-        if self.printer.remembered > MOST:
+        if self.printer.remembered > MOST_PRINTED:
             self.printer = UnicodePrinter(self.style)
         session = Session(self.vocabulary.fresh(), self.printer)
         problem, student, faults = _read(session, Source(decoded(content), file))

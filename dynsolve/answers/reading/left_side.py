@@ -2,18 +2,39 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from dynsolve.answers.reading.derivatives import UnknownVariable
 from dynsolve.answers.reading.forms import Form
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.memory import NamedAnswers, Side, Unknown, signs
 from dynsolve.answers.reading.name_resolution import UnknownName
 from dynsolve.answers.reading.prepare import cut_names
 from dynsolve.answers.reading.reader import Reader
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
 from dynsolve.errors import ReadError
-from dynsolve.notation.bounded import recalled
 from dynsolve.notation.tree import Negative, Reference, Sum
+
+
+@dataclass(frozen=True, slots=True)
+class NamedAnswers:
+    """The answers that a side of an equation may name."""
+
+    candidates: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """A side that is a name which means nothing; `simple` where it is that name alone."""
+
+    key: str
+    family: tuple[str, ...]
+    simple: bool
+    message: str
+
+
+Side = NamedAnswers | Unknown | None
+"""What a side of an equation names; None where it is something else."""
 
 
 def sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[Side]:
@@ -46,11 +67,6 @@ def side_of(vocabulary: Vocabulary, member: list[Token]) -> Side:
     """The name that a side is, None where it is something else."""
     if len(member) > 200:
         return None
-    memory = vocabulary.memory
-    return recalled(memory.sides, signs(member), lambda: _read_side(vocabulary, member), memory.most)
-
-
-def _read_side(vocabulary: Vocabulary, member: list[Token]) -> Side:
     tokens = cut_names(member, vocabulary, naming=True)
     reader = Reader(tokens, vocabulary, naming=True)
     try:

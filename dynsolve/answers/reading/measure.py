@@ -36,22 +36,20 @@ _LEAVES = frozenset({Symbol, Reference, Number, Degrees})
 _LEAF: Measure = (1, 1, 1, 1)
 
 
-def measured(
-    node: Node, known: dict[int, Measure], settled: Mapping[int, Measure], level: int = 1
-) -> Measure:
-    """The measure of a part; `known` and `settled` have measures by identity, `level` is how deep it was met.
+def measured(node: Node, known: dict[int, Measure], level: int = 1) -> Measure:
+    """The measure of a part; `known` has measures by identity, `level` is how deep it was met.
 
     Raises ReadError for a value over the bounds of `limits`.
     """
     kind = type(node)
     if kind in _LEAVES:
         return _LEAF
-    found = known.get(id(node)) or settled.get(id(node))
+    found = known.get(id(node))
     if found is None:
         if level > MAX_DEPTH:
             raise ReadError(f"this is nested over {MAX_DEPTH} levels deep", help=_HELP)
         rule = _RULES.get(kind, _leaf)
-        parts = [measured(child, known, settled, level + 1) for child in _CHILDREN.get(kind, _none)(node)]
+        parts = [measured(child, known, level + 1) for child in _CHILDREN.get(kind, _none)(node)]
         found = known[id(node)] = _checked(
             1 + sum(part[0] for part in parts),
             1 + max((part[1] for part in parts), default=0),

@@ -76,16 +76,7 @@ def value_of(reader: Reader, form: Form) -> Value:
         raise _unknown(reader, form, name)
     if meaning.note:
         reader.notes.setdefault(meaning.note)
-    elif _is_plain(reader, form, name) and isinstance(meaning.value, Node):
-        vocabulary.memory.plain[form.base] = meaning.value
     return _scripted(reader, form, meaning)
-
-
-def _is_plain(reader: Reader, form: Form, name: str) -> bool:
-    """Whether a name in one piece means the same wherever it stands without scripts."""
-    if reader.naming or form.index or form.dots or form.script or name[0] == "d" or len(name) < 2:
-        return False
-    return name == form.key
 
 
 def _called_index(reader: Reader, form: Form) -> str:

@@ -8,13 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
 
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_TOKENS
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
 from dynsolve.errors import ReadError
-from dynsolve.notation.bounded import recalled
 
 _FACES = frozenset(
     "mathbf boldsymbol bm mathrm mathit mathsf mathtt mathbb mathnormal pmb bf rm vec underline "
@@ -189,7 +187,6 @@ def _in_script(out: list[Token]) -> bool:
 def cut_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False) -> list[Token]:
     """Runs of letters cut into names: `m_2gL_1` into m_2, g and L_1."""
     out: list[Token] = []
-    known = vocabulary.memory.pieces
     script = 0
     for position, token in enumerate(tokens):
         if token.kind == "{" and out and out[-1].kind in ("_",):
@@ -201,11 +198,7 @@ def cut_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False)
             continue
         open_end = tokens[position + 1].kind == "_" if position + 1 < len(tokens) else False
         called = position + 1 < len(tokens) and tokens[position + 1].kind == "("
-        mark = (token.text, open_end, called, naming)
-        pieces = known.get(mark)
-        if pieces is None:
-            make = partial(_pieces, token.text, vocabulary, open_end, called, naming)
-            pieces = recalled(known, mark, make, vocabulary.memory.most)
+        pieces = _pieces(token.text, vocabulary, open_end, called, naming)
         if len(pieces) == 1:
             out.append(token)
             continue

@@ -27,8 +27,6 @@ from dynsolve.answers.reading.grids import (
     transposed,
 )
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.limits import MAX_NESTING
-from dynsolve.answers.reading.memory import Signs, Term, extent, signs
 from dynsolve.answers.reading.naming import ACCENTS, BEGINS, NameCursor
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
@@ -37,17 +35,10 @@ from dynsolve.notation.tree import (
     Degrees,
     Node,
     Number,
-    Power,
     Product,
     Quotient,
-    Symbol,
 )
 
-_SMALL = frozenset("23456789")
-_SCRIPTS = frozenset({"^", "raised", "'", "''", ".", "_"})
-_PLAIN_ENDS = frozenset(
-    {"+", "-", "/", "cdot", ")", "]", "}", "&", "\\\\", "end", "name", "letter", "command"}
-)
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
 
 
@@ -111,7 +102,6 @@ class Reader(NameCursor):
         reader.notes, reader.free = self.notes, self.free
         found = reader.value()
         self.names_used += reader.names_used
-        self.deepest = max(self.deepest, reader.deepest)
         self.nesting -= 1
         return found
 
@@ -127,7 +117,7 @@ class Reader(NameCursor):
                 sign = "-" if (self.take().kind == "-") != (sign == "-") else "+"
         while True:
             start = self.token.start
-            term = self.term(seed) if seed is not None else self.known_term()
+            term = self.term(seed)
             seed = None
             terms.append(negative(term) if sign == "-" else term)
             sign = self.token.kind
@@ -140,42 +130,6 @@ class Reader(NameCursor):
             self.take()
             return self.placed(start, divided, found, self.sum())
         return found
-
-    def known_term(self) -> Value:
-        """A term, from memory where it was met before."""
-        if self.naming or self.options or self.rows_by_line or self.token.kind in ("[", "begin"):
-            return self.term()
-        start = self.position
-        end = extent(self.tokens, start)
-        if not end:
-            return self.term()
-        key = signs(self.tokens[start:end])
-        memory = self.vocabulary.memory
-        known = memory.terms.get(key)
-        if known is None or self.nesting + known.levels > MAX_NESTING:
-            return self.new_term(key, end)
-        self.position = end
-        self.token = self.tokens[end]
-        for name in known.symbols:
-            self.symbols.setdefault(name)
-        return known.node
-
-    def new_term(self, key: Signs, end: int) -> Value:
-        """A term that is read, and remembered if it means the same everywhere."""
-        memory, said = self.vocabulary.memory, self.said()
-        level, deepest, symbols = self.nesting, self.deepest, self.symbols
-        self.deepest, self.symbols = level, {}
-        term = self.term()
-        if isinstance(term, Node) and self.position == end and self.said() == said:
-            memory.keep(key, Term(term, tuple(self.symbols), self.deepest - level))
-        self.deepest = max(deepest, self.deepest)
-        symbols.update(self.symbols)
-        self.symbols = symbols
-        return term
-
-    def said(self) -> tuple[int, ...]:
-        """How much was noted that depends on where something stands."""
-        return len(self.notes), len(self.references), len(self.free), self.names_used
 
     def placed(self, start: int, operation: object, *values: object) -> Value:
         """The result of an operation on matrices, whose errors get their place here."""
@@ -339,8 +293,6 @@ class Reader(NameCursor):
     def word(self, token: Token) -> Value:
         """A letter or a run of them: a function, a call, a derivative or a name."""
         if token.kind == "name":
-            if token.text in self.vocabulary.memory.plain and (found := self.plain_name(token)) is not None:
-                return found
             if derivatives.stands_here(self):
                 return self.scripted(derivatives.read(self))
             if (function := functions.name_of(token)) is not None:
@@ -350,27 +302,6 @@ class Reader(NameCursor):
         if name_resolution.is_short_function(self):
             return functions.read(self, "sin" if token.text in "sS" else "cos")
         return self.named(self.form())
-
-    def plain_name(self, token: Token) -> Node | None:
-        """A name met before, with a small power or without scripts; None for every other."""
-        after = self.peek()
-        value = self.vocabulary.memory.plain[token.text]
-        if self.naming or token.dots:
-            return None
-        symbol = value.name if type(value) is Symbol else ""
-        if after.kind == "^":
-            power, behind = self.peek(2), self.peek(3).kind
-            if power.kind != "number" or power.text not in _SMALL or behind in _SCRIPTS:
-                return None
-            value = Power(value, Number(int(power.text)))
-            self.position += 3
-            self.token = self.tokens[self.position]
-        elif after.kind in _PLAIN_ENDS or (after.kind == "*" and self.peek(2).kind in BEGINS):
-            self.take()
-        else:
-            return None
-        self.symbols.setdefault(symbol)
-        return value
 
     def command(self, token: Token) -> Value:
         """What a LaTeX command begins: an accent, a function, a fraction, a derivative."""

@@ -67,7 +67,7 @@ def _read(
         if not definition:
             _check_shape(vocabulary, value, owners)
         if not isinstance(value, Abstract):
-            measured(value.node if isinstance(value, Grid) else value, {}, vocabulary.memory.measures)
+            measured(value.node if isinstance(value, Grid) else value, {})
     except ReadError as error:
         return error
     except RecursionError:

@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from itertools import product
 
 from dynsolve.answers.reading.grids import Grid, Value
-from dynsolve.answers.reading.memory import Memory
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Function, Node, Sum, Symbol
 from dynsolve.problem.model import Problem
@@ -54,7 +53,7 @@ class Vocabulary:
     `derived` are derivatives that were defined on their own, `broken` definitions that
     could not be read, `angles` the student's own by subscript.
     `shapes` are those of every canonical name; `masses` are the masses, the moments of inertia and g;
-    `defined` is what the student defined; `memory` is what was read since.
+    `defined` is what the student defined.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -70,29 +69,25 @@ class Vocabulary:
     broken: dict[str, str] = field(default_factory=dict)
     angles: dict[str, Node] = field(default_factory=dict)
     subscripts: dict[str, Coordinate] = field(default_factory=dict)
-    memory: Memory = field(default_factory=Memory)
 
     def fresh(self) -> Vocabulary:
         """The names of the problem alone, for another hand-in."""
         return Vocabulary(
             self.coordinates, self.symbols, self.others, self.quantities, self.shapes, self.families,
-            self.bodies, self.masses, subscripts=self.subscripts, memory=self.memory,
+            self.bodies, self.masses, subscripts=self.subscripts,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
         """Keep what the student says a name is, from here on."""
         self.defined[name] = meaning
-        self.memory = Memory()
 
     def derive(self, name: str, dots: int, value: Value) -> None:
         """Keep what the student says a derivative is."""
         self.derived[(name, dots)] = value
-        self.memory = Memory()
 
     def turn(self, index: str, angle: Node) -> None:
         """Keep the student's own angle with a subscript."""
         self.angles[index] = angle
-        self.memory = Memory()
 
     def symbol(self, name: str) -> Meaning | None:
         """The symbol of the problem, or what the student defined, of that key."""
