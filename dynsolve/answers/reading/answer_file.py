@@ -11,11 +11,11 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from dynsolve.answers.reading.definitions import own_symbols
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import Session
 from dynsolve.answers.reading.limits import MAX_ANSWERS
 from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.reading.symbols import own_symbols
 from dynsolve.answers.submission import Place
 from dynsolve.errors import Finding
 

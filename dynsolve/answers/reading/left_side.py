@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dynsolve.answers.reading.derivatives import UnknownVariable
-from dynsolve.answers.reading.forms import Form
+from dynsolve.answers.reading.grammar.derivatives import UnknownVariable
+from dynsolve.answers.reading.grammar.forms import Form
+from dynsolve.answers.reading.grammar.formula import FormulaReader
+from dynsolve.answers.reading.grammar.names import UnknownName
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.name_resolution import UnknownName
 from dynsolve.answers.reading.prepare import cut_names
-from dynsolve.answers.reading.reader import Reader
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Negative, Reference, Sum
@@ -68,7 +68,7 @@ def side_of(vocabulary: Vocabulary, member: list[Token]) -> Side:
     if len(member) > 200:
         return None
     tokens = cut_names(member, vocabulary, naming=True)
-    reader = Reader(tokens, vocabulary, naming=True)
+    reader = FormulaReader(tokens, vocabulary, naming=True)
     try:
         value = reader.value()
     except UnknownName as error:

@@ -193,7 +193,13 @@ def cut_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False)
             script += 1
         elif token.kind == "}" and script:
             script -= 1
-        if token.kind != "name" or len(token.text) < 2 or script or (out and out[-1].kind == "_"):
+        if (
+            token.kind != "name"
+            or len(token.text) < 2
+            or script
+            or vocabulary.bare_symbol(token.text) is not None
+            or (out and out[-1].kind == "_")
+        ):
             out.append(token)
             continue
         open_end = tokens[position + 1].kind == "_" if position + 1 < len(tokens) else False

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.measure import measured
 from dynsolve.answers.reading.prepare import cut_names
-from dynsolve.answers.reading.reader import Reader
+from dynsolve.answers.reading.size import size
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO
@@ -60,14 +60,14 @@ def _read(
     vocabulary: Vocabulary, tokens: list[Token], owners: tuple[str, ...], options: frozenset[str]
 ) -> Read | ReadError:
     owner = owners[0] if owners else ""
-    reader = Reader(tokens, vocabulary, owner=owner, options=options)
+    reader = FormulaReader(tokens, vocabulary, owner=owner, options=options)
     try:
         value = reader.value()
         definition = isinstance(value, Abstract) or _is_names_only(reader, vocabulary)
         if not definition:
             _check_shape(vocabulary, value, owners)
         if not isinstance(value, Abstract):
-            measured(value.node if isinstance(value, Grid) else value, {})
+            size(value.node if isinstance(value, Grid) else value)
     except ReadError as error:
         return error
     except RecursionError:
@@ -94,7 +94,7 @@ def _check_shape(vocabulary: Vocabulary, value: Value, owners: tuple[str, ...]) 
         raise ReadError(message, help="check what is transposed, and what is a vector")
 
 
-def _is_names_only(reader: Reader, vocabulary: Vocabulary) -> bool:
+def _is_names_only(reader: FormulaReader, vocabulary: Vocabulary) -> bool:
     """Whether what was read holds names of the derivation alone, or masses beside its vectors."""
     if not reader.references and not reader.names_used:
         return False

@@ -99,6 +99,13 @@ class Vocabulary:
             return Meaning(self.others[name])
         return self._shorthand(name)
 
+    def bare_symbol(self, text: str) -> Symbol | None:
+        """The symbol of the problem that a name without scripts always is, None for other names."""
+        name = key(text)
+        if name in self.defined or text[0] == "d":  # dq_1 may begin a derivative
+            return None
+        return self.symbols.get(name) or self.others.get(name)
+
     def _shorthand(self, name: str) -> Meaning | None:
         """s12 and c1: the sine and the cosine of the coordinates with these subscripts."""
         found = _SHORTHAND.fullmatch(name)

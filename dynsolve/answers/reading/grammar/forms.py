@@ -49,6 +49,11 @@ class Form:
         return key(self.base + self.index)
 
     @property
+    def base_index(self) -> str:
+        """The index of a name that is written in one piece: the i of P_i."""
+        return self.base.partition("_")[2]
+
+    @property
     def text(self) -> str:
         """The name as messages show it."""
         index = self.index.strip("_{}")

@@ -3,16 +3,13 @@ r"""Sines, cosines and roots as people write them: `\sin 2\theta_1 L_2`, `cos^2(
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
-from dynsolve.answers.reading.forms import Scripts
+from dynsolve.answers.reading.grammar.forms import Scripts
+from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient
-
-if TYPE_CHECKING:
-    from dynsolve.answers.reading.reader import Reader
 
 _NAMES = {"sin": "sin", "cos": "cos", "tan": "tan", "sqrt": "sqrt", "cot": "cot", "sec": "sec", "csc": "csc"}
 _NAMES |= (

@@ -6,9 +6,9 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from fractions import Fraction
 
-from dynsolve.answers.reading.cursor import Cursor
-from dynsolve.answers.reading.exponents import bounded, constant, raised_number
-from dynsolve.answers.reading.forms import Form, Scripts, index_text, is_angle
+from dynsolve.answers.reading.grammar.cursor import Cursor
+from dynsolve.answers.reading.grammar.exponents import bounded, constant, raised_number
+from dynsolve.answers.reading.grammar.forms import Form, Scripts, index_text, is_angle
 from dynsolve.answers.reading.grids import Value
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
@@ -23,7 +23,7 @@ BEGINS = frozenset({"number", "fraction", "name", "letter", "command", "(", "[",
 _TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
 
 
-class NameCursor(Cursor):
+class ScriptCursor(Cursor):
     """Takes names and scripts; what they mean is for who derives from it."""
 
     __slots__ = ("vocabulary",)

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from dynsolve.answers.reading import functions, name_resolution
+from dynsolve.answers.reading.grammar import brackets, derivatives, functions
+from dynsolve.answers.reading.grammar.rates import rate, total_rate
+from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Reference, Symbol
-
-if TYPE_CHECKING:
-    from dynsolve.answers.reading.reader import Reader
+from dynsolve.notation.tree import Symbol
 
 _MATRICES = frozenset("Matrix matrix MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix array".split())
 _DERIVATIVES = frozenset({"Derivative", "diff", "Diff"})
@@ -46,7 +43,7 @@ def read(reader: Reader) -> Value:
     else:
         first = reader.sum()
         if name.text in _DOTS:
-            dotted = name_resolution.rate(first, reader.vocabulary, _DOTS[name.text])
+            dotted = rate(first, reader.vocabulary, _DOTS[name.text])
             if dotted is None:
                 raise ReadError(
                     "this has no derivative here", opening.start, 1, "write dot(q1) of a coordinate"
@@ -62,8 +59,6 @@ def read(reader: Reader) -> Value:
 
 
 def _matrix(reader: Reader, opening: Token) -> Value:
-    from dynsolve.answers.reading import brackets
-
     rows: list[list[Value]] = []
     while True:
         value = reader.sum()
@@ -100,22 +95,13 @@ def _derivative(reader: Reader, opening: Token) -> Value:
             others.append(token)
     if others or not by_time:
         return _partial(reader, of, tokens, opening)
-    dotted = name_resolution.rate(of, reader.vocabulary, order)
+    dotted = rate(of, reader.vocabulary, order)
     if isinstance(dotted, Symbol):
         return dotted
     return dotted if dotted is not None else total_rate(of)
 
 
-def total_rate(of: Value) -> Value:
-    """d/dt of what is no coordinate: of an answer it is one, of an expression it is left undone."""
-    if isinstance(of, Reference) and of.quantity.startswith("dLdqd"):
-        return Reference("ddt" + of.quantity[5:])
-    return Abstract("a derivative that is not carried out")
-
-
 def _partial(reader: Reader, of: Value, tokens: list[Token], opening: Token) -> Value:
-    from dynsolve.answers.reading import derivatives
-
     if tokens and tokens[0].kind == ",":
         tokens = tokens[1:]
     if not tokens:

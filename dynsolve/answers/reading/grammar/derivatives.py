@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from dynsolve.answers.reading import calls, name_resolution
-from dynsolve.answers.reading.forms import Form
+from dynsolve.answers.reading.grammar.forms import Form
+from dynsolve.answers.reading.grammar.rates import rate, total_rate
+from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.vocabulary import key
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Reference, Symbol
-
-if TYPE_CHECKING:
-    from dynsolve.answers.reading.reader import Reader
 
 
 class UnknownVariable(ReadError):
@@ -104,13 +100,13 @@ def _operand(reader: Reader) -> Value:
 def by_time(reader: Reader, of: Value, order: int) -> Value:
     """d/dt of a value."""
     if isinstance(of, Reference):
-        found = calls.total_rate(of)
+        found = total_rate(of)
         if isinstance(found, Reference):
             reader.references.pop(of.quantity, None)
             reader.references.setdefault(found.quantity)
         return found
-    dotted = name_resolution.rate(of, reader.vocabulary, order)
-    return dotted if dotted is not None else calls.total_rate(of)
+    dotted = rate(of, reader.vocabulary, order)
+    return dotted if dotted is not None else total_rate(of)
 
 
 def _by(reader: Reader, of: Value, variable: list[Token]) -> Value:

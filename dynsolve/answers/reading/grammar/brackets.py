@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, stacked
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_ENTRIES
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Symbol
-
-if TYPE_CHECKING:
-    from dynsolve.answers.reading.reader import Reader
 
 STOPS = frozenset({"quad", "qquad"})
 _MATRICES = frozenset(

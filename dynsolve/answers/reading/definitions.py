@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import Session
+from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grids import Abstract, Value
 from dynsolve.answers.reading.lexer import scan
-from dynsolve.answers.reading.name_resolution import rate
 from dynsolve.answers.reading.prepare import expand, simplified
 from dynsolve.answers.reading.right_side import Read, read_member
 from dynsolve.answers.reading.vocabulary import Meaning, key, spellings

@@ -1,0 +1,384 @@
+"""The descent: prepared tokens -> a value in the symbols of the problem.
+
+    sum      = [sign] term {("+" | "-") term}
+    term     = factor {["*" | "/" | cdot | times] factor}        a product needs no sign
+    factor   = {sign} atom
+    atom     = (number | name | function | fraction | matrix | "(" sum ")" | derivative) scripts
+
+Each rule is a method of `FormulaReader`, or a function of the module that is named after
+what it reads: `brackets`, `functions`, `derivatives`, `calls`, `names`.  Values are only put
+together: nothing is computed.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from dynsolve.answers.reading.grammar import brackets, calls, derivatives, functions, names, shorthand
+from dynsolve.answers.reading.grammar.forms import Form, Scripts
+from dynsolve.answers.reading.grammar.reader import Reader
+from dynsolve.answers.reading.grammar.scripts import ACCENTS, BEGINS
+from dynsolve.answers.reading.grids import (
+    Abstract,
+    Grid,
+    Value,
+    divided,
+    negative,
+    times,
+    total,
+)
+from dynsolve.answers.reading.lexer import Token
+from dynsolve.errors import ReadError
+from dynsolve.notation import tokens as plain
+from dynsolve.notation.tree import Degrees, Node, Number, Power, Product, Quotient
+
+_PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
+_SMALL_POWERS = frozenset("23456789")
+_SCRIPTS = frozenset({"^", "raised", "'", "''", ".", "_"})
+_AFTER_BARE_NAME = frozenset(
+    {
+        "+",
+        "-",
+        "cdot",
+        "times",
+        ")",
+        "]",
+        "}",
+        "&",
+        ",",
+        ";",
+        "\\\\",
+        "end",
+        "name",
+        "letter",
+        "number",
+        "command",
+    }
+)
+"""What follows a name that is its symbol and no more: no script, no argument, no division."""
+
+
+class FormulaReader(Reader):
+    """Reads one list of prepared tokens; `token` is the next one."""
+
+    __slots__ = ()
+
+    def value(self) -> Value:
+        """The value of all tokens; raises ReadError for what cannot be read."""
+        if self.token.kind == "end":
+            raise ReadError("there is nothing here", self.token.start, 1, "write the formula")
+        found = self.sum()
+        if self.token.kind != "end":
+            raise self.unexpected()
+        return found
+
+    def inner(self, tokens: list[Token], naming: bool | None = None) -> Value:
+        """The value of tokens that stand inside this text; what it is made of is added here."""
+        self.enter()
+        naming = self.naming if naming is None else naming
+        reader = FormulaReader(tokens, self.vocabulary, naming, self.owner, self.options)
+        reader.nesting = self.nesting
+        reader.references, reader.symbols = self.references, self.symbols
+        reader.notes, reader.free = self.notes, self.free
+        found = reader.value()
+        self.names_used += reader.names_used
+        self.nesting -= 1
+        return found
+
+    # Sums and products
+
+    def sum(self, first: Form | None = None) -> Value:
+        """Terms with their signs; `first` is a name that was taken already."""
+        self.enter()
+        sign = self._leading_sign() if first is None else "+"
+        terms: list[Value] = []
+        while True:
+            start = self.token.start
+            term = self.term(first)
+            first = None
+            terms.append(negative(term) if sign == "-" else term)
+            sign = self.token.kind
+            if (sign != "+" and sign != "-") or (self.rows_by_line and self.token.broken):
+                break
+            self.take()
+        self.nesting -= 1
+        found = terms[0] if len(terms) == 1 else self.placed(start, total, terms)
+        if sign == "over":
+            self.take()
+            return self.placed(start, divided, found, self.sum())
+        return found
+
+    def _leading_sign(self) -> str:
+        sign = "+"
+        while self.token.kind in ("+", "-"):
+            sign = "-" if (self.take().kind == "-") != (sign == "-") else "+"
+        return sign
+
+    def term(self, first: Form | None = None) -> Value:
+        """Factors, with or without a sign between them; `first` is a name that was taken already."""
+        start = self.token.start
+        scalars: list[Node] = []
+        other: Value | None = None
+        sign, value = "", self.factor() if first is None else names.value_of(self, first)
+        while True:
+            if isinstance(value, Node):
+                scalars.append(value)
+            else:
+                other = value if other is None else self.placed(start, times, other, value, sign)
+            while self.token.kind == "/":
+                self.take()
+                other = self.placed(start, divided, _with_scalars(scalars, other), self.factor())
+                scalars = []
+            if isinstance(other, Node):
+                scalars.append(other)
+                other = None
+            if not self.follows():
+                return _with_scalars(scalars, other)
+            sign = self.take().kind if self.token.kind in _PRODUCT_SIGNS else ""
+            value = self.factor()
+
+    def follows(self) -> bool:
+        """Whether a product goes on at the next token."""
+        token = self.token
+        kind = token.kind
+        if kind in BEGINS:
+            if "spaces" in self.options and token.spaced:
+                return False
+            if kind == "command" and token.text in brackets.STOPS:
+                return False
+        elif kind not in _PRODUCT_SIGNS and not (kind == "'" and self._quote_follows()):
+            return False
+        return not (self.rows_by_line and token.broken)
+
+    def _quote_follows(self) -> bool:
+        return self.is_quoted() and not ("spaces" in self.options and self.token.spaced)
+
+    def factor(self) -> Value:
+        """Signs, then an atom with its scripts."""
+        kind = self.token.kind
+        if kind != "-" and kind != "+":
+            return self.atom()
+        self.enter()
+        self.take()
+        found = self.factor()
+        self.nesting -= 1
+        return negative(found) if kind == "-" else found
+
+    # Atoms
+
+    def atom(self) -> Value:
+        """A number, a name, a bracket, a function; with the scripts behind it."""
+        token = self.token
+        kind = token.kind
+        if kind == "name" or kind == "letter":
+            return self.word(token)
+        if kind == "number":
+            return self.number()
+        if kind == "fraction":
+            p, _, q = self.take().text.partition("/")
+            return self.scripted(Quotient(Number(int(p)), Number(int(q))))
+        if kind == "command":
+            return self.command(token)
+        if kind in ("(", "[", "{", "begin"):
+            return self.bracketed()
+        if kind == "√":
+            self.enter()
+            self.take()
+            argument = self.atom()
+            self.nesting -= 1
+            return functions.applied(self, "sqrt", argument, token)
+        if kind == "^":
+            return self.framed()
+        if kind == "|":
+            return self.norm()
+        if self.is_quoted():
+            self.take()
+            return self.word(self.token)
+        raise self.unexpected()
+
+    def word(self, token: Token) -> Value:
+        """A letter or a run of them: a function, a call, a derivative or a name."""
+        if token.kind == "name":
+            if (symbol := self.bare_symbol(token)) is not None:
+                return symbol
+            if derivatives.stands_here(self):
+                return self.scripted(derivatives.read(self))
+            if (function := functions.name_of(token)) is not None:
+                return functions.read(self, function)
+            if calls.is_call(self):
+                return self.scripted(calls.read(self))
+        if shorthand.is_short_function(self):
+            return functions.read(self, "sin" if token.text in "sS" else "cos")
+        return names.value_of(self, self.form())
+
+    def bare_symbol(self, token: Token) -> Node | None:
+        """A symbol of the problem with a small power or without scripts; None for everything else.
+
+        Most factors are one.  They need none of what `names` looks out for, and without this
+        short cut reading takes a third longer.
+        """
+        if self.naming or token.dots or (symbol := self.vocabulary.bare_symbol(token.text)) is None:
+            return None
+        after = self.peek()
+        kind = after.kind
+        value: Node = symbol
+        if kind == "^":
+            power = self.peek(2)
+            if power.kind != "number" or power.text not in _SMALL_POWERS or self.peek(3).kind in _SCRIPTS:
+                return None
+            value = Power(symbol, Number(int(power.text)))
+            self.position += 3
+            self.token = self.tokens[self.position]
+        elif kind in _AFTER_BARE_NAME or (kind == "*" and self.peek(2).kind in BEGINS):
+            self.position += 1
+            self.token = after
+        else:
+            return None
+        self.symbols.setdefault(symbol.name)
+        return value
+
+    def number(self) -> Value:
+        """A number, with its degrees."""
+        token = self.take()
+        value = plain.rational(plain.FormulaToken("number", token.text, token.start, token.end))
+        if self.token.kind == "°" or (self.token.kind == "name" and self.token.text == "deg"):
+            self.take()
+            return Degrees(value.numerator, value.denominator)
+        if self.token.kind == "^" and self.circle():
+            return Degrees(value.numerator, value.denominator)
+        return self.scripted(_written(value, token.text))
+
+    def circle(self) -> bool:
+        r"""Take `^\circ`, if that is what stands here."""
+        ahead = [self.peek(1), self.peek(2), self.peek(3)]
+        if ahead[0].text == "circ":
+            self.take(), self.take()
+            return True
+        if ahead[0].kind == "{" and ahead[1].text == "circ" and ahead[2].kind == "}":
+            self.take(), self.take(), self.take(), self.take()
+            return True
+        return False
+
+    def bracketed(self) -> Value:
+        """A parenthesis, a group or a matrix, with its scripts."""
+        self.enter()
+        if self.token.kind == "{":
+            opening = self.take()
+            form = self.form() if self.begins_with_name() else None
+            if form is not None and self.token.kind == "}":
+                self.take()
+                self.nesting -= 1
+                return names.value_of(self, form)
+            found = self.sum(form)
+            self.expect("}", opening)
+        else:
+            found = brackets.read(self)
+        self.nesting -= 1
+        return self.scripted(found)
+
+    def begins_with_name(self) -> bool:
+        """Whether a name stands here that is no function, call or derivative."""
+        token = self.token
+        accented = token.kind == "command" and token.text in ACCENTS
+        if token.kind not in ("name", "letter") and not accented:
+            return False
+        return not (
+            functions.name_of(token) is not None
+            or calls.is_call(self)
+            or derivatives.stands_here(self)
+            or shorthand.is_short_function(self)
+        )
+
+    def framed(self) -> Value:
+        """A name with the frame before it: `{}^0T_2`."""
+        sign = self.take()
+        frame = self.group()
+        if (
+            len(frame) != 1
+            or frame[0].kind != "number"
+            or len(frame[0].text) > 2
+            or self.token.kind not in ("name", "letter")
+        ):
+            raise ReadError("nothing stands before this `^`", sign.start, 1, "a power follows its base")
+        form = self.form()
+        form.scripts.powers.insert(0, Fraction(int(frame[0].text)))
+        return names.value_of(self, form)
+
+    def norm(self) -> Value:
+        """The length of a vector, of which the square alone is read."""
+        opening = self.take()
+        value = self.inner(self.until("|", opening))
+        scripts = Scripts()
+        if not isinstance(value, Node) and self.script(scripts) and scripts.powers == [Fraction(2)]:
+            return self.with_scripts(value, scripts, opening.start)
+        message = "a length or an absolute value cannot be read"
+        raise ReadError(message, opening.start, 1, "write it out; |v|^2 is read for a vector v")
+
+    def command(self, token: Token) -> Value:
+        """What a LaTeX command begins: an accent, a function, a fraction, a derivative."""
+        name = token.text
+        if name in ACCENTS or name == "script":
+            return names.value_of(self, self.form())
+        if (function := functions.name_of(token)) is not None:
+            return functions.read(self, function)
+        if name == "frac":
+            return self.scripted(self.fraction())
+        if derivatives.stands_here(self):
+            return self.scripted(derivatives.read(self))
+        if name in ("sum", "int", "prod"):
+            return calls.running_sum(self)
+        if name == "hat":
+            return self.unit_vector()
+        if name in ("underbrace", "overbrace"):
+            return self.braced()
+        length = token.end - token.start
+        if name in ("cdots", "ldots", "dots", "vdots", "ddots"):
+            message = "dots stand for something that was left out"
+            raise ReadError(message, token.start, length, "write it out")
+        message = f"unknown command `\\{name[:40]}`"
+        raise ReadError(message, token.start, length, "the commands of LaTeX's formulas are read")
+
+    def braced(self) -> Value:
+        r"""`\underbrace{a + b}_{text}`: what the brace stands under."""
+        self.take()
+        found = self.inner(self.group())
+        while self.token.kind in ("_", "^"):
+            self.take()
+            self.group()
+        return found
+
+    def fraction(self) -> Value:
+        r"""`\frac{a}{b}`, which may be a derivative."""
+        self.enter()
+        start = self.take().start
+        above, below = self.group(), self.group()
+        found = derivatives.quotient(self, above, below, start)
+        if found is None:
+            found = self.placed(start, divided, self.inner(above), self.inner(below))
+        self.nesting -= 1
+        return found
+
+    def unit_vector(self) -> Value:
+        r"""`\hat{k}`: a unit vector of the base frame; of other frames none is known."""
+        self.take()
+        form = self.form()
+        axis = {"i": 0, "x": 0, "x0": 0, "j": 1, "y": 1, "y0": 1, "k": 2, "z": 2, "z0": 2}.get(form.key)
+        if axis is None:
+            self.names_used += 1
+            return Abstract(f"{form.text} with a hat is a letter of the derivation")
+        return Grid(tuple((Number(int(row == axis)),) for row in range(3)))
+
+
+def _written(value: Fraction, text: str) -> Number:
+    """A number with as many decimals as were written: 0.10 is 10/100, which rounds more than 0.1 does."""
+    _, point, decimals = text.partition(".")
+    scale = 10 ** len(decimals) if point and decimals.isdigit() and value else value.denominator
+    return Number(int(value * scale), scale, scale != 1)
+
+
+def _with_scalars(scalars: list[Node], other: Value | None) -> Value:
+    if other is None:
+        return scalars[0] if len(scalars) == 1 else Product(tuple(scalars))
+    if not scalars:
+        return other
+    return times(_with_scalars(scalars, None), other)

@@ -1,0 +1,59 @@
+"""Letters of the derivation that have no value for this robot: running indices, z_0, R_1, a zero level."""
+
+from __future__ import annotations
+
+import re
+
+from dynsolve.answers.reading.grammar.forms import Form
+from dynsolve.answers.reading.grammar.reader import Reader
+from dynsolve.answers.reading.grammar.references import skip_arguments
+from dynsolve.answers.reading.grids import Abstract, Value
+from dynsolve.answers.reading.vocabulary import is_running
+from dynsolve.notation.tree import (
+    Symbol,
+)
+
+_ZERO_LEVELS = frozenset("h0 H0 z0 y0 h href hzero hb P0h zref".split())
+_POTENTIAL = re.compile(r"P.*|L")
+_LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*|[xyz],?[qt].*)")
+_HEIGHT = re.compile(r"h[1-9a-z][0-9]*")
+
+
+def letter(reader: Reader, form: Form, name: str) -> Value | None:
+    """The vector of coordinates, a running index, z_0, o_2, R_1, a zero level of height."""
+    vocabulary = reader.vocabulary
+    if vocabulary.is_vector(name) and form.dots <= 2:
+        skip_arguments(reader)
+        reader.names_used += 1
+        value: Value = vocabulary.velocities(form.dots + form.scripts.primes)
+        form.scripts.primes = 0
+        return reader.with_scripts(value, form.scripts, form.start)
+    spelled = {"qdot": 1, "dq": 1, "qd": 1, "qddot": 2, "ddq": 2, "qdd": 2}.get(name)
+    if spelled and not form.dots:
+        reader.names_used += 1
+        return reader.with_scripts(vocabulary.velocities(spelled), form.scripts, form.start)
+    index = form.index or form.base_index
+    if index and is_running(index):
+        reader.names_used += 1
+        return Abstract(f"{form.text} has a running index")
+    if name in _ZERO_LEVELS and _POTENTIAL.fullmatch(reader.owner):
+        reader.free.setdefault(name)
+        return reader.with_scripts(Symbol(name), form.scripts, form.start)
+    if (
+        form.base[:1].isalpha()
+        and _LETTERS.fullmatch(name)
+        and not reader.naming
+        and len(form.base.split("_")[0]) <= 2
+    ):
+        reader.names_used += 1
+        return Abstract(f"{form.text} is a letter of the derivation")
+    if _HEIGHT.fullmatch(name) and _POTENTIAL.fullmatch(reader.owner):
+        reader.names_used += 1
+        return Abstract(f"{form.text} is a height")
+    if (
+        name in ("Jv", "Jw", "Kv", "Kw", "Jomega", "Komega", "I", "omega", "v", "A", "H", "R")
+        and not reader.naming
+    ):
+        reader.names_used += 1
+        return Abstract(f"{form.text} has no index")
+    return None

@@ -1,0 +1,169 @@
+"""What a name means: a symbol of the problem, the student's own, an answer, or a letter of the derivation."""
+
+from __future__ import annotations
+
+import re
+from difflib import get_close_matches
+
+from dynsolve.answers.reading.grammar.forms import Form
+from dynsolve.answers.reading.grammar.letters import letter
+from dynsolve.answers.reading.grammar.rates import rate
+from dynsolve.answers.reading.grammar.reader import Reader
+from dynsolve.answers.reading.grammar.references import quantity
+from dynsolve.answers.reading.grammar.shorthand import short_function
+from dynsolve.answers.reading.grids import Abstract, Grid, Value
+from dynsolve.answers.reading.vocabulary import Meaning, is_running
+from dynsolve.errors import ReadError
+from dynsolve.notation.tree import (
+    Node,
+    Symbol,
+)
+
+_OWNER_BODY = re.compile(r"[0-9]+$")
+_MOMENT = re.compile(r"[IJ][xyz]{1,2}")
+
+
+class UnknownName(ReadError):
+    """A name that means nothing here; `family` are the answers of the kind it would be one of."""
+
+    def __init__(self, form: Form, help: str, family: tuple[str, ...] = ()) -> None:
+        super().__init__(
+            f"unknown symbol `{form.text[:60]}`", form.start, max(form.end - form.start, 1), help
+        )
+        self.form, self.family = form, family
+
+
+def value_of(reader: Reader, form: Form) -> Value:
+    """The value of a name with its scripts; raises UnknownName for one that has none."""
+    vocabulary = reader.vocabulary
+    name = form.key + _called_index(reader, form)
+    if reader.naming or form.script:
+        found = quantity(reader, form, name)
+        if found is not None:
+            return found
+    meaning = vocabulary.defined.get(name + "'" * form.dots) if form.dots else None
+    if meaning is not None:
+        form.dots = 0
+    else:
+        meaning = vocabulary.symbol(name)
+    if meaning is None and (name, form.dots) in vocabulary.derived:
+        meaning, form.dots = Meaning(vocabulary.derived[name, form.dots]), 0
+    if meaning is None and form.angle and form.base in ("c", "s", "C", "S"):
+        meaning = Meaning(short_function(reader, form))
+    if meaning is None:
+        meaning = _meaning(reader, form, name)
+    if meaning is None:
+        other = None if reader.naming else quantity(reader, form, name)
+        if other is None:
+            other = letter(reader, form, name)
+        if other is not None:
+            return other
+        raise _unknown(reader, form, name)
+    if meaning.note:
+        reader.notes.setdefault(meaning.note)
+    return _scripted(reader, form, meaning)
+
+
+def _called_index(reader: Reader, form: Form) -> str:
+    """The index of q(2), as MATLAB writes an entry of the vector q; nothing for every other name."""
+    if reader.token.kind != "(" or reader.peek(1).kind != "number" or reader.peek(2).kind != ")":
+        return ""
+    index = reader.peek(1).text
+    meaning = reader.vocabulary.symbol(form.key + index) if len(index) < 3 else None
+    if form.index or meaning is None or reader.vocabulary.symbol(form.key) is not None:
+        return ""
+    if not isinstance(meaning.value, Symbol) or reader.vocabulary.coordinate(meaning.value) is None:
+        return ""
+    for _ in range(3):
+        reader.take()
+    reader.beside(form)
+    return index
+
+
+def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
+    """Other ways to write a symbol: s of an angle, the one inertia of that index, another case."""
+    vocabulary = reader.vocabulary
+    short = vocabulary.short_angle(name)
+    if short is not None:
+        return Meaning(short)
+    if form.base in ("q", "theta") and len(form.index) > 1 and (angle := vocabulary.angle_of(form.index)):
+        return Meaning(angle, f"{form.text} is read as a sum of coordinates")
+    if "inertia" in reader.options and (meaning := vocabulary.inertia(name)):
+        return meaning
+    if name in vocabulary.quantities and len(name) > 1:
+        return None
+    if vocabulary.is_vector(name) or is_running(form.index or form.base_index):
+        return None
+    body = _OWNER_BODY.search(reader.owner)
+    if body and _MOMENT.fullmatch(name) and (meaning := vocabulary.similar(name + body.group())):
+        return meaning
+    return vocabulary.similar(name)
+
+
+def _scripted(reader: Reader, form: Form, meaning: Meaning) -> Value:
+    """The meaning of a name with its dots, its mark and its powers."""
+    value, scripts = meaning.value, form.scripts
+    dots = form.dots + (scripts.primes if isinstance(value, Node) else 0)
+    if dots:
+        dotted = reader.vocabulary.derived.get((form.key, dots)) or rate(value, reader.vocabulary, dots)
+        if dotted is None and reader.naming:
+            raise _unknown(reader, form, form.key)
+        if dotted is None and form.key in reader.vocabulary.defined:
+            reader.names_used += 1
+            return Abstract(f"the derivative of {form.text} is not written out")
+        if dotted is None:
+            message = f"{form.text} has no derivative here"
+            help = "velocities and accelerations are those of the coordinates"
+            raise ReadError(message, form.start, max(form.end - form.start, 1), help)
+        value = dotted
+        scripts.primes = 0
+    _note_use(reader, value)
+    if isinstance(value, Symbol) and reader.vocabulary.coordinate(value):
+        skip_time(reader)
+        if reader.token.kind in ("'", "''", "^", "raised", "."):
+            value_scripts = reader.scripted(value)
+            if value_scripts is not value:
+                scripts = form.scripts
+                value = value_scripts
+    if form.repaired:
+        reader.notes.setdefault("a power under a dot is read as the power of the derivative")
+    return reader.with_scripts(value, scripts, form.start)
+
+
+def _note_use(reader: Reader, value: Value) -> None:
+    if isinstance(value, Symbol):
+        reader.symbols.setdefault(value.name)
+    elif isinstance(value, Grid) and value.is_rates >= 0:
+        reader.names_used += 1
+    else:
+        reader.symbols.setdefault("")
+
+
+def skip_time(reader: Reader) -> None:
+    """Leave out the `(t)` of q1(t)."""
+    if reader.token.kind not in ("(", "[", "{"):
+        return
+    kinds = []
+    for ahead in range(5):
+        token = reader.peek(ahead)
+        kinds.append(token.text if token.kind == "name" else token.kind)
+    for pattern in (["(", "t", ")"], ["[", "t", "]"], ["{", "(", "t", ")", "}"]):
+        if kinds[: len(pattern)] == pattern:
+            for _ in pattern:
+                reader.take()
+            return
+
+
+def _unknown(reader: Reader, form: Form, name: str) -> UnknownName:
+    """The error about a name, which says what names there are."""
+    vocabulary = reader.vocabulary
+    family = vocabulary.family(name)
+    known = [symbol.name for symbol in vocabulary.symbols.values()]
+    reason = vocabulary.broken.get(name)
+    if reason:
+        help = f"its definition could not be read: {reason}"
+    elif close := get_close_matches(name, known, 1, 0.6):
+        help = f"did you mean {close[0]}? The problem's symbols are {', '.join(known[:30])}"
+    else:
+        help = f"the problem's symbols are {', '.join(known[:30])}"
+    return UnknownName(form, help, family)

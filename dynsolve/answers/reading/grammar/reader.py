@@ -1,0 +1,127 @@
+"""What every part of the grammar works on: the tokens, the names of the problem, and what was found so far.
+
+`Reader` is abstract: the modules for brackets, functions, derivatives, calls and names take
+one and ask it for the values inside, and `formula.FormulaReader` is the descent that ties
+them together.  So none of them imports another in a circle.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+from dynsolve.answers.reading.grammar.exponents import raise_to
+from dynsolve.answers.reading.grammar.forms import Scripts
+from dynsolve.answers.reading.grammar.rates import rate
+from dynsolve.answers.reading.grammar.scripts import ScriptCursor
+from dynsolve.answers.reading.grids import Abstract, Grid, Value, times, transposed
+from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.errors import ReadError
+from dynsolve.notation.tree import Node
+
+
+class Reader(ScriptCursor):
+    """One list of prepared tokens that is being read, and what its value is made of.
+
+    How it is read: `naming` makes names of answers win over symbols, as on a left-hand side;
+    `owner` is the answer that the value is given for; `options` are the bolder guesses that
+    are allowed (see `right_side`); `rows_by_line` says that line ends separate rows.
+
+    What was found: `references` are the names of answers in the value, `symbols` its symbols,
+    `free` those that belong to no problem, `notes` what the student is told about the reading;
+    `candidates` are the answers that the last name may mean, and `names_used` counts the names
+    of the derivation.
+    """
+
+    __slots__ = (
+        "naming", "owner", "options", "rows_by_line",
+        "references", "symbols", "free", "notes", "candidates", "names_used",
+    )  # fmt: skip
+
+    def __init__(
+        self,
+        tokens: list[Token],
+        vocabulary: Vocabulary,
+        naming: bool = False,
+        owner: str = "",
+        options: frozenset[str] = frozenset(),
+    ) -> None:
+        super().__init__(tokens, vocabulary)
+        self.naming, self.owner, self.options = naming, owner, options
+        self.rows_by_line = False
+        self.references: dict[str, None] = {}
+        self.symbols: dict[str, None] = {}
+        self.notes: dict[str, None] = {}
+        self.free: dict[str, None] = {}
+        self.candidates: tuple[str, ...] = ()
+        self.names_used = 0
+
+    # The rules of the grammar, each of which takes its tokens and gives their value
+
+    @abstractmethod
+    def sum(self) -> Value:
+        """Terms with their signs."""
+
+    @abstractmethod
+    def term(self) -> Value:
+        """Factors, with or without a sign between them."""
+
+    @abstractmethod
+    def factor(self) -> Value:
+        """Signs, then an atom."""
+
+    @abstractmethod
+    def atom(self) -> Value:
+        """A number, a name, a bracket or a function, with the scripts behind it."""
+
+    @abstractmethod
+    def inner(self, tokens: list[Token], naming: bool | None = None) -> Value:
+        """The value of tokens that stand inside this text; what it is made of is added here."""
+
+    # What happens to values
+
+    def placed(self, start: int, operation: Callable[..., Value], *values: Any) -> Value:
+        """The result of an operation on values, whose errors get their place here."""
+        try:
+            return operation(*values)
+        except ReadError as error:
+            end = self.tokens[max(self.position - 1, 0)].end
+            raise ReadError(error.message, start, max(end - start, 1), error.help) from None
+
+    def scripted(self, value: Value) -> Value:
+        """The value with the scripts that follow it."""
+        if self.token.kind not in ("^", "raised", "'", "''", "."):
+            return value
+        scripts, start = Scripts(), self.token.start
+        while self.script(scripts):
+            pass
+        return self.with_scripts(value, scripts, start)
+
+    def with_scripts(self, value: Value, scripts: Scripts, start: int) -> Value:
+        """The value transposed and raised to its powers."""
+        if scripts.transposed or scripts.primes:
+            if isinstance(value, Node) and scripts.primes:
+                dotted = rate(value, self.vocabulary, scripts.primes)
+                if dotted is None:
+                    raise ReadError(
+                        "a prime stands here after what has no derivative", start, 1, "theta1' is a velocity"
+                    )
+                value = dotted
+            else:
+                value = transposed(value)
+        for power in scripts.powers:
+            value = self.raised(value, power, start)
+        return value
+
+    def raised(self, value: Value, power: Fraction, start: int) -> Value:
+        """The value raised to a power."""
+        if isinstance(value, Abstract):
+            return value
+        if isinstance(value, Grid):
+            if power == 2 and value.shape[1] == 1:
+                return times(transposed(value), value)
+            raise ReadError("a power of a matrix", start, 1, "write the product out")
+        return raise_to(value, power)

@@ -1,0 +1,113 @@
+"""Names of answers inside a value: each is kept as a reference, or as the matrix of those to its entries."""
+
+from __future__ import annotations
+
+from dynsolve.answers.reading.grammar.forms import Form
+from dynsolve.answers.reading.grammar.reader import Reader
+from dynsolve.answers.reading.grids import Grid, Value
+from dynsolve.answers.reading.vocabulary import Vocabulary, key
+from dynsolve.notation.tree import (
+    Reference,
+    Symbol,
+)
+
+_OWN_ON_THE_RIGHT = frozenset({"h", "c"})
+"""Letters that name an answer on the left alone: on the right they are the student's own."""
+
+
+def quantity(reader: Reader, form: Form, name: str) -> Value | None:
+    """The answer that a name stands for, as placeholders; None where it is none."""
+    vocabulary = reader.vocabulary
+    names = vocabulary.quantities.get(name, ())
+    if name in _OWN_ON_THE_RIGHT and not reader.naming:
+        return None
+    if form.script and name.startswith("I"):
+        names = tuple(n for n in names if n.startswith("I") and not n.startswith("I_body"))
+    if form.dots:
+        if name.startswith("rc") and form.dots == 1:
+            names = vocabulary.quantities.get("v" + name[2:], ())
+        else:
+            return None
+    names, framed = _framed(form, names)
+    if not names:
+        return None
+    skip_arguments(reader)
+    reader.names_used += 1
+    reader.candidates = names
+    reader.references.setdefault(names[0])
+    value = placeholder(vocabulary, names[0])
+    scripts = form.scripts
+    if framed:
+        scripts.powers = scripts.powers[1:]
+    return reader.with_scripts(value, scripts, form.start)
+
+
+def _framed(form: Form, names: tuple[str, ...]) -> tuple[tuple[str, ...], bool]:
+    """The quantity in view of the frame that stands as its exponent: H_1^0, H_2^1."""
+    powers = form.scripts.powers
+    if not powers or not names:
+        return names, False
+    first, frame = names[0], powers[0]
+    if first[0] in "HA" and first[1:].isdigit() and frame.denominator == 1 and frame >= 0:
+        i = int(first[1:])
+        if frame == 0 and (first[0] == "H" or i == 1):
+            return names, True
+        if frame == i - 1:
+            return (f"A{i}",), True
+        return (f"H{i}",) if frame == 0 else (), True
+    if frame == 0:
+        if first.startswith("I_body"):
+            return tuple(n for n in names if not n.startswith("I_body")) or names, True
+        return names, True
+    if first.startswith("I") and frame == 1 and "I_body" in first:
+        return names[:1], True
+    return names, False
+
+
+def placeholder(vocabulary: Vocabulary, name: str) -> Value:
+    """What stands for an answer: a reference to it, or the matrix of those to its entries."""
+    shape = vocabulary.shapes.get(name)
+    if shape is None:
+        return Reference(name)
+    rows, columns = shape
+    return Grid(
+        tuple(tuple(Reference(name, i, j) for j in range(1, columns + 1)) for i in range(1, rows + 1)),
+        quantity=name,
+    )
+
+
+def skip_arguments(reader: Reader) -> None:
+    """Leave out the arguments of D(q) and C(q, q_dot)."""
+    if reader.token.kind == "(" and only_coordinates(reader, reader.position):
+        opening = reader.take()
+        reader.until(")", opening)
+
+
+def only_coordinates(reader: Reader, position: int) -> bool:
+    """Whether the parenthesis there holds coordinates and commas alone: no factor."""
+    vocabulary = reader.vocabulary
+    found = False
+    for token in reader.tokens[position + 1 : position + 60]:
+        kind = token.kind
+        if kind == ")":
+            return found
+        if kind in ("name", "letter"):
+            name = key(token.text)
+            meaning = vocabulary.symbol(name)
+            is_coordinate = (
+                isinstance(meaning.value, Symbol) and vocabulary.coordinate(meaning.value)
+                if meaning
+                else None
+            )
+            if not (
+                is_coordinate
+                or vocabulary.is_vector(name)
+                or name in ("t", "qdot", "dq", "qd", "theta", "L", "d")
+            ):
+                return False
+            found = True
+        elif not (
+            kind in (",", "_", "number", "{", "}", "^", "*", "'") or token.text in ("dot", "ddot", "star")
+        ):
+            return False
+    return False
