@@ -1,4 +1,4 @@
-"""What several tests need: solving a problem, and putting numbers into what comes out.
+"""What several tests need: the library, files, solving a problem, and numbers for what comes out.
 
 Results are taken from the JSON that `dynsolve solve --json` prints, the contract
 with other programs, so that what is tested is what a user gets.
@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import json
 import math
+import sqlite3
 from collections.abc import Mapping
+from contextlib import closing
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -19,6 +21,7 @@ import dynsolve
 
 ROOT = Path(__file__).parent.parent
 LIBRARY = sorted((ROOT / "problems").glob("*.yaml"))
+COURSE_DOCUMENT = ROOT / "tests" / "golden" / "answers" / "dynamics-overview.md"
 TEXTBOOKS = sorted((ROOT / "tests" / "golden" / "textbooks").glob("*.yaml"))
 
 FUNCTIONS: dict[str, Any] = {
@@ -28,6 +31,29 @@ FUNCTIONS: dict[str, Any] = {
     "sqrt": math.sqrt,
     "pi": math.pi,
 }
+
+
+def problem_file(name: str) -> Path:
+    """The problem of a textbook, or else of the library."""
+    textbook = ROOT / "tests" / "golden" / "textbooks" / f"{name}.yaml"
+    return textbook if textbook.exists() else ROOT / "problems" / f"{name}.yaml"
+
+
+def with_files(folder: Path, files: Mapping[str, str | bytes]) -> Path:
+    """`folder` with these files in it, each by its path within."""
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return folder
+
+
+def record_of(folder: Path) -> list[tuple[object, ...]]:
+    """The rows of all tables of the record of a graded course, in an order of their own."""
+    with closing(sqlite3.connect(folder / "grades.sqlite")) as db:
+        tables = [name for (name,) in db.execute("SELECT name FROM sqlite_master WHERE type = 'table'")]
+        rows = [(table, *row) for table in tables for row in db.execute(f"SELECT * FROM {table}")]  # noqa: S608
+    return sorted(rows, key=repr)
 
 
 def solve_json(problem: Path | str) -> dict[str, Any]:

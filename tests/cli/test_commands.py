@@ -13,7 +13,8 @@ import pytest
 
 from dynsolve.cli.main import app
 from dynsolve.notation.unicode import width
-from tests.cli.running import ROOT, dynsolve, environment, in_terminal, started
+from tests.cli.running import dynsolve, environment, in_terminal, started
+from tests.support import ROOT
 
 COMMANDS = {command.callback.__name__: command.callback for command in app().registered_commands}
 LINE = 66

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from .running import ROOT, dynsolve
-
-LIBRARY = sorted(path.stem for path in (ROOT / "problems").glob("*.yaml"))
+from tests.cli.running import dynsolve
+from tests.support import LIBRARY, ROOT
 
 
 def test_svg_goes_to_standard_output() -> None:
@@ -81,7 +80,7 @@ def test_the_picture_for_latex_compiles_without_packages(tmp_path: Path) -> None
     assert done.returncode == 0 and "Overfull" not in log and "Warning" not in log, log[-2000:]
 
 
-@pytest.mark.parametrize("name", LIBRARY)
+@pytest.mark.parametrize("name", [path.stem for path in LIBRARY])
 def test_every_library_problem_is_drawn(name: str) -> None:
     ran = dynsolve("draw", name, "--quiet")
     root = ET.fromstring(ran.out)  # noqa: S314 - our own

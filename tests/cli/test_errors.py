@@ -13,7 +13,8 @@ from typing import IO
 
 import pytest
 
-from tests.cli.running import ROOT, dynsolve, environment, started
+from tests.cli.running import dynsolve, environment, started
+from tests.support import ROOT
 
 FAULTY = """\
 title: faulty

@@ -9,7 +9,6 @@ import os
 import random
 import shlex
 import signal
-import sqlite3
 import subprocess
 import sys
 import time
@@ -18,8 +17,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.running import ROOT, dynsolve, environment, started
+from tests.cli.running import dynsolve, environment, started
 from tests.grading.generate import course, problem_set
+from tests.support import ROOT, record_of, with_files
 
 RIGHT = "problem: in3140-rp\nanswers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n  g: [0, 0]\n"
 WRONG = RIGHT.replace("L2^2*theta1'^2)", "L2*theta1'^2)")
@@ -34,14 +34,6 @@ def set_folder(tmp_path: Path) -> Path:
     return folder
 
 
-def _write(folder: Path, files: dict[str, str | bytes]) -> Path:
-    for name, content in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    return folder
-
-
 def _csv(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(path.read_text())))
 
@@ -53,17 +45,6 @@ def _contents(folder: Path) -> dict[str, bytes]:
         for path in sorted(folder.rglob("*"))
         if path.is_file() and not path.name.startswith("grades.sqlite")
     }
-
-
-def _dump(folder: Path) -> list[tuple[object, ...]]:
-    """The record, table by table, sorted."""
-    db = sqlite3.connect(folder / "grades.sqlite")
-    tables = [
-        name for (name,) in db.execute("SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name")
-    ]
-    found = [(table, *row) for table in tables for row in db.execute(f"SELECT * FROM {table}")]  # noqa: S608
-    db.close()
-    return sorted(found, key=repr)
 
 
 def _grade(problems: Path, hand_ins: Path, out: Path, *words: str) -> subprocess.Popen[bytes]:
@@ -113,7 +94,7 @@ def test_a_canvas_download_comes_in_and_goes_out(tmp_path: Path, set_folder: Pat
 
 
 def test_a_faulty_roster_is_told_before_anything_is_graded(tmp_path: Path, set_folder: Path) -> None:
-    _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    with_files(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
     roster = tmp_path / "gradebook.csv"
     roster.write_text("Name,Mark\nAda,3\n")
     words = (str(set_folder), str(tmp_path / "in"), "-o", str(tmp_path / "out"))
@@ -124,7 +105,7 @@ def test_a_faulty_roster_is_told_before_anything_is_graded(tmp_path: Path, set_f
 
 
 def test_hostile_files_leave_the_good_ones_their_marks(tmp_path: Path, set_folder: Path) -> None:
-    hand_ins = _write(
+    hand_ins = with_files(
         tmp_path / "in", {
             "good/in3140-rp.yaml": RIGHT,
             "deep/in3140-rp.yaml": "answers:\n  K: " + "(" * 100_000 + "\n",
@@ -149,7 +130,7 @@ def test_hostile_files_leave_the_good_ones_their_marks(tmp_path: Path, set_folde
 
 
 def test_of_many_refused_files_the_report_names_the_rest(tmp_path: Path, set_folder: Path) -> None:
-    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    hand_ins = with_files(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
     for i in range(23):
         (hand_ins / f"link{i:02}.yaml").symlink_to("/etc/passwd")
     ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(tmp_path / "out"))
@@ -160,7 +141,7 @@ def test_of_many_refused_files_the_report_names_the_rest(tmp_path: Path, set_fol
 
 def test_a_bound_that_is_passed_is_unreadable_with_the_reason(tmp_path: Path, set_folder: Path) -> None:
     long = "problem: in3140-rp\nanswers:\n" + "  P: (m1 + m2 + L1 + g + I1zz)^18*L2\n" * 100
-    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": long, "b/in3140-rp.yaml": RIGHT})
+    hand_ins = with_files(tmp_path / "in", {"a/in3140-rp.yaml": long, "b/in3140-rp.yaml": RIGHT})
     out = tmp_path / "out"
     ran = dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(out), "--timeout", "0.3")
     assert ran.code == 0, ran.err
@@ -171,9 +152,9 @@ def test_a_bound_that_is_passed_is_unreadable_with_the_reason(tmp_path: Path, se
 
 def test_modules_among_the_hand_ins_are_never_imported(tmp_path: Path, set_folder: Path) -> None:
     """The program is started as its script starts it, in the folder that a teacher has unpacked."""
-    hand_ins = _write(tmp_path / "in", {"s1_in3140-rp.yaml": RIGHT})
+    hand_ins = with_files(tmp_path / "in", {"s1_in3140-rp.yaml": RIGHT})
     for name in ("json", "base64", "resource", "flint", "yaml", "dynsolve", "sitecustomize"):
-        _write(hand_ins, {f"{name}.py": f"open({str(tmp_path / 'hacked')!r}, 'w')\n"})
+        with_files(hand_ins, {f"{name}.py": f"open({str(tmp_path / 'hacked')!r}, 'w')\n"})
     script = "import sys; from dynsolve.cli.main import main; sys.argv[0] = 'dynsolve'; main()"
     words = ("grade", str(set_folder), ".", "-o", str(tmp_path / "out"), "--jobs", "1")
     ran = subprocess.run(
@@ -187,7 +168,7 @@ def test_modules_among_the_hand_ins_are_never_imported(tmp_path: Path, set_folde
 
 
 def test_a_hand_in_without_answers_is_unreadable_and_says_why(tmp_path: Path, set_folder: Path) -> None:
-    hand_ins = _write(
+    hand_ins = with_files(
         tmp_path / "in", {
             "a/in3140-rp.ipynb": "{",
             "b/in3140-rp.md": "I could not do it.\n",
@@ -264,7 +245,7 @@ def test_a_run_that_is_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
     with _grade(*words, tmp_path / "killed") as run:
         assert run.wait() == 0
     assert _contents(tmp_path / "killed") == _contents(tmp_path / "whole")
-    assert _dump(tmp_path / "killed") == _dump(tmp_path / "whole")
+    assert record_of(tmp_path / "killed") == record_of(tmp_path / "whole")
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
@@ -285,7 +266,7 @@ def test_a_run_whose_workers_are_killed_comes_to_the_same_bytes(tmp_path: Path) 
         assert run.wait() == 0
     assert killed
     assert _contents(tmp_path / "killed") == _contents(tmp_path / "whole")
-    assert _dump(tmp_path / "killed") == _dump(tmp_path / "whole")
+    assert record_of(tmp_path / "killed") == record_of(tmp_path / "whole")
 
 
 def test_a_full_disk_is_said_and_the_same_command_goes_on(tmp_path: Path) -> None:
@@ -303,7 +284,7 @@ def test_a_full_disk_is_said_and_the_same_command_goes_on(tmp_path: Path) -> Non
 
 
 def test_a_file_in_place_of_the_folder_is_said(tmp_path: Path, set_folder: Path) -> None:
-    where = _write(tmp_path / "in", {"ada.yaml": RIGHT}), _write(tmp_path, {"out": "notes"}) / "out"
+    where = with_files(tmp_path / "in", {"ada.yaml": RIGHT}), with_files(tmp_path, {"out": "notes"}) / "out"
     run = dynsolve("grade", str(set_folder), str(where[0]), "-o", str(where[1]))
     assert (run.code, where[1].read_text()) == (2, "notes")
     assert "is a file; name a folder" in run.err and "goes on" not in run.err
@@ -338,13 +319,13 @@ def test_workers_do_not_outlive_a_run_that_is_killed(tmp_path: Path) -> None:
 
 
 def test_regrade_tells_whose_marks_changed_and_why(tmp_path: Path, set_folder: Path) -> None:
-    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT, "b/in3140-rp.yaml": WRONG})
+    hand_ins = with_files(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT, "b/in3140-rp.yaml": WRONG})
     out = tmp_path / "out"
     words = ("grade", str(set_folder), str(hand_ins), "-o", str(out), "--diff")
     assert "2 hand-ins graded" in dynsolve(*words).err
     again = dynsolve(*words)
     assert "0 hand-ins graded, 2 as before" in again.err and again.out == ""
-    _write(hand_ins, {"b/in3140-rp.yaml": RIGHT})
+    with_files(hand_ins, {"b/in3140-rp.yaml": RIGHT})
     changed = dynsolve(*words)
     assert "1 hand-in graded, 1 as before" in changed.err
     assert changed.out == "b in3140-rp K: 0 -> 4 (the hand-in changed; correct: 4 of 4)\n"
@@ -359,7 +340,7 @@ def test_regrade_tells_whose_marks_changed_and_why(tmp_path: Path, set_folder: P
 
 
 def test_an_override_is_kept_and_shown(tmp_path: Path, set_folder: Path) -> None:
-    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": WRONG, "b/scan.pdf": b"%PDF"})
+    hand_ins = with_files(tmp_path / "in", {"a/in3140-rp.yaml": WRONG, "b/scan.pdf": b"%PDF"})
     out = tmp_path / "out"
     words = ("grade", str(set_folder), str(hand_ins), "-o", str(out))
     dynsolve(*words)
@@ -373,13 +354,13 @@ def test_an_override_is_kept_and_shown(tmp_path: Path, set_folder: Path) -> None
         assert totals == {"a": "5", "b": "2"}
         page = (out / "feedback" / "a" / "in3140-rp.html").read_text()
         assert "set by the teacher: &lt;good&gt; idea (the program: wrong: 0 of 4)" in page
-        _write(hand_ins, {"a/in3140-rp.yaml": WRONG + "# again\n"})
+        with_files(hand_ins, {"a/in3140-rp.yaml": WRONG + "# again\n"})
         dynsolve(*words)
 
 
 def test_marks_for_what_was_not_handed_in_are_read_by_the_student(tmp_path: Path) -> None:
     problem_set(tmp_path / "set")
-    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    hand_ins = with_files(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
     out = tmp_path / "out"
     dynsolve("grade", str(tmp_path / "set"), str(hand_ins), "-o", str(out))
     page = out / "feedback" / "a" / "planar-2r.html"
@@ -405,7 +386,7 @@ def test_marks_for_what_was_not_handed_in_are_read_by_the_student(tmp_path: Path
 def test_a_wrong_override_is_refused(
     tmp_path: Path, set_folder: Path, words: tuple[str, ...], message: str
 ) -> None:
-    hand_ins = _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    hand_ins = with_files(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
     dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(tmp_path / "out"))
     ran = dynsolve("override", str(tmp_path / "out"), *words, "--why", "x")
     assert ran.code == 2
@@ -413,7 +394,7 @@ def test_a_wrong_override_is_refused(
 
 
 def test_a_roster_without_its_platform_says_what_is_needed(tmp_path: Path, set_folder: Path) -> None:
-    _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    with_files(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
     words = (str(set_folder), str(tmp_path / "in"), "-o", str(tmp_path / "out"), "--roster", "gradebook.csv")
     ran = dynsolve("grade", *words)
     assert ran.code == 2
@@ -421,7 +402,7 @@ def test_a_roster_without_its_platform_says_what_is_needed(tmp_path: Path, set_f
 
 
 def test_a_platform_without_its_roster_says_what_is_needed(tmp_path: Path, set_folder: Path) -> None:
-    _write(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
+    with_files(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
     words = (str(set_folder), str(tmp_path / "in"), "-o", str(tmp_path / "out"), "--lms", "canvas")
     ran = dynsolve("grade", *words)
     assert ran.code == 2

@@ -8,14 +8,13 @@ C q̇, since several C are right.
 from __future__ import annotations
 
 import json
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.golden.exact import exact, flat, names_in, random_state, times
-from tests.support import ROOT, solve_json
+from tests.support import problem_file, solve_json
 
 HERE = Path(__file__).parent
 PUBLISHED = json.loads((HERE / "published.json").read_text(encoding="utf-8"))
@@ -31,12 +30,6 @@ CASES = PUBLISHED + [
 ]
 
 
-@cache
-def _solved(name: str) -> dict[str, Any]:
-    textbook = HERE / "textbooks" / f"{name}.yaml"
-    return solve_json(textbook if textbook.exists() else ROOT / "problems" / f"{name}.yaml")
-
-
 def _at(results: Any, path: Any) -> Any:
     for key in [path] if isinstance(path, str) else path:
         results = results[key]
@@ -45,7 +38,7 @@ def _at(results: Any, path: Any) -> Any:
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case['problem']}-{case['quantity']}")
 def test_the_published_result_comes_out(case: dict[str, Any]) -> None:
-    solution = _solved(case["problem"])
+    solution = solve_json(problem_file(case["problem"]))
     ours, theirs = _at(solution["results"], case["quantity"]), case["value"]
     coordinates = solution["coordinates"]
     angles = [q["name"] for q in coordinates if q["type"] == "revolute"]

@@ -19,8 +19,9 @@ import pytest
 from dynsolve.errors import UsageError
 from dynsolve.grading.cluster import PATIENCE, ClusterPool, _quiet, run_bounded
 from dynsolve.grading.pool import Bounds, Data
-from tests.cli.running import ROOT, dynsolve, environment
+from tests.cli.running import dynsolve, environment
 from tests.grading.generate import course, problem_set
+from tests.support import ROOT
 
 pytestmark = [
     pytest.mark.cluster,

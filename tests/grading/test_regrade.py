@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sqlite3
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import pytest
 
 import dynsolve
 from tests.grading.generate import PROBLEMS, course, problem_set
+from tests.support import record_of
 
 COUNT = 12
 STUDENTS = COUNT // len(PROBLEMS)
@@ -41,15 +41,6 @@ def _copied(folder: Path, to: Path) -> Path:
 
     shutil.copytree(folder, to / "course")
     return to / "course"
-
-
-def _dump(folder: Path) -> list[str]:
-    """The record, table by table, but for what the run before it left to compare with."""
-    db = sqlite3.connect(folder / "grades.sqlite")
-    tables = [name for (name,) in db.execute("SELECT name FROM sqlite_master WHERE type = 'table'")]
-    rows = [repr((t, *row)) for t in tables for row in db.execute(f"SELECT * FROM {t}")]  # noqa: S608
-    db.close()
-    return sorted(rows)
 
 
 def _set(old: str, new: str) -> Callable[[Path], None]:
@@ -94,7 +85,7 @@ def test_only_what_is_affected_is_computed(
     assert again.hand_ins == COUNT + 1
     fresh = dynsolve.grade(folder / "set", folder / "in", folder / "fresh")
     assert fresh.computed == COUNT + 1
-    assert _dump(folder / "out") == _dump(folder / "fresh")
+    assert record_of(folder / "out") == record_of(folder / "fresh")
     names = sorted(p.relative_to(folder / "fresh") for p in (folder / "fresh").rglob("*") if p.is_file())
     for name in names:
         if not name.name.startswith("grades.sqlite"):

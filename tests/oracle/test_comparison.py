@@ -12,17 +12,15 @@ import pytest
 from tests.oracle.comparison import assert_agrees, random_state
 from tests.oracle.pinocchio_arm import dynamics
 from tests.oracle.reading import coordinates_of, load, read
-from tests.support import ROOT, assert_close, numbers, solve_json
+from tests.support import ROOT, assert_close, numbers, problem_file, solve_json
 
-TEXTBOOKS = ROOT / "tests" / "golden" / "textbooks"
 PUBLISHED = json.loads((ROOT / "tests" / "golden" / "published.json").read_text(encoding="utf-8"))
 MATRICES = [case for case in PUBLISHED if case["quantity"] in ("D", "g", "tau", "C")]
 
 
 @pytest.mark.parametrize("case", MATRICES, ids=lambda case: f"{case['problem']}-{case['quantity']}")
 def test_the_oracle_agrees_with_the_book(case: dict[str, Any]) -> None:
-    textbook = TEXTBOOKS / f"{case['problem']}.yaml"
-    problem = load(textbook if textbook.exists() else ROOT / "problems" / f"{case['problem']}.yaml")
+    problem = load(problem_file(case["problem"]))
     values, q, qd, qdd = random_state(problem, seed=3)
     theirs = dynamics(read(problem, values), q, qd, qdd)
     book = numbers(case["value"], values)

@@ -8,7 +8,6 @@ c_1² - s_1² for c_1² + s_1² in (22), a lost dot in (29), I_1zz lost and 2 L�
 from __future__ import annotations
 
 from functools import lru_cache
-from pathlib import Path
 
 import pytest
 
@@ -16,8 +15,7 @@ from dynsolve.answers.judge import check
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.verdict import JudgedAnswer, Report
 from dynsolve.solution.solution import load
-
-FILE = Path(__file__).with_name("dynamics-overview.md")
+from tests.support import COURSE_DOCUMENT
 
 VERDICTS = {
     "correct": {"A1": 3, "H1": 3, "A2": 4, "H2": 5, "Jv": 9, "Jw": 10, "v1": 19, "v2": 20, "w1": 24,
@@ -44,7 +42,7 @@ SLIPS = {
 @lru_cache
 def report() -> Report:
     problem = load("in3140-rp")
-    return check(problem, read_submission(problem, FILE.read_bytes(), FILE.name))
+    return check(problem, read_submission(problem, COURSE_DOCUMENT.read_bytes(), COURSE_DOCUMENT.name))
 
 
 def one(name: str) -> JudgedAnswer:
@@ -82,7 +80,7 @@ def test_the_misread_coordinate_of_42_is_noted() -> None:
 
 
 def test_each_place_is_a_line_of_the_file() -> None:
-    lines = FILE.read_text(encoding="utf-8").splitlines()
+    lines = COURSE_DOCUMENT.read_text(encoding="utf-8").splitlines()
     place = one("Kv2").place
     assert place is not None
     assert r"\cos(2\theta_1)" in lines[place.line - 1]

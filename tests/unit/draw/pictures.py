@@ -12,10 +12,6 @@ from dynsolve.draw.space import Box, Taken
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import load, read_problem
 
-ROOT = Path(__file__).parent.parent.parent.parent
-LIBRARY = sorted((ROOT / "problems").glob("*.yaml"))
-TEXTBOOKS = sorted((ROOT / "tests" / "golden" / "textbooks").glob("*.yaml"))
-
 
 @cache
 def drawn(path: Path) -> Scene:

@@ -19,8 +19,7 @@ from dynsolve.draw.vectors import IDENTITY, applied, distance, into, turned
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Degrees, Number, Quotient, Sum, Symbol
 from dynsolve.problem import load, read_problem
-
-from .pictures import LIBRARY, TEXTBOOKS
+from tests.support import LIBRARY, TEXTBOOKS
 
 
 def problem(text: str):

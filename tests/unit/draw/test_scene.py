@@ -13,8 +13,8 @@ from dynsolve.draw.scene import scene
 from dynsolve.draw.svg import to_svg
 from dynsolve.problem import load
 from dynsolve.robot.model import JointType
-
-from .pictures import LIBRARY, TEXTBOOKS, drawn, drawn_text, names, overlapping, struck_through
+from tests.support import LIBRARY, TEXTBOOKS
+from tests.unit.draw.pictures import drawn, drawn_text, names, overlapping, struck_through
 
 ALL = [*LIBRARY, *TEXTBOOKS]
 

@@ -6,7 +6,6 @@ import random
 import re
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -39,6 +38,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
 from tests.robots import robots
+from tests.support import ROOT
 
 LONG = ("puma560", "stanford-6")
 SHORT = ("planar-2r", "elbow-3r", "puma560-first3", "crustcrawler-2r", "in3140-rp")
@@ -338,7 +338,7 @@ def test_nothing_fills_pages() -> None:
 def test_a_long_model_with_numbers_for_its_masses() -> None:
     """Numbers need no names; what recurs does, and the steps say what they are made of all the same."""
     draw = random.Random(1)
-    head, masses = (Path(__file__).parents[3] / "problems" / "puma560.yaml").read_text().split("masses:")
+    head, masses = (ROOT / "problems" / "puma560.yaml").read_text().split("masses:")
     masses = masses.split("find:")[0]
     numbers = re.sub(r"\b([mxyz]\d|I\d\w\w)\b", lambda _: f"{draw.uniform(0.1, 2):.2f}", masses)
     solution = dynsolve.solve(f"{head}masses:{numbers}")

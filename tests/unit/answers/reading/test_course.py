@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.submission import Answer, Submission
 from dynsolve.problem import load
 from dynsolve.problem.library import find
-
-COURSE = Path(__file__).with_name("course.md")
+from tests.support import COURSE_DOCUMENT
 
 READ = [
     ("I_body1", "(1)"),
@@ -50,7 +47,7 @@ READ = [
 
 
 def hand_in() -> Submission:
-    return read_submission(load(find("in3140-rp")), COURSE.read_bytes(), "course.md")
+    return read_submission(load(find("in3140-rp")), COURSE_DOCUMENT.read_bytes(), "course.md")
 
 
 def last(name: str) -> Answer:
@@ -81,7 +78,7 @@ def test_repaired_notation_is_shown() -> None:
 
 
 def test_the_place_is_that_of_the_value() -> None:
-    text = COURSE.read_text(encoding="utf-8").splitlines()
+    text = COURSE_DOCUMENT.read_text(encoding="utf-8").splitlines()
     place = last("P2").place
     assert text[place.line - 1][place.column - 1 :].startswith("m_2 g L_1")
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+
+from tests.cli.running import Ran, dynsolve
 
 PROBLEM = """
 title: Pendulum
@@ -19,9 +19,8 @@ marks: {tau: 3, g: 1.5}
 """
 
 
-def check(*words: str | Path, source: str = "") -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "dynsolve", "check", *map(str, words)]
-    return subprocess.run(command, input=source, capture_output=True, text=True, check=False)
+def check(*words: str | Path, source: str = "") -> Ran:
+    return dynsolve("check", *map(str, words), stdin=source)
 
 
 @pytest.fixture
@@ -43,14 +42,14 @@ WRONG = "  tau1: m1*l1*q1'' + m1*g*l1*cos(q1)\n  g: [m1*g*l1*cos(q1)]\n"
 
 def test_all_correct_ends_with_0(problem: Path, tmp_path: Path) -> None:
     done = check(problem, write(tmp_path, RIGHT))
-    assert done.returncode == 0, done.stderr
-    assert "correct" in done.stdout
+    assert done.code == 0, done.err
+    assert "correct" in done.out
 
 
 def test_a_wrong_answer_ends_with_1_and_json_is_the_contract(problem: Path, tmp_path: Path) -> None:
     done = check(problem, write(tmp_path, WRONG), "--json")
-    assert done.returncode == 1
-    report = json.loads(done.stdout)
+    assert done.code == 1
+    report = json.loads(done.out)
     assert list(report) == [
         "format", "problem", "student", "answers", "not_recognized", "first_wrong", "marks", "of",
     ]  # fmt: skip
@@ -65,38 +64,38 @@ def test_a_wrong_answer_ends_with_1_and_json_is_the_contract(problem: Path, tmp_
 
 def test_the_ladder_tells_more_and_more(problem: Path, tmp_path: Path) -> None:
     answers = write(tmp_path, WRONG)
-    said = [check(problem, answers, "--hints", str(level)).stdout for level in (1, 2, 3)]
+    said = [check(problem, answers, "--hints", str(level)).out for level in (1, 2, 3)]
     assert all("tau1" in text for text in said)
     assert ["square" in text for text in said] == [False, True, True]
     assert ["should be squared" in text for text in said] == [False, False, True]
-    assert "minus what was expected" in check(problem, answers, "--teacher").stdout
+    assert "minus what was expected" in check(problem, answers, "--teacher").out
 
 
 def test_nothing_readable_ends_with_2(problem: Path, tmp_path: Path) -> None:
     done = check(problem, write(tmp_path, "  tau1: m1*\n"))
-    assert done.returncode == 2
-    assert "answers.yaml:3:" in done.stderr
-    assert "^" in done.stderr
+    assert done.code == 2
+    assert "answers.yaml:3:" in done.err
+    assert "^" in done.err
 
 
 def test_a_file_that_is_not_there_ends_with_2(problem: Path) -> None:
     done = check(problem, "nowhere.yaml")
-    assert done.returncode == 2
-    assert "help:" in done.stderr
+    assert done.code == 2
+    assert "help:" in done.err
 
 
 def test_standard_input_is_an_answer_file(problem: Path) -> None:
-    assert check(problem, "-", source=f"answers:\n{RIGHT}").returncode == 0
+    assert check(problem, "-", source=f"answers:\n{RIGHT}").code == 0
 
 
 @pytest.mark.parametrize(("option", "begins"), [("--html", "<!DOCTYPE html>"), ("--markdown", "# ")])
 def test_a_report_as_a_page(problem: Path, tmp_path: Path, option: str, begins: str) -> None:
     done = check(problem, write(tmp_path, WRONG), option)
-    assert done.returncode == 1, done.stderr
-    assert done.stdout.startswith(begins)
+    assert done.code == 1, done.err
+    assert done.out.startswith(begins)
 
 
 def test_readings_are_shown_on_demand(problem: Path, tmp_path: Path) -> None:
     answers = write(tmp_path, RIGHT)
-    assert "How the answers were read" not in check(problem, answers).stdout
-    assert "How the answers were read" in check(problem, answers, "--show-reading").stdout
+    assert "How the answers were read" not in check(problem, answers).out
+    assert "How the answers were read" in check(problem, answers, "--show-reading").out

@@ -27,7 +27,7 @@ from dynsolve.grading.hand_ins import Intake
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.problem.reader import read_problem
-from tests.support import ROOT
+from tests.support import ROOT, with_files
 
 TEXT = (ROOT / "problems" / "in3140-rp.yaml").read_text(encoding="utf-8")
 MARKS = {"K": Fraction(4), "g": Fraction(2)}
@@ -479,20 +479,13 @@ def set_folder(tmp_path: Path) -> Path:
     return folder
 
 
-def _write(folder: Path, files: dict[str, str]) -> Path:
-    for name, text in files.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
-    return folder
-
-
 def test_a_moodle_download_goes_back_as_a_worksheet_and_pages(tmp_path: Path, set_folder: Path) -> None:
     names = {41: "Ada Lovelace", 42: "Grace Hopper"}
     files = {f"{name}_{id}_assignsubmission_file/hw.yaml": RIGHT for id, name in names.items()}
     roster = tmp_path / "Grades-IN3140-Assignment 2-1234.csv"
     lines = [f"Participant {id},{name},x@y,Submitted,,6.00,Yes,1 May,-," for id, name in names.items()]
     roster.write_text("\n".join([ENGLISH, *lines]) + "\n")
-    hand_ins = _write(tmp_path / "in", files)
+    hand_ins = with_files(tmp_path / "in", files)
     dynsolve.grade(set_folder, hand_ins, tmp_path / "out", lms="moodle", roster=roster)
     dynsolve.override(tmp_path / "out", "Ada Lovelace_41", "in3140-rp", "K", marks=3, why="late idea")
     written = (tmp_path / "out" / "moodle.csv").read_text().splitlines()
@@ -509,7 +502,7 @@ def test_a_gradescope_export_goes_out_as_results(tmp_path: Path, set_folder: Pat
         "assignment_1_export/submission_7/in3140-rp.yaml": RIGHT,
         "assignment_1_export/submission_metadata.yml": people,
     }
-    hand_ins = _write(tmp_path / "in", files)
+    hand_ins = with_files(tmp_path / "in", files)
     grades = dynsolve.grade(set_folder, hand_ins, tmp_path / "out", lms="gradescope")
     assert grades.totals == {"s7": 6, "s8": 6} and grades.warnings == ()
     paths = list((tmp_path / "out" / "gradescope").rglob("results.json"))

@@ -1,0 +1,63 @@
+"""The tests lie where one looks for them, each is collected, and the tools are what the documents say."""
+
+from __future__ import annotations
+
+import ast
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import dynsolve
+from tests.support import ROOT
+
+PACKAGE = Path(dynsolve.__file__).parent
+TESTS = ROOT / "tests"
+FILES = sorted(TESTS.rglob("*.py"))
+ELSEWHERE = {"cli"}
+"""Rooms whose tests lie in a folder of their own: commands are tested as a user runs them."""
+
+TOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]
+MARKERS = [marker.partition(":")[0] for marker in TOOLS["pytest"]["ini_options"]["markers"]]
+
+
+def folders(top: Path) -> set[str]:
+    """The folders below `top` that hold Python files, by their paths."""
+    return {path.parent.relative_to(top).as_posix() for path in top.rglob("*.py")} - {"."}
+
+
+def test_every_room_of_the_package_has_unit_tests_and_no_folder_of_them_is_without_its_room() -> None:
+    rooms = folders(PACKAGE)
+    assert folders(TESTS / "unit") <= rooms
+    assert rooms - folders(TESTS / "unit") == ELSEWHERE
+    assert folders(TESTS) >= ELSEWHERE
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(TESTS).as_posix())
+def test_what_looks_like_a_test_is_collected(path: Path) -> None:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    functions = [node.name for node in tree.body if isinstance(node, ast.FunctionDef)]
+    tests = [name for name in functions if name.startswith("test_")]
+    assert bool(tests) == path.name.startswith("test_")
+    assert len(tests) == len(set(tests)), "a second test of a name hides the first"
+
+
+def test_the_documents_name_every_folder_every_marker_and_every_task() -> None:
+    guide = (TESTS / "README.md").read_text(encoding="utf-8")
+    top = {path.relative_to(TESTS).parts[0] for path in FILES if path.parent != TESTS}
+    assert top == set(re.findall(r"^\| `(\w+)/` \|", guide, re.MULTILINE))
+    assert set(MARKERS) == set(re.findall(r"^\| `(\w+)` \|", guide, re.MULTILINE))
+    contributing = (ROOT / ".github" / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    assert set(TOOLS["poe"]["tasks"]) == set(re.findall(r"^\| `poe (\w+)` \|", contributing, re.MULTILINE))
+
+
+def test_quick_leaves_out_what_is_marked() -> None:
+    (words,) = re.findall(r"-m 'not \((.*)\)'", TOOLS["poe"]["tasks"]["quick"]["cmd"])
+    assert words.split(" or ") == MARKERS
+
+
+def test_the_constraints_say_how_they_are_made_and_name_no_host() -> None:
+    first, *pins = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    assert re.match(r"# .*: uv pip compile pyproject\.toml --extra all ", first)
+    assert all(re.fullmatch(r"[a-z0-9-]+==[\w.]+( ; .+)?", pin) for pin in pins)

@@ -1,0 +1,30 @@
+"""The stages: in the order of the course, each called by one word, and numbered as in the README."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from dynsolve.quantities.stages import Stage
+from tests.support import ROOT
+
+
+def test_the_readme_lists_them_in_their_order() -> None:
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    (listed,) = re.findall(r"One stage alone, or a range of them \(([^)]*)\)", readme)
+    assert listed.split(", ") == [str(stage) for stage in Stage]
+
+
+def test_numbers_count_from_one() -> None:
+    assert [stage.number for stage in Stage] == [1, 2, 3, 4, 5, 6, 7]
+
+
+@pytest.mark.parametrize("stage", Stage)
+def test_a_stage_is_its_word_and_has_a_heading(stage: Stage) -> None:
+    assert Stage(str(stage)) is stage
+    assert stage.heading and stage.heading[0].isupper()
+
+
+def test_what_a_robot_without_masses_has() -> None:
+    assert [stage for stage in Stage if not stage.needs_masses] == ["kinematics", "jacobian"]
