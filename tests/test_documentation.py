@@ -21,8 +21,8 @@ from dynsolve.answers.verdict import Verdict
 from dynsolve.cli.docs import topics
 from dynsolve.errors import ExitCode
 from dynsolve.grading.problem_set import KEYS, POLICY_KEYS
+from dynsolve.problem.documentation import tables
 from dynsolve.problem.lint import lint_text
-from dynsolve.problem.reference import tables
 from tests.pages import blocks, examples, files, run, sections
 from tests.support import ROOT
 
@@ -75,7 +75,7 @@ def test_every_yaml_block_is_read_as_it_is_shown() -> None:
 
 def test_the_tables_of_keys_are_those_of_the_specification() -> None:
     for table in tables():
-        assert table in PAGE, f"python -m dynsolve.problem.reference prints it:\n{table}"
+        assert table in PAGE, f"python -m dynsolve.problem.documentation prints it:\n{table}"
 
 
 def keys(value: Any) -> set[str]:

@@ -17,7 +17,7 @@ def new(
     force: Annotated[bool, typer.Option("--force", help="Overwrite a file that is there.")] = False,
 ) -> None:
     """Write a commented problem file to start from."""
-    from dynsolve.problem.template import template
+    from dynsolve.problem.documentation import template
 
     if file == "-":
         typer.echo(template(), nl=False)

@@ -25,8 +25,7 @@ from dynsolve.problem.library import find
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.source import Faults, as_source
-from dynsolve.problem.yaml_nodes import Faulty, Scalar, YamlNode, read_nodes
-from dynsolve.problem.yaml_nodes import Mapping as MappingNode
+from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode, read_nodes
 from dynsolve.quantities.stages import Stage
 
 SET_FILE = "set.yaml"
@@ -88,9 +87,9 @@ def _read(path: Path) -> tuple[Reading, str]:
 
 def _folder(folder: Path) -> ProblemSet:
     file = folder / SET_FILE
-    report = Faults(as_source(read_file(file) if file.exists() else b"", str(file)))
-    fields = _fields(report) if file.exists() else None
-    paths = _paths(report, folder, fields.get("problems") if fields else None)
+    faults = Faults(as_source(read_file(file) if file.exists() else b"", str(file)))
+    fields = _fields(faults) if file.exists() else None
+    paths = _paths(faults, folder, fields.get("problems") if fields else None)
     readings: dict[str, tuple[Reading, str]] = {}
     findings: list[Finding] = []
     for path in paths:
@@ -98,39 +97,39 @@ def _folder(folder: Path) -> ProblemSet:
             readings[path.stem] = _read(path)
         except ProblemError as error:
             findings += error.findings
-    marks = _marks(report, fields.get("marks") if fields else None, readings)
-    policy = _policy(report, fields.get("policy") if fields else None)
-    if report.errors or findings:
-        raise ProblemError([*report.found(), *findings])
-    title = (free_text(report, fields.get("title"), "title") if fields else "") or folder.resolve().name
+    marks = _marks(faults, fields.get("marks") if fields else None, readings)
+    policy = _policy(faults, fields.get("policy") if fields else None)
+    if faults.errors or findings:
+        raise ProblemError([*faults.found(), *findings])
+    title = (free_text(faults, fields.get("title"), "title") if fields else "") or folder.resolve().name
     chosen = tuple(Item(_marked(r.problem, marks.get(s, {})), text) for s, (r, text) in readings.items())
     return ProblemSet(title, chosen, policy)
 
 
-def _fields(report: Faults) -> Fields | None:
-    root = read_nodes(report)
+def _fields(faults: Faults) -> Fields | None:
+    root = read_nodes(faults)
     if isinstance(root, MappingNode):
-        return Fields(report, root, KEYS, "a set.yaml")
+        return Fields(faults, root, KEYS, "a set.yaml")
     if root is not None:
         message = f"the file is {describe(root)}, not keys with values"
-        report.error(root.span, message, f"known are {', '.join(KEYS)}")
+        faults.error(root.span, message, f"known are {', '.join(KEYS)}")
     return None
 
 
-def _paths(report: Faults, folder: Path, node: YamlNode | None) -> list[Path]:
+def _paths(faults: Faults, folder: Path, node: YamlNode | None) -> list[Path]:
     """The files of the problems in their order; without a list all of the folder."""
     found: dict[str, Path] = {}
-    for item in items(report, node, "problems", "write problems: [a.yaml, b.yaml]"):
-        name = item.decoded if isinstance(item, Scalar) else ""
+    for item in items(faults, node, "problems", "write problems: [a.yaml, b.yaml]"):
+        name = item.decoded if isinstance(item, ScalarNode) else ""
         path = folder / name
         if not path.suffix:
             path = path.with_suffix(".yaml")
         if not name or Path(name).is_absolute() or ".." in Path(name).parts or not path.is_file():
             known = [p.name for p in _files(folder)]
             help = did_you_mean(name, known) or f"the folder holds {', '.join(known[:10]) or 'none'}"
-            report.error(item.span, f"there is no problem file `{name[:80]}` in the folder", help)
+            faults.error(item.span, f"there is no problem file `{name[:80]}` in the folder", help)
         elif path.stem in found:
-            report.error(item.span, f"`{name[:80]}` is listed twice", "keep one of them")
+            faults.error(item.span, f"`{name[:80]}` is listed twice", "keep one of them")
         else:
             found[path.stem] = path
     if node is None:
@@ -147,15 +146,15 @@ def _files(folder: Path) -> list[Path]:
 
 
 def _marks(
-    report: Faults, node: YamlNode | None, readings: Mapping[str, tuple[Reading, str]]
+    faults: Faults, node: YamlNode | None, readings: Mapping[str, tuple[Reading, str]]
 ) -> dict[str, dict[str, Fraction]]:
-    fields = mapping(report, node, tuple(readings), "marks", "write marks: {in3140-rp: {P: 2, K: 4}}")
+    fields = mapping(faults, node, tuple(readings), "marks", "write marks: {in3140-rp: {P: 2, K: 4}}")
     found: dict[str, dict[str, Fraction]] = {}
     for stem in fields or ():
         assert fields is not None
         value, names = fields.get(stem), _answer_names(readings[stem][0])
         if not isinstance(value, MappingNode):
-            report.error(fields.span_of(stem), f"the marks of {stem} are a mapping", "write {P: 2, K: 4}")
+            faults.error(fields.span_of(stem), f"the marks of {stem} are a mapping", "write {P: 2, K: 4}")
             continue
         found[stem] = {}
         for key, points in value.entries:
@@ -164,39 +163,39 @@ def _marks(
                 help = (
                     did_you_mean(key.text, names.examples()) or "answers are tau, D, C, g, P, K, L, K1, ..."
                 )
-                report.error(key.span, f"`{key.text[:40]}` is no answer of {stem}", help)
+                faults.error(key.span, f"`{key.text[:40]}` is no answer of {stem}", help)
             elif name in found[stem]:
-                report.error(key.span, f"{name} has marks already", "keep one of them")
+                faults.error(key.span, f"{name} has marks already", "keep one of them")
             else:
-                found[stem][name] = _number(report, points, f"the marks for {name}") or Fraction(0)
+                found[stem][name] = _number(faults, points, f"the marks for {name}") or Fraction(0)
     return found
 
 
 def _answer_names(reading: Reading) -> AnswerNames:
-    kinds = enumerate(reading.sheet.table.coordinates, 1)
+    kinds = enumerate(reading.parsed.table.coordinates, 1)
     forces = [f"{'tau' if kind == 'revolute' else 'f'}{i}" for i, (_, kind) in kinds]
-    return AnswerNames(len(reading.sheet.table.rows), forces, [body.name for body in reading.sheet.bodies])
+    return AnswerNames(len(reading.parsed.table.rows), forces, [body.name for body in reading.parsed.bodies])
 
 
-def _policy(report: Faults, node: YamlNode | None) -> Policy:
-    fields = mapping(report, node, POLICY_KEYS, "policy", "write policy: {follow: 1/2, hints: 2}")
+def _policy(faults: Faults, node: YamlNode | None) -> Policy:
+    fields = mapping(faults, node, POLICY_KEYS, "policy", "write policy: {follow: 1/2, hints: 2}")
     if fields is None:
         return Policy()
     plain = Policy()
-    hints = whole_number(report, fields.get("hints"), "hints", "write 1 (where), 2 (what kind) or 3 (how)")
+    hints = whole_number(faults, fields.get("hints"), "hints", "write 1 (where), 2 (what kind) or 3 (how)")
     if hints is not None and not 1 <= hints <= 3:
         message = "hints are 1, 2 or 3"
-        report.error(fields.span_of("hints"), message, "1 says where, 2 what kind of slip, 3 how")
-    follow = _share(report, fields, "follow")
-    late = _share(report, fields, "late")
-    step = _number(report, fields.get("rounding"), "rounding") if "rounding" in fields else None
+        faults.error(fields.span_of("hints"), message, "1 says where, 2 what kind of slip, 3 how")
+    follow = _share(faults, fields, "follow")
+    late = _share(faults, fields, "late")
+    step = _number(faults, fields.get("rounding"), "rounding") if "rounding" in fields else None
     if step == 0:
-        report.error(fields.span_of("rounding"), "marks cannot be rounded to steps of 0", "write 0.5 or 0.01")
-    caps = mapping(report, fields.get("caps"), tuple(Stage), "caps", "write caps: {energy: 5}")
+        faults.error(fields.span_of("rounding"), "marks cannot be rounded to steps of 0", "write 0.5 or 0.01")
+    caps = mapping(faults, fields.get("caps"), tuple(Stage), "caps", "write caps: {energy: 5}")
     return Policy(
         plain.follow if follow is None else follow,
         {
-            stage: _number(report, caps.get(stage), f"the cap of {stage}") or Fraction(0)
+            stage: _number(faults, caps.get(stage), f"the cap of {stage}") or Fraction(0)
             for stage in caps or ()
         }
         if caps
@@ -207,25 +206,25 @@ def _policy(report: Faults, node: YamlNode | None) -> Policy:
     )
 
 
-def _share(report: Faults, fields: Fields, key: str) -> Fraction | None:
-    value = _number(report, fields.get(key), key) if key in fields else None
+def _share(faults: Faults, fields: Fields, key: str) -> Fraction | None:
+    value = _number(faults, fields.get(key), key) if key in fields else None
     if value is not None and value > 1:
-        report.error(fields.span_of(key), f"`{key}` is a share, at most 1", "write 1/2 or 0.8")
+        faults.error(fields.span_of(key), f"`{key}` is a share, at most 1", "write 1/2 or 0.8")
     return value
 
 
-def _number(report: Faults, node: YamlNode | None, what: str) -> Fraction | None:
+def _number(faults: Faults, node: YamlNode | None, what: str) -> Fraction | None:
     """A number from 0 on, None (reported) for what is none."""
-    if isinstance(node, Faulty):
+    if isinstance(node, FaultyNode):
         return None
-    cell = read_cell(report, node, what)
+    cell = read_cell(faults, node, what)
     if cell is None:
         return None
     value = rational_value(cell.tree)
     if value is None:
-        report.error(cell.span, f"{what}: `{cell.text[:40]}` is not a number", "write a number: 4, 0.5, 1/2")
+        faults.error(cell.span, f"{what}: `{cell.text[:40]}` is not a number", "write a number: 4, 0.5, 1/2")
     elif value < 0:
-        report.error(cell.span, f"{what} cannot be negative", "write 0 or more")
+        faults.error(cell.span, f"{what} cannot be negative", "write 0 or more")
     return value
 
 

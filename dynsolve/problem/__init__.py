@@ -1,7 +1,30 @@
-"""Problem files: YAML text -> `Problem` with its `Robot`, every error located.
+"""Problem files: YAML text -> `Problem` with its `Robot`, every fault located.
 
-`load(path)` and `read_problem(text)` are the way in; they are resolved lazily, so
-that the schema and the template cost no more than they need.
+`load(path)` and `read_problem(text)` are the way in.  The way of a file:
+
+    bytes            source         text, UTF-8 and visible; `Faults` collects what is wrong
+      -> YAML nodes  yaml_nodes     lists, mappings and scalars that know their place
+                     yaml_errors    what YAML's parser complains of, with a remedy
+      -> parsed      fields         the keys of a mapping, and what kind of value each holds
+                     cells          an expression where it stands
+                     table, linear  `dh`: rows, stars, coordinates
+                     bodies         `masses`
+                     base           `gravity`, `base`
+                     rotations      `Rz(90deg) Rx(30deg)`
+                     exercise       `find`, `marks`, `values`, `units`
+                     parsed_file    all of them together
+      -> checked     symbols        one name is one thing
+      -> Robot       values         the ring that holds everything, and each cell in it
+                     build          joints and bodies
+      -> Problem     model          the robot, and what the exercise says about it
+
+`reader` goes this way; each step reports what it finds and goes on with what is sound.
+Which keys there are is said once, in `specification` (in terms of `kinds`); from there come
+the reader's keys, the JSON Schema (`schema`), the file of `dynsolve new` and the tables of
+the documentation (`documentation`).  `lint` finds what is no fault but deserves a look,
+`library` the problems that come with dynsolve.
+
+The names of this module are resolved lazily, so that the schema costs no more than it needs.
 """
 
 from __future__ import annotations

@@ -7,20 +7,20 @@ from dataclasses import dataclass
 from dynsolve.notation.tree import Node as Tree
 from dynsolve.problem.cells import Cell, constant_value, forbid, made_cell, read_vector
 from dynsolve.problem.fields import Fields, describe
-from dynsolve.problem.rotations import RotationSheet, read_rotation
+from dynsolve.problem.rotations import ParsedRotation, read_rotation
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import BASE, NO_VALUE, PROBLEM
-from dynsolve.problem.yaml_nodes import Faulty, Mapping, Scalar, Sequence, YamlNode
+from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, YamlNode
 
 _GRAVITY_HELP = PROBLEM["gravity"].help
 _CONSTANT = "joint variables stand in the table alone"
 
 
 @dataclass(frozen=True, slots=True)
-class BaseSheet:
+class ParsedBase:
     """Frame 0 in the world; None for no rotation, no displacement."""
 
-    rotation: RotationSheet | None
+    rotation: ParsedRotation | None
     move: tuple[Cell, ...] | None
 
     @property
@@ -29,31 +29,31 @@ class BaseSheet:
         return (self.rotation.cells if self.rotation else ()) + (self.move or ())
 
 
-def read_gravity(report: Faults, fields: Fields, coordinates: tuple[str, ...]) -> tuple[Cell, ...] | None:
+def read_gravity(faults: Faults, fields: Fields, coordinates: tuple[str, ...]) -> tuple[Cell, ...] | None:
     """The three components of gravity; None where they were reported."""
     node = fields.get("gravity")
-    if "gravity" not in fields or isinstance(node, Faulty):
+    if "gravity" not in fields or isinstance(node, FaultyNode):
         if "g" in coordinates:
             message = "g is a coordinate here, but gravity is [0, 0, -g] by default"
-            report.error(
+            faults.error(
                 fields.key_span("dh"), message, "give one of them another letter, or write gravity: none"
             )
         return _components("0", "0", "-g")
-    if isinstance(node, Scalar) and node.text in NO_VALUE.choices:
+    if isinstance(node, ScalarNode) and node.text in NO_VALUE.choices:
         return _components("0", "0", "0")
-    if not isinstance(node, Sequence):
+    if not isinstance(node, ListNode):
         span = fields.span_of("gravity")
-        report.error(span, f"gravity is a vector, not {describe(node) if node else 'nothing'}", _GRAVITY_HELP)
+        faults.error(span, f"gravity is a vector, not {describe(node) if node else 'nothing'}", _GRAVITY_HELP)
         return None
-    cells = read_vector(report, node, "gravity")
-    forbid(report, cells or (), coordinates, _CONSTANT)
+    cells = read_vector(faults, node, "gravity")
+    forbid(faults, cells or (), coordinates, _CONSTANT)
     if cells and _points_up(cells):
         message = "gravity points upwards here"
         help = (
             "the acceleration of gravity points downwards: [0, 0, -g]; "
             "texts that write P = m gᵀ r mean the opposite vector"
         )
-        report.warn(node.span, message, help, "gravity-upward")
+        faults.warn(node.span, message, help, "gravity-upward")
     return cells
 
 
@@ -75,17 +75,17 @@ def _begins_with_minus(cell: Cell) -> bool:
     return cell.text.lstrip(" (").startswith(("-", "−"))
 
 
-def read_base(report: Faults, node: YamlNode | None, coordinates: tuple[str, ...]) -> BaseSheet:
+def read_base(faults: Faults, node: YamlNode | None, coordinates: tuple[str, ...]) -> ParsedBase:
     """The base frame; what is wrong with it is reported and left out."""
-    sheet = _read_base(report, node)
-    forbid(report, sheet.cells, coordinates, "the base does not move: " + _CONSTANT)
-    return sheet
+    parsed = _read_base(faults, node)
+    forbid(faults, parsed.cells, coordinates, "the base does not move: " + _CONSTANT)
+    return parsed
 
 
-def _read_base(report: Faults, node: YamlNode | None) -> BaseSheet:
-    if isinstance(node, Mapping):
-        fields = Fields(report, node, BASE.names, "base")
-        rotation = read_rotation(report, fields.get("rotate"), "base")
-        move = read_vector(report, fields.get("move"), "the position of the base")
-        return BaseSheet(rotation, move)
-    return BaseSheet(read_rotation(report, node, "base"), None)
+def _read_base(faults: Faults, node: YamlNode | None) -> ParsedBase:
+    if isinstance(node, MappingNode):
+        fields = Fields(faults, node, BASE.names, "base")
+        rotation = read_rotation(faults, fields.get("rotate"), "base")
+        move = read_vector(faults, fields.get("move"), "the position of the base")
+        return ParsedBase(rotation, move)
+    return ParsedBase(read_rotation(faults, node, "base"), None)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix, read_vector
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items, whole_number, word
-from dynsolve.problem.rotations import RotationSheet, check_moving, read_rotation
+from dynsolve.problem.rotations import ParsedRotation, check_moving, read_rotation
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import (
     ABOUT,
@@ -23,8 +23,7 @@ from dynsolve.problem.specification import (
     TENSOR,
     dimensions,
 )
-from dynsolve.problem.yaml_nodes import Faulty, Scalar, Sequence, Span, YamlNode
-from dynsolve.problem.yaml_nodes import Mapping as MappingNode
+from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 from dynsolve.robot.model import AxesKind
 from dynsolve.robot.shapes import AXES, KINDS
 
@@ -34,7 +33,7 @@ _CENTER_HELP, _SHAPE_HELP, _TENSOR_HELP = (BODY[key].help for key in ("center", 
 
 
 @dataclass(frozen=True, slots=True)
-class CenterSheet:
+class ParsedCenter:
     """Where the mass centre is: `kind` is tip, origin, midpoint, along (one cell), near or at (three)."""
 
     kind: str
@@ -43,7 +42,7 @@ class CenterSheet:
 
 
 @dataclass(frozen=True, slots=True)
-class ShapeSheet:
+class ParsedShape:
     """A shape with its dimensions; `axis` is empty where the file does not say."""
 
     kind: str
@@ -53,7 +52,7 @@ class ShapeSheet:
 
 
 @dataclass(frozen=True, slots=True)
-class TensorSheet:
+class ParsedTensor:
     """An inertia tensor: 3×3 cells, None where an entry is 0; `listed` where a full list was given."""
 
     span: Span
@@ -62,17 +61,17 @@ class TensorSheet:
 
 
 @dataclass(frozen=True, slots=True)
-class AxesSheet:
+class ParsedAxes:
     """The body-attached axes; `rotation` None for those of the link or of the base."""
 
     kind: AxesKind
     span: Span
-    rotation: RotationSheet | None
+    rotation: ParsedRotation | None
     written: str
 
 
 @dataclass(frozen=True, slots=True)
-class BodySheet:
+class ParsedBody:
     """One entry of `masses:`; None where a part was reported or is not given.
 
     `faulty` tells the two apart: something of the entry was reported.
@@ -84,11 +83,11 @@ class BodySheet:
     name: str
     mass: Cell | None
     link: int | None
-    center: CenterSheet | None
-    shape: ShapeSheet | None
-    tensor: TensorSheet | None
+    center: ParsedCenter | None
+    shape: ParsedShape | None
+    tensor: ParsedTensor | None
     about: str
-    axes: AxesSheet | None
+    axes: ParsedAxes | None
     faulty: bool
 
     @property
@@ -112,214 +111,214 @@ class BodySheet:
 
 
 def read_bodies(
-    report: Faults, node: YamlNode | None, rows: int, coordinates: Mapping[str, str]
-) -> tuple[BodySheet, ...]:
+    faults: Faults, node: YamlNode | None, rows: int, coordinates: Mapping[str, str]
+) -> tuple[ParsedBody, ...]:
     """The entries under `masses:`; everything wrong with one is reported."""
-    nodes = items(report, node, "masses", f"a list of bodies; {_EXAMPLE}") if not _is_empty(node) else ()
+    nodes = items(faults, node, "masses", f"a list of bodies; {_EXAMPLE}") if not _is_empty(node) else ()
     if len(nodes) > MAX_BODIES and node:
-        report.error(node.span, f"{len(nodes)} bodies; at most {MAX_BODIES} are read", "leave some out")
+        faults.error(node.span, f"{len(nodes)} bodies; at most {MAX_BODIES} are read", "leave some out")
         nodes = nodes[:MAX_BODIES]
-    sheets = [_read_body(report, entry, i, rows, coordinates) for i, entry in enumerate(nodes, 1)]
-    bodies = tuple(sheet for sheet in sheets if sheet)
-    _check_names(report, bodies)
+    entries = [_read_body(faults, entry, i, rows, coordinates) for i, entry in enumerate(nodes, 1)]
+    bodies = tuple(parsed for parsed in entries if parsed)
+    _check_names(faults, bodies)
     return bodies
 
 
 def _is_empty(node: YamlNode | None) -> bool:
-    return isinstance(node, Scalar) and node.text in ("", *NO_VALUE.choices)
+    return isinstance(node, ScalarNode) and node.text in ("", *NO_VALUE.choices)
 
 
 def _read_body(
-    report: Faults, node: YamlNode, index: int, rows: int, coordinates: Mapping[str, str]
-) -> BodySheet | None:
-    before = len(report.errors)
+    faults: Faults, node: YamlNode, index: int, rows: int, coordinates: Mapping[str, str]
+) -> ParsedBody | None:
+    before = len(faults.errors)
     if not isinstance(node, MappingNode):
-        if not isinstance(node, Faulty):
-            report.error(node.span, f"body {index} is not a mapping but {describe(node)}", _EXAMPLE)
+        if not isinstance(node, FaultyNode):
+            faults.error(node.span, f"body {index} is not a mapping but {describe(node)}", _EXAMPLE)
         return None
-    fields = Fields(report, node, BODY.names, f"body {index}")
+    fields = Fields(faults, node, BODY.names, f"body {index}")
     for key in BODY.required:
         if fields.lacks(key.name):
-            report.error(node.span, f"body {index} has no `{key.name}`", f"add {key.help}")
-    shape = _read_shape(report, fields.get("shape"), f"body {index}")
-    tensor = _read_tensor(report, fields.get("inertia"), f"body {index}")
-    sheet = BodySheet(
+            faults.error(node.span, f"body {index} has no `{key.name}`", f"add {key.help}")
+    shape = _read_shape(faults, fields.get("shape"), f"body {index}")
+    tensor = _read_tensor(faults, fields.get("inertia"), f"body {index}")
+    parsed = ParsedBody(
         index=index,
         span=node.span,
         fields=fields,
-        name=_read_name(report, fields.get("name"), index),
-        mass=read_cell(report, fields.get("mass"), f"the mass of body {index}"),
-        link=_read_link(report, fields.get("link"), rows),
-        center=_read_center(report, fields, index),
+        name=_read_name(faults, fields.get("name"), index),
+        mass=read_cell(faults, fields.get("mass"), f"the mass of body {index}"),
+        link=_read_link(faults, fields.get("link"), rows),
+        center=_read_center(faults, fields, index),
         shape=shape,
         tensor=tensor,
-        about=_read_about(report, fields, index),
-        axes=_read_axes(report, fields.get("axes"), index, coordinates),
+        about=_read_about(faults, fields, index),
+        axes=_read_axes(faults, fields.get("axes"), index, coordinates),
         faulty=False,
     )
     forbid(
-        report,
-        (*sheet.values, *sheet.turns),
+        faults,
+        (*parsed.values, *parsed.turns),
         coordinates,
         "it is constant in the link: joint variables stand in the table",
     )
-    return replace(sheet, faulty=len(report.errors) > before)
+    return replace(parsed, faulty=len(faults.errors) > before)
 
 
-def _read_name(report: Faults, node: YamlNode | None, index: int) -> str:
-    if node is None or isinstance(node, Faulty):
+def _read_name(faults: Faults, node: YamlNode | None, index: int) -> str:
+    if node is None or isinstance(node, FaultyNode):
         return str(index)
-    text = node.text if isinstance(node, Scalar) else ""
+    text = node.text if isinstance(node, ScalarNode) else ""
     if text and len(text) <= 8 and _NAME.fullmatch(text):
         return text
-    report.error(node.span, f"the name of body {index} cannot be {describe(node)}", BODY["name"].help)
+    faults.error(node.span, f"the name of body {index} cannot be {describe(node)}", BODY["name"].help)
     return str(index)
 
 
-def _check_names(report: Faults, bodies: tuple[BodySheet, ...]) -> None:
-    first: dict[str, BodySheet] = {}
+def _check_names(faults: Faults, bodies: tuple[ParsedBody, ...]) -> None:
+    first: dict[str, ParsedBody] = {}
     for body in bodies:
         other = first.setdefault(body.name, body)
         if other is not body:
             message = f"body {body.index} has the name {body.name}, which body {other.index} has already"
-            report.error(
+            faults.error(
                 body.fields.span_of("name"),
                 message,
                 "give each a name of its own; the default is its place in the list",
             )
 
 
-def _read_link(report: Faults, node: YamlNode | None, rows: int) -> int | None:
+def _read_link(faults: Faults, node: YamlNode | None, rows: int) -> int | None:
     help = f"links are counted by the rows of the table, from 1 to {rows}" if rows else "write link: 1"
-    link = whole_number(report, node, "link", help)
+    link = whole_number(faults, node, "link", help)
     if node is None or link is None:
         return None
     if link == 0:
-        report.error(node.span, "link 0 is the ground, whose bodies do not move", help)
+        faults.error(node.span, "link 0 is the ground, whose bodies do not move", help)
         return None
     if rows and link > rows:
-        report.error(node.span, f"there is no link {link}: the table has {rows} row{'s' * (rows > 1)}", help)
+        faults.error(node.span, f"there is no link {link}: the table has {rows} row{'s' * (rows > 1)}", help)
         return None
     return link
 
 
-def _read_center(report: Faults, fields: Fields, index: int) -> CenterSheet | None:
+def _read_center(faults: Faults, fields: Fields, index: int) -> ParsedCenter | None:
     node, what = fields.get("center"), f"the centre of body {index}"
     if node is None:
         if "inertia" in fields or isinstance(fields.get("shape"), MappingNode):
             if fields.lacks("center"):
-                report.error(fields.span, f"body {index} is not a point and has no `center`", _CENTER_HELP)
+                faults.error(fields.span, f"body {index} is not a point and has no `center`", _CENTER_HELP)
             return None
-        return CenterSheet("tip", fields.span)
-    if isinstance(node, Sequence):
-        cells = read_vector(report, node, what)
-        return CenterSheet("at", node.span, cells) if cells else None
+        return ParsedCenter("tip", fields.span)
+    if isinstance(node, ListNode):
+        cells = read_vector(faults, node, what)
+        return ParsedCenter("at", node.span, cells) if cells else None
     if isinstance(node, MappingNode):
-        return _read_measured(report, node, what)
-    kind = word(report, node, CENTERS.choices, what, _CENTER_HELP)
-    return CenterSheet(kind, node.span) if kind else None
+        return _read_measured(faults, node, what)
+    kind = word(faults, node, CENTERS.choices, what, _CENTER_HELP)
+    return ParsedCenter(kind, node.span) if kind else None
 
 
-def _read_measured(report: Faults, node: MappingNode, what: str) -> CenterSheet | None:
-    fields = Fields(report, node, MEASURED.names, what)
+def _read_measured(faults: Faults, node: MappingNode, what: str) -> ParsedCenter | None:
+    fields = Fields(faults, node, MEASURED.names, what)
     given = tuple(fields)
     if len(given) == 2 or not node.entries:
-        report.error(node.span, f"{what} takes one of along and near", _CENTER_HELP)
+        faults.error(node.span, f"{what} takes one of along and near", _CENTER_HELP)
     if len(given) != 1:
         return None
     if "along" in fields:
-        cell = read_cell(report, fields.get("along"), f"along in {what}")
-        return CenterSheet("along", node.span, (cell,)) if cell else None
-    cells = read_vector(report, fields.get("near"), f"near in {what}")
-    return CenterSheet("near", node.span, cells) if cells else None
+        cell = read_cell(faults, fields.get("along"), f"along in {what}")
+        return ParsedCenter("along", node.span, (cell,)) if cell else None
+    cells = read_vector(faults, fields.get("near"), f"near in {what}")
+    return ParsedCenter("near", node.span, cells) if cells else None
 
 
-def _read_shape(report: Faults, node: YamlNode | None, body: str) -> ShapeSheet | None:
-    if node is None or isinstance(node, Faulty):
+def _read_shape(faults: Faults, node: YamlNode | None, body: str) -> ParsedShape | None:
+    if node is None or isinstance(node, FaultyNode):
         return None
-    if isinstance(node, Scalar):
-        return _bare_shape(report, node, body)
+    if isinstance(node, ScalarNode):
+        return _bare_shape(faults, node, body)
     if not isinstance(node, MappingNode) or len(node.entries) != 1:
         named = [key.decoded for key, _ in node.entries] if isinstance(node, MappingNode) else []
         beside = named[:1] if named[1:] == ["axis"] and KINDS.get(named[0]) else []
         help = (
             f"write axis among its dimensions: {{{beside[0]}: {{..., axis: z}}}}" if beside else _SHAPE_HELP
         )
-        report.error(node.span, f"the shape of {body} is one shape with its dimensions", help)
+        faults.error(node.span, f"the shape of {body} is one shape with its dimensions", help)
         return None
     key, value = node.entries[0]
     if key.decoded not in KINDS or key.decoded == "point":
         help = did_you_mean(key.decoded, KINDS) or f"shapes are {', '.join(KINDS)}"
-        report.error(key.span, f"`{key.decoded}` is no shape with dimensions", help)
+        faults.error(key.span, f"`{key.decoded}` is no shape with dimensions", help)
         return None
     if not isinstance(value, MappingNode):
-        _missing_dimensions(report, key.span, key.decoded)
+        _missing_dimensions(faults, key.span, key.decoded)
         return None
-    return _read_dimensions(report, key.decoded, value, body, node.span)
+    return _read_dimensions(faults, key.decoded, value, body, node.span)
 
 
-def _bare_shape(report: Faults, node: Scalar, body: str) -> ShapeSheet | None:
+def _bare_shape(faults: Faults, node: ScalarNode, body: str) -> ParsedShape | None:
     if node.text == "point":
-        return ShapeSheet("point", node.span, {})
+        return ParsedShape("point", node.span, {})
     if node.text in KINDS:
-        _missing_dimensions(report, node.span, node.text)
+        _missing_dimensions(faults, node.span, node.text)
         return None
     help = did_you_mean(node.text, KINDS) or f"shapes are {', '.join(KINDS)}"
-    report.error(node.span, f"the shape of {body} cannot be {describe(node)}", help)
+    faults.error(node.span, f"the shape of {body} cannot be {describe(node)}", help)
     return None
 
 
-def _missing_dimensions(report: Faults, span: Span, kind: str) -> None:
+def _missing_dimensions(faults: Faults, span: Span, kind: str) -> None:
     written = ", ".join(f"{key.name}: ..." for key in dimensions(kind).required)
-    report.error(span, f"a {kind} needs its dimensions", f"write shape: {{{kind}: {{{written}}}}}")
+    faults.error(span, f"a {kind} needs its dimensions", f"write shape: {{{kind}: {{{written}}}}}")
 
 
 def _read_dimensions(
-    report: Faults, kind: str, node: MappingNode, body: str, span: Span
-) -> ShapeSheet | None:
+    faults: Faults, kind: str, node: MappingNode, body: str, span: Span
+) -> ParsedShape | None:
     record = dimensions(kind)
     lengths = [key.name for key in record.required]
-    fields = Fields(report, node, record.names, f"the {kind} of {body}")
+    fields = Fields(faults, node, record.names, f"the {kind} of {body}")
     missing = [name for name in lengths if fields.lacks(name)]
     if missing:
         help = f"a {kind} has {', '.join(lengths)}"
-        report.error(node.span, f"the {kind} of {body} lacks {' and '.join(missing)}", help)
-    cells = {name: read_cell(report, fields.get(name), f"{name} of the {kind}") for name in lengths}
-    axis = word(report, fields.get("axis"), AXIS.choices, f"axis of the {kind}") if "axis" in fields else ""
+        faults.error(node.span, f"the {kind} of {body} lacks {' and '.join(missing)}", help)
+    cells = {name: read_cell(faults, fields.get(name), f"{name} of the {kind}") for name in lengths}
+    axis = word(faults, fields.get("axis"), AXIS.choices, f"axis of the {kind}") if "axis" in fields else ""
     found = {key: cell for key, cell in cells.items() if cell}
     if len(found) < len(lengths) or axis is None:
         return None
-    return ShapeSheet(kind, span, found, axis)
+    return ParsedShape(kind, span, found, axis)
 
 
-def _read_tensor(report: Faults, node: YamlNode | None, body: str) -> TensorSheet | None:
-    if node is None or isinstance(node, Faulty):
+def _read_tensor(faults: Faults, node: YamlNode | None, body: str) -> ParsedTensor | None:
+    if node is None or isinstance(node, FaultyNode):
         return None
-    if isinstance(node, Sequence):
-        words = [item.text for item in node.items if isinstance(item, Scalar)]
+    if isinstance(node, ListNode):
+        words = [item.text for item in node.items if isinstance(item, ScalarNode)]
         if len(words) == len(node.items) == 3:
             moments = ", ".join(f"{axis}{axis}: {moment}" for axis, moment in zip(AXES, words, strict=True))
             message = f"the inertia of {body} is a tensor, not a list of three"
-            report.error(node.span, message, f"write {{{moments}}}, or three rows of three")
+            faults.error(node.span, message, f"write {{{moments}}}, or three rows of three")
             return None
-        rows = read_matrix(report, node, f"the inertia of {body}")
-        return TensorSheet(node.span, rows, listed=True) if rows else None
+        rows = read_matrix(faults, node, f"the inertia of {body}")
+        return ParsedTensor(node.span, rows, listed=True) if rows else None
     if not isinstance(node, MappingNode) or not node.entries:
-        report.error(node.span, f"the inertia of {body} is a tensor, not {describe(node)}", _TENSOR_HELP)
+        faults.error(node.span, f"the inertia of {body} is a tensor, not {describe(node)}", _TENSOR_HELP)
         return None
-    fields = Fields(report, node, TENSOR.names, f"the inertia of {body}")
-    cells = {key: read_cell(report, fields.get(key), f"I_{key} of {body}") for key in fields}
+    fields = Fields(faults, node, TENSOR.names, f"the inertia of {body}")
+    cells = {key: read_cell(faults, fields.get(key), f"I_{key} of {body}") for key in fields}
     if None in cells.values():
         return None
     entry = [["xx", "xy", "xz"], ["xy", "yy", "yz"], ["xz", "yz", "zz"]]
-    return TensorSheet(node.span, tuple(tuple(cells.get(key) for key in row) for row in entry), listed=False)
+    return ParsedTensor(node.span, tuple(tuple(cells.get(key) for key in row) for row in entry), listed=False)
 
 
-def _read_about(report: Faults, fields: Fields, index: int) -> str:
-    about = word(report, fields.get("about"), ABOUT.choices, f"about of body {index}") or "center"
+def _read_about(faults: Faults, fields: Fields, index: int) -> str:
+    about = word(faults, fields.get("about"), ABOUT.choices, f"about of body {index}") or "center"
     if about != "center" and "inertia" not in fields:
         message = f"body {index} has `about: {about}` but no `inertia` that it belongs to"
-        report.error(
+        faults.error(
             fields.key_span("about"), message, "delete it: the inertia of a shape is about its centre"
         )
         return "center"
@@ -327,21 +326,23 @@ def _read_about(report: Faults, fields: Fields, index: int) -> str:
 
 
 def _read_axes(
-    report: Faults, node: YamlNode | None, index: int, coordinates: Mapping[str, str]
-) -> AxesSheet | None:
+    faults: Faults, node: YamlNode | None, index: int, coordinates: Mapping[str, str]
+) -> ParsedAxes | None:
     """None stands for the axes of the link's frame, and for axes that were reported."""
     what = f"the axes of body {index}"
-    if node is None or isinstance(node, Faulty):
+    if node is None or isinstance(node, FaultyNode):
         return None
-    if isinstance(node, Scalar) and node.text == "base":
-        return AxesSheet(AxesKind.REST, node.span, None, "base")
+    if isinstance(node, ScalarNode) and node.text == "base":
+        return ParsedAxes(AxesKind.REST, node.span, None, "base")
     if isinstance(node, MappingNode):
-        fields = Fields(report, node, FROM_BASE.names, what)
+        fields = Fields(faults, node, FROM_BASE.names, what)
         if fields.lacks("base"):
-            report.error(node.span, f"{what}: the key `base` is expected", "write axes: {base: Rz(theta1)}")
+            faults.error(node.span, f"{what}: the key `base` is expected", "write axes: {base: Rz(theta1)}")
             return None
-        rotation = read_rotation(report, fields.get("base"), what)
-        sound = rotation and check_moving(report, rotation, what, coordinates)
-        return AxesSheet(AxesKind.BASE, node.span, rotation, rotation.written) if rotation and sound else None
-    rotation = read_rotation(report, node, what)
-    return AxesSheet(AxesKind.LINK, node.span, rotation, rotation.written) if rotation else None
+        rotation = read_rotation(faults, fields.get("base"), what)
+        sound = rotation and check_moving(faults, rotation, what, coordinates)
+        if rotation is None or not sound:
+            return None
+        return ParsedAxes(AxesKind.BASE, node.span, rotation, rotation.written)
+    rotation = read_rotation(faults, node, what)
+    return ParsedAxes(AxesKind.LINK, node.span, rotation, rotation.written) if rotation else None

@@ -1,40 +1,53 @@
-"""Sheet -> Robot: the values of all cells, the geometry of links, the checks that need exact algebra."""
+"""Parsed file -> Robot: the exact values of all cells, and the checks that need them.
+
+Of a body: where its mass centre is in the frame of its link, which tensor it has, about
+which axes.  What is wrong is reported at its place; nothing is built of it.
+"""
 
 from __future__ import annotations
 
+from fractions import Fraction
+
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.problem.build_body import BodyBuilder
-from dynsolve.problem.geometry import Links
-from dynsolve.problem.sheet import Sheet
+from dynsolve.problem.bodies import ParsedAxes, ParsedBody, ParsedCenter, ParsedShape, ParsedTensor
+from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.source import Faults
 from dynsolve.problem.table import COLUMNS, DHRow
 from dynsolve.problem.values import CellValues, evaluate
-from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
+from dynsolve.robot.geometry import Links
+from dynsolve.robot.model import Axes, AxesKind, Body, Coordinate, Joint, JointType, Robot
+from dynsolve.robot.shapes import AXES, KINDS, Shape
+
+_TIP_ROW = (
+    "add a fixed row for the tip, {theta: 0, d: 0, a: l, alpha: 0} with its length, "
+    "or give the centre as [x, y, z]"
+)
 
 
-def build_robot(report: Faults, sheet: Sheet) -> Robot | None:
+def build_robot(faults: Faults, parsed: ParsedFile) -> Robot | None:
     """The robot of a file, None where something of it was reported."""
-    values = evaluate(report, sheet)
+    values = evaluate(faults, parsed)
     if values is None:
         return None
     ring = values.ring
-    joints = [_joint(values, sheet, row) for row in sheet.table.rows]
+    joints = [_joint(values, parsed, row) for row in parsed.table.rows]
     known = [joint for joint in joints if joint]
-    whole = len(known) == len(joints) and bool(joints) and sheet.table.sound
-    links = Links(ring, sheet.convention, known, sheet.table.names) if whole else None
-    rotation = values.rotation(sheet.base.rotation, "the axes of the base") if sheet.base.rotation else None
-    move = values.column(sheet.base.move) if sheet.base.move else None
-    gravity = values.column(sheet.gravity) if sheet.gravity else None
-    builder = BodyBuilder(report, values, links)
-    bodies = [builder.body(body) for body in sheet.bodies]
-    if report.errors or gravity is None:
+    whole = len(known) == len(joints) and bool(joints) and parsed.table.sound
+    links = Links(ring, parsed.convention, known, parsed.table.names) if whole else None
+    rotation = values.rotation(parsed.base.rotation, "the axes of the base") if parsed.base.rotation else None
+    move = values.column(parsed.base.move) if parsed.base.move else None
+    gravity = values.column(parsed.gravity) if parsed.gravity else None
+    builder = BodyBuilder(faults, values, links)
+    bodies = [builder.body(body) for body in parsed.bodies]
+    if faults.errors or gravity is None:
         return None
     return Robot(
         ring=ring,
-        convention=sheet.convention,
+        convention=parsed.convention,
         coordinates=tuple(
             Coordinate(name, JointType(kind), index)
-            for index, (name, kind) in enumerate(sheet.table.coordinates, 1)
+            for index, (name, kind) in enumerate(parsed.table.coordinates, 1)
         ),
         joints=tuple(known),
         bodies=tuple(body for body in bodies if body),
@@ -45,13 +58,13 @@ def build_robot(report: Faults, sheet: Sheet) -> Robot | None:
     )
 
 
-def _joint(values: CellValues, sheet: Sheet, row: DHRow) -> Joint | None:
+def _joint(values: CellValues, parsed: ParsedFile, row: DHRow) -> Joint | None:
     if row.faulty:
         return None
     d, a = values.expr(row.cells["d"]), values.expr(row.cells["a"])
     if d is None or a is None:
         return None
-    order = sheet.table.names
+    order = parsed.table.names
     theta, d_cell, a_cell, alpha = (row.cells[column].tree for column in COLUMNS)
     return Joint(
         index=row.index,
@@ -63,3 +76,199 @@ def _joint(values: CellValues, sheet: Sheet, row: DHRow) -> Joint | None:
         rates=tuple(sorted((order.index(name), rate) for name, rate in row.rates.items())),
         written=(theta, d_cell, a_cell, alpha),
     )
+
+
+class BodyBuilder:
+    """Makes bodies; `links` is None where the table has errors, and geometry waits until it has none."""
+
+    def __init__(self, faults: Faults, values: CellValues, links: Links | None) -> None:
+        self.faults, self.values, self.links = faults, values, links
+        self.ring = values.ring
+
+    def body(self, parsed: ParsedBody) -> Body | None:
+        """The body of a sheet, None where something of it was reported."""
+        mass = self._mass(parsed)
+        axes = self._axes(parsed)
+        tensor = self._tensor(parsed.tensor, parsed) if parsed.tensor else None
+        center = self._center(parsed.center, parsed) if parsed.center else None
+        about = self._about(parsed)
+        shape = self._shape(parsed.shape, parsed, axes) if parsed.shape and not parsed.tensor else None
+        if parsed.faulty or mass is None or axes is None or center is None or parsed.link is None:
+            return None
+        if tensor is None and shape is not None and shape.kind != "point":
+            tensor = shape.inertia(mass)
+        return Body(
+            name=parsed.name,
+            mass=mass,
+            link=parsed.link,
+            center=center,
+            axes=axes,
+            inertia=tensor,
+            shape=shape,
+            about=parsed.about,
+            about_point=about,
+            center_written=self._written(parsed),
+        )
+
+    def _mass(self, parsed: ParsedBody) -> Expr | None:
+        mass = self.values.expr(parsed.mass) if parsed.mass else None
+        if mass is not None and parsed.mass and mass.is_number and mass.number < 0:
+            self.faults.error(
+                parsed.mass.span, f"the mass of body {parsed.index} is negative", "masses are not negative"
+            )
+        return mass
+
+    def _written(self, parsed: ParsedBody) -> str:
+        if parsed.center is None or "center" not in parsed.fields:
+            return "tip"
+        return self.faults.source.text[slice(*parsed.center.span)]
+
+    # -- where the centre is -----------------------------------------------------------------------
+
+    def _center(self, center: ParsedCenter, parsed: ParsedBody) -> Matrix | None:
+        """The mass centre in frame `link`, 3×1."""
+        given = self.values.column(center.cells) if center.kind in ("near", "at") else None
+        fraction = self.values.expr(center.cells[0]) if center.kind == "along" else None
+        if center.kind == "at":
+            return given
+        if self.links is None or parsed.link is None:
+            return None
+        if center.kind == "origin":
+            return self.links.origin()
+        near, far = self.links.near_end(parsed.link), self.links.far_end(parsed.link)
+        if center.kind == "near":
+            point = near + given if given else None
+        elif far is None:
+            message = f"link {parsed.link} has no far end: the table has no row {parsed.link + 1}"
+            self.faults.error(center.span, message, _TIP_ROW)
+            return None
+        elif center.kind == "tip":
+            point = far
+        else:
+            half = self.ring.constant(Fraction(1, 2)) if center.kind == "midpoint" else fraction
+            point = near + (far - near).scale(half) if half is not None else None
+        if point is not None and not self.links.is_fixed(point):
+            self._report_moving(center, parsed)
+            return None
+        return point
+
+    def _report_moving(self, center: ParsedCenter, parsed: ParsedBody) -> None:
+        assert self.links is not None and parsed.link is not None
+        link = parsed.link
+        written = "tip" if center.kind == "tip" else self._written(parsed)
+        message = f"`{written}` would not be fixed in link {link}: "
+        if self.links.modified:
+            message += f"its far end moves with the prismatic joint {link + 1}"
+            help = f"add a fixed row for the tip before it, or give the centre in frame {link}: [x, y, z]"
+        else:
+            message += f"its near end slides along it, for joint {link} is prismatic"
+            help = f"measure from the tip, in frame {link}: center: {self._back(link)}"
+        self.faults.error(center.span, message, help)
+
+    def _back(self, link: int) -> str:
+        """The point a length lc back from the tip of a prismatic link, as a list."""
+        assert self.links is not None
+        joint = self.links.joints[link - 1]
+        entries = [self.ring.zero, -self.ring.sin(joint.alpha), -self.ring.cos(joint.alpha)]
+        words = {0: "0", 1: f"lc{link}", -1: f"-lc{link}"}
+        if all(entry.is_number and entry.number in words for entry in entries):
+            return "[" + ", ".join(words[int(entry.number)] for entry in entries) + "]"
+        return "[x, y, z]"
+
+    def _about(self, parsed: ParsedBody) -> Matrix | None:
+        """The point that a given tensor is about, 3×1; None for the mass centre."""
+        if parsed.about == "center" or self.links is None or parsed.link is None:
+            return None
+        point = self.links.origin() if parsed.about == "origin" else self.links.near_end(parsed.link)
+        if not self.links.is_fixed(point):
+            message = (
+                f"`about: joint` is no fixed point of link {parsed.link}: joint {parsed.link} is prismatic"
+            )
+            help = "give the inertia about the centre, or about the origin of the frame"
+            self.faults.error(parsed.fields.span_of("about"), message, help)
+        return point
+
+    # -- inertia -----------------------------------------------------------------------------------
+
+    def _tensor(self, tensor: ParsedTensor, parsed: ParsedBody) -> Matrix | None:
+        zero = self.ring.zero
+        rows = [[self.values.expr(cell) if cell else zero for cell in row] for row in tensor.rows]
+        known = [[entry for entry in row if entry is not None] for row in rows]
+        asymmetric = False
+        for i, j in ((0, 1), (0, 2), (1, 2)):
+            above, below = rows[i][j], rows[j][i]
+            if tensor.listed and above is not None and below is not None and above != below:
+                asymmetric = True
+                self._report_asymmetry(tensor, parsed, i, j)
+        if asymmetric or any(len(row) < 3 for row in known):
+            return None
+        return Matrix.of(self.ring, known)
+
+    def _report_asymmetry(self, tensor: ParsedTensor, parsed: ParsedBody, i: int, j: int) -> None:
+        above, below = tensor.rows[i][j], tensor.rows[j][i]
+        assert above and below
+        key = AXES[i] + AXES[j]
+        message = (
+            f"the inertia of body {parsed.index} is not symmetric: "
+            f"I_{key[::-1]} = {below.text} is not I_{key} = {above.text}"
+        )
+        self.faults.error(
+            below.span, message, "an inertia tensor is symmetric: write the same entry in both places"
+        )
+
+    def _shape(self, shape: ParsedShape, parsed: ParsedBody, axes: Axes | None) -> Shape | None:
+        values = {key: self.values.expr(cell) for key, cell in shape.dimensions.items()}
+        for key, cell in shape.dimensions.items():
+            value = values[key]
+            if value is not None and value.is_number and value.number < 0:
+                self.faults.error(cell.span, f"{cell.what} is negative", "dimensions are not negative")
+        record = KINDS[shape.kind]
+        axis = shape.axis
+        if record.has_axis and not axis:
+            axis = self._axis_along(shape, parsed, axes) if record.along_link else "z"
+        known = tuple((key, value) for key, value in values.items() if value is not None)
+        if len(known) < len(values) or (record.has_axis and not axis):
+            return None
+        return Shape(shape.kind, known, axis)
+
+    def _axis_along(self, shape: ParsedShape, parsed: ParsedBody, axes: Axes | None) -> str:
+        """The body-attached axis that lies along the link; empty (reported) where none does."""
+        if self.links is None or parsed.link is None or axes is None:
+            return ""
+        far = self.links.far_end(parsed.link)
+        example = f"write the axis of the {shape.kind} in the body-attached frame: axis: x"
+        if far is None:
+            message = f"link {parsed.link} has no far end that the {shape.kind} could lie along"
+            self.faults.error(shape.span, message, example)
+            return ""
+        direction = self._axes_in_link(axes, parsed.link).T @ (far - self.links.near_end(parsed.link))
+        along = [axis for axis, entry in zip(AXES, direction.entries, strict=True) if not entry.is_zero]
+        if len(along) == 1:
+            return along[0]
+        what = "has no length" if not along else "lies along none of the body-attached axes"
+        self.faults.error(
+            shape.span, f"link {parsed.link} {what}, so that the {shape.kind} has no default axis", example
+        )
+        return ""
+
+    # -- axes --------------------------------------------------------------------------------------
+
+    def _axes(self, parsed: ParsedBody) -> Axes | None:
+        axes = parsed.axes
+        if axes is None or axes.rotation is None:
+            return Axes(
+                axes.kind if axes else AxesKind.LINK, Matrix.identity(self.ring, 3), self._axes_written(axes)
+            )
+        rotation = self.values.rotation(axes.rotation, f"the axes of body {parsed.index}")
+        return Axes(axes.kind, rotation, axes.written) if rotation else None
+
+    @staticmethod
+    def _axes_written(axes: ParsedAxes | None) -> str:
+        return axes.written if axes else ""
+
+    def _axes_in_link(self, axes: Axes, link: int) -> Matrix:
+        """The body-attached axes seen from the link's frame at q = 0, 3×3."""
+        assert self.links is not None
+        if axes.kind is AxesKind.LINK:
+            return axes.rotation
+        return self.links.rotation_at_rest(link).T @ axes.rotation.map(self.ring.at_rest)

@@ -22,9 +22,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.walk import walk
 from dynsolve.problem.fields import describe
 from dynsolve.problem.source import Faults
-from dynsolve.problem.yaml_nodes import Faulty, Scalar, Span
-from dynsolve.problem.yaml_nodes import Sequence as ListNode
-from dynsolve.problem.yaml_nodes import YamlNode as YamlNode
+from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, ScalarNode, Span, YamlNode
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,37 +51,37 @@ def made_cell(what: str, text: str, start: int = 0) -> Cell:
     return Cell(what, reading.tree, reading.names, "", start)
 
 
-def read_cell(report: Faults, node: YamlNode | None, what: str, *, stars: bool = False) -> Cell | None:
+def read_cell(faults: Faults, node: YamlNode | None, what: str, *, stars: bool = False) -> Cell | None:
     """The expression of a node, None (reported) where it cannot be read.
 
     `stars` says that a joint variable may be marked here.
     """
-    if node is None or isinstance(node, Faulty):
+    if node is None or isinstance(node, FaultyNode):
         return None
-    if not isinstance(node, Scalar):
-        report.error(
+    if not isinstance(node, ScalarNode):
+        faults.error(
             node.span, f"{what} is an expression, not {describe(node)}", "write a number, a name or a formula"
         )
         return None
     if not node.text.strip():
-        report.error(node.span, f"{what} has no value", "write one, or delete the key")
+        faults.error(node.span, f"{what} has no value", "write one, or delete the key")
         return None
-    return read_text(report, node.text, node.start, what, stars=stars)
+    return read_text(faults, node.text, node.start, what, stars=stars)
 
 
-def read_text(report: Faults, text: str, start: int, what: str, *, stars: bool = False) -> Cell | None:
+def read_text(faults: Faults, text: str, start: int, what: str, *, stars: bool = False) -> Cell | None:
     """The expression that stands at character `start` of the file, None (reported) where it is unreadable."""
     try:
         reading = read(text, stars=stars)
     except ReadError as error:
-        if stars or not _report_star(report, text, start, what):
+        if stars or not _report_star(faults, text, start, what):
             at = start + error.offset
-            report.error((at, at + error.length), error.message, error.help)
+            faults.error((at, at + error.length), error.message, error.help)
         return None
     return Cell(what, reading.tree, reading.names, text, start)
 
 
-def _report_star(report: Faults, text: str, start: int, what: str) -> bool:
+def _report_star(faults: Faults, text: str, start: int, what: str) -> bool:
     """Whether the text would be readable with marks of joint variables, which have no place here."""
     try:
         marked = [name for name in read(text, stars=True).names if name.star]
@@ -93,58 +91,58 @@ def _report_star(report: Faults, text: str, start: int, what: str) -> bool:
         at = start + name.offset
         message = f"`{name.name}*` marks a joint variable, but {what} is constant"
         help = f"joint variables stand in theta (revolute) and d (prismatic); here write {name.name}"
-        report.error((at, at + name.length + 1), message, help)
+        faults.error((at, at + name.length + 1), message, help)
     return bool(marked)
 
 
-def read_vector(report: Faults, node: YamlNode | None, what: str) -> tuple[Cell, ...] | None:
+def read_vector(faults: Faults, node: YamlNode | None, what: str) -> tuple[Cell, ...] | None:
     """Three expressions [x, y, z], None (reported) where they are none."""
-    if node is None or isinstance(node, Faulty):
+    if node is None or isinstance(node, FaultyNode):
         return None
     if not isinstance(node, ListNode):
-        report.error(node.span, f"{what} is a list [x, y, z], not {describe(node)}", "write three components")
+        faults.error(node.span, f"{what} is a list [x, y, z], not {describe(node)}", "write three components")
         return None
     if len(node.items) != 3:
-        report.error(node.span, f"{what} has {len(node.items)} components, not 3", "write [x, y, z]")
+        faults.error(node.span, f"{what} has {len(node.items)} components, not 3", "write [x, y, z]")
         return None
     cells = tuple(
-        read_cell(report, item, f"{what}, {axis}") for item, axis in zip(node.items, "xyz", strict=True)
+        read_cell(faults, item, f"{what}, {axis}") for item, axis in zip(node.items, "xyz", strict=True)
     )
     return None if None in cells else tuple(cell for cell in cells if cell)
 
 
-def read_matrix(report: Faults, node: ListNode, what: str) -> tuple[tuple[Cell, ...], ...] | None:
+def read_matrix(faults: Faults, node: ListNode, what: str) -> tuple[tuple[Cell, ...], ...] | None:
     """A 3×3 list of rows, None (reported) where it is none."""
     if len(node.items) != 3:
-        report.error(
+        faults.error(
             node.span, f"{what} has {len(node.items)} rows, not 3", "write [[..., ..., ...], [...], [...]]"
         )
         return None
-    rows = [_matrix_row(report, row, f"{what}, row {i}") for i, row in enumerate(node.items, 1)]
+    rows = [_matrix_row(faults, row, f"{what}, row {i}") for i, row in enumerate(node.items, 1)]
     return None if None in rows else tuple(row for row in rows if row)
 
 
-def _matrix_row(report: Faults, node: YamlNode, what: str) -> tuple[Cell, ...] | None:
-    if isinstance(node, Faulty):
+def _matrix_row(faults: Faults, node: YamlNode, what: str) -> tuple[Cell, ...] | None:
+    if isinstance(node, FaultyNode):
         return None
     if not isinstance(node, ListNode) or len(node.items) != 3:
         found = f"{len(node.items)} entries" if isinstance(node, ListNode) else describe(node)
-        report.error(node.span, f"{what}: three entries are expected, not {found}", "write [..., ..., ...]")
+        faults.error(node.span, f"{what}: three entries are expected, not {found}", "write [..., ..., ...]")
         return None
-    cells = [read_cell(report, item, what) for item in node.items]
+    cells = [read_cell(faults, item, what) for item in node.items]
     return None if None in cells else tuple(cell for cell in cells if cell)
 
 
-def read_angle(report: Faults, cell: Cell) -> Angle | None:
+def read_angle(faults: Faults, cell: Cell) -> Angle | None:
     """The angle that a cell is, None (reported) where it is none: a bare number above all."""
     try:
         return angle_from_tree(cell.tree)
     except AlgebraError as error:
         for start, end, text in _bare_numbers(cell) if "bare number" in error.message else ():
             message = f"the bare number {text} stands as an angle"
-            report.error((cell.start + start, cell.start + end), message, _in_degrees(text))
+            faults.error((cell.start + start, cell.start + end), message, _in_degrees(text))
             return None
-        report.error(cell.span, f"{cell.what}: {error.message}", error.help)
+        faults.error(cell.span, f"{cell.what}: {error.message}", error.help)
     return None
 
 
@@ -185,10 +183,10 @@ def denominators(node: Node) -> Iterator[Node]:
                 yield argument
 
 
-def forbid(report: Faults, cells: Iterable[Cell | None], coordinates: Iterable[str], help: str) -> None:
+def forbid(faults: Faults, cells: Iterable[Cell | None], coordinates: Iterable[str], help: str) -> None:
     """Report every coordinate in cells that must be constant."""
     for cell in cells:
         for name in cell.names if cell else ():
             if cell and name.name in coordinates:
                 message = f"{cell.what} contains the coordinate {name.name}"
-                report.error(cell.span_of(name), message, help)
+                faults.error(cell.span_of(name), message, help)

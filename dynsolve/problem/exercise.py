@@ -18,11 +18,10 @@ from dynsolve.problem.answer_names import AnswerNames
 from dynsolve.problem.cells import Cell, read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.model import FIND
-from dynsolve.problem.sheet import Sheet
+from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.yaml_nodes import Faulty, Scalar, YamlNode
-from dynsolve.problem.yaml_nodes import Mapping as MappingNode
+from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode
 
 _UNIT = re.compile(r"[A-Za-zµμΩ°%0-9²³⁻¹·*/^ .()-]{1,30}")
 _FIND_HELP = PROBLEM["find"].help
@@ -39,41 +38,44 @@ class Exercise:
     units: Mapping[str, str]
 
 
-def read_exercise(report: Faults, fields: Fields, sheet: Sheet) -> Exercise:
+def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercise:
     """The values, units, marks and answers asked for; everything wrong with them is reported."""
     forces = [
-        f"{'tau' if kind == 'revolute' else 'f'}{i}" for i, (_, kind) in enumerate(sheet.table.coordinates, 1)
+        f"{'tau' if kind == 'revolute' else 'f'}{i}"
+        for i, (_, kind) in enumerate(parsed.table.coordinates, 1)
     ]
     names = None  # as long as the table or a body is faulty, which answers there are is not known
-    if sheet.table.sound and not any(body.faulty for body in sheet.bodies):
-        names = AnswerNames(len(sheet.table.rows), forces, [body.name for body in sheet.bodies])
-    values, written = _read_values(report, fields.get("values"))
+    if parsed.table.sound and not any(body.faulty for body in parsed.bodies):
+        names = AnswerNames(len(parsed.table.rows), forces, [body.name for body in parsed.bodies])
+    values, written = _read_values(faults, fields.get("values"))
     return Exercise(
-        find=_read_find(report, fields.get("find"), names) or FIND,
-        marks=_read_marks(report, fields.get("marks"), names),
+        find=_read_find(faults, fields.get("find"), names) or FIND,
+        marks=_read_marks(faults, fields.get("marks"), names),
         values=values,
         written=written,
-        units=_read_units(report, fields.get("units")),
+        units=_read_units(faults, fields.get("units")),
     )
 
 
-def _read_find(report: Faults, node: YamlNode | None, names: AnswerNames | None) -> tuple[str, ...]:
-    listed = (node,) if isinstance(node, Scalar) and node.text else items(report, node, "find", _FIND_HELP)
+def _read_find(faults: Faults, node: YamlNode | None, names: AnswerNames | None) -> tuple[str, ...]:
+    listed = (
+        (node,) if isinstance(node, ScalarNode) and node.text else items(faults, node, "find", _FIND_HELP)
+    )
     found: dict[str, None] = {}
     for item in listed:
-        name = _answer(report, item, names)
+        name = _answer(faults, item, names)
         if name in found:
-            report.error(item.span, f"{name} is asked for twice", "keep one of them")
+            faults.error(item.span, f"{name} is asked for twice", "keep one of them")
         elif name:
             found[name] = None
     return tuple(found)
 
 
-def _answer(report: Faults, node: YamlNode, names: AnswerNames | None) -> str | None:
-    if isinstance(node, Faulty):
+def _answer(faults: Faults, node: YamlNode, names: AnswerNames | None) -> str | None:
+    if isinstance(node, FaultyNode):
         return None
-    if not isinstance(node, Scalar):
-        report.error(node.span, f"the name of an answer is expected, not {describe(node)}", _FIND_HELP)
+    if not isinstance(node, ScalarNode):
+        faults.error(node.span, f"the name of an answer is expected, not {describe(node)}", _FIND_HELP)
         return None
     if names is None:
         return node.text
@@ -83,27 +85,27 @@ def _answer(report: Faults, node: YamlNode, names: AnswerNames | None) -> str | 
             did_you_mean(node.text, names.examples())
             or f"answers are {', '.join(FIND)}, P, K, L, K1, tau1, d11, ..."
         )
-        report.error(node.span, f"`{node.text[:40]}` is no answer of this problem", help)
+        faults.error(node.span, f"`{node.text[:40]}` is no answer of this problem", help)
     return canonical
 
 
-def _entries(report: Faults, node: YamlNode | None, key: str) -> tuple[tuple[Scalar, YamlNode], ...]:
+def _entries(faults: Faults, node: YamlNode | None, key: str) -> tuple[tuple[ScalarNode, YamlNode], ...]:
     if isinstance(node, MappingNode):
         return node.entries
-    if node is not None and not isinstance(node, Faulty):
-        report.error(node.span, f"{key} is a mapping, not {describe(node)}", PROBLEM[key].help)
+    if node is not None and not isinstance(node, FaultyNode):
+        faults.error(node.span, f"{key} is a mapping, not {describe(node)}", PROBLEM[key].help)
     return ()
 
 
-def _read_marks(report: Faults, node: YamlNode | None, names: AnswerNames | None) -> dict[str, Fraction]:
+def _read_marks(faults: Faults, node: YamlNode | None, names: AnswerNames | None) -> dict[str, Fraction]:
     marks: dict[str, Fraction] = {}
-    for key, value in _entries(report, node, "marks"):
-        name = _answer(report, key, names)
-        points = _number(report, value, f"the marks for {key.decoded}")
+    for key, value in _entries(faults, node, "marks"):
+        name = _answer(faults, key, names)
+        points = _number(faults, value, f"the marks for {key.decoded}")
         if points is not None and points < 0:
-            report.error(value.span, f"the marks for {key.decoded} are negative", "write 0 or more points")
+            faults.error(value.span, f"the marks for {key.decoded} are negative", "write 0 or more points")
         elif name in marks:
-            report.error(
+            faults.error(
                 key.span, f"{name} has marks already, under another of its names", "keep one of them"
             )
         elif name and points is not None:
@@ -111,29 +113,29 @@ def _read_marks(report: Faults, node: YamlNode | None, names: AnswerNames | None
     return marks
 
 
-def _read_values(report: Faults, node: YamlNode | None) -> tuple[dict[str, Fraction], dict[str, str]]:
+def _read_values(faults: Faults, node: YamlNode | None) -> tuple[dict[str, Fraction], dict[str, str]]:
     """The values as numbers, and as they are written."""
     values: dict[str, Fraction] = {}
     written: dict[str, str] = {}
-    for key, value in _entries(report, node, "values"):
-        name = _symbol(report, key)
-        number = _number(report, value, f"the value of {key.decoded}", angles=True)
+    for key, value in _entries(faults, node, "values"):
+        name = _symbol(faults, key)
+        number = _number(faults, value, f"the value of {key.decoded}", angles=True)
         if name in values:
-            report.error(key.span, f"{name} has a value already, in another spelling", "keep one of them")
-        elif name and number is not None and isinstance(value, Scalar):
+            faults.error(key.span, f"{name} has a value already, in another spelling", "keep one of them")
+        elif name and number is not None and isinstance(value, ScalarNode):
             values[name], written[name] = number, value.text
     return values, written
 
 
-def _read_units(report: Faults, node: YamlNode | None) -> dict[str, str]:
+def _read_units(faults: Faults, node: YamlNode | None) -> dict[str, str]:
     units: dict[str, str] = {}
-    for key, value in _entries(report, node, "units"):
-        name = _symbol(report, key)
-        if isinstance(value, Scalar) and _UNIT.fullmatch(value.decoded):
+    for key, value in _entries(faults, node, "units"):
+        name = _symbol(faults, key)
+        if isinstance(value, ScalarNode) and _UNIT.fullmatch(value.decoded):
             if name:
                 units[name] = value.decoded
-        elif not isinstance(value, Faulty):
-            report.error(
+        elif not isinstance(value, FaultyNode):
+            faults.error(
                 value.span,
                 f"the unit of {key.decoded} cannot be {describe(value)}",
                 "write m, kg, m/s^2, kg m^2",
@@ -141,18 +143,18 @@ def _read_units(report: Faults, node: YamlNode | None) -> dict[str, str]:
     return units
 
 
-def _symbol(report: Faults, key: Scalar) -> str | None:
+def _symbol(faults: Faults, key: ScalarNode) -> str | None:
     try:
         return normalize(key.decoded)
     except ReadError as error:
         at = key.start + error.offset
-        report.error((at, at + error.length), error.message, error.help)
+        faults.error((at, at + error.length), error.message, error.help)
         return None
 
 
-def _number(report: Faults, node: YamlNode, what: str, *, angles: bool = False) -> Fraction | None:
+def _number(faults: Faults, node: YamlNode, what: str, *, angles: bool = False) -> Fraction | None:
     """A number, an angle in radians where `angles`; None (reported) for what is none."""
-    cell = read_cell(report, node, what)
+    cell = read_cell(faults, node, what)
     if cell is None:
         return None
     value = rational_value(cell.tree)
@@ -160,7 +162,7 @@ def _number(report: Faults, node: YamlNode, what: str, *, angles: bool = False) 
         value = _radians(cell.tree) or _constant(cell)
     if value is None:
         help = "write a number: 0.4, 2, 1/3" + (", sqrt(2)/2, or 30deg" if angles else "")
-        report.error(cell.span, f"{what} is not a number", help)
+        faults.error(cell.span, f"{what} is not a number", help)
     return value
 
 

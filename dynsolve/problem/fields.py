@@ -9,17 +9,16 @@ from difflib import get_close_matches
 from dynsolve.errors import ReadError
 from dynsolve.notation.names import normalize
 from dynsolve.problem.source import Faults
-from dynsolve.problem.yaml_nodes import Faulty, Mapping, Scalar, Span, YamlNode
-from dynsolve.problem.yaml_nodes import Sequence as ListNode
+from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 
 
 def describe(node: YamlNode) -> str:
     """What a node is, for a message."""
-    if isinstance(node, Mapping):
+    if isinstance(node, MappingNode):
         return "a mapping"
     if isinstance(node, ListNode):
         return "a list"
-    return f"`{_short(node.text)}`" if isinstance(node, Scalar) and node.text else "nothing"
+    return f"`{_short(node.text)}`" if isinstance(node, ScalarNode) and node.text else "nothing"
 
 
 def _short(text: str) -> str:
@@ -67,14 +66,14 @@ def _spelled_out(word: str, known: Sequence[str]) -> str:
     return spelled if spelled in known else ""
 
 
-def unknown(report: Faults, key: Scalar, value: YamlNode, known: Sequence[str], what: str) -> str:
+def unknown(faults: Faults, key: ScalarNode, value: YamlNode, known: Sequence[str], what: str) -> str:
     """Note an unknown key; the known one that was probably meant, or nothing."""
     word = key.decoded
     name, colon, _ = word.partition(":")
-    if colon and name.strip() in known and isinstance(value, Scalar) and not value.text:
+    if colon and name.strip() in known and isinstance(value, ScalarNode) and not value.text:
         message = f"a blank is missing after the colon of `{name}:`"
         help = f"write `{name}: {word.partition(':')[2].strip()}`"
-        report.error(key.span, message, help)
+        faults.error(key.span, message, help)
         return name.strip()
     odd = odd_letter(word)
     plain = "".join(c if c.isascii() else "?" for c in word)
@@ -82,23 +81,23 @@ def unknown(report: Faults, key: Scalar, value: YamlNode, known: Sequence[str], 
     help = f"did you mean `{meant}`?" if meant else f"known are {', '.join(known)}"
     if odd:
         help = f"{odd}; {help}"
-    report.error(key.span, f"unknown key `{_short(word)}` in {what}", help)
+    faults.error(key.span, f"unknown key `{_short(word)}` in {what}", help)
     return meant
 
 
 class Fields:
     """A mapping with known keys; unknown ones are reported when it is made."""
 
-    def __init__(self, report: Faults, node: Mapping, known: Sequence[str], what: str) -> None:
-        self.report, self.span, self.what = report, node.span, what
+    def __init__(self, faults: Faults, node: MappingNode, known: Sequence[str], what: str) -> None:
+        self.faults, self.span, self.what = faults, node.span, what
         self._values: dict[str, YamlNode] = {}
-        self._keys: dict[str, Scalar] = {}
+        self._keys: dict[str, ScalarNode] = {}
         self._meant: set[str] = set()
         for key, value in node.entries:
             if key.decoded in known:
                 self._values[key.decoded], self._keys[key.decoded] = value, key
             else:
-                self._meant.add(unknown(report, key, value, known, what))
+                self._meant.add(unknown(faults, key, value, known, what))
 
     def __contains__(self, key: str) -> bool:
         return key in self._values
@@ -127,55 +126,55 @@ class Fields:
 
 
 def mapping(
-    report: Faults, node: YamlNode | None, known: Sequence[str], what: str, help: str
+    faults: Faults, node: YamlNode | None, known: Sequence[str], what: str, help: str
 ) -> Fields | None:
     """A mapping's fields, or None (reported) where it is none."""
-    if isinstance(node, Mapping):
-        return Fields(report, node, known, what)
-    if node is not None and not isinstance(node, Faulty):
-        report.error(node.span, f"{what} must be a mapping, not {describe(node)}", help)
+    if isinstance(node, MappingNode):
+        return Fields(faults, node, known, what)
+    if node is not None and not isinstance(node, FaultyNode):
+        faults.error(node.span, f"{what} must be a mapping, not {describe(node)}", help)
     return None
 
 
-def items(report: Faults, node: YamlNode | None, what: str, help: str) -> tuple[YamlNode, ...]:
+def items(faults: Faults, node: YamlNode | None, what: str, help: str) -> tuple[YamlNode, ...]:
     """The items of a list; empty (and reported) where it is none."""
     if isinstance(node, ListNode):
         return node.items
-    if node is not None and not isinstance(node, Faulty):
-        report.error(node.span, f"{what} must be a list, not {describe(node)}", help)
+    if node is not None and not isinstance(node, FaultyNode):
+        faults.error(node.span, f"{what} must be a list, not {describe(node)}", help)
     return ()
 
 
 def word(
-    report: Faults, node: YamlNode | None, known: Sequence[str], what: str, help: str = ""
+    faults: Faults, node: YamlNode | None, known: Sequence[str], what: str, help: str = ""
 ) -> str | None:
     """One of a few words, None (reported, with `help` unless one is close) where it is another."""
-    if node is None or isinstance(node, Faulty):
+    if node is None or isinstance(node, FaultyNode):
         return None
-    text = node.text if isinstance(node, Scalar) else ""
+    text = node.text if isinstance(node, ScalarNode) else ""
     if text in known:
         return text
     choices = ", ".join(known)
     close = did_you_mean(text, known) if text else ""
     message = f"{what} is one of {choices}, not {describe(node)}"
-    report.error(node.span, message, close or help or f"write one of {choices}")
+    faults.error(node.span, message, close or help or f"write one of {choices}")
     return None
 
 
-def whole_number(report: Faults, node: YamlNode | None, what: str, help: str) -> int | None:
+def whole_number(faults: Faults, node: YamlNode | None, what: str, help: str) -> int | None:
     """A number 0, 1, 2, ... of few digits, None (reported) where it is none."""
-    if node is None or isinstance(node, Faulty):
+    if node is None or isinstance(node, FaultyNode):
         return None
-    if isinstance(node, Scalar) and node.text.isascii() and node.text.isdigit() and len(node.text) <= 4:
+    if isinstance(node, ScalarNode) and node.text.isascii() and node.text.isdigit() and len(node.text) <= 4:
         return int(node.text)
-    report.error(node.span, f"{what} is a whole number, not {describe(node)}", help)
+    faults.error(node.span, f"{what} is a whole number, not {describe(node)}", help)
     return None
 
 
-def free_text(report: Faults, node: YamlNode | None, what: str) -> str:
+def free_text(faults: Faults, node: YamlNode | None, what: str) -> str:
     """A line of prose; empty where there is none."""
-    if isinstance(node, Scalar):
+    if isinstance(node, ScalarNode):
         return " ".join(node.decoded.split())
-    if node is not None and not isinstance(node, Faulty):
-        report.error(node.span, f"{what} is a line of text, not {describe(node)}", "write it on one line")
+    if node is not None and not isinstance(node, FaultyNode):
+        faults.error(node.span, f"{what} is a line of text, not {describe(node)}", "write it on one line")
     return ""

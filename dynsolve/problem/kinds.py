@@ -1,7 +1,7 @@
 """The kinds of values that a key of a file may have, and the key itself.
 
-A kind knows no file: `schema.py` says what JSON Schema makes of it, `reference.py` and
-`template.py` how it is written.
+A kind knows no file: `schema.py` says what JSON Schema makes of it, `documentation.py` how
+it is written.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ from dynsolve.errors import Finding
 from dynsolve.notation.names import split
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.reader import Reading, read_file, read_whole
-from dynsolve.problem.yaml_nodes import Mapping, Span
+from dynsolve.problem.yaml_nodes import MappingNode, Span
 from dynsolve.robot.model import Body
 
 _YAML_WORDS = ("null", "true", "false", "yes", "no", "on", "off")
@@ -41,14 +41,14 @@ def lint_text(content: str | bytes, file: str = "") -> tuple[Finding, ...]:
 
 
 def _finding(reading: Reading, span: Span, message: str, help: str, code: str) -> Finding:
-    return reading.report.source.finding(*span, message, help, code)
+    return reading.faults.source.finding(*span, message, help, code)
 
 
 def _symbols(reading: Reading) -> dict[str, Span]:
     """Every parameter with the place where it stands first."""
-    coordinates = reading.sheet.table.names
+    coordinates = reading.parsed.table.names
     found: dict[str, Span] = {}
-    for cell in sorted(reading.sheet.cells, key=lambda cell: cell.start):
+    for cell in sorted(reading.parsed.cells, key=lambda cell: cell.start):
         for name in cell.names:
             if name.name not in coordinates and cell.text:
                 found.setdefault(name.name, cell.span_of(name))
@@ -63,7 +63,7 @@ def unused_value(reading: Reading) -> Iterator[Finding]:
         known |= {coordinate.name, coordinate.velocity, coordinate.acceleration}
     for what in ("values", "units"):
         node = reading.fields.get(what)
-        for key, _ in node.entries if isinstance(node, Mapping) else ():
+        for key, _ in node.entries if isinstance(node, MappingNode) else ():
             if key.decoded not in known and _normal(key.decoded) not in known:
                 message = (
                     f"{key.decoded} has {'a value' if what == 'values' else 'a unit'} but occurs nowhere"
@@ -84,7 +84,7 @@ def _normal(name: str) -> str:
 def ambiguous_name(reading: Reading) -> Iterator[Finding]:
     """A parameter that reads as another thing in an answer: c1, s12, dq1, thetadot1."""
     meanings = _meanings(reading)
-    subscripts = [split(name)[1] for name in reading.sheet.table.names]
+    subscripts = [split(name)[1] for name in reading.parsed.table.names]
     digits = {"".join(groups) for groups in subscripts if groups and "".join(groups).isdigit()}
     for name, span in _symbols(reading).items():
         meaning = meanings.get(name, "")
@@ -99,7 +99,7 @@ def ambiguous_name(reading: Reading) -> Iterator[Finding]:
 def _meanings(reading: Reading) -> dict[str, str]:
     """How students write the coordinates and their derivatives."""
     meanings: dict[str, str] = {}
-    for index, coordinate in enumerate(reading.sheet.table.names, 1):
+    for index, coordinate in enumerate(reading.parsed.table.names, 1):
         base = split(coordinate)[0]
         rest = coordinate[len(base) :]
         for name in {coordinate, f"q{index}"}:
@@ -114,7 +114,7 @@ def _meanings(reading: Reading) -> dict[str, str]:
             meanings[f"{letter}ddot{tail}"] = meanings[f"{letter}dd{tail}"] = (
                 f"the acceleration of {coordinate}"
             )
-    return {name: meaning for name, meaning in meanings.items() if name not in reading.sheet.table.names}
+    return {name: meaning for name, meaning in meanings.items() if name not in reading.parsed.table.names}
 
 
 def _is_made_of(digits: str, pieces: set[str]) -> bool:
@@ -128,7 +128,7 @@ def _is_made_of(digits: str, pieces: set[str]) -> bool:
 def similar_names(reading: Reading) -> Iterator[Finding]:
     """Names that differ by an underscore, or of several letters by case alone."""
     first: dict[str, str] = {}
-    for name in reading.sheet.table.names:
+    for name in reading.parsed.table.names:
         first.setdefault(_folded(name), name)
     for name, span in _symbols(reading).items():
         other = first.setdefault(_folded(name), name)
@@ -154,7 +154,7 @@ def yaml_word(reading: Reading) -> Iterator[Finding]:
 
 def unstarred(reading: Reading) -> Iterator[Finding]:
     """A name in theta that looks like a joint variable, without its star."""
-    for row in reading.sheet.table.rows:
+    for row in reading.parsed.table.rows:
         cell = row.cells["theta"]
         for name in cell.names:
             if not name.star and split(name.name)[0] in ("theta", "q") and split(name.name)[1]:
@@ -176,7 +176,7 @@ def moves_no_mass(reading: Reading) -> Iterator[Finding]:
         if rows and min(rows) > last:
             message = f"nothing that has mass moves with {coordinate.name}: D is singular"
             help = "give a link after this joint a body, or leave the joint out"
-            cell = reading.sheet.table.rows[min(rows) - 1].cells[robot.joints[min(rows) - 1].variable or "d"]
+            cell = reading.parsed.table.rows[min(rows) - 1].cells[robot.joints[min(rows) - 1].variable or "d"]
             yield _finding(reading, _span(reading, cell), message, help, "moves-no-mass")
 
 
@@ -188,10 +188,10 @@ def ground_body(reading: Reading) -> Iterator[Finding]:
     """A body on a leading fixed row, which no joint moves."""
     robot = reading.problem.robot
     moving = [joint.index for joint in robot.joints if joint.variable]
-    for body, sheet in _bodies(reading):
+    for body, parsed in _bodies(reading):
         if moving and body.link < moving[0]:
             message = f"link {body.link} belongs to the ground: no joint moves body {body.name}"
-            yield _finding(reading, sheet, message, f"links after joint row {moving[0]} move", "ground-body")
+            yield _finding(reading, parsed, message, f"links after joint row {moving[0]} move", "ground-body")
 
 
 def no_effect(reading: Reading) -> Iterator[Finding]:
@@ -202,11 +202,11 @@ def no_effect(reading: Reading) -> Iterator[Finding]:
             yield _finding(
                 reading, span, message, "delete it: links without a body are massless", "no-effect"
             )
-    for sheet in reading.sheet.bodies:
-        if sheet.shape and sheet.tensor:
-            message = f"the shape of body {sheet.name} has no effect: its inertia is given"
+    for parsed in reading.parsed.bodies:
+        if parsed.shape and parsed.tensor:
+            message = f"the shape of body {parsed.name} has no effect: its inertia is given"
             yield _finding(
-                reading, sheet.fields.key_span("shape"), message, "delete one of them", "no-effect"
+                reading, parsed.fields.key_span("shape"), message, "delete one of them", "no-effect"
             )
 
 
@@ -228,8 +228,8 @@ def unphysical(reading: Reading) -> Iterator[Finding]:
 
 
 def _bodies(reading: Reading) -> Iterator[tuple[Body, Span]]:
-    for body, sheet in zip(reading.problem.robot.bodies, reading.sheet.bodies, strict=True):
-        yield body, sheet.span
+    for body, parsed in zip(reading.problem.robot.bodies, reading.parsed.bodies, strict=True):
+        yield body, parsed.span
 
 
 CHECKS: tuple[Callable[[Reading], Iterator[Finding]], ...] = (

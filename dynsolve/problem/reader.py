@@ -1,6 +1,6 @@
 """Problem files: bytes -> Problem, with all errors of a file at once.
 
-The way goes text -> YAML nodes -> sheet (every expression read, every name known)
+The way goes text -> YAML nodes -> parsed file (every expression read, every name known)
 -> robot (every value exact).  Each step reports what it finds and goes on with
 what is sound; the errors are raised together at the end.
 """
@@ -18,23 +18,23 @@ from dynsolve.problem.build import build_robot
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.fields import Fields, describe, free_text, word
 from dynsolve.problem.model import FilePlace, Problem
-from dynsolve.problem.sheet import Sheet
+from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.source import MAX_BYTES, Faults, as_source
 from dynsolve.problem.specification import CONVENTION, PROBLEM
 from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import read_table
-from dynsolve.problem.yaml_nodes import Mapping, Sequence, YamlNode, read_nodes
+from dynsolve.problem.yaml_nodes import ListNode, MappingNode, YamlNode, read_nodes
 from dynsolve.robot.model import Convention
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """A problem with the sheet it was made from, and the report that knows its text."""
+    """A problem with what its file says, and with its faults, which know the text."""
 
     problem: Problem
-    sheet: Sheet
+    parsed: ParsedFile
     fields: Fields
-    report: Faults
+    faults: Faults
 
 
 def load(path: str | os.PathLike[str]) -> Problem:
@@ -75,21 +75,21 @@ def read_problem(content: str | bytes, file: str = "") -> Problem:
 
 def read_whole(content: str | bytes, file: str = "") -> Reading:
     """Read a problem and keep what it was made from; see `read_problem`."""
-    report = Faults(as_source(content, file))
-    root = read_nodes(report)
-    fields = _root_fields(report, root)
+    faults = Faults(as_source(content, file))
+    root = read_nodes(faults)
+    fields = _root_fields(faults, root)
     if fields is None:
-        report.raise_errors()
+        faults.raise_errors()
         raise AssertionError("a file without a root has an error")
-    sheet = _sheet(report, fields)
-    if not check_size(report, sheet):
-        report.raise_errors()
-    check_symbols(report, sheet)
-    exercise = read_exercise(report, fields, sheet)
-    title = free_text(report, fields.get("title"), "title") or Path(file).stem
-    source = free_text(report, fields.get("source"), "source")
-    robot = build_robot(report, sheet)
-    report.raise_errors()
+    parsed = _parsed(faults, fields)
+    if not check_size(faults, parsed):
+        faults.raise_errors()
+    check_symbols(faults, parsed)
+    exercise = read_exercise(faults, fields, parsed)
+    title = free_text(faults, fields.get("title"), "title") or Path(file).stem
+    source = free_text(faults, fields.get("source"), "source")
+    robot = build_robot(faults, parsed)
+    faults.raise_errors()
     assert robot is not None
     problem = Problem(
         title=title,
@@ -102,51 +102,51 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         values=exercise.values,
         written=exercise.written,
         units=exercise.units,
-        places=dict(_places(report, root)),
-        warnings=tuple(report.warnings),
+        places=dict(_places(faults, root)),
+        warnings=tuple(faults.warnings),
     )
-    return Reading(problem, sheet, fields, report)
+    return Reading(problem, parsed, fields, faults)
 
 
-def _root_fields(report: Faults, root: YamlNode | None) -> Fields | None:
-    if isinstance(root, Mapping):
-        return Fields(report, root, PROBLEM.names, "a problem file")
-    if not report.errors:
+def _root_fields(faults: Faults, root: YamlNode | None) -> Fields | None:
+    if isinstance(root, MappingNode):
+        return Fields(faults, root, PROBLEM.names, "a problem file")
+    if not faults.errors:
         help = "`dynsolve new problem.yaml` writes one to start from"
         message = (
             "the file is empty" if root is None else f"the file is {describe(root)}, not keys with values"
         )
-        report.error(root.span if root else (0, 0), message, help)
+        faults.error(root.span if root else (0, 0), message, help)
     return None
 
 
-def _sheet(report: Faults, fields: Fields) -> Sheet:
+def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     named = word(
-        report, fields.get("convention"), CONVENTION.choices, "convention", PROBLEM["convention"].help
+        faults, fields.get("convention"), CONVENTION.choices, "convention", PROBLEM["convention"].help
     )
     convention = Convention(named or "standard")
-    table = read_table(report, fields, convention is Convention.MODIFIED)
+    table = read_table(faults, fields, convention is Convention.MODIFIED)
     coordinates = dict(table.coordinates)
-    return Sheet(
+    return ParsedFile(
         convention=convention,
         table=table,
-        gravity=read_gravity(report, fields, table.names),
-        base=read_base(report, fields.get("base"), table.names),
-        bodies=read_bodies(report, fields.get("masses"), len(table.rows), coordinates),
+        gravity=read_gravity(faults, fields, table.names),
+        base=read_base(faults, fields.get("base"), table.names),
+        bodies=read_bodies(faults, fields.get("masses"), len(table.rows), coordinates),
     )
 
 
-def _places(report: Faults, root: YamlNode | None) -> list[tuple[tuple[str | int, ...], FilePlace]]:
+def _places(faults: Faults, root: YamlNode | None) -> list[tuple[tuple[str | int, ...], FilePlace]]:
     """Where every part of the file stands."""
     found: list[tuple[tuple[str | int, ...], FilePlace]] = []
     waiting: list[tuple[tuple[str | int, ...], YamlNode]] = [((), root)] if root else []
     while waiting:
         path, node = waiting.pop()
         if path:
-            finding = report.source.finding(*node.span, "")
+            finding = faults.source.finding(*node.span, "")
             found.append((path, FilePlace(finding.line, finding.column, finding.length, finding.excerpt)))
-        if isinstance(node, Mapping):
+        if isinstance(node, MappingNode):
             waiting += [((*path, key.decoded), value) for key, value in node.entries]
-        elif isinstance(node, Sequence):
+        elif isinstance(node, ListNode):
             waiting += [((*path, index), item) for index, item in enumerate(node.items)]
     return found

@@ -6,8 +6,8 @@ default.  From these records come
 - the keys, the words and the limits that the reader knows, and what it advises
   (`table.py`, `bodies.py`, `base.py`, `exercise.py`),
 - the JSON Schema (`schema.py`),
-- the commented file that `dynsolve new` writes (`template.py`),
-- the tables of keys in `problems/README.md` (`reference.py`).
+- the commented file that `dynsolve new` writes (`documentation.py`),
+- the tables of keys in `problems/README.md` (`documentation.py`).
 
 To add a key, write its record here, read it with `Fields.get` in the module it belongs
 to, and give what was read a place in `Problem` or `Robot`.

@@ -15,7 +15,7 @@ from dynsolve.notation.text import Name
 from dynsolve.notation.tree import Function, Negative, Node, Parenthesized, Product, Quotient, Sum, Symbol
 from dynsolve.notation.walk import walk
 from dynsolve.problem.cells import Cell, denominators
-from dynsolve.problem.sheet import Sheet
+from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.source import Faults
 
 MAX_SYMBOLS = 500
@@ -37,22 +37,22 @@ class Role:
     place: Name | None
 
 
-def roles(sheet: Sheet) -> Iterator[Role]:
+def roles(parsed: ParsedFile) -> Iterator[Role]:
     """The roles of all symbols that stand alone in a cell, or as a term of a sum there."""
-    for kind, cell in _kinds(sheet):
+    for kind, cell in _kinds(parsed):
         for name in sorted(_terms(cell.tree)):
             place = next((found for found in cell.names if found.name == name), None)
             yield Role(name, kind, cell, place)
 
 
-def _kinds(sheet: Sheet) -> Iterator[tuple[str, Cell]]:
-    for row in sheet.table.rows:
+def _kinds(parsed: ParsedFile) -> Iterator[tuple[str, Cell]]:
+    for row in parsed.table.rows:
         for column, cell in row.cells.items():
             yield ("an angle" if column in ("theta", "alpha") else "a length"), cell
-    for rotation in sheet.rotations:
+    for rotation in parsed.rotations:
         for turn in rotation.turns:
             yield "an angle", turn.cell
-    for body in sheet.bodies:
+    for body in parsed.bodies:
         if body.mass:
             yield "a mass", body.mass
         if body.center and body.center.kind != "along":
@@ -61,8 +61,8 @@ def _kinds(sheet: Sheet) -> Iterator[tuple[str, Cell]]:
             yield from (("a length", cell) for cell in body.shape.dimensions.values())
         if body.tensor:
             yield from (("a moment of inertia", cell) for row in body.tensor.rows for cell in row if cell)
-    yield from (("a length", cell) for cell in sheet.base.move or ())
-    yield from (("an acceleration", cell) for cell in sheet.gravity or ())
+    yield from (("a length", cell) for cell in parsed.base.move or ())
+    yield from (("an acceleration", cell) for cell in parsed.gravity or ())
 
 
 def _terms(node: Node) -> set[str]:
@@ -84,22 +84,22 @@ def _terms(node: Node) -> set[str]:
     return set()
 
 
-def check_size(report: Faults, sheet: Sheet) -> bool:
+def check_size(faults: Faults, parsed: ParsedFile) -> bool:
     """Whether the file is small enough for exact algebra; what goes over a bound is reported."""
     symbols: set[str] = set()
     parts: dict[str, set[Node]] = {what: set() for what in MAX_PARTS}
-    for cell in sheet.cells:
+    for cell in parsed.cells:
         for name in cell.names:
             symbols.add(name.name)
             if len(symbols) > MAX_SYMBOLS:
                 message = f"{name.name} is one symbol too many: at most {MAX_SYMBOLS} are read"
-                report.error(cell.span_of(name), message, "put numbers for some")
+                faults.error(cell.span_of(name), message, "put numbers for some")
                 return False
         for what, node in _parts(cell.tree):
             parts[what].add(node)
             if len(parts[what]) > MAX_PARTS[what]:
                 message = f"more than {MAX_PARTS[what]} different {what}, the last of them here"
-                report.error(cell.span, message, "name some of them with symbols of their own")
+                faults.error(cell.span, message, "name some of them with symbols of their own")
                 return False
     return True
 
@@ -112,21 +112,21 @@ def _parts(tree: Node) -> Iterator[tuple[str, Node]]:
             yield ("roots" if node.name == "sqrt" else "sines and cosines"), node
 
 
-def check_symbols(report: Faults, sheet: Sheet) -> None:
+def check_symbols(faults: Faults, parsed: ParsedFile) -> None:
     """Report names that are two things."""
-    _check_derivatives(report, sheet)
+    _check_derivatives(faults, parsed)
     first: dict[str, Role] = {}
     told: set[str] = set()
-    for role in roles(sheet):
+    for role in roles(parsed):
         before = first.setdefault(role.name, role)
-        if before.kind == role.kind or role.name in told or role.name in sheet.table.names:
+        if before.kind == role.kind or role.name in told or role.name in parsed.table.names:
             continue
         if {before.kind, role.kind} == {"a mass", "a moment of inertia"}:
             continue  # with unit lengths an exercise may write m/12 for a moment of inertia
         told.add(role.name)
         here, there = (before, role) if role.place is None or not role.cell.text else (role, before)
         where = (
-            f"line {report.source.position(there.cell.start)[0]}"
+            f"line {faults.source.position(there.cell.start)[0]}"
             if there.cell.text
             else "the default gravity"
         )
@@ -135,17 +135,17 @@ def check_symbols(report: Faults, sheet: Sheet) -> None:
         help = "give the two things names of their own"
         if not there.cell.text:
             help = "give gravity another letter, or write gravity: none"
-        report.error(place, message, help)
+        faults.error(place, message, help)
 
 
-def _check_derivatives(report: Faults, sheet: Sheet) -> None:
+def _check_derivatives(faults: Faults, parsed: ParsedFile) -> None:
     meanings = {
-        name + suffix: f"the {what} of {name}" for name in sheet.table.names for suffix, what in _SUFFIXES
+        name + suffix: f"the {what} of {name}" for name in parsed.table.names for suffix, what in _SUFFIXES
     }
     told: set[str] = set()
-    for cell in sheet.cells:
+    for cell in parsed.cells:
         for name in cell.names:
             if name.name in meanings and name.name not in told:
                 told.add(name.name)
                 message = f"{name.name} is {meanings[name.name]} in every result, and cannot be a parameter"
-                report.error(cell.span_of(name), message, "give the parameter another name")
+                faults.error(cell.span_of(name), message, "give the parameter another name")

@@ -15,9 +15,7 @@ from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.linear import NotLinear, linear_rates
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import MAX_ROWS, PROBLEM, ROW
-from dynsolve.problem.yaml_nodes import Faulty, Scalar, Span, YamlNode
-from dynsolve.problem.yaml_nodes import Mapping as MappingNode
-from dynsolve.problem.yaml_nodes import Sequence as ListNode
+from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 
 COLUMNS = ROW.names
 _KINDS = {"theta": "revolute", "d": "prismatic"}
@@ -77,40 +75,40 @@ class _Star:
     span: Span
 
 
-def read_table(report: Faults, fields: Fields, modified: bool) -> DHTable:
+def read_table(faults: Faults, fields: Fields, modified: bool) -> DHTable:
     """The table under `dh:` with the order of `coordinates:`; everything wrong with it is reported."""
     if "dh" not in fields:
-        report.error((0, 0), "the file has no `dh` table", f"add `dh:` with a row a frame; {_EXAMPLE}")
-    nodes = items(report, fields.get("dh"), "dh", f"a row a frame; {_EXAMPLE}")
+        faults.error((0, 0), "the file has no `dh` table", f"add `dh:` with a row a frame; {_EXAMPLE}")
+    nodes = items(faults, fields.get("dh"), "dh", f"a row a frame; {_EXAMPLE}")
     if len(nodes) > MAX_ROWS:
-        report.error(
+        faults.error(
             fields.key_span("dh"), f"{len(nodes)} rows; at most {MAX_ROWS} are read", "leave some out"
         )
         nodes = nodes[:MAX_ROWS]
     elif not nodes and isinstance(fields.get("dh"), ListNode):
-        report.error(fields.key_span("dh"), "the table has no rows", _EXAMPLE)
-    raw = [_read_cells(report, node, i) for i, node in enumerate(nodes, 1)]
-    coordinates = _coordinates(report, fields, raw)
-    rows = tuple(_row(report, i, row, coordinates, modified) for i, row in enumerate(raw, 1))
-    _check_effect(report, rows, coordinates, fields)
+        faults.error(fields.key_span("dh"), "the table has no rows", _EXAMPLE)
+    raw = [_read_cells(faults, node, i) for i, node in enumerate(nodes, 1)]
+    coordinates = _coordinates(faults, fields, raw)
+    rows = tuple(_row(faults, i, row, coordinates, modified) for i, row in enumerate(raw, 1))
+    _check_effect(faults, rows, coordinates, fields)
     return DHTable(rows, tuple(coordinates.items()))
 
 
-def _read_cells(report: Faults, node: YamlNode, index: int) -> _Raw:
+def _read_cells(faults: Faults, node: YamlNode, index: int) -> _Raw:
     """The four columns of a row; a missing one is 0."""
-    before = len(report.errors)
+    before = len(faults.errors)
     cells: dict[str, Cell] = {}
     if isinstance(node, MappingNode):
-        fields = Fields(report, node, COLUMNS, f"row {index} of the table")
+        fields = Fields(faults, node, COLUMNS, f"row {index} of the table")
         for column in COLUMNS:
             what = f"{column} of row {index}"
             if column not in fields:
                 cells[column] = made_cell(what, "0", node.span[0])
-            elif cell := read_cell(report, fields.get(column), what, stars=column in _KINDS):
+            elif cell := read_cell(faults, fields.get(column), what, stars=column in _KINDS):
                 cells[column] = cell
-    elif not isinstance(node, Faulty):
-        report.error(node.span, f"row {index} is not a mapping but {describe(node)}", _EXAMPLE)
-    return _Raw(node.span, cells, len(report.errors) > before or len(cells) < len(COLUMNS))
+    elif not isinstance(node, FaultyNode):
+        faults.error(node.span, f"row {index} is not a mapping but {describe(node)}", _EXAMPLE)
+    return _Raw(node.span, cells, len(faults.errors) > before or len(cells) < len(COLUMNS))
 
 
 def _stars(raw: list[_Raw]) -> list[_Star]:
@@ -125,7 +123,7 @@ def _stars(raw: list[_Raw]) -> list[_Star]:
     return sorted(found, key=lambda star: star.span)
 
 
-def _coordinates(report: Faults, fields: Fields, raw: list[_Raw]) -> dict[str, str]:
+def _coordinates(faults: Faults, fields: Fields, raw: list[_Raw]) -> dict[str, str]:
     """The coordinates with their kinds, in order of first appearance or of the key `coordinates`."""
     first: dict[str, _Star] = {}
     for star in _stars(raw):
@@ -135,69 +133,69 @@ def _coordinates(report: Faults, fields: Fields, raw: list[_Raw]) -> dict[str, s
                 f"{star.name} stands in {star.column} here and in {before.column} of row {before.row}: "
                 "a coordinate is an angle or a length"
             )
-            report.error(star.span, message, "give the two joints coordinates of their own")
+            faults.error(star.span, message, "give the two joints coordinates of their own")
     kinds = {name: _KINDS[star.column] for name, star in first.items()}
     whole = not any(row.faulty for row in raw)
     if not kinds and raw and whole:
         help = "mark the joint variables with a star: theta1* in theta, d2* in d"
-        report.error(fields.key_span("dh"), "no joint variable is marked in the table", help)
-    return _ordered(report, fields, kinds, whole)
+        faults.error(fields.key_span("dh"), "no joint variable is marked in the table", help)
+    return _ordered(faults, fields, kinds, whole)
 
 
-def _ordered(report: Faults, fields: Fields, kinds: dict[str, str], whole: bool) -> dict[str, str]:
+def _ordered(faults: Faults, fields: Fields, kinds: dict[str, str], whole: bool) -> dict[str, str]:
     if "coordinates" not in fields:
         return kinds
     example = f"write coordinates: [{', '.join(kinds)}]"
     order: dict[str, str] = {}
-    for item in items(report, fields.get("coordinates"), "coordinates", example):
-        name = _coordinate_name(report, item, example)
+    for item in items(faults, fields.get("coordinates"), "coordinates", example):
+        name = _coordinate_name(faults, item, example)
         if name is None:
             continue
         if name in order:
-            report.error(item.span, f"{name} is listed twice", example)
+            faults.error(item.span, f"{name} is listed twice", example)
         elif name in kinds:
             order[name] = kinds[name]
         elif whole:
             help = did_you_mean(name, kinds) or f"mark it in the table: {name}*"
-            report.error(item.span, f"{name} is not a joint variable of the table", help)
+            faults.error(item.span, f"{name} is not a joint variable of the table", help)
     missing = [name for name in kinds if name not in order]
     if missing and order:
-        report.error(fields.key_span("coordinates"), f"coordinates leaves out {', '.join(missing)}", example)
+        faults.error(fields.key_span("coordinates"), f"coordinates leaves out {', '.join(missing)}", example)
     return order | {name: kinds[name] for name in missing}
 
 
-def _coordinate_name(report: Faults, node: YamlNode, example: str) -> str | None:
-    if isinstance(node, Faulty):
+def _coordinate_name(faults: Faults, node: YamlNode, example: str) -> str | None:
+    if isinstance(node, FaultyNode):
         return None
-    if not isinstance(node, Scalar):
-        report.error(node.span, f"a coordinate is a name, not {describe(node)}", example)
+    if not isinstance(node, ScalarNode):
+        faults.error(node.span, f"a coordinate is a name, not {describe(node)}", example)
         return None
     try:
         return normalize(node.text.removesuffix("*"))
     except ReadError as error:
         at = node.start + error.offset
-        report.error((at, at + error.length), error.message, error.help)
+        faults.error((at, at + error.length), error.message, error.help)
         return None
 
 
-def _row(report: Faults, index: int, raw: _Raw, coordinates: dict[str, str], modified: bool) -> DHRow:
-    before, cells = len(report.errors), raw.cells
-    unstarred = _check_unstarred(report, cells, coordinates)
+def _row(faults: Faults, index: int, raw: _Raw, coordinates: dict[str, str], modified: bool) -> DHRow:
+    before, cells = len(faults.errors), raw.cells
+    unstarred = _check_unstarred(faults, cells, coordinates)
     starred = [column for column in _KINDS if any(name.star for name in raw.names(column))]
     if len(starred) == 2:
-        _cylindrical(report, raw.span, cells, modified)
+        _cylindrical(faults, raw.span, cells, modified)
     variable = starred[0] if len(starred) == 1 else None
-    rates = _rates(report, cells[variable], coordinates) if variable and variable not in unstarred else {}
+    rates = _rates(faults, cells[variable], coordinates) if variable and variable not in unstarred else {}
     # a theta whose joint variable was reported is not read as an angle too
     skipped = {"theta"} if variable == "theta" and not rates else set()
     columns = [column for column in ("theta", "alpha") if column in cells and column not in skipped]
-    angles = {column: read_angle(report, cells[column]) for column in columns}
+    angles = {column: read_angle(faults, cells[column]) for column in columns}
     known = {column: angle for column, angle in angles.items() if angle is not None}
-    faulty = raw.faulty or len(report.errors) > before
+    faulty = raw.faulty or len(faults.errors) > before
     return DHRow(index, raw.span, cells, known, variable, rates, faulty)
 
 
-def _check_unstarred(report: Faults, cells: Mapping[str, Cell], coordinates: dict[str, str]) -> set[str]:
+def _check_unstarred(faults: Faults, cells: Mapping[str, Cell], coordinates: dict[str, str]) -> set[str]:
     """The columns in which a coordinate stands without its star (reported)."""
     found = set()
     for column, cell in cells.items():
@@ -209,24 +207,24 @@ def _check_unstarred(report: Faults, cells: Mapping[str, Cell], coordinates: dic
             if column not in _KINDS:
                 message = f"{cell.what} contains the coordinate {name.name}, but it is constant"
                 help = "joint variables stand in theta and d; give this quantity another name"
-            report.error(cell.span_of(name), message, help)
+            faults.error(cell.span_of(name), message, help)
             found.add(column)
     return found
 
 
-def _rates(report: Faults, cell: Cell, coordinates: dict[str, str]) -> dict[str, Fraction]:
+def _rates(faults: Faults, cell: Cell, coordinates: dict[str, str]) -> dict[str, Fraction]:
     """The joint variable as a linear combination of coordinates."""
     try:
         rates = linear_rates(cell.tree, coordinates)
     except NotLinear as error:
-        report.error(cell.span, f"{cell.what}: {error.message}", error.help)
+        faults.error(cell.span, f"{cell.what}: {error.message}", error.help)
         return {}
     if not rates:
-        report.error(cell.span, f"the joint variable of {cell.what} cancels", "delete it, or mend the signs")
+        faults.error(cell.span, f"the joint variable of {cell.what} cancels", "delete it, or mend the signs")
     return rates
 
 
-def _cylindrical(report: Faults, span: Span, cells: Mapping[str, Cell], modified: bool) -> None:
+def _cylindrical(faults: Faults, span: Span, cells: Mapping[str, Cell], modified: bool) -> None:
     """θ and d of one row are both starred: show the two rows that a cylindrical joint needs."""
     text = {column: " ".join(cell.text.split()) or "0" for column, cell in cells.items()}
     text = {column: text.get(column, "0") for column in COLUMNS}
@@ -235,11 +233,11 @@ def _cylindrical(report: Faults, span: Span, cells: Mapping[str, Cell], modified
     (turning if modified else sliding).update(a=text["a"], alpha=text["alpha"])
     rows = ["- {" + ", ".join(f"{c}: {row[c]}" for c in COLUMNS) + "}" for row in (turning, sliding)]
     message = "theta and d of one row are both joint variables; a cylindrical joint takes two rows"
-    report.error(span, message, f"write {rows[0]} and {rows[1]}")
+    faults.error(span, message, f"write {rows[0]} and {rows[1]}")
 
 
 def _check_effect(
-    report: Faults, rows: tuple[DHRow, ...], coordinates: dict[str, str], fields: Fields
+    faults: Faults, rows: tuple[DHRow, ...], coordinates: dict[str, str], fields: Fields
 ) -> None:
     """A coordinate that no row turns or moves by (its rates were reported as cancelling)."""
     if any(row.faulty for row in rows):
@@ -247,7 +245,7 @@ def _check_effect(
     moved = {name for row in rows for name, rate in row.rates.items() if rate}
     for name in coordinates:
         if name not in moved:
-            report.error(
+            faults.error(
                 fields.key_span("dh"),
                 f"the coordinate {name} moves no joint",
                 "mend the row that it stands in",

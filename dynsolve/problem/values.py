@@ -11,9 +11,10 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.errors import AlgebraError
 from dynsolve.problem.cells import Cell
-from dynsolve.problem.rotations import RotationSheet, elementary, is_rotation
-from dynsolve.problem.sheet import Sheet
+from dynsolve.problem.parsed_file import ParsedFile
+from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.source import Faults
+from dynsolve.robot.geometry import elementary, is_rotation
 from dynsolve.robot.model import Convention
 from dynsolve.robot.parallel import Turn, absolute_angles
 
@@ -21,8 +22,8 @@ from dynsolve.robot.parallel import Turn, absolute_angles
 class CellValues:
     """The values of cells in one ring; what has none is reported, once."""
 
-    def __init__(self, report: Faults, ring: Ring, left_out: frozenset[int]) -> None:
-        self.report, self.ring, self._left_out = report, ring, left_out
+    def __init__(self, faults: Faults, ring: Ring, left_out: frozenset[int]) -> None:
+        self.faults, self.ring, self._left_out = faults, ring, left_out
 
     def expr(self, cell: Cell) -> Expr | None:
         """The value of a cell, None where something of it was reported."""
@@ -31,7 +32,7 @@ class CellValues:
         try:
             return value_of(self.ring, cell.tree)
         except AlgebraError as error:
-            self.report.error(cell.span, f"{cell.what}: {error.message}", error.help)
+            self.faults.error(cell.span, f"{cell.what}: {error.message}", error.help)
             return None
 
     def column(self, cells: Iterable[Cell]) -> Matrix | None:
@@ -39,14 +40,14 @@ class CellValues:
         entries = [self.expr(cell) for cell in cells]
         return None if None in entries else Matrix.column(self.ring, [e for e in entries if e is not None])
 
-    def rotation(self, sheet: RotationSheet, what: str) -> Matrix | None:
+    def rotation(self, parsed: ParsedRotation, what: str) -> Matrix | None:
         """The matrix of a rotation; a list that is no rotation is reported."""
-        if sheet.turns:
+        if parsed.turns:
             matrix = Matrix.identity(self.ring, 3)
-            for turn in sheet.turns:
+            for turn in parsed.turns:
                 matrix = matrix @ elementary(self.ring, turn.axis, turn.angle)
             return matrix
-        rows = [self.column(row) for row in sheet.rows]
+        rows = [self.column(row) for row in parsed.rows]
         if None in rows:
             return None
         matrix = Matrix.of(self.ring, [row.entries for row in rows if row])
@@ -61,64 +62,64 @@ class CellValues:
             help = (
                 "entries are exact: write cos(30deg) or sqrt(3)/2, not 0.866; or a product such as Rz(30deg)"
             )
-        self.report.error(sheet.span, message, help)
+        self.faults.error(parsed.span, message, help)
         return None
 
 
-def evaluate(report: Faults, sheet: Sheet) -> CellValues | None:
+def evaluate(faults: Faults, parsed: ParsedFile) -> CellValues | None:
     """The ring that holds everything in the file; None (reported) where there is none.
 
     Cells that no ring can hold are reported one by one and left out.
     """
-    coordinates = sheet.table.names
-    constant = list(sheet.constant)
+    coordinates = parsed.table.names
+    constant = list(parsed.constant)
     wrong = [cell for cell in constant if any(name.name in coordinates for name in cell.names)]
     left_out = {id(cell) for cell in wrong}
-    cells = [cell for cell in (*sheet.moving, *constant) if id(cell) not in left_out]
+    cells = [cell for cell in (*parsed.moving, *constant) if id(cell) not in left_out]
     try:
-        ring = _ring(sheet, cells)
+        ring = _ring(parsed, cells)
     except AlgebraError:
-        culprits = [cell for cell in cells if _fails(report, sheet, cell)]
+        culprits = [cell for cell in cells if _fails(faults, parsed, cell)]
         left_out |= {id(cell) for cell in culprits}
         try:
-            ring = _ring(sheet, [cell for cell in cells if id(cell) not in left_out])
+            ring = _ring(parsed, [cell for cell in cells if id(cell) not in left_out])
         except AlgebraError as error:
             if not culprits:
-                report.error((0, 0), error.message, error.help)
+                faults.error((0, 0), error.message, error.help)
             return None
-    _check_angles(report, sheet, ring)
-    return CellValues(report, ring, frozenset(left_out))
+    _check_angles(faults, parsed, ring)
+    return CellValues(faults, ring, frozenset(left_out))
 
 
-def _check_angles(report: Faults, sheet: Sheet, ring: Ring) -> None:
+def _check_angles(faults: Faults, parsed: ParsedFile, ring: Ring) -> None:
     """Report angles whose sine the ring has no room for: a thousand times another angle."""
-    for cell, angle in sheet.angles:
+    for cell, angle in parsed.angles:
         try:
             ring.cos(angle)
         except AlgebraError as error:
-            report.error(cell.span, f"{cell.what}: {error.message}", error.help or "write angles of one size")
+            faults.error(cell.span, f"{cell.what}: {error.message}", error.help or "write angles of one size")
 
 
-def _ring(sheet: Sheet, cells: list[Cell]) -> Ring:
+def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
     turns = [
         Turn(row.angles["theta"], row.angles["alpha"], row.variable == "theta")
-        for row in sheet.table.rows
+        for row in parsed.table.rows
         if len(row.angles) == 2
     ]
-    preferred = absolute_angles(turns, sheet.table.names, sheet.convention is Convention.MODIFIED)
+    preferred = absolute_angles(turns, parsed.table.names, parsed.convention is Convention.MODIFIED)
     return build_ring(
-        sheet.table.coordinates,
+        parsed.table.coordinates,
         [cell.tree for cell in cells],
-        [angle for _, angle in sheet.angles],
+        [angle for _, angle in parsed.angles],
         preferred,
     )
 
 
-def _fails(report: Faults, sheet: Sheet, cell: Cell) -> bool:
+def _fails(faults: Faults, parsed: ParsedFile, cell: Cell) -> bool:
     """Whether no ring can hold this cell by itself (reported)."""
     try:
-        build_ring(sheet.table.coordinates, [cell.tree])
+        build_ring(parsed.table.coordinates, [cell.tree])
     except AlgebraError as error:
-        report.error(cell.span, f"{cell.what}: {error.message}", error.help)
+        faults.error(cell.span, f"{cell.what}: {error.message}", error.help)
         return True
     return False

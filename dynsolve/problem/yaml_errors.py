@@ -10,15 +10,15 @@ from dynsolve.problem.source import Faults
 _QUOTES = "put the value in single quotes"
 
 
-def explain(report: Faults, error: Any) -> None:
+def explain(faults: Faults, error: Any) -> None:
     """Note a syntax error of PyYAML (either of its two parsers) at its place, with a remedy."""
-    text = report.source.text
+    text = faults.source.text
     problem = (error.problem or "").lower()
     context = (error.context or "").lower()
     at = error.problem_mark.index if error.problem_mark else len(text)
     opened = error.context_mark.index if error.context_mark else at
     start, message, help = _explained(text, problem, context, at, opened)
-    report.error((start, start + 1), message, help)
+    faults.error((start, start + 1), message, help)
 
 
 def _explained(text: str, problem: str, context: str, at: int, opened: int) -> tuple[int, str, str]:

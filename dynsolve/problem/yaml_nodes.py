@@ -23,7 +23,7 @@ Span = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Scalar:
+class ScalarNode:
     """A value: `text` is the source between its quotes, which begins at character `start`.
 
     `decoded` is what YAML makes of it (escapes resolved, lines folded): for titles.
@@ -36,7 +36,7 @@ class Scalar:
 
 
 @dataclass(frozen=True, slots=True)
-class Sequence:
+class ListNode:
     """A list."""
 
     items: tuple[YamlNode, ...]
@@ -44,38 +44,38 @@ class Sequence:
 
 
 @dataclass(frozen=True, slots=True)
-class Mapping:
+class MappingNode:
     """Keys with their values, in order."""
 
-    entries: tuple[tuple[Scalar, YamlNode], ...]
+    entries: tuple[tuple[ScalarNode, YamlNode], ...]
     span: Span
 
 
 @dataclass(frozen=True, slots=True)
-class Faulty:
+class FaultyNode:
     """Something that was reported already; whoever meets it leaves it alone."""
 
     span: Span
 
 
-YamlNode = Scalar | Sequence | Mapping | Faulty
+YamlNode = ScalarNode | ListNode | MappingNode | FaultyNode
 
 
-def read_nodes(report: Faults) -> YamlNode | None:
+def read_nodes(faults: Faults) -> YamlNode | None:
     """The root node of the source of `report`, or None where there is none or YAML's syntax fails."""
     import yaml
 
     loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    text = report.source.text
-    tree = _Tree(report)
+    text = faults.source.text
+    tree = _Tree(faults)
     try:
         for event, _ in zip(_events(yaml, text, loader), range(MAX_EVENTS), strict=False):
             if not tree.take(event):
                 return tree.root
     except yaml.MarkedYAMLError as error:
-        explain(report, error)
+        explain(faults, error)
         return None
-    report.error(
+    faults.error(
         (len(text), len(text)), f"the file has more than {MAX_EVENTS} parts", "give the problem file itself"
     )
     return None
@@ -97,8 +97,8 @@ class _Open:
 class _Tree:
     """Builds nodes from events on a stack of its own: no depth of nesting can exhaust Python's."""
 
-    def __init__(self, report: Faults) -> None:
-        self.report = report
+    def __init__(self, faults: Faults) -> None:
+        self.faults = faults
         self.root: YamlNode | None = None
         self.open: list[_Open] = []
         self.documents = 0
@@ -115,7 +115,7 @@ class _Tree:
             self._properties(event)
             self.open.append(_Open(kind, start))
             if len(self.open) > MAX_DEPTH:
-                self.report.error(
+                self.faults.error(
                     (start, start + 1), f"more than {MAX_DEPTH} levels of nesting", "write it flatter"
                 )
                 self.root = None
@@ -133,7 +133,7 @@ class _Tree:
         self.documents += 1
         if self.documents == 2:
             message = "a second document begins here; a problem file holds one robot"
-            self.report.error(
+            self.faults.error(
                 (start, max(end, start + 3)), message, "put the other robot in a file of its own"
             )
         return self.documents < 2
@@ -143,23 +143,23 @@ class _Tree:
         start = event.start_mark.index
         if event.anchor:
             span = (start, start + len(event.anchor) + 1)
-            self.report.error(
+            self.faults.error(
                 span, f"`&{event.anchor}` is a YAML anchor, which a problem file has no use for", "delete it"
             )
         if event.tag:
-            text = self.report.source.text
+            text = self.faults.source.text
             length = len(text[start:].split(None, 1)[0]) if text[start : start + 1] == "!" else 1
             message = "a YAML tag (`!...`) has no meaning in a problem file"
-            self.report.error((start, start + length), message, "delete it")
+            self.faults.error((start, start + length), message, "delete it")
 
     def _alias(self, name: str, start: int, end: int) -> None:
         message = f"`*{name}` is a YAML alias, which a problem file has no use for"
         help = f"the star of a joint variable stands after its name: {name}*"
-        self.report.error((start, end), message, help)
-        self._place(Faulty((start, end)))
+        self.faults.error((start, end), message, help)
+        self._place(FaultyNode((start, end)))
 
-    def _scalar(self, event: Any, start: int, end: int) -> Scalar:
-        source = self.report.source.text
+    def _scalar(self, event: Any, start: int, end: int) -> ScalarNode:
+        source = self.faults.source.text
         style = event.style
         text_start, text_end = start, end
         if event.anchor or event.tag:
@@ -170,27 +170,27 @@ class _Tree:
             line_end = source.find("\n", start, end)
             text_start = line_end + 1 if line_end >= 0 else end
             text_end = text_start + len(source[text_start:text_end].rstrip())
-        return Scalar(source[text_start:text_end], text_start, (start, max(end, start)), event.value)
+        return ScalarNode(source[text_start:text_end], text_start, (start, max(end, start)), event.value)
 
     def _closed(self, end: int) -> YamlNode:
         done = self.open.pop()
-        text = self.report.source.text
+        text = self.faults.source.text
         end = done.start + len(text[done.start : end].rstrip())
         if done.kind == "SequenceStartEvent":
-            return Sequence(tuple(done.items), (done.start, end))
-        return Mapping(self._entries(done.items), (done.start, end))
+            return ListNode(tuple(done.items), (done.start, end))
+        return MappingNode(self._entries(done.items), (done.start, end))
 
-    def _entries(self, items: list[YamlNode]) -> tuple[tuple[Scalar, YamlNode], ...]:
-        entries: dict[str, tuple[Scalar, YamlNode]] = {}
+    def _entries(self, items: list[YamlNode]) -> tuple[tuple[ScalarNode, YamlNode], ...]:
+        entries: dict[str, tuple[ScalarNode, YamlNode]] = {}
         for key, value in zip(items[::2], items[1::2], strict=True):
-            if isinstance(key, Faulty):
+            if isinstance(key, FaultyNode):
                 continue
-            if not isinstance(key, Scalar):
-                self.report.error(key.span, "a key is a word, not a list or a mapping", "write `key: value`")
+            if not isinstance(key, ScalarNode):
+                self.faults.error(key.span, "a key is a word, not a list or a mapping", "write `key: value`")
             elif key.decoded in entries:
-                line, _ = self.report.source.position(entries[key.decoded][0].span[0])
+                line, _ = self.faults.source.position(entries[key.decoded][0].span[0])
                 message = f"`{key.decoded}` is given twice, first in line {line}"
-                self.report.error(key.span, message, "keep one of them")
+                self.faults.error(key.span, message, "keep one of them")
             else:
                 entries[key.decoded] = (key, value)
         return tuple(entries.values())

@@ -9,9 +9,9 @@ import jsonschema
 import pytest
 import yaml
 
+from dynsolve.problem.documentation import template
 from dynsolve.problem.schema import schema
 from dynsolve.problem.specification import ABOUT, BODY, CENTERS, PROBLEM, ROW, TENSOR
-from dynsolve.problem.template import template
 from dynsolve.robot.shapes import KINDS
 from tests.support import LIBRARY, TEXTBOOKS
 

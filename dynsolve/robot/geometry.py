@@ -1,4 +1,4 @@
-"""Where a link's ends are, seen from its own frame.
+"""Rotations about axes, and where a link's ends are, seen from its own frame.
 
 Standard convention: link i reaches from o_{i-1} to o_i; frame i is at its far end.
 Modified convention: from o_i to o_{i+1}; frame i is at its near end.
@@ -11,9 +11,30 @@ from collections.abc import Collection, Sequence
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
-from dynsolve.problem.rotations import elementary
 from dynsolve.robot.model import Convention, Joint
 from dynsolve.robot.parallel import moving_part
+
+
+def elementary(ring: Ring, axis: str, angle: Angle) -> Matrix:
+    """The rotation about one axis, 3×3.
+
+    R_z = [[c, -s, 0], [s, c, 0], [0, 0, 1]], and the same in cyclic order for x and y.
+    """
+    c, s, zero, one = ring.cos(angle), ring.sin(angle), ring.zero, ring.one
+    if axis == "x":
+        return Matrix.of(ring, [[one, zero, zero], [zero, c, -s], [zero, s, c]])
+    if axis == "y":
+        return Matrix.of(ring, [[c, zero, s], [zero, one, zero], [-s, zero, c]])
+    return Matrix.of(ring, [[c, -s, zero], [s, c, zero], [zero, zero, one]])
+
+
+def is_rotation(matrix: Matrix) -> tuple[bool, bool]:
+    """(R Rᵀ = 1, det R = +1), decided exactly."""
+    ring = matrix.ring
+    orthogonal = (matrix @ matrix.T - Matrix.identity(ring, 3)).is_zero
+    (a, b, c), (d, e, f), (g, h, i) = matrix.rows
+    determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    return orthogonal, determinant == ring.one
 
 
 class Links:

@@ -6,26 +6,26 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.problem.base import BaseSheet
-from dynsolve.problem.bodies import BodySheet
+from dynsolve.problem.base import ParsedBase
+from dynsolve.problem.bodies import ParsedBody
 from dynsolve.problem.cells import Cell
-from dynsolve.problem.rotations import RotationSheet
+from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.table import DHTable
 from dynsolve.robot.model import AxesKind, Convention
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
+class ParsedFile:
     """The parts of a problem file that make a robot."""
 
     convention: Convention
     table: DHTable
     gravity: tuple[Cell, ...] | None
-    base: BaseSheet
-    bodies: tuple[BodySheet, ...]
+    base: ParsedBase
+    bodies: tuple[ParsedBody, ...]
 
     @property
-    def rotations(self) -> Iterator[RotationSheet]:
+    def rotations(self) -> Iterator[ParsedRotation]:
         """Every rotation that is given."""
         if self.base.rotation:
             yield self.base.rotation
