@@ -9,32 +9,14 @@ masses nothing can be told, and nothing is said.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from fractions import Fraction
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.bounded import recalled
-from dynsolve.notation.unicode import raised
 from dynsolve.robot.model import JointType, Robot
-
-Dimension = tuple[Fraction, Fraction, Fraction]
-"""Exponents of mass, length and time."""
-
-
-def dimension(mass: int = 0, length: int = 0, time: int = 0) -> Dimension:
-    """M^mass L^length T^time"""
-    return Fraction(mass), Fraction(length), Fraction(time)
-
-
-NONE = dimension()
-MASS = dimension(mass=1)
-LENGTH = dimension(length=1)
-INERTIA = dimension(mass=1, length=2)
-ACCELERATION = dimension(length=1, time=-2)
-ENERGY = dimension(mass=1, length=2, time=-2)
-
+from dynsolve.robot.units import ACCELERATION, INERTIA, LENGTH, MASS, NONE, Dimension, dimension, times
 
 MOST_REMEMBERED = 10_000
 """Of so many terms the dimension is remembered."""
@@ -133,12 +115,6 @@ def _powers(exponents: tuple[int, ...]) -> Iterator[tuple[int, int]]:
     return ((i, e) for i, e in enumerate(exponents) if e)
 
 
-def times(a: Dimension, b: Dimension, power: int | Fraction = 1) -> Dimension:
-    """a · b^power"""
-    power = power if isinstance(power, Fraction) else int(power)
-    return a[0] + b[0] * power, a[1] + b[1] * power, a[2] + b[2] * power
-
-
 def _terms(expr: Expr) -> Iterator[tuple[tuple[int, ...], Any]]:
     yield from expr.poly.to_dict().items()
 
@@ -162,33 +138,3 @@ def _roles(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
                 yield entry, INERTIA
     for entry in robot.gravity.entries:
         yield entry, ACCELERATION
-
-
-_UNITS = {
-    NONE: "a pure number",
-    MASS: "a mass",
-    LENGTH: "a length",
-    INERTIA: "a moment of inertia",
-    ACCELERATION: "an acceleration",
-    ENERGY: "an energy (or a torque)",
-    dimension(mass=1, length=1, time=-2): "a force",
-    dimension(mass=1, length=2, time=-1): "an angular momentum",
-    dimension(mass=1, length=1, time=-1): "a momentum",
-    dimension(length=1, time=-1): "a velocity",
-    dimension(time=-1): "an angular velocity",
-    dimension(time=-2): "an angular acceleration",
-    dimension(length=2): "an area",
-    dimension(mass=1, length=1): "a mass times a length",
-}
-
-
-def describe(dim: Dimension) -> str:
-    """A dimension in words, or in SI units where it has no name.
-
-    >>> describe(ENERGY), describe(dimension(mass=1, length=2, time=-3))
-    ('an energy (or a torque)', 'kg m² s⁻³')
-    """
-    if dim in _UNITS:
-        return _UNITS[dim]
-    units = [(u, e) for u, e in zip(("kg", "m", "s"), dim, strict=True) if e]
-    return " ".join(u if e == 1 else u + raised(str(e)) for u, e in units)

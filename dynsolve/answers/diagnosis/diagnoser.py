@@ -30,16 +30,6 @@ from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.diagnosis.substitution import substitutions
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.diagnosis.terms import LIGHT, TermDiagnoser, TermSlip
-from dynsolve.answers.judging.dimensions import (
-    ENERGY,
-    INERTIA,
-    LENGTH,
-    NONE,
-    Dimension,
-    describe,
-    dimension,
-    times,
-)
 from dynsolve.answers.judging.entry_comparison import WrittenEntry
 from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -47,6 +37,7 @@ from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType
+from dynsolve.robot.units import ENERGY, INERTIA, LENGTH, NONE, Dimension, describe, dimension, times
 
 MOST_NAMED = 4
 """More slips than this in one answer are told as the terms that differ."""

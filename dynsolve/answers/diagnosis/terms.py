@@ -30,9 +30,10 @@ from dynsolve.answers.diagnosis.fourier import (
 )
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
-from dynsolve.answers.judging.dimensions import INERTIA, MASS, Dimensions
 from dynsolve.answers.judging.ring_extension import is_opaque
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.robot.dimensions import Dimensions
+from dynsolve.robot.units import INERTIA, MASS
 
 LIGHT = 4
 """A slip up to this weight is one that a person makes in one place."""

@@ -29,13 +29,13 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_gcd
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import RingPlan
-from dynsolve.answers.judging.dimensions import Dimensions
 from dynsolve.answers.judging.evaluate import Values
 from dynsolve.answers.judging.ring_extension import Known, Needs, needs_of
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node, Number
+from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Robot
 
 MOST_NEW = 48

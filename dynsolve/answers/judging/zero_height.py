@@ -12,7 +12,8 @@ from collections.abc import Iterable, Mapping
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.answers.judging.answer_ring import Field
-from dynsolve.answers.judging.dimensions import LENGTH, Dimensions
+from dynsolve.robot.dimensions import Dimensions
+from dynsolve.robot.units import LENGTH
 
 
 def potential_at_zero_height(field: Field, own: Mapping[str, Expr], dimensions: Dimensions) -> Expr | None:

@@ -12,8 +12,9 @@ from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot import units
 from dynsolve.robot.model import Robot
-from dynsolve.solution.numbers import quantities, units
+from dynsolve.solution.numbers import quantities
 from dynsolve.solution.numbers.given import GivenValue
 from dynsolve.solution.numbers.names import Shown, all_results, main_results
 from dynsolve.solution.numbers.results import Numbers, State, needed

@@ -20,8 +20,9 @@ from dynsolve.notation.text import read
 from dynsolve.notation.tokens import tokens
 from dynsolve.notation.tree import Degrees, Negative, Node, Number, Product, number
 from dynsolve.problem import Problem
+from dynsolve.robot import units
 from dynsolve.robot.model import JointType, Robot
-from dynsolve.solution.numbers import quantities, units
+from dynsolve.solution.numbers import quantities
 from dynsolve.solution.numbers.assignments import Assignment
 from dynsolve.solution.numbers.substitution import Replacements
 

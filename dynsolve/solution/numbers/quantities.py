@@ -4,17 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dynsolve.robot.dimensions import (
-    LENGTH,
-    MASS,
-    NONE,
-    Dimension,
-    Dimensions,
-    dimension,
-    times,
-)
+from dynsolve.robot import units
+from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Coordinate, JointType, Robot
-from dynsolve.solution.numbers import units
+from dynsolve.robot.units import LENGTH, MASS, NONE, Dimension, dimension, times
 
 PER_SECOND = dimension(time=-1)
 

@@ -1,7 +1,8 @@
-"""Units: how large one is in SI, and of which dimension.
+"""Dimensions and units: what may be added to what, how it is called, how large a unit is in SI.
 
-A result is in SI units; a value given in others (`units: {L1: mm}`) is turned into
-them exactly.  To add a unit, add its line to `_KNOWN`.
+A dimension is three exponents, of mass, length and time.  A result is in SI units; a
+value given in others (`units: {L1: mm}`) is turned into them exactly.  To add a unit, add
+its line to `_KNOWN`; to name a dimension, add it to `_SYMBOLS` (in SI) or to `_WORDS`.
 """
 
 from __future__ import annotations
@@ -12,7 +13,29 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from dynsolve.notation.tree import Letter, Node, Number, Row, Words
-from dynsolve.robot.dimensions import NONE, Dimension, dimension, times
+from dynsolve.notation.unicode import raised
+
+Dimension = tuple[Fraction, Fraction, Fraction]
+"""Exponents of mass, length and time."""
+
+
+def dimension(mass: int = 0, length: int = 0, time: int = 0) -> Dimension:
+    """M^mass L^length T^time"""
+    return Fraction(mass), Fraction(length), Fraction(time)
+
+
+NONE = dimension()
+MASS = dimension(mass=1)
+LENGTH = dimension(length=1)
+INERTIA = dimension(mass=1, length=2)
+ACCELERATION = dimension(length=1, time=-2)
+ENERGY = dimension(mass=1, length=2, time=-2)
+
+
+def times(a: Dimension, b: Dimension, power: int | Fraction = 1) -> Dimension:
+    """a · b^power"""
+    power = power if isinstance(power, Fraction) else int(power)
+    return a[0] + b[0] * power, a[1] + b[1] * power, a[2] + b[2] * power
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +109,7 @@ def parse(text: str) -> Unit | None:
     return Unit(size, dim)
 
 
-_NAMED: Mapping[Dimension, str] = {
+_SYMBOLS: Mapping[Dimension, str] = {
     NONE: "",
     dimension(mass=1): "kg",
     dimension(length=1): "m",
@@ -102,8 +125,8 @@ def si(dim: Dimension) -> str:
     >>> si(dimension(length=1, time=-2)), si(dimension(mass=1, length=2))
     ('m/s^2', 'kg m^2')
     """
-    if dim in _NAMED:
-        return _NAMED[dim]
+    if dim in _SYMBOLS:
+        return _SYMBOLS[dim]
     units = list(zip(("kg", "m", "s"), dim, strict=True))
     above = " ".join(_raised(name, power) for name, power in units if power > 0)
     below = [_raised(name, -power) for name, power in units if power < 0]
@@ -112,6 +135,36 @@ def si(dim: Dimension) -> str:
 
 def _raised(name: str, power: Fraction) -> str:
     return name if power == 1 else f"{name}^{power}"
+
+
+_WORDS = {
+    NONE: "a pure number",
+    MASS: "a mass",
+    LENGTH: "a length",
+    INERTIA: "a moment of inertia",
+    ACCELERATION: "an acceleration",
+    ENERGY: "an energy (or a torque)",
+    dimension(mass=1, length=1, time=-2): "a force",
+    dimension(mass=1, length=2, time=-1): "an angular momentum",
+    dimension(mass=1, length=1, time=-1): "a momentum",
+    dimension(length=1, time=-1): "a velocity",
+    dimension(time=-1): "an angular velocity",
+    dimension(time=-2): "an angular acceleration",
+    dimension(length=2): "an area",
+    dimension(mass=1, length=1): "a mass times a length",
+}
+
+
+def describe(dim: Dimension) -> str:
+    """A dimension in words, or in SI units where it has no name.
+
+    >>> describe(ENERGY), describe(dimension(mass=1, length=2, time=-3))
+    ('an energy (or a torque)', 'kg m² s⁻³')
+    """
+    if dim in _WORDS:
+        return _WORDS[dim]
+    units = [(u, e) for u, e in zip(("kg", "m", "s"), dim, strict=True) if e]
+    return " ".join(u if e == 1 else u + raised(str(e)) for u, e in units)
 
 
 _SQUARE = re.compile(r"([A-Za-z]+)(?:\^|\*\*)?([23²³])")

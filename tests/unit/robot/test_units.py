@@ -10,7 +10,8 @@ import dynsolve
 from dynsolve.notation.latex import to_latex
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.solution.numbers import quantities, units
+from dynsolve.robot import units
+from dynsolve.solution.numbers import quantities
 
 
 @pytest.mark.parametrize(
