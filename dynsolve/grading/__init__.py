@@ -1,9 +1,18 @@
-"""Many hand-ins: the run, the record, the reports, the platforms.
+"""Many hand-ins: from what the learning platform hands out to what it takes back.
 
-    problem set + uploads -> hand-ins (who, which problem, which files)
-    hand-in -> verdicts, in a bounded worker -> marks -> the record (SQLite)
-    the record -> grades.csv, answers.csv, feedback, report.html, the platforms' files
+    problem_set, policy     what is graded, and how it is marked (`set.yaml`)
+    uploads -> hand_ins     files, safely read -> who handed in what for which problem
+    run, fingerprints       what has to be computed; what has not is in the record
+    pool, worker, cluster   bounded processes, on this machine or on a Dask scheduler
+    work, losses, marking   one hand-in there: its verdicts, its marks
+    pages                   the student's page
+    record                  everything that is known, in SQLite
+    outputs, files          grades.csv, answers.csv and the students' pages, from the record
+    cohort, teacher         the teacher's page
+    platforms/              what Canvas, Moodle and Gradescope hand out and import
+    public                  `dynsolve.grade` and `dynsolve.override`
 
-Nothing of a verdict is decided here; `dynsolve.answers` does that.  To add a learning
-platform, add how its names are read to `platforms` and what it imports to `exports`.
+Nothing of a verdict is decided here; `dynsolve.answers` does that.  How to add a learning
+platform stands in `platforms`; a policy is a field of `policy.Policy`, read in
+`problem_set` and applied in `marking`.
 """

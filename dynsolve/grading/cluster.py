@@ -129,6 +129,6 @@ def run_bounded(payload: Data, seconds: float, memory: int, version: str) -> Dat
 
 def _program() -> str:
     """What identifies the program; the run knows it."""
-    from dynsolve.grading.run import program
+    from dynsolve.grading.fingerprints import program
 
     return program()

@@ -18,8 +18,11 @@ from pathlib import PurePosixPath
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import InputError
-from dynsolve.grading.platforms import METADATA, Owner, Owners, Submitters, exports, read_metadata
+from dynsolve.grading.platforms.gradescope import METADATA, Submitters, exports, read_metadata
+from dynsolve.grading.platforms.owner import Owner
+from dynsolve.grading.platforms.owners import Owners
 from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Waiting
 from dynsolve.grading.uploads import Upload, Uploads, digest, printable
 
 _HEAD = 20_000
@@ -63,16 +66,6 @@ class HandIn:
     files: tuple[File, ...]
     late: bool = False
     left: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True, order=True)
-class Waiting:
-    """Something for a human to look at; `student` and `problem` as far as they are known."""
-
-    student: str
-    problem: str
-    file: str
-    reason: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,12 +1,18 @@
-"""Verdicts -> marks, each with the one line that explains it."""
+"""Verdicts -> marks, each with the one line that explains it.
+
+The record keeps of each answer what its marks are made from (`Kept`), so that other
+points, or another policy, need no hand-in to be judged again (`rescored`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import json
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
-from dynsolve.answers.verdict import JudgedAnswer, Verdict
+from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.grading.policy import Policy, rounded, shown, stage_of
 
 HALF = Fraction(1, 2)
@@ -135,3 +141,51 @@ def maximum(marks: Iterable[tuple[str, Fraction]], policy: Policy) -> Fraction:
     """
     all_of = (Marked(name, of, of, "") for name, of in marks)
     return sum((marked.of for marked in _capped(all_of, policy)), Fraction(0))
+
+
+# -- marks anew --------------------------------------------------------------------------------------
+
+
+class Kept(NamedTuple):
+    """What the record has of an answer that its marks are made from; `basis` is what `basis` wrote."""
+
+    name: str
+    verdict: str
+    loss: str
+    basis: str
+
+
+def basis(answer: JudgedAnswer, parts: tuple[JudgedAnswer, ...]) -> str:
+    """What the marks of an answer are made from beside its verdict, as the record keeps it.
+
+    >>> basis(JudgedAnswer("K", Verdict.FOLLOWS, follows_from=("K1",)), ())
+    '[["K1"], [], []]'
+    """
+    entries = [[*entry.index, str(entry.verdict)] for entry in answer.entries]
+    return json.dumps([list(answer.follows_from), entries, [str(part.verdict) for part in parts]])
+
+
+def rescored(
+    kept: Iterable[Kept], points: Mapping[str, Fraction], policy: Policy, late: bool
+) -> tuple[Marked, ...]:
+    """The marks of a hand-in's answers as they are now.
+
+    >>> kept = [Kept("K", "follows", "", '[["K1"], [], []]')]
+    >>> rescored(kept, {"K": Fraction(4)}, Policy(follow=Fraction(1, 2)), late=False)[0].marks
+    Fraction(2, 1)
+    """
+    answers, losses, parts = [], {}, {}
+    for name, verdict, loss, text in kept:
+        follows_from, entries, pieces = json.loads(text)
+        answers.append(
+            JudgedAnswer(
+                name,
+                Verdict(verdict),
+                follows_from=tuple(follows_from),
+                entries=tuple(EntryVerdict(tuple(index), Verdict(of)) for *index, of in entries),
+                of=points.get(name, Fraction(0)),
+            )
+        )
+        losses[name] = loss
+        parts[name] = tuple(JudgedAnswer(name, Verdict(of)) for of in pieces)
+    return mark(answers, policy, late, losses, parts)

@@ -9,14 +9,13 @@ from html import escape
 from itertools import groupby
 from pathlib import Path
 
-from dynsolve.grading.output_paths import folder_name, remove_others, write
+from dynsolve.grading.cohort import most, standings
+from dynsolve.grading.files import decimal, folder_name, remove_others, table, write
 from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
 from dynsolve.grading.policy import points, shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record, RecordedHandIn
-from dynsolve.grading.tables import decimal, table
 from dynsolve.grading.teacher import teachers_page
-from dynsolve.grading.totals import most, standings
 from dynsolve.render.markdown import escaped
 from dynsolve.render.words import visible
 

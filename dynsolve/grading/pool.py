@@ -64,11 +64,11 @@ class Worker:
         Where there is none, a fresh worker tries its answers one by one: so one that is too
         much spoils no other, nor does what another hand-in has left behind.
         """
-        said = self._tried({**payload, "narrow": False})
+        said = self._tried({**payload, "answer_by_answer": False})
         if "result" in said or self.closed:
             return said
         self.end()
-        return self._tried({**payload, "narrow": True})
+        return self._tried({**payload, "answer_by_answer": True})
 
     def _tried(self, payload: Data) -> Data:
         """The answer to a payload; a worker that something else has killed is none."""

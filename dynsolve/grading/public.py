@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
 from dynsolve.errors import UsageError
-from dynsolve.grading.changes import changes
-from dynsolve.grading.exports import PLATFORMS, chosen_roster, export, keep_platform, late
-from dynsolve.grading.hand_ins import Waiting, take_in
+from dynsolve.grading.cohort import standings
+from dynsolve.grading.fingerprints import changes
+from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.outputs import write_outputs
+from dynsolve.grading.platforms.registry import PLATFORMS, chosen_roster, export, keep_platform, late
 from dynsolve.grading.policy import shown
 from dynsolve.grading.pool import Bounds, LocalPool
 from dynsolve.grading.problem_set import load_set
-from dynsolve.grading.record import FILE, Record
+from dynsolve.grading.record import FILE, Record, Waiting
 from dynsolve.grading.run import Pool, grade_all
 from dynsolve.grading.stored import store_set, stored_set
-from dynsolve.grading.totals import standings
 from dynsolve.grading.uploads import Refused, Uploads
 from dynsolve.problem.fields import did_you_mean
 
@@ -92,43 +92,39 @@ def grade(
     >>> temporary.cleanup()
     """
     folder = Path(output)
-    if folder.resolve() == Path(submissions).resolve():
-        raise UsageError(f"{folder} is the folder of the hand-ins: give another one for the results")
-    if roster is not None and not lms:
-        raise UsageError(f"--roster needs --lms, the platform that it is of: {', '.join(PLATFORMS)}")
+    _check_usage(folder, Path(submissions), lms, roster)
     chosen = load_set(os.fspath(problems))
     listed = chosen_roster(chosen, lms, Path(roster) if roster is not None else None) if lms else None
-    uploads = Uploads(Path(submissions), besides=folder)
-    try:
-        with _opened(folder) as record:
-            if lms and listed:
-                keep_platform(record, lms, listed)
-            pool = _pool(jobs, cluster, Bounds(timeout, memory << 20))
-            try:
-                intake = take_in(chosen, uploads, late(record))
-                store_set(record, chosen)
-                done = grade_all(chosen, uploads, intake, record, pool, progress)
-            finally:
-                pool.close()
-            write_outputs(folder, chosen, record)
-            warnings = export(folder, chosen, record)
-            changed = tuple(changes(record)) if diff else ()
-            record.finish()
-            totals = {standing.student: standing.total for standing in standings(record)}
-    finally:
-        uploads.close()
-    refused = tuple(uploads.refused)
+    with closing(Uploads(Path(submissions), besides=folder)) as uploads, _opened(folder) as record:
+        if lms and listed:
+            keep_platform(record, lms, listed)
+        with closing(_pool(jobs, cluster, Bounds(timeout, memory << 20))) as pool:
+            intake = take_in(chosen, uploads, late(record))
+            store_set(record, chosen)
+            done = grade_all(chosen, uploads, intake, record, pool, progress)
+        write_outputs(folder, chosen, record)
+        warnings = export(folder, chosen, record)
+        changed = tuple(changes(record)) if diff else ()
+        record.finish()
+        totals = {standing.student: standing.total for standing in standings(record)}
     return Grades(
         folder,
         totals,
         done.hand_ins,
         done.computed,
-        done.remarked,
+        done.rescored,
         intake.waiting,
-        refused,
+        tuple(uploads.refused),
         changed,
         warnings,
     )
+
+
+def _check_usage(folder: Path, submissions: Path, lms: str | None, roster: object) -> None:
+    if folder.resolve() == submissions.resolve():
+        raise UsageError(f"{folder} is the folder of the hand-ins: give another one for the results")
+    if roster is not None and not lms:
+        raise UsageError(f"--roster needs --lms, the platform that it is of: {', '.join(PLATFORMS)}")
 
 
 def override(

@@ -18,9 +18,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dynsolve.errors import UsageError
-from dynsolve.grading.hand_ins import Waiting
-from dynsolve.grading.marking import Marked
-from dynsolve.grading.rescore import Kept
+from dynsolve.grading.marking import Kept, Marked
 
 Key = tuple[str, str]
 """A hand-in: the student and the problem."""
@@ -54,6 +52,16 @@ CREATE TABLE IF NOT EXISTS finished (
 _ANSWER = "name label verdict marks of why line diagnosis message read_as note fault loss form basis".split()
 _COLUMNS = itemgetter(*_ANSWER)
 _CODES = _ANSWER.index("diagnosis")
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Waiting:
+    """Something for a human to look at; `student` and `problem` as far as they are known."""
+
+    student: str
+    problem: str
+    file: str
+    reason: str
 
 
 class Graded(NamedTuple):
@@ -168,7 +176,7 @@ class Record:
             [(*key, place, *_cells(answer)) for place, answer in enumerate(row["answers"])],
         )
 
-    def remark(self, key: Key, fingerprint: str, causes: str, marks: Iterable[Marked]) -> None:
+    def rescore(self, key: Key, fingerprint: str, causes: str, marks: Iterable[Marked]) -> None:
         """Write the marks of a hand-in anew: all of them, or nothing."""
         with self.db:
             self.db.execute("BEGIN")

@@ -11,27 +11,31 @@ import base64
 import json
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, wait
-from contextlib import suppress
 from dataclasses import dataclass
-from functools import lru_cache
-from hashlib import sha256
 from pathlib import Path
 from typing import Any, Protocol
 
-import dynsolve
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.errors import Finding, InputError
+from dynsolve.grading.fingerprints import (
+    causes,
+    fingerprint,
+    fingerprints,
+    of_marks,
+    of_policy,
+    program,
+    short,
+    touches_marks_alone,
+)
 from dynsolve.grading.hand_ins import File, HandIn, Intake
-from dynsolve.grading.marking import mark
-from dynsolve.grading.policy import Policy, to_data
+from dynsolve.grading.marking import mark, rescored
+from dynsolve.grading.policy import to_data
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import Item, ProblemSet
-from dynsolve.grading.record import Record
-from dynsolve.grading.rescore import is_cheap, remarked
+from dynsolve.grading.record import Key, Record
 from dynsolve.grading.uploads import Uploads, digest
 
 Data = dict[str, Any]
-Key = tuple[str, str]
 
 AHEAD = 4
 """So many hand-ins a worker are under way or wait for one: memory does not grow with their number."""
@@ -75,20 +79,7 @@ class Done:
 
     hand_ins: int
     computed: int
-    remarked: int
-
-
-@lru_cache(maxsize=1)
-def program() -> str:
-    """What identifies the program: every source file that a result depends on."""
-    root = Path(dynsolve.__file__).parent
-    found = sha256()
-    for path in sorted(root.rglob("*.py")):
-        name = path.relative_to(root).as_posix()
-        if not name.startswith(("cli/", "draw/")):
-            with suppress(FileNotFoundError):  # the program is changed just now
-                found.update(name.encode() + b"\0" + path.read_bytes())
-    return found.hexdigest()[:16]
+    rescored: int
 
 
 def grade_all(
@@ -107,8 +98,12 @@ def grade_all(
     known = record.fingerprints()
     keys = {(h.student, h.problem) for h in intake.hand_ins}
     record.keep_only({(student, stem) for student in intake.students for stem in problems.stems})
-    other = [h for h in intake.hand_ins if known.get((h.student, h.problem)) not in _words(problems, h, pool)]
-    due = [hand_in for hand_in in other if not _remarked(record, problems, hand_in, pool.bounds)]
+    other = [
+        h
+        for h in intake.hand_ins
+        if known.get((h.student, h.problem)) not in fingerprints(problems, h, pool.bounds)
+    ]
+    due = [hand_in for hand_in in other if not _is_rescored(record, problems, hand_in, pool.bounds)]
     pool.prepare(len(due))
     record.write_all(_absent(problems, intake, keys, known))
     running: dict[Future[Data], HandIn] = {}
@@ -131,16 +126,16 @@ def grade_all(
     return Done(len(intake.hand_ins), done, len(other) - len(due))
 
 
-def _remarked(record: Record, problems: ProblemSet, hand_in: HandIn, bounds: Bounds) -> bool:
+def _is_rescored(record: Record, problems: ProblemSet, hand_in: HandIn, bounds: Bounds) -> bool:
     """Mark a hand-in anew where its verdicts still hold; False where it must be judged."""
     key = (hand_in.student, hand_in.problem)
     old, kept = record.kept(key)
     new = causes(problems, hand_in, bounds if "bounds" in old else None)
-    if not old or not is_cheap(old, new) or not all(answer.basis for answer in kept):
+    if not old or not touches_marks_alone(old, new) or not all(answer.basis for answer in kept):
         return False
     points = problems.item(hand_in.problem).problem.marks
-    marks = remarked(kept, points, problems.policy, hand_in.late)
-    record.remark(key, _word(new), json.dumps(new, sort_keys=True), marks)
+    marks = rescored(kept, points, problems.policy, hand_in.late)
+    record.rescore(key, fingerprint(new), json.dumps(new, sort_keys=True), marks)
     return True
 
 
@@ -175,12 +170,12 @@ def _absent(
 
 def _not_judged(problems: ProblemSet, student: str, item: Item, said: list[str]) -> tuple[str, str, Data]:
     """The row of what was not handed in, or waits for a human: its fingerprint, its causes, what it holds."""
-    found = {"hand-in": _short(said), "marks": _of_marks(item), "program": program()}
-    found["policy"] = _of_policy(problems.policy)
+    found = {"hand-in": short(said), "marks": of_marks(item), "program": program()}
+    found["policy"] = of_policy(problems.policy)
     reason = "; ".join(said)
     row = _unread(problems, student, item.stem, reason)
     rest = {"files": [], "left": [], "late": False, "reason": reason, "notes": []}
-    return _short(found), json.dumps(found, sort_keys=True), {**row, **rest}
+    return short(found), json.dumps(found, sort_keys=True), {**row, **rest}
 
 
 def _some_of(said: list[str]) -> list[str]:
@@ -192,48 +187,6 @@ def _some_of(said: list[str]) -> list[str]:
 def _some(source: Iterator[HandIn], count: int) -> Iterator[HandIn]:
     for _, hand_in in zip(range(count), source, strict=False):
         yield hand_in
-
-
-def causes(problems: ProblemSet, hand_in: HandIn, bounds: Bounds | None = None) -> dict[str, str]:
-    """What a result is made from, cause by cause, so that a change can be named.
-
-    The `bounds` are one where the hand-in, or an answer of it, went over them.
-    """
-    item = problems.item(hand_in.problem)
-    files = [[file.name, file.digest] for file in hand_in.files]
-    found = {
-        "hand-in": _short([files, hand_in.late, list(hand_in.left)]),
-        "problem": _short(item.text),
-        "marks": _of_marks(item),
-        "asked": _short(sorted(item.problem.marks)),
-        "hints": str(problems.policy.hints),
-        "policy": _of_policy(problems.policy),
-        "program": program(),
-    }
-    return {**found, "bounds": _short([bounds.seconds, bounds.memory])} if bounds else found
-
-
-def _of_policy(policy: Policy) -> str:
-    return _short({name: value for name, value in to_data(policy).items() if name != "hints"})
-
-
-def _of_marks(item: Item) -> str:
-    return _short({name: str(of) for name, of in item.problem.marks.items()})
-
-
-def _word(found: dict[str, str]) -> str:
-    """One word for all causes: the fingerprint of a result."""
-    return _short(found)
-
-
-def _words(problems: ProblemSet, hand_in: HandIn, pool: Pool) -> Iterator[str | None]:
-    """The fingerprints of a result that still holds: within any bounds, or over these."""
-    for bounds in (None, pool.bounds):
-        yield _word(causes(problems, hand_in, bounds))
-
-
-def _short(data: Any) -> str:
-    return sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16]
 
 
 def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
@@ -270,7 +223,7 @@ def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data, bo
     found = {} if said.get("again") else causes(problems, hand_in, bounds if over else None)
     record.write(
         (hand_in.student, hand_in.problem),
-        _word(found) if found else "",
+        fingerprint(found) if found else "",
         json.dumps(found, sort_keys=True),
         {
             **row,

@@ -11,13 +11,11 @@ from math import floor
 from urllib.parse import quote
 
 from dynsolve.answers.diagnosis.slips import SLIPS
-from dynsolve.grading.cohort import VERDICTS, Cohort, counted
-from dynsolve.grading.output_paths import folder_name
+from dynsolve.grading.cohort import VERDICTS, Cohort, counted, most
+from dynsolve.grading.files import decimal, folder_name
 from dynsolve.grading.policy import shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
-from dynsolve.grading.tables import decimal
-from dynsolve.grading.totals import most
 from dynsolve.render.words import visible
 
 BINS = 10

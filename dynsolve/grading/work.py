@@ -7,7 +7,8 @@ a worker on this machine or on a cluster alike; nothing in it depends on time.
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterator
+import os
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
@@ -15,17 +16,19 @@ from hashlib import sha256
 from typing import Any
 
 from dynsolve.answers.judge import Checker, Judge
+from dynsolve.answers.sandbox import REMEDY, Stopped, limited
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import JudgedAnswer, Report, Verdict
-from dynsolve.grading.answer_by_answer import sound
 from dynsolve.grading.losses import losses
-from dynsolve.grading.marking import Marked, mark
+from dynsolve.grading.marking import Marked, basis, mark
 from dynsolve.grading.pages import student_page
 from dynsolve.grading.policy import from_data
-from dynsolve.grading.rescore import basis
 from dynsolve.problem.reader import read_problem
 
 Data = dict[str, Any]
+
+SHARE = 8
+"""One answer may take this part of the time that its hand-in may take."""
 
 MOST_TEXT = 2000
 """So much is kept of how an answer was read."""
@@ -34,17 +37,17 @@ MOST_TOLD = 300
 """So much is kept of what is said of a slip."""
 
 
-def grade_one(payload: Data, narrow: float = 0.0) -> Data:
+def grade_one(payload: Data, answer_by_answer: float = 0.0) -> Data:
     """Judge and mark a hand-in; `payload` has problem, marks, policy, files, late and student.
 
-    With `narrow` seconds every answer is tried by itself first, and what is too much is unreadable.
+    With `answer_by_answer` seconds every answer is tried by itself first; what is too much is unreadable.
     """
     checker = checker_of(payload)
     read = [checker.reader(base64.b64decode(file["content"]), file["name"]) for file in payload["files"]]
     submission = _joined(read)
-    if not narrow:
+    if not answer_by_answer:
         return _graded(checker, submission, payload)
-    tried = sound(submission, lambda one: _graded(checker, one, payload), narrow)
+    tried = sound(submission, lambda one: _graded(checker, one, payload), answer_by_answer)
     return {**_graded(checker, tried, payload), **({"over": True} if tried != submission else {})}
 
 
@@ -170,3 +173,52 @@ def _form(judge: Judge, answer: JudgedAnswer) -> str:
 def _terms(expr: Any) -> str:
     """The terms in an order that does not depend on what else the hand-in holds."""
     return "+".join(sorted(repr(expr).replace(" - ", " + -").split(" + ")))
+
+
+# -- answer by answer --------------------------------------------------------------------------------
+
+
+def sound(submission: Submission, work: Callable[[Submission], Any], seconds: float) -> Submission:
+    """The hand-in with the answers that are too much, or that `work` fails on, unreadable.
+
+    Raises Stopped where trying them takes more than `seconds`.
+    """
+    limit, start = seconds / SHARE, _spent()
+    answers = []
+    for answer in submission.answers:
+        fault = _fault(replace(submission, answers=(answer,)), work, limit)
+        answers.append(replace(answer, node=None, fault=fault, expected=REMEDY) if fault else answer)
+        if _spent() - start > seconds:
+            raise Stopped
+    return replace(submission, answers=tuple(answers))
+
+
+def _fault(alone: Submission, work: Callable[[Submission], Any], limit: float) -> str:
+    """Why a hand-in of one answer cannot be judged, or nothing."""
+
+    def tried() -> str:
+        try:
+            work(alone)
+        except MemoryError:
+            raise
+        except Exception as error:  # noqa: BLE001  # whatever happens, the others are judged
+            return failure(error)
+        return ""
+
+    try:
+        return limited(tried, limit)
+    except Stopped:
+        return f"this takes more than {limit:g} s, or more memory than there is, to work out"
+
+
+def failure(error: Exception) -> str:
+    """What is said of a hand-in that the program failed on."""
+    if isinstance(error, RecursionError):
+        return "it is nested too deeply"
+    return f"the program failed on it ({type(error).__name__}: {error})"[:300]
+
+
+def _spent() -> float:
+    """The processor time of the children so far."""
+    times = os.times()
+    return times.children_user + times.children_system

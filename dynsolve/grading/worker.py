@@ -63,13 +63,12 @@ def serve(lines: IO[bytes], out: IO[bytes], seconds: float) -> None:
 
 def _answered(payload: dict[str, Any], seconds: float) -> dict[str, Any]:
     from dynsolve.answers.sandbox import Stopped
-    from dynsolve.grading.answer_by_answer import failure
-    from dynsolve.grading.work import checker_of, grade_one
+    from dynsolve.grading.work import checker_of, failure, grade_one
 
     try:
         checker_of(payload)  # the time that the key takes is not the hand-in's
         _bound_time(seconds)
-        return {"result": grade_one(payload, seconds if payload["narrow"] else 0.0)}
+        return {"result": grade_one(payload, seconds if payload["answer_by_answer"] else 0.0)}
     except MemoryError:
         return {"stopped": "memory"}
     except Stopped:

@@ -10,7 +10,8 @@ from pathlib import Path, PurePosixPath
 import pytest
 
 from dynsolve.grading.hand_ins import Intake, take_in
-from dynsolve.grading.platforms import Owners, read_metadata
+from dynsolve.grading.platforms.gradescope import read_metadata
+from dynsolve.grading.platforms.owners import Owners
 from dynsolve.grading.problem_set import ProblemSet, load_set
 from dynsolve.grading.uploads import Uploads
 

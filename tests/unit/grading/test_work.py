@@ -290,7 +290,7 @@ def test_a_worker_that_cannot_be_started_is_told(monkeypatch: pytest.MonkeyPatch
 
 def test_trying_answers_one_by_one_changes_nothing_where_none_is_too_much() -> None:
     text = "answers:\n  K: m2*L2*theta1'^2 + m2*L2'^2\n  P: 0\n  L: 0\n  tau: [0, 0]\n  D: [[1, x(], [0]]\n"
-    assert grade_one(payload(text), narrow=20) == grade_one(payload(text))
+    assert grade_one(payload(text), answer_by_answer=20) == grade_one(payload(text))
 
 
 def test_a_pool_gives_what_this_process_gives() -> None:

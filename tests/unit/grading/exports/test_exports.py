@@ -22,8 +22,8 @@ import pytest
 
 import dynsolve
 from dynsolve.errors import InputError
-from dynsolve.grading.exports import chosen_roster, export, keep_platform, late
 from dynsolve.grading.hand_ins import Intake
+from dynsolve.grading.platforms.registry import chosen_roster, export, keep_platform, late
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.problem.reader import read_problem

@@ -11,8 +11,8 @@ from fractions import Fraction
 from pathlib import Path
 
 from dynsolve.errors import Finding, InputError
-from dynsolve.grading.tables import decimal, table
-from dynsolve.grading.totals import Standing
+from dynsolve.grading.cohort import Standing
+from dynsolve.grading.files import decimal, table
 from dynsolve.render.files import write_changed
 
 SEPARATORS = (",", ";", "\t")

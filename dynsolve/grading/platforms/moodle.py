@@ -1,4 +1,4 @@
-"""Moodle: the offline grading worksheet, and a zip of feedback files.
+"""Moodle: the names of its files, the offline grading worksheet, and a zip of feedback files.
 
 Moodle finds a column by its header in the site's language, so the worksheet is given
 back as it came, with Grade and Feedback comments filled in.  Headers are known in some
@@ -13,19 +13,30 @@ from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
-from dynsolve.grading.exports.roster import Roster, number, unmatched
-from dynsolve.grading.output_paths import folder_name
+from dynsolve.grading.cohort import Standing, most, standings
+from dynsolve.grading.files import decimal, folder_name
+from dynsolve.grading.platforms.owner import Owner
+from dynsolve.grading.platforms.roster import Roster, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
-from dynsolve.grading.tables import decimal
-from dynsolve.grading.totals import Standing, most, standings
 from dynsolve.render.files import changed
+
+_NAMED = re.compile(r"(?P<who>.+?)_(?P<id>\d+)_assignsubmission_[a-z]+_?(?P<name>.*)", re.DOTALL)
 
 _GRADE = ("Grade", "Bewertung")
 _COMMENTS = ("Feedback comments", "Feedback als Kommentar")
 _NUMBER = re.compile(r"(\d+)\s*$")
 _LATE = re.compile(r"(?:^| - )\d[^-]* late(?= - |$)")
 _TIME = re.compile(r"\d{1,2}[:.]\d{2}")
+
+
+def owner(parts: tuple[str, ...]) -> Owner | None:
+    """`<Full name>_<participant id>_assignsubmission_file[_]/<path>`, or the same without folders."""
+    found = _NAMED.fullmatch(parts[0])
+    if found is None:
+        return None
+    rest = [piece for piece in (found["name"], *parts[1:]) if piece]
+    return Owner(f"{found['who']}_{found['id']}", found["id"], "", "/".join(rest) or "onlinetext.html")
 
 
 def check(problems: ProblemSet, roster: Roster) -> int:

@@ -1,4 +1,4 @@
-"""Canvas: the gradebook with one assignment, as Grades > Import takes it.
+"""Canvas: the names of its files, and the gradebook with one assignment, as Grades > Import takes it.
 
 Canvas finds students by `ID` and an assignment by the number in parentheses after its
 title.  Only the columns about the student and this one assignment are written, so that
@@ -13,11 +13,21 @@ from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
-from dynsolve.grading.exports.roster import Cells, Roster, number, unmatched
+from dynsolve.grading.cohort import Standing, most, standings
+from dynsolve.grading.files import decimal
+from dynsolve.grading.platforms.owner import Owner
+from dynsolve.grading.platforms.roster import Cells, Roster, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
-from dynsolve.grading.tables import decimal
-from dynsolve.grading.totals import Standing, most, standings
+
+_NAMED = re.compile(
+    r"(?P<who>[^/]+?)_(?P<late>LATE_)?(?P<user>\d+)_(?:(?P<file>\d+)_(?P<name>.+)|(?P<page>text|link)\.html)"
+)
+_ANONYMOUS = re.compile(
+    r"(?P<late>LATE_)?anon_(?P<user>[^_]+)_(?:(?P<file>\d+)_(?P<name>.+)|(?P<page>text|link)\.html)"
+)
+_PAGES = {"text": "text.html", "link": "link.url"}
+"""A text that was entered is read as a page; what is behind an address is not fetched."""
 
 _ABOUT_STUDENTS = (
     "Student", "LastName", "FirstName", "ID", "SIS User ID", "SIS Login ID", "Integration ID",
@@ -25,6 +35,26 @@ _ABOUT_STUDENTS = (
 )  # fmt: skip
 _NAMES = ("SIS User ID", "SIS Login ID", "Integration ID")
 _POINTS = "Points Possible"
+
+
+def owner(parts: tuple[str, ...]) -> Owner | None:
+    """`<lastfirst>[_LATE]_<user id>_<attachment id>_<name>`, `..._text.html`, `[LATE_]anon_<id>_...`.
+
+    Canvas takes `_<digits>_` out of names, so that the first such number is the user's.
+    """
+    if len(parts) > 1:
+        return None
+    found = _ANONYMOUS.fullmatch(parts[0])
+    who = "anon"
+    if found is None:
+        found = _NAMED.fullmatch(parts[0])
+        if found is None:
+            return None
+        who = found["who"]
+    late = bool(found["late"])
+    name = found["name"] or _PAGES[found["page"]]
+    order = int((found["file"] or "0")[:18])
+    return Owner(f"{who}_{found['user']}", found["user"], "late" if late else "", name, late, order)
 
 
 def check(problems: ProblemSet, roster: Roster) -> int | None:

@@ -1,7 +1,4 @@
-"""The files that the learning platforms import, made from those that they hand out.
-
-To add a platform, write its function in a file of its own and put it into `PLATFORMS`.
-"""
+"""The platforms whose files are written, and for which of them a record is."""
 
 from __future__ import annotations
 
@@ -10,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from dynsolve.errors import UsageError
-from dynsolve.grading.exports import canvas, gradescope, moodle
-from dynsolve.grading.exports.roster import Roster, from_text, read_roster, to_text
+from dynsolve.grading.platforms import canvas, gradescope, moodle
+from dynsolve.grading.platforms.roster import Roster, from_text, read_roster, to_text
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 

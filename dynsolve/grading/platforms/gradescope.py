@@ -1,0 +1,185 @@
+"""Gradescope: whose each submission is, and its `results.json`, as an autograder writes it."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from dynsolve.grading.cohort import Standing, standings
+from dynsolve.grading.files import folder_name, remove_others
+from dynsolve.grading.platforms.owner import Owner
+from dynsolve.grading.platforms.roster import Roster
+from dynsolve.grading.policy import points
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Record
+from dynsolve.grading.uploads import printable
+from dynsolve.render.files import write_changed
+
+METADATA = "submission_metadata.yml"
+
+Submitters = dict[str, tuple[dict[str, str], ...]]
+"""Of each submission of Gradescope who handed it in: `:name`, `:sid`, `:email`."""
+
+_SUBMITTERS = ":submitters"
+_DEEPEST = 100
+
+_EXPORT, _SUBMISSION = re.compile(r"assignment_\d+_export"), re.compile(r"submission_\d+")
+
+_ID, _LATENESS = "Submission ID", "Lateness (H:M:S)"
+
+
+def owners(export: tuple[str, ...], path: PurePosixPath, submitters: Submitters) -> tuple[Owner, ...]:
+    """Who handed in a file of an export: the members of a group each; nobody for its other files."""
+    rest = path.parts[len(export) :]
+    if path.parts[: len(export)] != export or not rest:
+        return ()
+    if len(rest) > 1 and (_SUBMISSION.fullmatch(rest[0]) or rest[0] in submitters):
+        return _of_submission(rest[0], "/".join(rest[1:]), submitters)
+    return _of_submission(rest[0], rest[0], submitters) if rest[0] in submitters else ()
+
+
+def _of_submission(submission: str, name: str, submitters: Submitters) -> tuple[Owner, ...]:
+    id = PurePosixPath(submission).stem
+    number = id.removeprefix("submission_")
+    order = int(number[:18]) if number.isdigit() else 0
+    students = (_submitter(one, id) for one in submitters.get(submission, ()))
+    return tuple(Owner(s, id, id, name, order=order) for s in students if s) or (
+        Owner(id, id, id, name, order=order),
+    )
+
+
+def _submitter(one: Mapping[str, str], id: str) -> str:
+    """What a student is called: by a number or an address; a name alone may be another's too."""
+    known = [one.get(key, "").strip() for key in (":sid", ":email")]
+    name = one.get(":name", "").strip()
+    return printable(next(filter(None, known), f"{name} ({id})" if name else ""))
+
+
+def exports(files: Iterable[PurePosixPath]) -> tuple[tuple[str, ...], ...]:
+    """The folders that hold an export of Gradescope: `assignment_<id>_export`, or all that there is."""
+    files = list(files)
+    tops = {path.parts[0] for path in files}
+    found: set[tuple[str, ...]] = {(top,) for top in tops if _EXPORT.fullmatch(top)}
+    if any(_SUBMISSION.fullmatch(top) for top in tops) or PurePosixPath(METADATA) in files:
+        found.add(())
+    if len(tops) == 1 and any(_is_of_gradescope(path.parts[1:]) for path in files):
+        found.add((files[0].parts[0],))
+    return tuple(sorted(found, reverse=True))
+
+
+def _is_of_gradescope(parts: tuple[str, ...]) -> bool:
+    return parts == (METADATA,) or (len(parts) > 1 and bool(_SUBMISSION.fullmatch(parts[0])))
+
+
+def read_metadata(content: bytes) -> Submitters:
+    r"""Gradescope's list of whose each submission is, as far as it can be read.
+
+    It is read event by event: nothing is constructed, expanded or nested.
+
+    >>> read_metadata(b"submission_1:\n  :submitters:\n  - :name: A\n    :sid: '007'\n  :score: 2\n")
+    {'submission_1': ({':name': 'A', ':sid': '007'},)}
+    """
+    import yaml
+
+    found: dict[str, list[dict[str, str]]] = {}
+    open_: list[_OpenCollection] = []
+    loader: Any = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+    with suppress(yaml.YAMLError, ValueError):
+        for event in yaml.parse(content, Loader=loader):
+            if len(open_) > _DEEPEST:
+                break
+            if isinstance(event, yaml.CollectionStartEvent):
+                if _kinds(open_) == "mms" and open_[1].key == _SUBMITTERS:
+                    found.setdefault(open_[0].key or "", []).append({})
+                open_.append(_OpenCollection("m" if isinstance(event, yaml.MappingStartEvent) else "s"))
+            elif isinstance(event, yaml.CollectionEndEvent):
+                open_.pop()
+                if open_:
+                    open_[-1].key = "" if open_[-1].key is None else None  # a key, or what stands at one
+            elif isinstance(event, yaml.NodeEvent) and open_:
+                _scalar(found, open_, event.value if isinstance(event, yaml.ScalarEvent) else "")
+    return {submission: tuple(submitters) for submission, submitters in found.items()}
+
+
+@dataclass(slots=True)
+class _OpenCollection:
+    """A collection that is being read: a mapping (m) with the key it is at, or a sequence (s)."""
+
+    kind: str
+    key: str | None = None
+
+
+def _kinds(open_: list[_OpenCollection]) -> str:
+    return "".join(one.kind for one in open_[:5])
+
+
+def _scalar(found: dict[str, list[dict[str, str]]], open_: list[_OpenCollection], value: str) -> None:
+    """A key of a mapping, or what stands at one."""
+    last = open_[-1]
+    if last.kind == "s":
+        return
+    if last.key is None:
+        last.key = value
+        return
+    if _kinds(open_) == "mmsm" and open_[1].key == _SUBMITTERS:
+        found[open_[0].key or ""][-1][last.key] = value
+    last.key = None
+
+
+# -- what Gradescope imports -----------------------------------------------------------------------
+
+
+def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) -> Iterator[str]:
+    """Write `gradescope/<submission>/results.json`; a group's members share theirs."""
+    told: dict[Path, tuple[str, bytes]] = {}
+    for standing in standings(record):
+        path = folder / "gradescope" / folder_name(standing.id or standing.student) / "results.json"
+        text = json.dumps(_results(standing, record, problems), indent=1, ensure_ascii=False) + "\n"
+        data = text.encode("utf-8", errors="replace")
+        first, before = told.setdefault(path, (standing.student, data))
+        if before != data:
+            yield f"{standing.student} and {first} share {path.parent.name}, and their marks differ"
+        write_changed(path, told[path][1], durable=False)
+    remove_others(folder / "gradescope", set(told), (".json",))
+
+
+def late(roster: Roster) -> frozenset[str]:
+    """The submissions whose lateness in the list of grades is not 00:00:00."""
+    if not {_ID, _LATENESS} <= set(roster.header):
+        return frozenset()
+    id, lateness = roster.header.index(_ID), roster.header.index(_LATENESS)
+    rows = (row for row in roster.rows[1:] if len(row) > max(id, lateness))
+    return frozenset(f"submission_{row[id].strip()}" for row in rows if re.search("[1-9]", row[lateness]))
+
+
+def _results(standing: Standing, record: Record, problems: ProblemSet) -> dict[str, Any]:
+    alone = len(problems.items) == 1
+    numbers = dict.fromkeys(problems.stems, 0)
+    tests = []
+    for answer in record.answers(standing.student):
+        if answer.of == "0":
+            continue
+        numbers[answer.problem] += 1
+        tests.append(
+            {
+                "score": float(points(answer.marks)),
+                "max_score": float(points(answer.of)),
+                "status": "passed" if answer.verdict in ("correct", "follows") else "failed",
+                "name": answer.answer if alone else f"{answer.problem}: {answer.answer}",
+                "number": f"{problems.stems.index(answer.problem) + 1}.{numbers[answer.problem]}",
+                "output": answer.why,
+                "output_format": "text",
+                "visibility": "visible",
+            }
+        )
+    return {
+        "score": float(standing.total),
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": tests,
+    }
