@@ -1,24 +1,54 @@
 """Quantities -> steps: why, the formula with its source, the formula of this robot, the result.
 
-One file a stage, in the order of the course.  To explain a further quantity, add a
-step to its stage's file; a stage is a function that yields its steps in order.
+A stage of the course is a file with a function `steps`, which yields its steps in order:
+`kinematics`, `jacobian`, `inertia` (with `mass_centers`), `energy`, `lagrangian`, `torque`,
+`vectorized` (with `christoffel` and `agreement`).  To explain a further quantity, yield a
+`Step` in the file of its stage:
+
+    yield Step(
+        id="K",                          # the quantity, by its name in an answer file
+        stage=STAGE,
+        title="Total kinetic energy",
+        why=("The sum over the bodies.",),             # words, and formulas between them
+        formula=equation(letters.K, Sum((...))),       # the textbook's, in its letters
+        source=spong("7.2"),
+        working=(...,),                                # the same with this robot's entries
+        result=(equation(letters.K, context.form("K")),),
+    )
+
+Everything a step is made from is in its `Context`; `writing` has what several stages write.
+
+    step        what a step is, and in which detail it is shown
+    context     the robot, its exact values, their compact forms
+    forms       the compact form of every value; how long ones are put together from parts
+    style       how a robot's formulas look: s_1 for sin θ_1
+    writing     references, sentences and pieces of formulas
+
+Long models are written in names (`--abbreviate`):
+
+    abbreviations        which constants and terms get names, and D, C and g in these
+    base_parameters      the inertial constants that D and g are made of
+    recurring            what stands in several places
+    abbreviated_steps    the steps of a derivation in these names
+
+And hints (`--hint`), made of the same steps:
+
+    hint        what to do in a stage, without its results
+    pitfalls    what goes wrong most often there
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from dynsolve.explain import energy, inertia, jacobian, kinematics, lagrangian, torque, vectorized
+from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.quantities.stages import Stage
 
-if TYPE_CHECKING:
-    from dynsolve.explain.course import Course
-
 __all__ = ["Detail", "Step", "explain"]
 
-_EXPLAINED: dict[Stage, Callable[[Course], Iterator[Step]]] = {
+_EXPLAINED: dict[Stage, Callable[[Context], Iterator[Step]]] = {
     Stage.KINEMATICS: kinematics.steps,
     Stage.JACOBIAN: jacobian.steps,
     Stage.INERTIA: inertia.steps,
@@ -29,9 +59,9 @@ _EXPLAINED: dict[Stage, Callable[[Course], Iterator[Step]]] = {
 }
 
 
-def explain(course: Course, stages: Iterable[str] | None = None) -> Iterator[Step]:
+def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[Step]:
     """The steps of the given stages, or of all, in the order of the course."""
     wanted = set(Stage if stages is None else stages)
     for stage, steps in _EXPLAINED.items():
-        if stage in wanted and (course.robot.bodies or not stage.needs_masses):
-            yield from steps(course)
+        if stage in wanted and (context.robot.bodies or not stage.needs_masses):
+            yield from steps(context)

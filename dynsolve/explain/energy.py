@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
-from dynsolve.explain.course import Course, is_small, listed, shv, side_by_side
-from dynsolve.explain.inertia import name_of
+from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import is_small, listed, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
+    Function,
     Letter,
     Matrix,
     Negative,
@@ -35,70 +36,70 @@ _BESIDE = 2
 """Up to this number of columns J_v and J_ω in letters stand on one line."""
 
 
-def steps(course: Course) -> Iterator[Step]:
+def steps(context: Context) -> Iterator[Step]:
     """The potential energies, then body by body the kinetic ones, then the total."""
-    bodies = course.robot.bodies
+    bodies = context.robot.bodies
     for body in bodies:
-        yield _potential(course, body)
-    yield _total(course, "P", "potential", letters.P, [letters.of_body("P", b) for b in bodies])
+        yield _potential(context, body)
+    yield _total(context, "P", "potential", letters.P, [letters.of_body("P", b) for b in bodies])
     told = False
     for body in bodies:
-        yield _jacobians(course, body)
-        yield _velocities(course, body)
-        linear = _linear(course, body, tells=not told)
+        yield _jacobians(context, body)
+        yield _velocities(context, body)
+        linear = _linear(context, body, tells=not told)
         told = told or bool(linear.notes)
         yield linear
-        yield _rotational(course, body)
-        yield _kinetic(course, body)
-    yield _total(course, "K", "kinetic", letters.K, [letters.of_body("K", b) for b in bodies])
+        yield _rotational(context, body)
+        yield _kinetic(context, body)
+    yield _total(context, "K", "kinetic", letters.K, [letters.of_body("K", b) for b in bodies])
 
 
 # -- potential energy ------------------------------------------------------------------------------
 
 
-def _potential(course: Course, body: Body) -> Step:
+def _potential(context: Context, body: Body) -> Step:
     P = letters.of_body("P", body)
     general = equation(
-        P, Negative(Product((course.mass(body), Transpose(letters.bold("g")), letters.rc(body))))
+        P, Negative(Product((context.mass(body), Transpose(letters.bold("g")), letters.rc(body))))
     )
     formula: Node = general
     working: tuple[Node, ...] = ()
-    if course.robot.gravity.is_zero:
+    if context.robot.gravity.is_zero:
         why: Prose = ("There is no gravity.",)
     elif body.mass.is_zero:
         why = (f"{name_of(body).capitalize()} has inertia but no mass, so gravity does not act on it.",)
     else:
-        why, formula, working = _weight(course, body, general)
+        why, formula, working = _weight(context, body, general)
     return Step(
         id=f"P{body.name}",
         stage=STAGE,
         title=f"Potential energy of {name_of(body)}",
         why=why,
         formula=formula,
-        source=shv("7.2.3"),
+        source=spong("7.2.3"),
         working=working,
-        result=(equation(P, course.form(f"P{body.name}")),),
+        result=(equation(P, context.form(f"P{body.name}")),),
     )
 
 
-def _weight(course: Course, body: Body, general: Node) -> tuple[Prose, Node, tuple[Node, ...]]:
+def _weight(context: Context, body: Body, general: Node) -> tuple[Prose, Node, tuple[Node, ...]]:
     """By the height, where gravity lies along an axis, and by the vectors: why, the formula, the working."""
     P = letters.of_body("P", body)
-    gravity, center = course.show(course.robot.gravity), course.form(f"rc{body.name}")
+    gravity, center = context.show(context.robot.gravity), context.form(f"rc{body.name}")
     row = Matrix((tuple(entry for (entry,) in _rows(gravity)),))
-    vectors = equation(P, Negative(Product((course.show(body.mass), row, center))))
+    vectors = equation(P, Negative(Product((context.show(body.mass), row, center))))
     working: tuple[Node, ...] = (vectors,) if is_small(center) else ()
     product: Prose = (
         Product((Transpose(letters.bold("g")), letters.bold("r", Words("c")))),
         ", g being the acceleration of gravity, which points down.",
     )
-    height = _height(course, body)
+    height = _height(context, body)
     if height is None:
         return ("Minus the mass times ", *product), general, working
-    h, g = letters.height(course.robot, body), _acceleration(course)
-    where = f" above the origin of the {course.ground}. The same with vectors: minus the mass times "
+    h, g = letters.height(context.robot, body), _acceleration(context)
+    where = f" above the origin of the {context.ground}. The same with vectors: minus the mass times "
     why: Prose = ("The mass times ", g, " times the height ", h, where, *product)
-    formula = side_by_side([equation(P, Product((course.mass(body), g, h))), general])
+    formula = side_by_side([equation(P, Product((context.mass(body), g, h))), general])
     return why, formula, (equation(h, height), *working)
 
 
@@ -107,21 +108,21 @@ def _rows(node: Node) -> tuple[tuple[Node, ...], ...]:
     return node.rows
 
 
-def _height(course: Course, body: Body) -> Node | None:
+def _height(context: Context, body: Body) -> Node | None:
     """The height of the mass centre, where gravity lies along an axis of the base."""
-    along = [(i, entry) for i, entry in enumerate(course.robot.gravity.entries) if not entry.is_zero]
+    along = [(i, entry) for i, entry in enumerate(context.robot.gravity.entries) if not entry.is_zero]
     if len(along) != 1:
         return None
     i, entry = along[0]
-    center: Expr = course.values[f"rc{body.name}"][i, 0]
-    return course.show(center if _leads_with_minus(entry) else -center)
+    center: Expr = context.values[f"rc{body.name}"][i, 0]
+    return context.show(center if _leads_with_minus(entry) else -center)
 
 
-def _acceleration(course: Course) -> Node:
+def _acceleration(context: Context) -> Node:
     """The size of gravity along its axis: the problem's symbol, g for a number."""
-    (entry,) = (entry for entry in course.robot.gravity.entries if not entry.is_zero)
-    size = course.show(-entry if _leads_with_minus(entry) else entry)
-    named = "g" in course.robot.parameters
+    (entry,) = (entry for entry in context.robot.gravity.entries if not entry.is_zero)
+    size = context.show(-entry if _leads_with_minus(entry) else entry)
+    named = "g" in context.robot.parameters
     return size if named or not entry.is_number else Symbol("g")
 
 
@@ -129,7 +130,7 @@ def _leads_with_minus(expr: Expr) -> bool:
     return bool(expr.poly.leading_coefficient() < 0)
 
 
-def _total(course: Course, name: str, kind: str, letter: Letter, parts: list[Letter]) -> Step:
+def _total(context: Context, name: str, kind: str, letter: Letter, parts: list[Letter]) -> Step:
     members: list[Node] = [letter]
     if len(parts) > 1:
         members.append(Sum(tuple(parts)))
@@ -144,8 +145,8 @@ def _total(course: Course, name: str, kind: str, letter: Letter, parts: list[Let
         title=f"Total {kind} energy",
         why=("The sum over the bodies.",) if len(parts) > 1 else ("There is one body only.",),
         formula=equation(*members),
-        source=shv("7.2"),
-        result=(equation(letter, course.form(name)),),
+        source=spong("7.2"),
+        result=(equation(letter, context.form(name)),),
         notes=notes,
         detail=Detail.BRIEF,
     )
@@ -154,10 +155,10 @@ def _total(course: Course, name: str, kind: str, letter: Letter, parts: list[Let
 # -- kinetic energy --------------------------------------------------------------------------------
 
 
-def _jacobians(course: Course, body: Body) -> Step:
-    b, robot = body.name, course.robot
+def _jacobians(context: Context, body: Body) -> Step:
+    b, robot = body.name, context.robot
     columns = [
-        coordinate_column(course, k, body.link, letters.rc(body)) or (ZERO, ZERO) for k in range(robot.n)
+        coordinate_column(context, k, body.link, letters.rc(body)) or (ZERO, ZERO) for k in range(robot.n)
     ]
     late = [Symbol(q.name) for q, both in zip(robot.coordinates, columns, strict=True) if both[0] == ZERO]
     why: Prose = (
@@ -177,25 +178,27 @@ def _jacobians(course: Course, body: Body) -> Step:
         title=f"Jacobians of the mass centre of {name_of(body)}",
         why=why,
         formula=side_by_side([linear, angular]) if beside else linear,
-        source=shv("7.2.2"),
+        source=spong("7.2.2"),
         working=() if beside else (angular,),
         result=(
-            equation(letters.jv(body), course.form(f"Jv{b}")),
-            equation(letters.jw(body), course.form(f"Jw{b}")),
+            equation(letters.jv(body), context.form(f"Jv{b}")),
+            equation(letters.jw(body), context.form(f"Jw{b}")),
         ),
+        also=(f"Jw{b}",),
+        uses=("axes", f"rc{b}"),
     )
 
 
-def _velocities(course: Course, body: Body) -> Step:
+def _velocities(context: Context, body: Body) -> Step:
     b = body.name
     v, w = letters.of_body("v", body, "bold"), letters.of_body("omega", body, "bold")
-    results = [equation(v, course.form(f"v{b}"))]
+    results = [equation(v, context.form(f"v{b}"))]
     formulas: list[Node] = [equation(v, Product((letters.jv(body), letters.QD)))]
     if not body.is_point:
-        results.append(equation(w, course.form(f"w{b}")))
+        results.append(equation(w, context.form(f"w{b}")))
         formulas.append(equation(w, Product((letters.jw(body), letters.QD))))
-    qd = column(*(letters.rate(q) for q in course.robot.coordinates))
-    Jv = course.form(f"Jv{b}")
+    qd = column(*(letters.rate(q) for q in context.robot.coordinates))
+    Jv = context.form(f"Jv{b}")
     working = (equation(v, Product((Jv, qd))),) if is_small(Jv, qd) else ()
     return Step(
         id=f"v{b}",
@@ -203,18 +206,19 @@ def _velocities(course: Course, body: Body) -> Step:
         title=f"Velocity of {name_of(body)}",
         why=("The Jacobians times the rates of the coordinates.",),
         formula=side_by_side(formulas),
-        source=shv("7.2.2"),
+        source=spong("7.2.2"),
         working=working,
         result=tuple(results),
+        also=(f"w{b}",),
     )
 
 
-def _linear(course: Course, body: Body, tells: bool) -> Step:
+def _linear(context: Context, body: Body, tells: bool) -> Step:
     b = body.name
     Kv, v = letters.energy_part("v", body), letters.of_body("v", body, "bold")
-    velocity = course.matrix(f"v{b}")
-    form = course.form(f"Kv{b}")
-    mass = course.show(body.mass)
+    velocity = context.matrix(f"v{b}")
+    form = context.form(f"Kv{b}")
+    mass = context.show(body.mass)
     working: tuple[Node, ...] = ()
     still = all(row[0] == Number(0) for row in velocity.rows)
     if still:
@@ -232,18 +236,22 @@ def _linear(course: Course, body: Body, tells: bool) -> Step:
         stage=STAGE,
         title=f"Linear kinetic energy of {name_of(body)}",
         why=why,
-        formula=equation(Kv, Product((letters.HALF, course.mass(body), letters.transposed_product(v)))),
-        source=shv("7.2"),
+        formula=equation(Kv, Product((letters.HALF, context.mass(body), letters.transposed_product(v)))),
+        source=spong("7.2"),
         working=working,
         result=(equation(Kv, form),),
-        notes=tuple(_cancelling(course, body)) if working and tells else (),
+        notes=tuple(_cancelling(context, body)) if working and tells else (),
+        hint=(
+            "Half the mass times the square of the speed of the mass centre: add up the squares of the "
+            "components of v.",
+        ),
     )
 
 
-def _cancelling(course: Course, body: Body) -> Iterator[Prose]:
+def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
     """Where sines and cosines of a joint angle leave the square by s² + c² = 1."""
-    ring = course.robot.ring
-    v, K = course.values[f"v{body.name}"], course.values[f"Kv{body.name}"]
+    ring = context.robot.ring
+    v, K = context.values[f"v{body.name}"], context.values[f"Kv{body.name}"]
     left = K.poly.degrees()
     entries = [entry.poly.degrees() for entry in v.entries]
     for pair in ring.pairs:
@@ -266,13 +274,11 @@ def _cancelling(course: Course, body: Body) -> Iterator[Prose]:
 
 
 def _pythagoras(angle: Symbol) -> Node:
-    from dynsolve.notation.tree import Function
-
     squares = tuple(Power(Function(name, angle), Number(2)) for name in ("sin", "cos"))
     return equation(Sum(squares), Number(1))
 
 
-def _rotational(course: Course, body: Body) -> Step:
+def _rotational(context: Context, body: Body) -> Step:
     b = body.name
     Kw, w = letters.energy_part("omega", body), letters.of_body("omega", body, "bold")
     if body.is_point:
@@ -281,12 +287,12 @@ def _rotational(course: Course, body: Body) -> Step:
             stage=STAGE,
             title=f"Rotational kinetic energy of {name_of(body)}",
             why=("Skipped: a point mass has no inertia tensor, and so no rotational energy.",),
-            source=shv("7.2"),
+            source=spong("7.2"),
             result=(equation(Kw, Number(0)),),
         )
     tensor = letters.of_body("I", body, "script")
-    form = course.form(f"Kw{b}")
-    velocity, base = course.matrix(f"w{b}"), course.form(f"I{b}")
+    form = context.form(f"Kw{b}")
+    velocity, base = context.matrix(f"w{b}"), context.form(f"I{b}")
     working: tuple[Node, ...] = ()
     still = all(row[0] == Number(0) for row in velocity.rows)
     if not still and is_small(velocity, velocity, base):
@@ -298,15 +304,16 @@ def _rotational(course: Course, body: Body) -> Step:
         title=f"Rotational kinetic energy of {name_of(body)}",
         why=("The body does not turn.",)
         if still
-        else (f"ω and the tensor, both in {course.ground} coordinates.",),
+        else (f"ω and the tensor, both in {context.ground} coordinates.",),
         formula=equation(Kw, Product((letters.HALF, letters.transposed_product(w, tensor)))),
-        source=shv("7.2"),
+        source=spong("7.2"),
         working=working,
         result=(equation(Kw, form),),
+        hint=("ω and the tensor, both in base coordinates.",),
     )
 
 
-def _kinetic(course: Course, body: Body) -> Step:
+def _kinetic(context: Context, body: Body) -> Step:
     K = letters.of_body("K", body)
     parts = Sum((letters.energy_part("v", body), letters.energy_part("omega", body)))
     return Step(
@@ -315,6 +322,6 @@ def _kinetic(course: Course, body: Body) -> Step:
         title=f"Kinetic energy of {name_of(body)}",
         why=("Linear and rotational together.",),
         formula=equation(K, parts),
-        source=shv("7.2"),
-        result=(equation(K, course.form(f"K{body.name}")),),
+        source=spong("7.2"),
+        result=(equation(K, context.form(f"K{body.name}")),),
     )

@@ -1,20 +1,21 @@
-"""Steps of the bodies: mass centre, inertia tensor, its orientation, and the tensor in the base frame."""
+"""Steps of the bodies: inertia tensor, its orientation, and the tensor in the base frame.
+
+The first step of a body, its mass centre, is in `mass_centers`.
+"""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import inertia
 from dynsolve.document import Prose
-from dynsolve.errors import ReadError
-from dynsolve.explain.course import Course, block_of, is_small, shv, side_by_side
+from dynsolve.explain.context import Context
+from dynsolve.explain.mass_centers import is_given_by, mass_center_step
 from dynsolve.explain.step import Detail, Step
-from dynsolve.notation.text import read
+from dynsolve.explain.writing import is_small, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
-    Matrix,
     Negative,
     Node,
     Number,
@@ -45,152 +46,30 @@ _SHAPES = {
 
 
 _SOURCES = {
-    "box": shv("7.2.1"),
+    "box": spong("7.2.1"),
     **dict.fromkeys(("cylinder", "sphere"), "Lynch and Park 8.2.1"),
-    **dict.fromkeys(("hollow_cylinder", "rod", "disk", "shell"), f"by the integrals of {shv('7.2.1')}"),
+    **dict.fromkeys(("hollow_cylinder", "rod", "disk", "shell"), f"by the integrals of {spong('7.2.1')}"),
 }
 """Where the moments of a shape stand; Lynch and Park is Modern Robotics, Cambridge, 2017."""
 
 
-def steps(course: Course) -> Iterator[Step]:
+def steps(context: Context) -> Iterator[Step]:
     """Of each body: r_c, and unless it is a point, I, R and I in the base frame."""
-    bodies = course.robot.bodies
+    bodies = context.robot.bodies
     off_origin = next((body for body in bodies if not body.center.is_zero), None)
     framed = next(
-        (body for body in bodies if _has_link_axes(body) and any(_right_frame(course, body.link))), None
+        (body for body in bodies if _has_link_axes(body) and any(_right_frame(context, body.link))), None
     )
     for body in bodies:
-        yield _center(course, body, tells=body is off_origin)
+        yield mass_center_step(context, body, tells=body is off_origin)
         if body.is_point:
-            yield _point(course, body)
+            yield _point(context, body)
             continue
-        yield _tensor(course, body)
+        yield _tensor(context, body)
         if _is_moved(body):
-            yield _parallel_axis(course, body)
-        yield _rotation(course, body, tells=body is framed)
-        yield _base_tensor(course, body)
-
-
-def name_of(body: Body) -> str:
-    """How sentences call a body."""
-    return f"body {body.name}"
-
-
-# -- the mass centre -------------------------------------------------------------------------------
-
-
-def _center(course: Course, body: Body, tells: bool) -> Step:
-    link = body.link
-    r, H = letters.rc(body), letters.H(course.robot, link)
-    local = course.show(body.center)
-    frame = Letter("r", letters.rc(body).sub, Number(link), "bold")
-    at_origin = body.center.is_zero
-    why: Prose = (f"The mass centre of {name_of(body)} ", *_where(course, body), ".")
-    if not any(joint.type for joint in course.robot.joints[:link]):
-        why += (" No joint comes before that link, so the body belongs to the ground and does not move.",)
-    formula: Node = equation(r, Sum((Product((letters.R(course.robot, link), frame)), letters.o(link))))
-    working: tuple[Node, ...] = ()
-    if at_origin:
-        formula = equation(r, letters.o(link))
-    else:
-        working = (equation(frame, *_measured(course, body), local),)
-        if is_small(local, block_of(course.matrix(f"H{link}"), 3, 0, 4)):
-            rotation, origin = _parts(course, link)
-            working += (equation(r, Sum((Product((rotation, local)), origin))),)
-    return Step(
-        id=f"rc{body.name}",
-        stage=STAGE,
-        title=f"Mass centre of {name_of(body)}",
-        why=why,
-        formula=formula,
-        source=shv("7.2"),
-        working=working,
-        result=(equation(r, course.form(f"rc{body.name}")),),
-        notes=(_not_the_origin(body, H),) if tells else (),
-        detail=Detail.BRIEF,
-    )
-
-
-def _parts(course: Course, link: int) -> tuple[Matrix, Matrix]:
-    H = course.matrix(f"H{link}")
-    return block_of(H, 3, 0, 3), block_of(H, 3, 3, 4)
-
-
-def _where(course: Course, body: Body) -> Prose:
-    link, written = body.link, body.center_written
-    near, far = (link - 1, link) if course.standard else (link, link + 1)
-    if written == "tip":
-        return (f"is at the far end of link {link}, ", letters.o(far))
-    if written == "origin":
-        return ("is at the origin ", letters.o(link), f" of frame {link}")
-    if written == "midpoint":
-        direction = "back" if course.standard else "on"
-        return (
-            f"is half-way along link {link}, between ",
-            letters.o(near),
-            " and ",
-            letters.o(far),
-            ": from ",
-            letters.o(link),
-            f", half the way {direction}",
-        )
-    if body.center.is_zero:
-        return ("falls on the origin ", letters.o(link), f" of frame {link}")
-    if _given(body, "near") and course.standard:
-        return (
-            f"is given from the near end of link {link}, ",
-            letters.o(near),
-            f", along the axes of frame {link}. The origin of that frame is at the far end, ",
-            letters.o(far),
-            ", so the way back from there is added",
-        )
-    if _given(body, "along"):
-        ends: Prose = ("from ", letters.o(near), " to ", letters.o(far))
-        fraction = _fraction(body)
-        if fraction is None:
-            return (f"is on link {link}, at the given part of the way ", *ends)
-        return ("is ", fraction, f" of the way along link {link}, ", *ends)
-    return (f"is given by its coordinates in frame {link}, which are constant",)
-
-
-def _given(body: Body, key: str) -> bool:
-    """Whether the problem gives the centre as `{near: ...}` or `{along: ...}`."""
-    return re.match(rf"\W*{key}\b", body.center_written) is not None
-
-
-def _fraction(body: Body) -> Node | None:
-    """The part of the way, as the problem writes it; None where it cannot be read."""
-    try:
-        return read(re.sub(r"^\W*along\W*:|[{}'\"]", "", body.center_written).strip()).tree
-    except ReadError:
-        return None
-
-
-def _measured(course: Course, body: Body) -> tuple[Node, ...]:
-    """A centre in its frame, from the ends of the link between which the problem gives it."""
-    robot, link = course.robot, body.link
-    if not (course.standard or link < len(robot.joints)):
-        return ()
-    row = robot.joints[link - 1 if course.standard else link]
-    ring = robot.ring
-    sine, cosine = ring.sin(row.alpha), ring.cos(row.alpha)
-    across = row.d * sine if course.standard else -(row.d * sine)
-    length = algebra.Matrix.column(ring, (row.a, across, row.d * cosine))  # from the near to the far end
-    if _given(body, "near") and course.standard and not length.is_zero:
-        return (Sum((course.show(-length), course.show(body.center + length))),)
-    if body.center_written == "midpoint":
-        return (Product((letters.HALF, course.show(-length if course.standard else length))),)
-    return ()
-
-
-def _not_the_origin(body: Body, H: Letter) -> Prose:
-    return (
-        f"The mass centre is not the origin of frame {body.link}: the fourth column of ",
-        H,
-        " is not ",
-        letters.rc(body),
-        ".",
-    )
+            yield _parallel_axis(context, body)
+        yield _rotation(context, body, tells=body is framed)
+        yield _base_tensor(context, body)
 
 
 # -- the tensor ------------------------------------------------------------------------------------
@@ -201,8 +80,8 @@ def _is_moved(body: Body) -> bool:
     return body.about_point is not None and body.about_point != body.center
 
 
-def _point(course: Course, body: Body) -> Step:
-    tensor = letters.tensor(course.robot, body)
+def _point(context: Context, body: Body) -> Step:
+    tensor = letters.tensor(context.robot, body)
     return Step(
         id=f"I{body.name}",
         stage=STAGE,
@@ -213,19 +92,19 @@ def _point(course: Course, body: Body) -> Step:
             letters.of_body("I", body, "script"),
             " are needed.",
         ),
-        source=shv("7.2.1"),
+        source=spong("7.2.1"),
         result=(equation(tensor, Number(0)),),
     )
 
 
-def _tensor(course: Course, body: Body) -> Step:
-    tensor = letters.tensor(course.robot, body)
+def _tensor(context: Context, body: Body) -> Step:
+    tensor = letters.tensor(context.robot, body)
     assert body.inertia is not None
     about = "the mass centre"
     if _is_moved(body):
         tensor = Letter("I", Row((letters.index_of(body.name), Words(","), Words("given"))), None, "bold")
         about = f"the origin of frame {body.link}" if body.about == "origin" else "the near end of its link"
-    formula, working, why = _shape(course, body)
+    formula, working, why = _shape(context, body)
     if body.shape is None or not body.shape.formulas:
         why = (f"The tensor of {name_of(body)} is given, about {about}, along the axes of its own frame.",)
     return Step(
@@ -234,13 +113,14 @@ def _tensor(course: Course, body: Body) -> Step:
         title=f"Inertia tensor of {name_of(body)} in its own frame",
         why=why,
         formula=formula,
-        source=shv("7.2.1") if formula is None or body.shape is None else _SOURCES[body.shape.kind],
+        source=spong("7.2.1") if formula is None or body.shape is None else _SOURCES[body.shape.kind],
         working=working,
-        result=(equation(tensor, course.show(body.inertia)),),
+        result=(equation(tensor, context.show(body.inertia)),),
+        uses=(),
     )
 
 
-def _shape(course: Course, body: Body) -> tuple[Node | None, tuple[Node, ...], Prose]:
+def _shape(context: Context, body: Body) -> tuple[Node | None, tuple[Node, ...], Prose]:
     """The formula of a uniform shape, with what its letters are here."""
     shape = body.shape
     if shape is None or not shape.formulas:
@@ -248,8 +128,8 @@ def _shape(course: Course, body: Body) -> tuple[Node | None, tuple[Node, ...], P
     formula = side_by_side([
         equation(Letter("I", Words(axes)), moment) for axes, moment in shape.formulas
     ])  # fmt: skip
-    given = [equation(Symbol("m"), course.show(body.mass))]
-    given += [equation(Symbol(letter), course.show(value)) for letter, value in shape.letters]
+    given = [equation(Symbol("m"), context.show(body.mass))]
+    given += [equation(Symbol(letter), context.show(value)) for letter, value in shape.letters]
     given = [relation for relation in given if relation.parts[0] != relation.parts[1]]
     why: Prose = (f"{name_of(body).capitalize()} is a uniform {_SHAPES[shape.kind]}",)
     if shape.axis:
@@ -258,16 +138,16 @@ def _shape(course: Course, body: Body) -> tuple[Node | None, tuple[Node, ...], P
     return formula, (side_by_side(given),) if given else (), why
 
 
-def _parallel_axis(course: Course, body: Body) -> Step:
+def _parallel_axis(context: Context, body: Body) -> Step:
     b = body.name
-    tensor = letters.tensor(course.robot, body)
+    tensor = letters.tensor(context.robot, body)
     given = Letter("I", Row((letters.index_of(b), Words(","), Words("given"))), None, "bold")
     r = Letter("r", style="bold")
-    mass = course.mass(body)
+    mass = context.mass(body)
     square = Product((Transpose(r), r, letters.bold("E")))
     shift = Product((mass, Sum((square, Negative(Product((r, Transpose(r))))))))
-    H = course.values[f"H{body.link}"]
-    relative = inertia.axes_in_link(course.robot, body, H)
+    H = context.values[f"H{body.link}"]
+    relative = inertia.axes_in_link(context.robot, body, H)
     assert body.about_point is not None
     offset = relative.T @ (body.center - body.about_point)
     return Step(
@@ -281,10 +161,11 @@ def _parallel_axis(course: Course, body: Body) -> Step:
         formula=equation(tensor, Sum((given, Negative(shift)))),
         source="parallel-axis theorem; Craig 6.3",
         working=(
-            equation(r, course.show(offset)),
-            equation(shift, course.show(inertia.steiner(body.mass, offset))),
+            equation(r, context.show(offset)),
+            equation(shift, context.show(inertia.steiner(body.mass, offset))),
         ),
-        result=(equation(tensor, course.form(f"I_body{b}")),),
+        result=(equation(tensor, context.form(f"I_body{b}")),),
+        uses=(),
     )
 
 
@@ -298,64 +179,67 @@ def _has_link_axes(body: Body) -> bool:
     return not body.is_point and axes.kind is AxesKind.LINK and axes.rotation == one
 
 
-def _rotation(course: Course, body: Body, tells: bool) -> Step:
-    robot, link = course.robot, body.link
-    rotation, frame = letters.of_body("R", body, "bold"), letters.R(robot, link)
-    turned = course.show(body.axes.rotation)
-    notes: tuple[Prose, ...] = ()
-    formula: Node | None = None
-    match body.axes.kind:
-        case AxesKind.LINK if _has_link_axes(body):
-            which = "the frame that comes after the mass and" if _ends_after(course, body) else "which"
-            why: Prose = (f"The body's axes are those of frame {link}, {which} is fixed in the same link.",)
-            formula = equation(rotation, frame)
-            notes = tuple(_right_frame(course, link)) if tells else ()
-        case AxesKind.LINK:
-            why = (f"The body's axes are turned in frame {link}, as the problem gives them.",)
-            formula = equation(rotation, Product((frame, turned)))
-        case AxesKind.REST:
-            why = (
-                "The body's axes are parallel to frame 0 at q = 0 and turn with the link: first back by how "
-                "the link is turned at q = 0, then on as it is turned.",
-            )
-            at_rest = Row((frame, Words("(0)")))
-            factors: list[Node] = [frame, Transpose(Parenthesized(at_rest))]
-            if letters.has_base(robot):
-                factors.append(letters.R(robot, 0))
-            formula = equation(rotation, Product(tuple(factors)))
-        case AxesKind.BASE:
-            why = (f"The rotation from the base to the frame of {name_of(body)} is given by the problem.",)
-            if letters.has_base(robot):
-                formula = equation(rotation, Product((letters.R(robot, 0), turned)))
-            if not inertia.turns_with_link(robot, body, course.values[f"H{link}"]):
-                notes = (
-                    (
-                        f"This frame does not turn with link {link}. It may be used all the same: the "
-                        "kinetic energy comes out as with the frame that turns (compared exactly).",
-                    ),
-                )
+def _rotation(context: Context, body: Body, tells: bool) -> Step:
+    rotation = letters.of_body("R", body, "bold")
+    why, formula, notes = _orientation(context, body)
+    if tells:
+        notes = tuple(_right_frame(context, body.link))
     return Step(
         id=f"R{body.name}",
         stage=STAGE,
         title=f"Orientation of {name_of(body)}",
         why=why,
-        formula=formula,
-        source=shv("7.2"),
-        result=(equation(rotation, course.form(f"R{body.name}")),),
+        formula=None if formula is None else equation(rotation, formula),
+        source=spong("7.2"),
+        result=(equation(rotation, context.form(f"R{body.name}")),),
         notes=notes,
+        uses=(),
     )
 
 
-def _ends_after(course: Course, body: Body) -> bool:
+def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tuple[Prose, ...]]:
+    """Which way the body's axes point: why, R in letters, notes."""
+    robot, link = context.robot, body.link
+    frame, turned = letters.R(robot, link), context.show(body.axes.rotation)
+    match body.axes.kind:
+        case AxesKind.LINK if _has_link_axes(body):
+            which = "the frame that comes after the mass and" if _ends_after(context, body) else "which"
+            why = f"The body's axes are those of frame {link}, {which} is fixed in the same link."
+            return (why,), frame, ()
+        case AxesKind.LINK:
+            why = f"The body's axes are turned in frame {link}, as the problem gives them."
+            return (why,), Product((frame, turned)), ()
+        case AxesKind.REST:
+            why = (
+                "The body's axes are parallel to frame 0 at q = 0 and turn with the link: first back by how "
+                "the link is turned at q = 0, then on as it is turned."
+            )
+            at_rest = Row((frame, Words("(0)")))
+            base = (letters.R(robot, 0),) if letters.has_base(robot) else ()
+            return (why,), Product((frame, Transpose(Parenthesized(at_rest)), *base)), ()
+        case AxesKind.BASE:
+            why = f"The rotation from the base to the frame of {name_of(body)} is given by the problem."
+            product = Product((letters.R(robot, 0), turned)) if letters.has_base(robot) else None
+            fixed = not inertia.turns_with_link(robot, body, context.values[f"H{link}"])
+            note = (
+                f"This frame does not turn with link {link}. It may be used all the same: the kinetic "
+                "energy comes out as with the frame that turns (compared exactly)."
+            )
+            return (why,), product, ((note,),) if fixed else ()
+
+
+def _ends_after(context: Context, body: Body) -> bool:
     """Whether the frame of the link is known to lie behind the mass: the mass is between the link's ends."""
-    between = body.center_written in ("tip", "midpoint") or _given(body, "near") or _given(body, "along")
-    return course.standard and between
+    between = (
+        body.center_written in ("tip", "midpoint") or is_given_by(body, "near") or is_given_by(body, "along")
+    )
+    return context.standard and between
 
 
-def _right_frame(course: Course, link: int) -> Iterator[Prose]:
+def _right_frame(context: Context, link: int) -> Iterator[Prose]:
     """Which frame is mistaken for that of the link: the one at its other end."""
-    joints = course.robot.joints
-    if course.standard:
+    joints = context.robot.joints
+    if context.standard:
         if link > 1 and joints[link - 1].type:
             yield (
                 f"Frame {link} is the one to take, not frame {link - 1}, which is not fixed in link {link}.",
@@ -367,32 +251,32 @@ def _right_frame(course: Course, link: int) -> Iterator[Prose]:
         )
 
 
-def _base_tensor(course: Course, body: Body) -> Step:
+def _base_tensor(context: Context, body: Body) -> Step:
     b = body.name
     inertia_, R, tensor = (
         letters.of_body("I", body, "script"),
         letters.of_body("R", body, "bold"),
-        letters.tensor(course.robot, body),
+        letters.tensor(context.robot, body),
     )
-    rotation, given = course.form(f"R{b}"), course.form(f"I_body{b}")
+    rotation, given = context.form(f"R{b}"), context.form(f"I_body{b}")
     product = Product((R, tensor, Transpose(R)))
     members: list[Node] = [inertia_, product]
     if is_small(rotation, rotation, given):
         members.append(Product((rotation, given, Transpose(rotation))))
-    base = course.form(f"I{b}")
+    base = context.form(f"I{b}")
     notes: tuple[Prose, ...] = ()
     if base == given:
         notes = (("Here the turn changes nothing.",),)
     return Step(
         id=f"I{b}",
         stage=STAGE,
-        title=f"Inertia tensor of {name_of(body)} in {course.ground} coordinates",
+        title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
         why=(
-            f"ω is found in {course.ground} coordinates, so the tensor must be too: R turns the body's axes "
-            f"into the {course.ground}'s.",
+            f"ω is found in {context.ground} coordinates, so the tensor must be too: R turns the body's axes "
+            f"into the {context.ground}'s.",
         ),
         formula=equation(*members[:2]),
-        source=shv("7.2.1"),
+        source=spong("7.2.1"),
         working=(equation(inertia_, members[2]),) if len(members) > 2 else (),
         result=(equation(inertia_, base),),
         notes=notes,

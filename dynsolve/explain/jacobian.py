@@ -9,19 +9,9 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Prose
-from dynsolve.explain.course import (
-    Course,
-    block_of,
-    column_of,
-    craig,
-    is_small,
-    listed,
-    plain_joint,
-    shv,
-    side_by_side,
-    turns,
-)
+from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import block_of, column_of, craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
     Cross,
     Letter,
@@ -48,31 +38,31 @@ ZERO = Letter("0", style="bold")
 """The zero vector."""
 
 
-def steps(course: Course) -> Iterator[Step]:
+def steps(context: Context) -> Iterator[Step]:
     """Axes and origins, a column a coordinate, and J."""
-    yield _axes(course)
-    for q in course.robot.coordinates:
-        yield _column(course, q)
-    yield _whole(course)
+    yield _axes(context)
+    for q in context.robot.coordinates:
+        yield _column(context, q)
+    yield _whole(context)
 
 
-def frame_parts(course: Course, i: int) -> tuple[Matrix, Matrix]:
+def frame_parts(context: Context, i: int) -> tuple[Matrix, Matrix]:
     """(z_i, o_i) as trees."""
-    H = course.matrix(f"H{i}")
+    H = context.matrix(f"H{i}")
     return block_of(H, 3, 2, 3), block_of(H, 3, 3, 4)
 
 
-def _axes(course: Course) -> Step:
-    robot = course.robot
+def _axes(context: Context) -> Step:
+    robot = context.robot
     moving = sorted({joint_frame(robot, joint) for joint in robot.joints if joint.type})
     last = len(robot.joints)
     pairs: list[Node] = []
     for i in moving:
-        z, o = frame_parts(course, i)
+        z, o = frame_parts(context, i)
         pairs.append(side_by_side([equation(letters.z(i), z), equation(letters.o(i), o)]))
     if last not in moving:
-        pairs.append(equation(letters.o(last), frame_parts(course, last)[1]))
-    which = "i-1" if course.standard else "i"
+        pairs.append(equation(letters.o(last), frame_parts(context, last)[1]))
+    which = "i-1" if context.standard else "i"
     return Step(
         id="axes",
         stage=STAGE,
@@ -83,15 +73,16 @@ def _axes(course: Course) -> Step:
             Letter("o", style="bold"),
             f" the fourth. In the {robot.convention.value} convention joint i turns about or slides along ",
             Letter("z", Words(which), style="bold"),
-            *_whose(course),
+            *_whose(context),
         ),
-        source=shv("4.6") if course.standard else craig("5.6"),
+        source=spong("4.6") if context.standard else craig("5.6"),
         result=tuple(pairs),
+        uses=(),
     )
 
 
-def _whose(course: Course) -> Prose:
-    if course.standard:
+def _whose(context: Context) -> Prose:
+    if context.standard:
         return (", the axis of the frame before it.",)
     return (
         ", the axis of its own frame: where the textbook, in the standard convention, has ",
@@ -106,20 +97,20 @@ def _whose(course: Course) -> Prose:
     )
 
 
-def column_letters(course: Course, joint: Joint, point: Node) -> tuple[Node, Node]:
+def column_letters(context: Context, joint: Joint, point: Node) -> tuple[Node, Node]:
     """(J_v, J_ω) of one joint in letters: z × (p - o) and z, or z and 0."""
-    i = joint_frame(course.robot, joint)
+    i = joint_frame(context.robot, joint)
     if joint.type is JointType.REVOLUTE:
         arm = Parenthesized(Sum((point, Negative(letters.o(i)))))
         return Cross(letters.z(i), arm), letters.z(i)
     return letters.z(i), ZERO
 
 
-def coordinate_column(course: Course, k: int, link: int, point: Node) -> tuple[Node, Node] | None:
+def coordinate_column(context: Context, k: int, link: int, point: Node) -> tuple[Node, Node] | None:
     """(J_v, J_ω) of coordinate k (from 0) in letters, None where no joint up to `link` moves with it."""
     terms = [
-        (rate, column_letters(course, joint, point))
-        for joint in course.robot.joints[:link]
+        (rate, column_letters(context, joint, point))
+        for joint in context.robot.joints[:link]
         for i, rate in joint.rates
         if i == k
     ]
@@ -147,38 +138,45 @@ def _rated(rate: Fraction, node: Node) -> Node:
     return Product((number(rate), node))
 
 
-def _column(course: Course, q: Coordinate) -> Step:
-    robot, k = course.robot, q.index - 1
+def _plain_joint(robot: Robot, k: int) -> Joint | None:
+    """The one joint that coordinate k (from 0) moves, at its own rate; None for several, or scaled."""
+    moved = [(joint, rate) for joint in robot.joints for i, rate in joint.rates if i == k]
+    return moved[0][0] if len(moved) == 1 and moved[0][1] == 1 else None
+
+
+def _column(context: Context, q: Coordinate) -> Step:
+    robot, k = context.robot, q.index - 1
     last = len(robot.joints)
-    in_letters = coordinate_column(course, k, last, letters.o(last))
+    in_letters = coordinate_column(context, k, last, letters.o(last))
     assert in_letters is not None
-    linear, angular = (column_of(course.matrix(name), k) for name in ("Jv", "Jw"))
+    linear, angular = (column_of(context.matrix(name), k) for name in ("Jv", "Jw"))
     name = Letter("J", Number(q.index), style="bold")
-    joint = plain_joint(robot, k)
+    joint = _plain_joint(robot, k)
     return Step(
         id=f"J{q.index}",
         stage=STAGE,
         title=f"Column {q.index} of the Jacobian",
         why=(Symbol(q.name), *_column_why(q, robot, joint)),
         formula=equation(name, column(*in_letters)),
-        source=shv("4.6.3"),
-        working=_working(course, k, in_letters[0], linear),
+        source=spong("4.6.3"),
+        working=_working(context, k, in_letters[0], linear),
         result=(equation(name, Matrix(linear.rows + angular.rows)),),
+        uses=("axes",),
     )
 
 
-def _working(course: Course, k: int, in_letters: Node, linear: Matrix) -> tuple[Node, ...]:
+def _working(context: Context, k: int, in_letters: Node, linear: Matrix) -> tuple[Node, ...]:
     """The linear part with this robot's axes and levers put in, where there is anything to work out."""
-    robot = course.robot
+    robot = context.robot
     moved = [(rate, joint) for joint in robot.joints for i, rate in joint.rates if i == k]
     if all(joint.type is JointType.PRISMATIC for _, joint in moved):
         return ()
     parts: list[tuple[Fraction, Node]] = []
     small: list[Node] = []
     for rate, joint in moved:
-        z = frame_parts(course, joint_frame(robot, joint))[0]
+        z = frame_parts(context, joint_frame(robot, joint))[0]
         if joint.type is JointType.REVOLUTE:
-            lever = course.show(_lever(course, joint))
+            lever = context.show(_lever(context, joint))
             small += [z, lever]
             parts.append((rate, Cross(z, lever)))
         else:
@@ -187,10 +185,10 @@ def _working(course: Course, k: int, in_letters: Node, linear: Matrix) -> tuple[
     return (equation(in_letters, _total(parts), linear),) if is_small(*small) else ()
 
 
-def _lever(course: Course, joint: Joint) -> algebra.Matrix:
+def _lever(context: Context, joint: Joint) -> algebra.Matrix:
     """o_n - o, from the joint's axis to the end of the arm."""
-    end: algebra.Matrix = course.values[f"H{len(course.robot.joints)}"]
-    start: algebra.Matrix = course.values[f"H{joint_frame(course.robot, joint)}"]
+    end: algebra.Matrix = context.values[f"H{len(context.robot.joints)}"]
+    start: algebra.Matrix = context.values[f"H{joint_frame(context.robot, joint)}"]
     return origin(end) - origin(start)
 
 
@@ -222,8 +220,8 @@ def _column_why(q: Coordinate, robot: Robot, joint: Joint | None) -> Prose:
     return (" slides everything after it along its axis z: the end moves with z, and does not turn.",)
 
 
-def _whole(course: Course) -> Step:
-    Jv, Jw = course.form("Jv"), course.form("Jw")
+def _whole(context: Context) -> Step:
+    Jv, Jw = context.form("Jv"), context.form("Jw")
     return Step(
         id="J",
         stage=STAGE,
@@ -236,15 +234,17 @@ def _whole(course: Course) -> Step:
             ", however the joints move.",
         ),
         formula=equation(letters.J, column(letters.JV, letters.JW)),
-        source=shv("4.6.3"),
+        source=spong("4.6.3"),
         result=(equation(letters.JV, Jv), equation(letters.JW, Jw)),
-        notes=tuple(_notes(course)),
+        also=("Jw",),
+        uses=tuple(f"J{q.index}" for q in context.robot.coordinates),
+        notes=tuple(_notes(context)),
         detail=Detail.BRIEF,
     )
 
 
-def _notes(course: Course) -> Iterator[Prose]:
-    if course.robot.bodies:
+def _notes(context: Context) -> Iterator[Prose]:
+    if context.robot.bodies:
         yield (
             "This Jacobian belongs to the end of the arm. Each body gets its own below, taken at its mass "
             "centre.",

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.document import Prose, Table
-from dynsolve.explain.course import Course, craig, is_small, listed, shv, side_by_side, turns
+from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
     Degrees,
     Function,
@@ -33,21 +34,21 @@ STAGE = Stage.KINEMATICS
 _ZERO, _ONE = Number(0), Number(1)
 
 
-def steps(course: Course) -> Iterator[Step]:
+def steps(context: Context) -> Iterator[Step]:
     """The table, the base frame where it is turned, the general matrix, A_i and H_i."""
-    yield _table(course)
-    if letters.has_base(course.robot):
-        yield _base(course)
-    yield _general(course)
-    for joint in course.robot.joints:
-        yield _row(course, joint)
-    for joint in course.robot.joints:
-        yield _frame(course, joint.index)
+    yield _table(context)
+    if letters.has_base(context.robot):
+        yield _base(context)
+    yield _general(context)
+    for joint in context.robot.joints:
+        yield _row(context, joint)
+    for joint in context.robot.joints:
+        yield _frame(context, joint.index)
 
 
-def _table(course: Course) -> Step:
-    robot = course.robot
-    if course.standard:
+def _table(context: Context) -> Step:
+    robot = context.robot
+    if context.standard:
         header: Prose = ("i", Symbol("theta"), "d", "a", Symbol("alpha"))
         why: Prose = (
             "Each row takes frame i-1 to frame i by four motions: turn by θ about ",
@@ -72,18 +73,19 @@ def _table(course: Course) -> Step:
             ", slide by d along that. ",
         )
     if any(joint.type for joint in robot.joints):
-        why += ("The star marks a joint variable: ", *_kinds(course))
+        why += ("The star marks a joint variable: ", *_kinds(context))
     rows = tuple((str(joint.index), *joint.written) for joint in robot.joints)
     return Step(
         id="dh",
         stage=STAGE,
         title="Denavit-Hartenberg table",
         why=why,
-        source=shv("3.2") if course.standard else craig("3.4"),
+        source=spong("3.2") if context.standard else craig("3.4"),
         result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
-        notes=tuple(_table_notes(course)),
+        notes=tuple(_table_notes(context)),
         table=Table(header, rows),
         detail=Detail.BRIEF,
+        is_task=False,
     )
 
 
@@ -91,9 +93,9 @@ def _axis(letter: str, index: str) -> Letter:
     return Letter(letter, Words(index), style="bold")
 
 
-def _kinds(course: Course) -> Prose:
+def _kinds(context: Context) -> Prose:
     """Which coordinates are angles, which lengths."""
-    robot = course.robot
+    robot = context.robot
     turning = [Symbol(q.name) for q in robot.coordinates if turns(q)]
     sliding = [Symbol(q.name) for q in robot.coordinates if not turns(q)]
     prose: Prose = ()
@@ -106,8 +108,8 @@ def _kinds(course: Course) -> Prose:
     return (*prose, ".")
 
 
-def _table_notes(course: Course) -> Iterator[Prose]:
-    robot = course.robot
+def _table_notes(context: Context) -> Iterator[Prose]:
+    robot = context.robot
     fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
     if len(fixed) == 1:
         yield (f"Row {fixed[0]} has no star: a fixed frame, which keeps its place in the frame before it.",)
@@ -143,7 +145,7 @@ def _table_notes(course: Course) -> Iterator[Prose]:
             )
 
 
-def _base(course: Course) -> Step:
+def _base(context: Context) -> Step:
     return Step(
         id="H0",
         stage=STAGE,
@@ -152,8 +154,8 @@ def _base(course: Course) -> Step:
             "Gravity is given in the world w, in which frame 0 is turned or moved. The heights, and every "
             "vector below, are in world coordinates.",
         ),
-        source=shv("2.7"),
-        result=(equation(letters.H(course.robot, 0), course.form("H0")),),
+        source=spong("2.7"),
+        result=(equation(letters.H(context.robot, 0), context.form("H0")),),
     )
 
 
@@ -169,10 +171,10 @@ def _times(*factors: Node) -> Node:
     return Product(factors)
 
 
-def _general(course: Course) -> Step:
+def _general(context: Context) -> Step:
     i, before = Symbol("i"), Words("i-1")
     theta, d = Letter("theta", i), Letter("d", i)
-    if course.standard:
+    if context.standard:
         a, alpha = Letter("a", i), Letter("alpha", i)
         rows: tuple[tuple[Node, ...], ...] = (
             (_cos(theta), Negative(_times(_sin(theta), _cos(alpha))), _times(_sin(theta), _sin(alpha)),
@@ -202,7 +204,7 @@ def _general(course: Course) -> Step:
             "The product of the four motions, the same for every row; the rows of the table are put into it.",
         ),
         formula=equation(Letter("A", i, style="bold"), product, matrix),
-        source=shv("3.2") if course.standard else craig("3.5"),
+        source=spong("3.2") if context.standard else craig("3.5"),
     )
 
 
@@ -211,7 +213,7 @@ def _motion(axis: str, amount: Node, turns: bool) -> Node:
     return Letter("Rot" if turns else "Trans", Row((Words(axis), Words(","), amount)), style="upright")
 
 
-def _row(course: Course, joint: Joint) -> Step:
+def _row(context: Context, joint: Joint) -> Step:
     i = joint.index
     theta, d, a, alpha = joint.written
     given = side_by_side([
@@ -232,30 +234,31 @@ def _row(course: Course, joint: Joint) -> Step:
         stage=STAGE,
         title=f"Row {i} of the table: A{lowered(str(i))}",
         why=why,
-        source=shv("3.2") if course.standard else craig("3.4"),
-        working=(given, *_folded(course, joint)),
-        result=(equation(letters.A(i), course.form(f"A{i}")),),
+        source=spong("3.2") if context.standard else craig("3.4"),
+        working=(given, *_folded(context, joint)),
+        task=given,
+        result=(equation(letters.A(i), context.form(f"A{i}")),),
     )
 
 
-def _folded(course: Course, joint: Joint) -> Iterator[Node]:
+def _folded(context: Context, joint: Joint) -> Iterator[Node]:
     """cos(θ₁ + 90°) = -s₁ and the like, where the row holds an angle that is not a bare variable."""
-    ring = course.robot.ring
+    ring = context.robot.ring
     shown: list[Node] = []
     for node, angle in ((joint.written[0], joint.theta), (joint.written[3], joint.alpha)):
         if isinstance(node, Symbol) or not (angle.degrees or angle.terms):
             continue
         if isinstance(node, Number | Degrees) or angle.degrees:
-            shown.append(equation(_cos(node), course.show(ring.cos(angle))))
-            shown.append(equation(_sin(node), course.show(ring.sin(angle))))
+            shown.append(equation(_cos(node), context.show(ring.cos(angle))))
+            shown.append(equation(_sin(node), context.show(ring.sin(angle))))
     if shown:
         yield side_by_side(shown)
 
 
-def _frame(course: Course, i: int) -> Step:
-    robot = course.robot
+def _frame(context: Context, i: int) -> Step:
+    robot = context.robot
     last = i == len(robot.joints)
-    A, before, H = course.form(f"A{i}"), course.form(f"H{i - 1}"), course.form(f"H{i}")
+    A, before, H = context.form(f"A{i}"), context.form(f"H{i - 1}"), context.form(f"H{i}")
     name = letters.H(robot, i)
     detail = Detail.BRIEF if last else Detail.NORMAL
     if i == 1 and not letters.has_base(robot):
@@ -264,7 +267,7 @@ def _frame(course: Course, i: int) -> Step:
             stage=STAGE,
             title="Frame 1 seen from the base",
             why=("The first frame is seen from frame 0 itself, so no product is needed.",),
-            source=_products(course),
+            source=_products(context),
             result=(equation(name, letters.A(1), H),),
             detail=detail,
         )
@@ -278,19 +281,20 @@ def _frame(course: Course, i: int) -> Step:
     return Step(
         id=f"H{i}",
         stage=STAGE,
-        title=f"Frame {i} seen from the {course.ground}",
+        title=f"Frame {i} seen from the {context.ground}",
         why=_frame_why(last),
         formula=equation(name, Product(tuple(chain))) if len(chain) > 2 else None,
-        source=_products(course),
+        source=_products(context),
         working=(equation(*members),),
         result=(equation(name, H),),
+        task=equation(name, working) if i > 1 else None,
         detail=detail,
     )
 
 
-def _products(course: Course) -> str:
+def _products(context: Context) -> str:
     """Where the textbook of the convention multiplies the rows' matrices."""
-    return shv("3.1") if course.standard else craig("3.5")
+    return spong("3.1") if context.standard else craig("3.5")
 
 
 def _frame_why(last: bool) -> Prose:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.explain.course import Course, shv
+from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import spong
 from dynsolve.notation.tree import Negative, Sum, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
@@ -13,7 +14,7 @@ from dynsolve.quantities.stages import Stage
 STAGE = Stage.LAGRANGIAN
 
 
-def steps(course: Course) -> Iterator[Step]:
+def steps(context: Context) -> Iterator[Step]:
     """L = K - P"""
     yield Step(
         id="L",
@@ -21,7 +22,7 @@ def steps(course: Course) -> Iterator[Step]:
         title="Kinetic minus potential energy",
         why=("The one function from which every equation of motion follows.",),
         formula=equation(letters.L, Sum((letters.K, Negative(letters.P)))),
-        source=shv("7.1"),
-        result=(equation(letters.L, course.form("L")),),
+        source=spong("7.1"),
+        result=(equation(letters.L, context.form("L")),),
         detail=Detail.BRIEF,
     )

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from dynsolve.document import Prose
-from dynsolve.explain.course import listed
+from dynsolve.explain.writing import and_joined, listed
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Sum, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
@@ -161,13 +161,7 @@ def _of_type(robot: Robot, kind: JointType) -> list[Node]:
 
 def _bodies(bodies: Sequence[Body]) -> Prose:
     names = [body.name for body in bodies]
-    return (("body " if len(names) == 1 else "bodies ") + "".join(listed_words(names)),)
-
-
-def listed_words(names: Sequence[str]) -> Iterator[str]:
-    """a, b and c"""
-    for i, name in enumerate(names):
-        yield (" and " if i == len(names) - 1 else ", ") * bool(i) + name
+    return (("body " if len(names) == 1 else "bodies ") + and_joined(names),)
 
 
 _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {

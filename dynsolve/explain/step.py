@@ -27,11 +27,18 @@ class Detail(IntEnum):
 class Step:
     """One step of a derivation.
 
-    `id` is the name of what it gives (`A1`, `Jv2`, `tau1`).  `formula` is general
-    and stands in the textbook at `source`; `working` is the same with this robot's
-    quantities; `result` what comes out.  `entries` names the entries of a result
-    that is a matrix too wide for the page; an `optional` result says nothing new, and
-    is left out where it does not fit; results that are `listed` stand in one display.
+    `id` is the name of what it gives (`A1`, `Jv2`, `tau1`), `also` the names of further
+    results.  `formula` is general and stands in the textbook at `source`; `working` is the
+    same with this robot's quantities; `result` what comes out.  `uses` names the earlier
+    steps that it is computed from, unless these are the inputs of its rule.
+
+    How it is shown: `entries` names the entries of a result that is a matrix too wide for
+    the page; an `optional` result says nothing new, and is left out where it does not fit;
+    results that are `listed` stand in one display; `detail` says from which level on.
+
+    What a hint makes of it: `hint` is said in place of a `why` that tells something of the
+    result, `task` is the formula where it is not `formula`; what is no `is_task` is left
+    out, being given by the problem or a mere comparison.
     """
 
     id: str
@@ -48,3 +55,8 @@ class Step:
     optional: bool = False
     listed: bool = False
     detail: Detail = Detail.NORMAL
+    also: tuple[str, ...] = ()
+    uses: tuple[str, ...] | None = None
+    hint: Prose = ()
+    task: Node | None = None
+    is_task: bool = True

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from itertools import count
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Table, Text, Uses
+from dynsolve.explain.abbreviated_steps import definition_blocks
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
-from dynsolve.explain.named import definition_blocks
 from dynsolve.explain.step import Detail, Step
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
@@ -80,7 +79,8 @@ def _stages(
             if heading:  # none over a stage of which nothing is shown
                 yield heading
                 heading = None
-            blocks = tuple(step_blocks(step, detail, tuple(_used(step.id, inputs))))
+            uses = inputs.get(step.id, ()) if step.uses is None else step.uses
+            blocks = tuple(step_blocks(step, detail, uses))
             yield Fold(f"{number} {step.title}", blocks, step.detail)
 
 
@@ -110,42 +110,10 @@ def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Ite
             yield Note(note)
 
 
-def _used(name: str, inputs: Mapping[str, tuple[str, ...]]) -> Iterator[str]:
-    """The results of earlier steps that one is computed from, by their labels."""
-    if name.startswith(("I_", "R", "axes")):
-        return  # often given by the problem
-    if name == "g":
-        yield "P"
-        return
-    columns = [column for column in inputs if re.fullmatch(r"ddt\d+", column)]
-    if name == "J":
-        yield from (column.replace("ddt", "J") for column in columns)
-        return
-    if re.fullmatch(r"J\d+", name):
-        yield "axes"
-        return
-    frames = name.startswith("Jv")
-    if frames:
-        yield "axes"
-    for label in inputs.get(name, ()):
-        if name == "Cqd" and label == "g":
-            yield "D"
-        elif label == "tau":
-            yield from (column.replace("ddt", "tau") for column in columns)
-        elif not (frames and label.startswith("H")):
-            yield label
-
-
 def _labels(step: Step) -> Iterator[str]:
-    """The names of a step's results: its id, and for the angular part the name of that."""
-    angular = {"J": "Jw", "v": "w"}
-    yield step.id
-    for stem in ("Jv", "J", "v"):
-        if step.id.startswith(stem):
-            yield angular.get(stem, "Jw") + step.id.removeprefix(stem)
-            break
-    for place in count(2):
-        yield f"{step.id}-{place}"
+    """The names of a step's results; those without one are numbered."""
+    yield from (step.id, *step.also)
+    yield from (f"{step.id}-{place}" for place in count(2))
 
 
 def _closing(solution: Dynamics) -> Iterator[Block]:

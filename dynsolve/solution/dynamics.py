@@ -94,12 +94,12 @@ class Dynamics:
     ) -> Iterator[Step]:
         """The steps of some stages, in the order of the course; with `short`, in its names."""
         from dynsolve.explain import explain
-        from dynsolve.explain.course import Course
-        from dynsolve.explain.named import in_names
+        from dynsolve.explain.abbreviated_steps import in_names
+        from dynsolve.explain.context import Context
 
-        course = Course(self.robot, self.values, self.forms, self.agreement)
-        steps = explain(course, stages)
-        return steps if short is None else in_names(steps, course, short)
+        context = Context(self.robot, self.values, self.forms, self.agreement)
+        steps = explain(context, stages)
+        return steps if short is None else in_names(steps, context, short)
 
     def abbreviated(self, abbreviate: Abbreviate | str = "always") -> Abbreviated | None:
         """D, C and g with constants and recurring terms named; held against the independent computation.

@@ -87,10 +87,10 @@ class Solution(Dynamics):
         >>> solve("planar-2r").hint("lagrangian").blocks[1].text
         'Hint: the Lagrangian'
         """
-        from dynsolve.explain.course import Course
+        from dynsolve.explain.context import Context
         from dynsolve.explain.hint import hint_document
 
-        return hint_document(self.problem.title, Course(self.robot, self.values, self.forms), stage)
+        return hint_document(self.problem.title, Context(self.robot, self.values, self.forms), stage)
 
     def to_json(self, abbreviate: Abbreviate | str = "never") -> dict[str, Any]:
         """The solution as JSON, `dynsolve-solution/1`; with `always` a section `abbreviated` too."""

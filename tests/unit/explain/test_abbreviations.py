@@ -15,8 +15,8 @@ from hypothesis import given, settings
 import dynsolve
 from dynsolve.document import Equations
 from dynsolve.errors import AlgebraError, VerificationError
+from dynsolve.explain.abbreviated_steps import definition_blocks
 from dynsolve.explain.abbreviations import Abbreviated, abbreviate, is_long
-from dynsolve.explain.named import definition_blocks
 from dynsolve.notation.build import cost
 from dynsolve.notation.evaluate import compile_trees, evaluate
 from dynsolve.notation.tree import (

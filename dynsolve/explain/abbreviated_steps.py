@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from dynsolve.document import Block, Equations, Fold, Heading, Prose, Text
 from dynsolve.explain.abbreviations import Abbreviated, Definition
-from dynsolve.explain.course import Course
+from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
@@ -39,9 +39,9 @@ LONGEST = 80
 """The operations up to which a result on the way to D, c_ijk and g is written out."""
 
 
-def in_names(steps: Iterable[Step], course: Course, short: Abbreviated) -> Iterator[Step]:
+def in_names(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
     """The steps, with names in them and, of a model with named constants, without what fills pages."""
-    names = _Names(course, short)
+    names = _Names(context, short)
     told: set[str] = set()
     for step in steps:
         change = names.changes.get(step.id)
@@ -90,9 +90,9 @@ def _defined(definition: Definition) -> Relation:
 class _Names:
     """Formulas in d_ij, c_ijk and g_k; those that are zero are left out."""
 
-    def __init__(self, course: Course, short: Abbreviated) -> None:
-        self.course, self.short = course, short
-        self.n = course.robot.n
+    def __init__(self, context: Context, short: Abbreviated) -> None:
+        self.context, self.short = context, short
+        self.n = context.robot.n
         self.changes: dict[str, Callable[[Step], Step]] = {
             "D": self.inertia,
             "C": self.coriolis,
@@ -100,7 +100,7 @@ class _Names:
         }
         self.swaps: dict[Node, Node] = {}
         if not short.long:
-            forms = course.forms
+            forms = context.forms
             self.swaps = {
                 **{forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()},
                 forms("D"): short.D,
@@ -115,7 +115,7 @@ class _Names:
                 "L": self.lagrangian,
                 "Cqd": self.coriolis_forces,
             }
-            for q in course.robot.coordinates:
+            for q in context.robot.coordinates:
                 self.changes |= {
                     f"dLdqd{q.index}": self.momentum(q),
                     f"ddt{q.index}": self.momentum_rate(q),
@@ -141,7 +141,7 @@ class _Names:
         return None if self.short.g.rows[k][0] == ZERO else letters.entry("g", k + 1)
 
     def rate(self, k: int, dots: int = 1) -> Symbol:
-        return Symbol(self.course.robot.coordinates[k].name, dots)
+        return Symbol(self.context.robot.coordinates[k].name, dots)
 
     def rates(self, i: int, j: int) -> tuple[Node, ...]:
         """q̇_i q̇_j"""
@@ -211,7 +211,7 @@ class _Names:
 
     def momentum_rate(self, q: Coordinate) -> Callable[[Step], Step]:
         k = q.index - 1
-        D, ring = self.course.values["D"], self.course.robot.ring
+        D, ring = self.context.values["D"], self.context.robot.ring
         moving = [any(not ring.diff(D[k, j], i).is_zero for i in range(self.n)) for j in range(self.n)]
         rates = [
             Product((d, self.rate(j))) for j in range(self.n) if moving[j] and (d := self.d(k, j, dots=1))
@@ -229,7 +229,7 @@ class _Names:
     def slope(self, q: Coordinate) -> Callable[[Step], Step]:
         k = q.index - 1
         by = Symbol(q.name)
-        D, ring = self.course.values["D"], self.course.robot.ring
+        D, ring = self.context.values["D"], self.context.robot.ring
         moves = any(not ring.diff(D[i, j], k).is_zero for i, j in self.pairs())
         terms: list[Node] = []
         if moves:

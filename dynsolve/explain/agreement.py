@@ -1,0 +1,75 @@
+"""Steps of the checks: both ways to D, C q̇ and g agree, and Ḋ - 2C is skew-symmetric."""
+
+from __future__ import annotations
+
+from dynsolve.algebra import matrix as algebra
+from dynsolve.derivation.agreement import agreement
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Step
+from dynsolve.explain.writing import and_joined, is_small, spong
+from dynsolve.notation.tree import (
+    Negative,
+    Node,
+    Number,
+    Product,
+    Sum,
+    Transpose,
+    equation,
+)
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+
+STAGE = Stage.VECTORIZED
+
+SKEW = Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C)))))
+
+
+def agreement_step(context: Context) -> Step:
+    """Whether D, C q̇ and g, read off from the forces, are those assembled directly."""
+    held = context.agreement or agreement(context.robot, context.values)
+    verdicts = {"D": held.inertia, "C q̇": held.coriolis, "g": held.gravity}
+    same = [name for name, holds in verdicts.items() if holds]
+    wrong = [name for name, holds in verdicts.items() if not holds]
+    why = ""
+    if same:
+        verb = "is" if len(same) == 1 else "are"
+        why = f"{and_joined(same)}, read off from the forces and assembled directly, {verb} equal, exactly."
+    if wrong:
+        why += f" The two ways differ in {and_joined(wrong)}."
+    return Step(
+        id="agreement",
+        stage=STAGE,
+        title="Both ways agree" if not wrong else "The two ways differ",
+        why=(why.strip(),),
+        source=spong("7.3"),
+        is_task=False,
+    )
+
+
+def skew_step(context: Context) -> Step:
+    """N = Ḋ - 2C, and N + Nᵀ = 0."""
+    robot = context.robot
+    ring = robot.ring
+    D, C = context.values["D"], context.values["C"]
+    result: tuple[Node, ...] = ()
+    if is_small(context.form("D"), context.form("C")):
+        N: algebra.Matrix = D.map(ring.time_derivative) - C.scale(ring.constant(2))
+        result = (equation(letters.bold("N"), context.show(N)),)
+    name = letters.bold("N")
+    return Step(
+        id="skew",
+        stage=STAGE,
+        title="Check: Ḋ - 2C is skew-symmetric",
+        why=(
+            "With C from the Christoffel symbols, N plus its transpose is zero, compared exactly, so that ",
+            equation(letters.transposed_product(letters.QD, name), Number(0)),
+            " whatever the rates. Passivity rests on that.",
+        ),
+        formula=equation(name, SKEW),
+        source=spong("7.5.1"),
+        result=(*result, equation(Sum((name, Transpose(name))), Number(0))),
+        hint=(
+            "A check at the end: with C from the Christoffel symbols, N plus its transpose must come out "
+            "as zero.",
+        ),
+    )

@@ -1,0 +1,133 @@
+"""The step of the Christoffel symbols: the distinct ones, each with the derivatives it is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Step
+from dynsolve.explain.writing import listed, spong
+from dynsolve.notation.tree import (
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Product,
+    Row,
+    Sum,
+    Symbol,
+    equation,
+)
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+
+STAGE = Stage.VECTORIZED
+
+MOST_ZEROS = 20
+"""Up to this number Christoffel symbols that are zero are named one by one."""
+
+_I, _J, _K = (Symbol(name) for name in "ijk")
+
+
+def christoffel_step(context: Context) -> Step:
+    """c_ijk = ½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k), those that are not zero."""
+    n = context.robot.n
+    nonzero, zero = _sorted_symbols(context)
+    general = equation(
+        Letter("c", Row((_I, _J, _K))),
+        Product((
+            letters.HALF,
+            Parenthesized(Sum((
+                letters.slope(_d(_K, _J), Letter("q", _I)),
+                letters.slope(_d(_K, _I), Letter("q", _J)),
+                Negative(letters.slope(_d(_I, _J), Letter("q", _K))),
+            ))),
+        )),
+    )  # fmt: skip
+    results = tuple(_symbol(context, *indices) for indices in nonzero)
+    return Step(
+        id="christoffel",
+        stage=STAGE,
+        title="Christoffel symbols",
+        why=_christoffel_why(n, len(nonzero)),
+        formula=general,
+        source=spong("7.3"),
+        result=results,
+        hint=(
+            "They say how D changes as the arm moves: three partial derivatives of entries of D each. The "
+            "first two indices may be swapped, so that half of the work is enough.",
+        ),
+        notes=tuple(_zero_note(zero)) if nonzero else (),
+    )
+
+
+def _d(*indices: Node) -> Letter:
+    return Letter("d", Row(indices))
+
+
+def _christoffel_why(n: int, count: int) -> Prose:
+    if not count:
+        return ("D is constant, so every Christoffel symbol is zero.",)
+    swapped = equation(Letter("c", Row((_I, _J, _K))), Letter("c", Row((_J, _I, _K))))
+    why: Prose = ("They say how D changes as the arm moves. ",)
+    if n > 1:
+        why += ("The first two indices may be swapped: ", swapped, ". ")
+    return (*why, "Partial derivatives that are zero are left out.")
+
+
+def _sorted_symbols(context: Context) -> tuple[list[tuple[int, int, int]], list[tuple[int, int, int]]]:
+    """The indices (from 0) of the distinct symbols, i ≤ j: those that are not zero, and those that are."""
+    symbols = context.values["christoffel"]
+    order = sorted(symbols, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
+    nonzero = [ijk for ijk in order if not symbols[ijk].is_zero]
+    return nonzero, [ijk for ijk in order if symbols[ijk].is_zero]
+
+
+def _symbol(context: Context, i: int, j: int, k: int) -> Node:
+    """c_ijk = c_jik = ½ (...) = its value; partial derivatives that are zero are left out."""
+    ring, D = context.robot.ring, context.values["D"]
+    value = context.forms.christoffel(i, j, k)
+    names: list[Node] = [letters.entry("c", i + 1, j + 1, k + 1)]
+    if i != j:
+        names.append(letters.entry("c", j + 1, i + 1, k + 1))
+    slopes = [(D[k, j], (k, j), i, 1), (D[k, i], (k, i), j, 1), (D[i, j], (i, j), k, -1)]
+    weights: dict[tuple[tuple[int, int], int], int] = {}
+    for entry, (row, col), by, sign in slopes:
+        if not ring.diff(entry, by).is_zero:
+            key = ((min(row, col), max(row, col)), by)
+            weights[key] = weights.get(key, 0) + sign
+    parts = [_weighted(context, key, weight) for key, weight in weights.items() if weight]
+    return equation(*names, _halved(parts), value)
+
+
+def _weighted(context: Context, key: tuple[tuple[int, int], int], weight: int) -> tuple[int, Node]:
+    (row, col), by = key
+    name = letters.entry("d", row + 1, col + 1)
+    return weight, letters.slope(name, Symbol(context.robot.coordinates[by].name))
+
+
+def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
+    """½ (Σ weight·slope), with weights 1, 2 and -1; a factor 2 that stands alone cancels."""
+    if len(parts) == 1:
+        weight, slope = parts[0]
+        node = slope if abs(weight) == 2 else Product((letters.HALF, slope))
+        return Negative(node) if weight < 0 else node
+    terms = []
+    for weight, slope in parts:
+        term = Product((Number(2), slope)) if abs(weight) == 2 else slope
+        terms.append(Negative(term) if weight < 0 else term)
+    return Product((letters.HALF, Parenthesized(Sum(tuple(terms)))))
+
+
+def _zero_note(zero: Sequence[tuple[int, int, int]]) -> Iterator[Prose]:
+    if not zero:
+        return
+    if len(zero) > MOST_ZEROS:
+        yield ("All the others are zero.",)
+        return
+    yield (
+        *listed([letters.entry("c", i + 1, j + 1, k + 1) for i, j, k in zero]),
+        " are zero." if len(zero) > 1 else " is zero.",
+    )

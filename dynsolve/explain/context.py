@@ -1,0 +1,56 @@
+"""What every step is made from: the robot, its exact values, their compact forms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.agreement import Agreement
+from dynsolve.derivation.graph import Derivation
+from dynsolve.explain.forms import Forms
+from dynsolve.notation import tree
+from dynsolve.notation.tree import Node, Symbol
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body, Convention, Robot
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """A robot with its derivation, exact and as trees, and whether the two ways to D, C, g agree."""
+
+    robot: Robot
+    values: Derivation
+    forms: Forms
+    agreement: Agreement | None = None
+
+    @property
+    def standard(self) -> bool:
+        """Whether the table is in the standard convention."""
+        return self.robot.convention is Convention.STANDARD
+
+    def form(self, name: str) -> Node:
+        """The tree of a quantity."""
+        return self.forms(name)
+
+    def matrix(self, name: str) -> tree.Matrix:
+        """The tree of a quantity that is a matrix."""
+        node = self.forms(name)
+        assert isinstance(node, tree.Matrix)
+        return node
+
+    def show(self, value: Expr | Matrix) -> Node:
+        """The tree of any exact value."""
+        return self.forms.of(value)
+
+    def mass(self, body: Body) -> Node:
+        """The mass of a body in a formula: the problem's symbol, else m_i unless that is another thing."""
+        shown = self.show(body.mass)
+        if isinstance(shown, Symbol) or letters.is_taken(self.robot, "m", body):
+            return shown
+        return letters.of_body("m", body)
+
+    @property
+    def ground(self) -> str:
+        """What everything is seen from: frame 0, or the world in which the problem turns it."""
+        return "world" if letters.has_base(self.robot) else "base"

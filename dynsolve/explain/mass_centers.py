@@ -1,0 +1,142 @@
+"""The step of a mass centre: where it is in its link, and seen from the base."""
+
+from __future__ import annotations
+
+import re
+
+from dynsolve.algebra import matrix as algebra
+from dynsolve.document import Prose
+from dynsolve.errors import ReadError
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import block_of, is_small, name_of, spong
+from dynsolve.notation.text import read
+from dynsolve.notation.tree import (
+    Letter,
+    Matrix,
+    Node,
+    Number,
+    Product,
+    Sum,
+    equation,
+)
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Body
+
+STAGE = Stage.INERTIA
+
+
+def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
+    """r_c = R r + o; with `tells` it warns that the mass centre is not the frame's origin."""
+    link = body.link
+    r, H = letters.rc(body), letters.H(context.robot, link)
+    local = context.show(body.center)
+    frame = Letter("r", letters.rc(body).sub, Number(link), "bold")
+    at_origin = body.center.is_zero
+    why: Prose = (f"The mass centre of {name_of(body)} ", *_where(context, body), ".")
+    if not any(joint.type for joint in context.robot.joints[:link]):
+        why += (" No joint comes before that link, so the body belongs to the ground and does not move.",)
+    formula: Node = equation(r, Sum((Product((letters.R(context.robot, link), frame)), letters.o(link))))
+    working: tuple[Node, ...] = ()
+    if at_origin:
+        formula = equation(r, letters.o(link))
+    else:
+        working = (equation(frame, *_measured(context, body), local),)
+        if is_small(local, block_of(context.matrix(f"H{link}"), 3, 0, 4)):
+            rotation, origin = _parts(context, link)
+            working += (equation(r, Sum((Product((rotation, local)), origin))),)
+    return Step(
+        id=f"rc{body.name}",
+        stage=STAGE,
+        title=f"Mass centre of {name_of(body)}",
+        why=why,
+        formula=formula,
+        source=spong("7.2"),
+        working=working,
+        result=(equation(r, context.form(f"rc{body.name}")),),
+        notes=(_not_the_origin(body, H),) if tells else (),
+        detail=Detail.BRIEF,
+    )
+
+
+def _parts(context: Context, link: int) -> tuple[Matrix, Matrix]:
+    H = context.matrix(f"H{link}")
+    return block_of(H, 3, 0, 3), block_of(H, 3, 3, 4)
+
+
+def _where(context: Context, body: Body) -> Prose:
+    link, written = body.link, body.center_written
+    near, far = (link - 1, link) if context.standard else (link, link + 1)
+    if written == "tip":
+        return (f"is at the far end of link {link}, ", letters.o(far))
+    if written == "origin":
+        return ("is at the origin ", letters.o(link), f" of frame {link}")
+    if written == "midpoint":
+        direction = "back" if context.standard else "on"
+        return (
+            f"is half-way along link {link}, between ",
+            letters.o(near),
+            " and ",
+            letters.o(far),
+            ": from ",
+            letters.o(link),
+            f", half the way {direction}",
+        )
+    if body.center.is_zero:
+        return ("falls on the origin ", letters.o(link), f" of frame {link}")
+    if is_given_by(body, "near") and context.standard:
+        return (
+            f"is given from the near end of link {link}, ",
+            letters.o(near),
+            f", along the axes of frame {link}. The origin of that frame is at the far end, ",
+            letters.o(far),
+            ", so the way back from there is added",
+        )
+    if is_given_by(body, "along"):
+        ends: Prose = ("from ", letters.o(near), " to ", letters.o(far))
+        fraction = _part_of_the_way(body)
+        if fraction is None:
+            return (f"is on link {link}, at the given part of the way ", *ends)
+        return ("is ", fraction, f" of the way along link {link}, ", *ends)
+    return (f"is given by its coordinates in frame {link}, which are constant",)
+
+
+def is_given_by(body: Body, key: str) -> bool:
+    """Whether the problem gives the centre as `{near: ...}` or `{along: ...}`."""
+    return re.match(rf"\W*{key}\b", body.center_written) is not None
+
+
+def _part_of_the_way(body: Body) -> Node | None:
+    """The part of the way, as the problem writes it; None where it cannot be read."""
+    try:
+        return read(re.sub(r"^\W*along\W*:|[{}'\"]", "", body.center_written).strip()).tree
+    except ReadError:
+        return None
+
+
+def _measured(context: Context, body: Body) -> tuple[Node, ...]:
+    """A centre in its frame, from the ends of the link between which the problem gives it."""
+    robot, link = context.robot, body.link
+    if not (context.standard or link < len(robot.joints)):
+        return ()
+    row = robot.joints[link - 1 if context.standard else link]
+    ring = robot.ring
+    sine, cosine = ring.sin(row.alpha), ring.cos(row.alpha)
+    across = row.d * sine if context.standard else -(row.d * sine)
+    length = algebra.Matrix.column(ring, (row.a, across, row.d * cosine))  # from the near to the far end
+    if is_given_by(body, "near") and context.standard and not length.is_zero:
+        return (Sum((context.show(-length), context.show(body.center + length))),)
+    if body.center_written == "midpoint":
+        return (Product((letters.HALF, context.show(-length if context.standard else length))),)
+    return ()
+
+
+def _not_the_origin(body: Body, H: Letter) -> Prose:
+    return (
+        f"The mass centre is not the origin of frame {body.link}: the fourth column of ",
+        H,
+        " is not ",
+        letters.rc(body),
+        ".",
+    )

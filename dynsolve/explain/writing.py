@@ -1,0 +1,85 @@
+"""Pieces of formulas and sentences that several stages write."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import islice
+
+from dynsolve.document import Inline, Prose
+from dynsolve.notation.tree import Matrix, Node, Row, Sum, Words
+from dynsolve.notation.walk import walk
+from dynsolve.robot.model import Body, Coordinate, JointType
+
+LARGEST_WORKING = 260
+"""Matrices whose entries have more parts than this are not put into a formula; it stays in letters."""
+
+
+def spong(section: str) -> str:
+    """A reference to Spong, Hutchinson, Vidyasagar, Robot Modeling and Control, Wiley, 2006."""
+    return f"Spong et al. {section}"
+
+
+def craig(section: str) -> str:
+    """A reference to Craig, Introduction to Robotics, 3rd edition, 2005."""
+    return f"Craig {section}"
+
+
+def turns(q: Coordinate) -> bool:
+    """Whether a coordinate is an angle."""
+    return q.type is JointType.REVOLUTE
+
+
+def name_of(body: Body) -> str:
+    """How sentences call a body."""
+    return f"body {body.name}"
+
+
+def listed(parts: Sequence[Prose | Node | str], conjunction: str = "and") -> Prose:
+    """a, b and c
+
+    >>> listed(["a", "b", "c"])
+    ('a', ', ', 'b', ' and ', 'c')
+    """
+    prose: list[Inline] = []
+    for i, part in enumerate(parts):
+        if i:
+            prose.append(f" {conjunction} " if i == len(parts) - 1 else ", ")
+        prose += list(part) if isinstance(part, tuple) else [part]
+    return tuple(prose)
+
+
+def and_joined(names: Sequence[str]) -> str:
+    """a, b and c
+
+    >>> and_joined(["1"]), and_joined(["1", "2", "3"])
+    ('1', '1, 2 and 3')
+    """
+    return "".join(part for part in listed(names) if isinstance(part, str))
+
+
+def side_by_side(parts: Sequence[Node]) -> Row:
+    """Formulas on one line, commas between them."""
+    row: list[Node] = []
+    for part in parts:
+        row += [part] if not row else [Words(", "), part]
+    return Row(tuple(row))
+
+
+def sum_of(terms: Sequence[Node]) -> Node:
+    """The sum of one term or several, as they are."""
+    return terms[0] if len(terms) == 1 else Sum(tuple(terms))
+
+
+def column_of(matrix: Matrix, j: int) -> Matrix:
+    """A column of a tree."""
+    return Matrix(tuple((row[j],) for row in matrix.rows))
+
+
+def block_of(matrix: Matrix, rows: int, first: int, last: int) -> Matrix:
+    """The first rows of some columns of a tree."""
+    return Matrix(tuple(row[first:last] for row in matrix.rows[:rows]))
+
+
+def is_small(*nodes: Node) -> bool:
+    """Whether trees are small enough to be put into a formula and still be read."""
+    return next(islice(walk(*nodes), LARGEST_WORKING, None), None) is None
