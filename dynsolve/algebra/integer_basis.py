@@ -17,7 +17,9 @@ from dynsolve.algebra.rationals import fraction, rational
 Vector = tuple[Fraction, ...]
 
 
-def coordinates_in(basis: Sequence[Vector], vector: Vector) -> tuple[Fraction, ...] | None:
+def coordinates_in(
+    basis: Sequence[Sequence[int | Fraction]], vector: Sequence[int | Fraction]
+) -> tuple[Fraction, ...] | None:
     """The coefficients of `vector` in a `basis`; None outside its span, or where it is no basis.
 
     >>> basis = [(Fraction(1), Fraction(0)), (Fraction(1), Fraction(1))]

@@ -23,7 +23,6 @@ from functools import partial
 from itertools import count
 
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.compact.terms import Frame, Terms
 from dynsolve.algebra.expr import Expr
 from dynsolve.derivation.vectorized import christoffel_symbols
 from dynsolve.explain.base_parameters import BaseParameters
@@ -108,7 +107,9 @@ def _with_constants(forms: Forms) -> Abbreviated:
     base = BaseParameters.of(robot, values["D"], values["g"], CONSTANT)
     leading, parallel = forms.collecting
     names = list(base.meanings)
-    compactor = _ByAngles(base.ring, [*names, *leading], parallel, decimal=is_numeric(robot))
+    compactor = Compactor(
+        base.ring, [*names, *leading], parallel, decimal=is_numeric(robot), angles_outside=True
+    )
     D, g = base.matrix(values["D"]), base.matrix(values["g"])
     symbols = christoffel_symbols(robot, D)
     meanings = tuple(Definition(Symbol(name), forms.of(value)) for name, value in base.meanings.items())
@@ -120,13 +121,6 @@ def _with_constants(forms: Forms) -> Abbreviated:
         _forms_of(symbols, compactor),
         long=True,
     )
-
-
-class _ByAngles(Compactor):
-    """Collects sines and cosines outside, the constants they multiply inside."""
-
-    def _scalar(self, frame: Frame, terms: Terms) -> Node:
-        return self._by_angles(frame, terms)
 
 
 def _forms_of(symbols: Mapping[Index, Expr], compactor: Compactor) -> dict[Index, Node]:

@@ -1,1 +1,29 @@
-"""From an exact value to what a textbook would print."""
+"""The compact form: from the normal form of the ring to what a textbook would print.
+
+The normal form multiplies everything out and has no s²; a person wants
+
+    d₁₁ = m₁ l_c1² + m₂ (l₁² + l_c2² + 2 l₁ l_c2 c₂) + I₁ + I₂.
+
+Three steps lead there; `compactor` takes them in turn, and where two orders compete
+it keeps the shorter result.
+
+1. Group the terms by their monomial in the velocities and the parameters (`terms`).
+   What stands beside each monomial is a small polynomial in sines and cosines with
+   rational coefficients.
+
+2. Write each of these in its best form.  Angles about parallel axes make a group
+   (`groups`), and only they combine.  `trig_forms` gives the forms worth considering,
+   and `choice` takes the cheapest, preferring sines and cosines that other coefficients
+   are written with already.  This is where c₂c₂₃ + s₂s₂₃ becomes c₃: with the basic
+   angles α₁ = θ₂ and α₂ = θ₂ + θ₃ it is cos α₁ cos α₂ + sin α₁ sin α₂, and its Fourier
+   form (`algebra.fourier`) has the one term cos(α₂ - α₁).  `constant_forms` does the
+   same for polynomials in the cosine of a constant angle (4 cos³10° - 3 cos 10° = √3/2).
+
+3. Collect (`collect`): velocities that share a coefficient are merged, (q̇₂ + q̇₃); then
+   sines and cosines; the polynomials in the parameters last, common factors out, masses
+   first, squares completed, (a₃ + x₃)².  What is printed as one factor is an atom
+   (`atoms`; `ring_atoms` makes those of a ring); `monomials` has the arithmetic.
+
+Add a form of sines and cosines in `trig_forms.trig_forms`: the choice takes it where it
+is cheaper, and nothing else needs to know.
+"""

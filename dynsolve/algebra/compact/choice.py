@@ -1,78 +1,91 @@
-"""Choosing a dress for each of many small trigonometric polynomials.
+"""Choosing the form of each of many small trigonometric polynomials.
 
-The cheapest dress of one may be dear for the whole: a monomial that others wear
-already costs only its coefficient.  So everyone picks the cheapest, and then picks
-again at the prices that the first choice has made.
+The shortest form of one may be dear for the whole: a product of sines and cosines that
+other coefficients are written with already costs only its own coefficient.  So the
+shortest form is taken for each, and then chosen again at the prices that this first
+choice has made.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-from dynsolve.algebra.compact.terms import Exponents, Factor, primitive
-from dynsolve.algebra.compact.trig_forms import Dress, Monomial, Poly, dresses
+from dynsolve.algebra.compact.terms import Exponents, Rational, primitive
+from dynsolve.algebra.compact.trig_forms import TrigForm, TrigMonomial, TrigPolynomial, trig_forms
+from dynsolve.algebra.fourier import Multiples
 
 TERM = 3.0
-"""What a term costs besides its waves: a sign, a product and a coefficient."""
+"""What a term costs besides its sines and cosines: a sign, a product and a coefficient."""
 
 SHARED = 0.75
-"""The part of a wave's price that is saved where another coefficient stands at it too."""
+"""The part of the price of sines and cosines that is saved where another coefficient stands at them too."""
 
 
 class _Option(NamedTuple):
-    items: tuple[tuple[Monomial, Factor], ...]
+    """A form, its price, and of that what the sines and cosines of each term cost."""
+
+    items: tuple[tuple[TrigMonomial, Rational], ...]
     price: float
-    waves: tuple[float, ...]
+    trig_prices: tuple[float, ...]
 
 
-Face = dict[Exponents, Factor]
-"""A small trigonometric polynomial in the angles of one group."""
+class FormChoice:
+    """Chooses among the forms that `forms` gives of a polynomial.
 
+    The forms of every polynomial met so far are kept, up to a rational factor: the
+    entries of D, C and the torques share a few dozen (without this, PUMA 560 takes
+    a quarter longer).
+    """
 
-class Wardrobe:
-    """The dresses of every face met so far, each made once."""
+    def __init__(self, forms: Callable[[TrigPolynomial], list[TrigForm]] = trig_forms) -> None:
+        self._forms = forms
+        self._made: dict[frozenset[tuple[Exponents, Rational]], list[_Option]] = {}
 
-    def __init__(self, dresses: Callable[[Poly], list[Dress]] = dresses) -> None:
-        self._dresses = dresses
-        self._made: dict[frozenset[tuple[Exponents, Factor]], list[_Option]] = {}
+    def choose(
+        self, polynomials: Mapping[Exponents, TrigPolynomial]
+    ) -> dict[Exponents, list[tuple[TrigMonomial, Rational]]]:
+        """The chosen form of each polynomial as (monomial, factor).
 
-    def choose(self, faces: Mapping[Exponents, Face]) -> dict[Exponents, list[tuple[Monomial, Factor]]]:
-        """For each face its dress as (monomial, factor)."""
-        options = {rest: self._options(face) for rest, face in faces.items()}
-        picked = {rest: made[0] for rest, (made, _) in options.items()}
-        worn = Counter(mono for option in picked.values() for mono, _ in option.items)
-        common = {mono for mono, count in worn.items() if count > 1}
-        for rest, (made, _) in options.items():
+        The keys are the monomials in parameters whose coefficients the polynomials are.
+        """
+        options = {key: self._options(polynomial) for key, polynomial in polynomials.items()}
+        chosen = {key: made[0] for key, (made, _) in options.items()}
+        uses = Counter(mono for option in chosen.values() for mono, _ in option.items)
+        common = {mono for mono, count in uses.items() if count > 1}
+        for key, (made, _) in options.items():
             if len(made) > 1 and common:
-                picked[rest] = min(made, key=lambda o: _reduced(o, common))
-        return {rest: [(m, f * options[rest][1]) for m, f in option.items] for rest, option in picked.items()}
+                chosen[key] = min(made, key=lambda option: _price_beside(option, common))
+        return {key: [(m, f * options[key][1]) for m, f in option.items] for key, option in chosen.items()}
 
-    def _options(self, face: Face) -> tuple[list[_Option], Factor]:
-        """(dresses, the cheapest first; the factor they are to be multiplied with)"""
-        if len(face) == 1:
-            ((exponents, scale),) = face.items()
-            key: frozenset[tuple[Exponents, Factor]] = frozenset(((exponents, 1),))
+    def _options(self, polynomial: TrigPolynomial) -> tuple[list[_Option], Rational]:
+        """(forms, the cheapest first; the factor they are to be multiplied with)"""
+        if len(polynomial) == 1:
+            ((exponents, scale),) = polynomial.items()
+            key: frozenset[tuple[Exponents, Rational]] = frozenset(((exponents, 1),))
         else:
-            key, scale = primitive(face)
+            key, scale = primitive(polynomial)
         made = self._made.get(key)
         if made is None:
-            made = self._made[key] = sorted(map(_option, self._dresses(dict(key))), key=lambda o: o.price)
+            made = self._made[key] = sorted(map(_option, self._forms(dict(key))), key=lambda o: o.price)
         return made, scale
 
 
-def _option(dress: Mapping[Monomial, Factor]) -> _Option:
-    waves = tuple(float(sum(2 + _angle_cost(turns) + (e > 1) for (_, turns), e in mono)) for mono in dress)
-    odd = sum(0.5 * (abs(f) != 1) + (f.denominator != 1) for f in dress.values())
-    return _Option(tuple(dress.items()), TERM * len(dress) + sum(waves) + odd, waves)
+def _option(form: TrigForm) -> _Option:
+    trig_prices = tuple(
+        float(sum(2 + _angle_price(multiples) + (e > 1) for (_, multiples), e in mono)) for mono in form
+    )
+    odd = sum(0.5 * (abs(f) != 1) + (f.denominator != 1) for f in form.values())
+    return _Option(tuple(form.items()), TERM * len(form) + sum(trig_prices) + odd, trig_prices)
 
 
-def _reduced(option: _Option, common: set[Monomial]) -> float:
-    saved = sum(w for (mono, _), w in zip(option.items, option.waves, strict=True) if mono in common)
-    return option.price - SHARED * saved
+def _price_beside(option: _Option, common: set[TrigMonomial]) -> float:
+    """The price where some monomials occur already."""
+    terms = zip(option.items, option.trig_prices, strict=True)
+    return option.price - SHARED * sum(price for (mono, _), price in terms if mono in common)
 
 
-def _angle_cost(turns: Sequence[int]) -> int:
+def _angle_price(multiples: Multiples) -> int:
     """The operations inside sin( ): 1 for θ₂ + θ₃ and for 2θ₂."""
-    return sum(1 + (abs(t) != 1) for t in turns if t) - 1
+    return sum(1 + (abs(m) != 1) for m in multiples if m) - 1

@@ -1,33 +1,34 @@
-"""Collecting a polynomial in plain symbols: common factors out, sums of lengths kept together.
+"""Collecting polynomials in the parameters: common factors out, sums of lengths kept together.
 
-Polynomials here are dictionaries {monomial: factor}, a monomial a sorted tuple of
-(atom, exponent).  Atoms are numbered by an `Atoms` table, which knows how each is
-printed; a sum that recurs as a whole, a₃ + x₃, becomes an atom of its own.
+    m₁ l_c1² + m₂ l₁² + m₂ l_c2²  ->  m₁ l_c1² + m₂ (l₁² + l_c2²)
+
+A polynomial is a dictionary {monomial in atoms: factor} (see `atoms` and `monomials`).
+Of the ways of drawing an atom out of the terms that share it, the one that leaves the
+fewest operations is taken; a sum that recurs as a whole, a₃ + x₃, becomes an atom of its
+own, so that squares are completed: (a₃ + x₃)².
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from enum import IntEnum
 from fractions import Fraction
-from math import gcd, lcm
 
-from dynsolve.algebra.compact.terms import Factor, exact, primitive
-from dynsolve.notation.build import cost, split_sign, times, total
-from dynsolve.notation.tree import (
-    ZERO,
-    Negative,
-    Node,
-    Number,
-    Power,
-    Product,
-    Quotient,
-    Sum,
+from dynsolve.algebra.compact.atoms import AtomTable, Rank
+from dynsolve.algebra.compact.monomials import (
+    Monomial,
+    Polynomial,
+    common,
+    content,
+    divide,
+    join,
+    joined_pair,
+    multiply,
+    whole_content,
 )
-
-Mono = tuple[tuple[int, int], ...]
-Poly = dict[Mono, Factor]
+from dynsolve.algebra.compact.terms import Rational, exact
+from dynsolve.notation.build import cost, split_sign, times, total
+from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Product, Quotient, Sum
 
 SEARCHED = 14
 """Up to this number of terms every promising split is tried; above it the likeliest alone."""
@@ -35,137 +36,24 @@ SEARCHED = 14
 JOINED = 60
 """Up to this number of terms sums that recur as a whole are looked for."""
 
-
-class Rank(IntEnum):
-    """The place of a factor in a product, and of a term in a sum."""
-
-    ROOT = 0
-    LEADING = 1
-    PARAMETER = 2
-    COORDINATE = 3
-    SUM = 4
-    WAVE = 5
-    WAVE_SUM = 6
-    RATE = 7
-    RATE_SUM = 8
-
-
-AtomPlace = tuple[Rank, tuple[int, ...]]
-"""Where an atom stands in a product: by its rank, then among those of that rank."""
-
-
-class Atoms:
-    """What the numbers in a monomial stand for, and in which order they are printed."""
-
-    def __init__(self) -> None:
-        self.nodes: list[Node] = []
-        self.ranks: list[AtomPlace] = []
-        self._numbers: dict[Node, int] = {}
-
-    def number(self, node: Node, rank: Rank | None = None, order: tuple[int, ...] = ()) -> int:
-        """The atom of a node, the same for equal nodes; a sum ranks by what it is made of.
-
-        `order` is its place among atoms of one rank, where that is not the order of their numbers.
-        """
-        found = self._numbers.get(node)
-        if found is None:
-            rank = self._rank(node) if rank is None else rank
-            found = self._numbers[node] = len(self.nodes)
-            self.nodes.append(node)
-            self.ranks.append((rank, (*order, found)))
-        return found
-
-    def _rank(self, node: Node) -> Rank:
-        highest = self._highest(node)
-        return {Rank.WAVE: Rank.WAVE_SUM, Rank.RATE: Rank.RATE_SUM}.get(highest, max(highest, Rank.SUM))
-
-    def _highest(self, node: Node) -> Rank:
-        """The highest rank that occurs in a tree, without what stands inside functions."""
-        found = self._numbers.get(node)
-        if found is not None:
-            return self.ranks[found][0]
-        match node:
-            case Sum(parts) | Product(parts):
-                return max(map(self._highest, parts))
-            case Negative(part) | Power(part):
-                return self._highest(part)
-            case Quotient(numerator, denominator):
-                return max(self._highest(numerator), self._highest(denominator))
-        return Rank.ROOT
-
-
-def multiply(left: Mono, right: Mono) -> Mono:
-    """The product of two monomials."""
-    exponents = dict(left)
-    for atom, exponent in right:
-        exponents[atom] = exponents.get(atom, 0) + exponent
-    return tuple(sorted((a, e) for a, e in exponents.items() if e))
-
-
-def divide(mono: Mono, by: Mono) -> Mono:
-    """mono / by"""
-    return multiply(mono, tuple((atom, -exponent) for atom, exponent in by))
-
-
-def content(factors: Iterable[Factor]) -> Factor:
-    """What is worth drawing out: the common divisor, and a denominator if most share it or all have one.
-
-    The denominator must be a multiple of the others: (m₁ + 2 m₂)/4, but a/2 + b/3.
-    """
-    factors = list(factors)
-    shared = gcd(*(f.numerator for f in factors))
-    if all(type(f) is int for f in factors):
-        return shared
-    denominators = Counter(f.denominator for f in factors)
-    largest = max(denominators)
-    if any(largest % d for d in denominators) or (
-        1 in denominators and 2 * denominators[largest] <= len(factors)
-    ):
-        return shared
-    return Fraction(shared, largest)
-
-
-_SMALL_WHOLE = 9
-
-
-def whole_content(factors: Iterable[Factor]) -> Factor:
-    """The content that leaves coprime whole numbers: of 1 and 1/2 it is 1/2."""
-    factors = list(factors)
-    return exact(gcd(*(f.numerator for f in factors)), lcm(*(f.denominator for f in factors)))
-
-
-def common(monos: Iterable[Mono]) -> Mono:
-    """The largest monomial that divides all; an inverse is common where all have it."""
-    monos = list(monos)
-    first = dict(monos[0])
-    for mono in monos[1:]:
-        other = dict(mono)
-        for atom in list(first):
-            exponent = other.get(atom, 0)
-            mine = first[atom]
-            if mine > 0 and exponent > 0:
-                first[atom] = min(mine, exponent)
-            elif mine < 0 and exponent < 0:
-                first[atom] = max(mine, exponent)
-            else:
-                del first[atom]
-    return tuple(sorted(first.items()))
+SMALL_WHOLE = 9
+"""Decimals are drawn out of a sum where that leaves whole numbers up to this one."""
 
 
 class Collector:
     """Writes polynomials in plain symbols as trees, each once."""
 
-    def __init__(self, atoms: Atoms, *, decimal: bool = False) -> None:
+    def __init__(self, atoms: AtomTable, *, decimal: bool = False) -> None:
         self.atoms = atoms
         self.decimal = decimal
-        self._known: dict[frozenset[tuple[Mono, Factor]], Node] = {}
+        self._known: dict[frozenset[tuple[Monomial, Rational]], Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
 
     def cost(self, node: Node) -> int:
         """The operations of a tree, counted once a tree."""
         return cost(node, self._costs)
 
-    def form(self, poly: Poly) -> Node:
+    def form(self, poly: Polynomial) -> Node:
         """The collected tree of a polynomial."""
         if not poly:
             return ZERO
@@ -175,18 +63,18 @@ class Collector:
         factor, mono, rest = self.primitive(poly)
         return self.product(factor, mono, (self._sum(rest),))
 
-    def whole(self, poly: Poly) -> tuple[Factor, Mono]:
+    def whole(self, poly: Polynomial) -> tuple[Rational, Monomial]:
         """A polynomial as (factor, monomial), a sum with whole numbers as one atom: ½ and (2 q̇₁ + q̇₂)."""
         if len(poly) == 1:
             ((mono, factor),) = poly.items()
             return factor, mono
         shared = whole_content(poly.values())
-        if self.decimal and any(abs(Fraction(f) / shared) > _SMALL_WHOLE for f in poly.values()):
+        if self.decimal and any(abs(Fraction(f) / shared) > SMALL_WHOLE for f in poly.values()):
             shared = self.content(poly.values())  # 0.34 and 0.457 are no whole numbers that anyone reads
         factor, mono = self.decompose(self.form({mono: exact(f, shared) for mono, f in poly.items()}))
         return factor * shared, mono
 
-    def primitive(self, poly: Poly) -> tuple[Factor, Mono, Poly]:
+    def primitive(self, poly: Polynomial) -> tuple[Rational, Monomial, Polynomial]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
         factor = self.content(poly.values())
         mono = self._worth_drawing(poly, common(poly))
@@ -194,14 +82,14 @@ class Collector:
             factor = -factor
         return factor, mono, self._divided(poly, mono, factor)
 
-    def content(self, factors: Iterable[Factor]) -> Factor:
+    def content(self, factors: Iterable[Rational]) -> Rational:
         """What is worth drawing out; of decimals only what all are equal to."""
         if not self.decimal:
             return content(factors)
-        sizes: set[Factor] = {f if f > 0 else -f for f in factors}
+        sizes: set[Rational] = {f if f > 0 else -f for f in factors}
         return sizes.pop() if len(sizes) == 1 else 1
 
-    def _mostly_negative(self, poly: Poly) -> bool:
+    def _mostly_negative(self, poly: Polynomial) -> bool:
         """Whether a sum reads better with its sign turned: more minus than plus, or as many and one first."""
         negative = sum(f < 0 for f in poly.values())
         if 2 * negative != len(poly):
@@ -209,12 +97,12 @@ class Collector:
         return poly[min(poly, key=self.order)] < 0
 
     @staticmethod
-    def _divided(poly: Poly, mono: Mono, factor: Factor) -> Poly:
+    def _divided(poly: Polynomial, mono: Monomial, factor: Rational) -> Polynomial:
         if not mono:
             return poly if factor == 1 else {m: exact(f, factor) for m, f in poly.items()}
         return {divide(m, mono): exact(f, factor) for m, f in poly.items()}
 
-    def _worth_drawing(self, poly: Poly, shared: Mono) -> Mono:
+    def _worth_drawing(self, poly: Polynomial, shared: Monomial) -> Monomial:
         """The common monomial without lengths and velocities that stay behind in some terms.
 
         A book writes l² + l a c, and not l (l + a c).
@@ -228,13 +116,13 @@ class Collector:
                 kept.append((atom, exponent))
         return tuple(kept)
 
-    def product(self, factor: Factor, mono: Mono, more: Iterable[Node]) -> Node:
+    def product(self, factor: Rational, mono: Monomial, more: Iterable[Node]) -> Node:
         """factor · monomial · more as a tree, in printing order."""
         atoms = [*mono, *((self.atoms.number(node), 1) for node in more)]
         atoms.sort(key=lambda item: self.atoms.ranks[item[0]])
         return times(factor, [(self.atoms.nodes[a], e) for a, e in atoms], decimal=self.decimal)
 
-    def decompose(self, node: Node) -> tuple[Factor, Mono]:
+    def decompose(self, node: Node) -> tuple[Rational, Monomial]:
         """(factor, monomial) of a tree that is a product; a sum counts as one atom."""
         match node:
             case Negative(argument):
@@ -253,17 +141,17 @@ class Collector:
                 return factor**p, tuple((atom, e * p) for atom, e in mono)
         return 1, ((self.atoms.number(node), 1),)
 
-    def _decompose_all(self, factors: Iterable[Node]) -> tuple[Factor, Mono]:
-        factor: Factor = 1
-        mono: Mono = ()
+    def _decompose_all(self, factors: Iterable[Node]) -> tuple[Rational, Monomial]:
+        factor: Rational = 1
+        mono: Monomial = ()
         for part in factors:
             f, m = self.decompose(part)
             factor, mono = factor * f, multiply(mono, m)
         return factor, mono
 
-    def sum_of(self, products: Iterable[tuple[Factor, Mono, Node]]) -> Node:
+    def sum_of(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree, with what the products share drawn out."""
-        poly: Poly = {}
+        poly: Polynomial = {}
         for factor, mono, node in products:
             sign, inner = split_sign(node)
             spread = isinstance(inner, Sum) and not mono
@@ -273,14 +161,14 @@ class Collector:
         return self.form(poly)
 
     @staticmethod
-    def _add(poly: Poly, mono: Mono, factor: Factor) -> None:
+    def _add(poly: Polynomial, mono: Monomial, factor: Rational) -> None:
         value = poly.get(mono, 0) + factor
         if value:
             poly[mono] = value
         else:
             poly.pop(mono, None)
 
-    def _sum(self, poly: Poly) -> Node:
+    def _sum(self, poly: Polynomial) -> Node:
         key = frozenset(poly.items())
         found = self._known.get(key)
         if found is None:
@@ -288,7 +176,7 @@ class Collector:
             found = self._known[key] = self.form(joined) if joined else self._split(poly)
         return found
 
-    def _split(self, poly: Poly) -> Node:
+    def _split(self, poly: Polynomial) -> Node:
         plain = self._arranged([self.product(f, m, ()) for m, f in self.ordered(poly)])
         best, least = plain, self.cost(plain)
         for atom in self._worth_splitting(poly):
@@ -299,7 +187,7 @@ class Collector:
                 best, least = node, price
         return best
 
-    def _worth_splitting(self, poly: Poly) -> list[int]:
+    def _worth_splitting(self, poly: Polynomial) -> list[int]:
         """The atoms that most terms share, leading ones first."""
         counts = Counter(atom for mono in poly for atom, e in mono if e > 0)
         shared = [a for a, n in counts.items() if n > 1]
@@ -307,7 +195,7 @@ class Collector:
         shared.sort(key=lambda a: (-counts[a], self.atoms.ranks[a]))
         return shared if len(poly) <= SEARCHED else shared[:1]
 
-    def _is_own_square(self, poly: Poly, atom: int) -> bool:
+    def _is_own_square(self, poly: Polynomial, atom: int) -> bool:
         """Whether a length or velocity is squared in one term and not in another: no book draws that out."""
         rank = self.atoms.ranks[atom][0]
         if rank not in (Rank.PARAMETER, Rank.SUM, Rank.RATE) or (
@@ -316,7 +204,7 @@ class Collector:
             return False
         return len({e for mono in poly for a, e in mono if a == atom and e > 0}) > 1
 
-    def _split_by(self, poly: Poly, atom: int) -> Node:
+    def _split_by(self, poly: Polynomial, atom: int) -> Node:
         having = {m: f for m, f in poly.items() if any(a == atom and e > 0 for a, e in m)}
         rest = {m: f for m, f in poly.items() if m not in having}
         parts = [having, rest] if min(poly, key=self.order) in having else [rest, having]
@@ -331,20 +219,20 @@ class Collector:
             return flat
         return total(sorted(flat.terms, key=lambda term: self.order(self.decompose(term)[1])))
 
-    def order(self, mono: Mono) -> tuple[object, ...]:
+    def order(self, mono: Monomial) -> tuple[object, ...]:
         """The place of a term in a sum: by its velocities, its angles, its symbols; squares first."""
         ranks = sorted((self.atoms.ranks[atom], -exponent) for atom, exponent in mono)
         rates = [rank for rank in ranks if rank[0][0] >= Rank.RATE]
-        waves = [rank for rank in ranks if rank[0][0] is Rank.WAVE]
-        return not rates, rates, waves, ranks
+        trig = [rank for rank in ranks if rank[0][0] is Rank.TRIG]
+        return not rates, rates, trig, ranks
 
-    def ordered(self, poly: Poly) -> list[tuple[Mono, Factor]]:
+    def ordered(self, poly: Polynomial) -> list[tuple[Monomial, Rational]]:
         """The terms in printing order."""
         return sorted(poly.items(), key=lambda item: self.order(item[0]))
 
     # -- sums that recur as a whole --------------------------------------------------------------
 
-    def _joined(self, poly: Poly) -> Poly | None:
+    def _joined(self, poly: Polynomial) -> Polynomial | None:
         """The polynomial with x + y as one atom where it depends on x and y through their sum alone."""
         if not 3 <= len(poly) <= JOINED:
             return None
@@ -356,9 +244,9 @@ class Collector:
             x, y, ratio = y, x, exact(1, ratio)
         return join(poly, x, y, self.atoms.number(self._sum_node(x, y, ratio)))
 
-    def _sum_node(self, x: int, y: int, ratio: Factor) -> Node:
+    def _sum_node(self, x: int, y: int, ratio: Rational) -> Node:
         """x + ratio·y as a tree, flat and in order; a difference starts with x."""
-        poly: Poly = {}
+        poly: Polynomial = {}
         for atom, factor in ((x, 1), (y, ratio)):
             node = self.atoms.nodes[atom]
             for term in node.terms if isinstance(node, Sum) else (node,):
@@ -368,41 +256,3 @@ class Collector:
         if ratio < 0 and not isinstance(self.atoms.nodes[x], Sum):
             terms.sort(key=lambda term: isinstance(term, Negative))
         return total(terms)
-
-
-def joined_pair(poly: Poly) -> tuple[int, int, Factor] | None:
-    """(x, y, r) where the polynomial is one in x + r·y: ∂/∂y = r ∂/∂x, and not merely linear in them."""
-    atoms = sorted({atom for mono in poly for atom, e in mono if e > 0})
-    slopes = {atom: slope(poly, atom) for atom in atoms}
-    candidates: dict[object, tuple[int, Factor]] = {}
-    for atom, part in slopes.items():
-        if len(part) > 1:
-            key, scale = primitive(part)
-            if key in candidates:
-                first, other = candidates[key]
-                return first, atom, exact(scale, other)
-            candidates[key] = atom, scale
-    return None
-
-
-def slope(poly: Poly, atom: int) -> Poly:
-    """∂poly/∂atom"""
-    result: Poly = {}
-    for mono, f in poly.items():
-        for a, e in mono:
-            if a == atom:
-                result[divide(mono, ((a, 1),))] = f * e
-    return result
-
-
-def join(poly: Poly, x: int, y: int, whole: int) -> Poly:
-    """A polynomial in x + r·y, with y put to 0 and x replaced by the atom `whole`."""
-    result: Poly = {}
-    for mono, f in poly.items():
-        exponents = dict(mono)
-        if y in exponents:
-            continue
-        if x in exponents:
-            exponents[whole] = exponents.pop(x)
-        result[tuple(sorted(exponents.items()))] = f
-    return result

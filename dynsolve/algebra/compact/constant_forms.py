@@ -1,4 +1,4 @@
-"""The dresses of polynomials in cos δ, the generator of a problem's constant angles.
+"""The forms of polynomials in cos δ, the generator of a problem's constant angles.
 
 4 cos³10° - 3 cos 10° is √3/2, and 1 - 2 cos²40° is -sin 10°: a polynomial in cos δ is a
 vector in the powers below the degree of its minimal polynomial, and so is every
@@ -15,10 +15,11 @@ from math import comb
 from flint import fmpq, fmpq_poly, fmpz_poly
 
 from dynsolve.algebra.compact.terms import exact
-from dynsolve.algebra.compact.trig_forms import Dress, Monomial, Poly
-from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.compact.trig_forms import TrigForm, TrigMonomial, TrigPolynomial
+from dynsolve.algebra.integer_basis import coordinates_in
+from dynsolve.algebra.rationals import fraction, rational
 
-_KNOWN: dict[Fraction, tuple[Monomial, Fraction]] = {
+_KNOWN: dict[Fraction, tuple[TrigMonomial, Fraction]] = {
     Fraction(0): ((), Fraction(1)),
     Fraction(60): ((), Fraction(1, 2)),
     Fraction(30): (((("sqrt", (3,)), 1),), Fraction(1, 2)),
@@ -27,10 +28,10 @@ _KNOWN: dict[Fraction, tuple[Monomial, Fraction]] = {
 """Cosines that are written without an angle."""
 
 
-class ConstantDresses:
+class ConstantForms:
     """Writes polynomials {(k,): factor} in powers of cos δ; δ in degrees.
 
-    >>> ten = ConstantDresses(Fraction(10))
+    >>> ten = ConstantForms(Fraction(10))
     >>> ten({(3,): 4, (1,): -3})
     [{((('sqrt', (3,)), 1),): Fraction(1, 2)}]
     """
@@ -42,8 +43,8 @@ class ConstantDresses:
         self._degree = int(halves.degree())
         self._cosines = [(self._name(j), self._vector(self._chebyshev(j))) for j in range(int(90 / delta))]
 
-    def __call__(self, poly: Poly) -> list[Dress]:
-        """The shortest dress: one cosine, two, or the sum over all powers."""
+    def __call__(self, poly: TrigPolynomial) -> list[TrigForm]:
+        """The shortest form: one cosine, two, or the sum over all powers."""
         vector = self._vector(fmpq_poly(self._dense(poly)))
         for count in (1, 2):
             found = next(self._combinations(vector, count), None)
@@ -51,10 +52,10 @@ class ConstantDresses:
                 return [found]
         return [self._fourier(poly)]
 
-    def _dense(self, poly: Poly) -> list[fmpq]:
+    def _dense(self, poly: TrigPolynomial) -> list[fmpq]:
         dense = [fmpq(0)] * (max(k for (k,) in poly) + 1)
         for (k,), factor in poly.items():
-            dense[k] = fmpq(factor.numerator, factor.denominator)
+            dense[k] = rational(factor)
         return dense
 
     def _vector(self, polynomial: fmpq_poly) -> tuple[Fraction, ...]:
@@ -66,7 +67,7 @@ class ConstantDresses:
     def _chebyshev(j: int) -> fmpq_poly:
         return fmpq_poly(fmpz_poly.chebyshev_t(j))
 
-    def _name(self, j: int) -> tuple[Monomial, Fraction]:
+    def _name(self, j: int) -> tuple[TrigMonomial, Fraction]:
         """cos jδ as it is written: by a root, or as the sine of the complement above 45°."""
         angle = self.delta * j
         if angle in _KNOWN:
@@ -75,43 +76,20 @@ class ConstantDresses:
             return ((("sin", (int(90 / self.delta) - j,)), 1),), Fraction(1)
         return ((("cos", (j,)), 1),), Fraction(1)
 
-    def _combinations(self, vector: tuple[Fraction, ...], count: int) -> Iterator[Dress]:
+    def _combinations(self, vector: tuple[Fraction, ...], count: int) -> Iterator[TrigForm]:
         for chosen in combinations(self._cosines, count):
-            factors = _solve([v for _, v in chosen], vector)
+            factors = coordinates_in([v for _, v in chosen], vector)
             if factors is not None and all(factors):
                 yield {
                     mono: exact(f * scale, 1) for ((mono, scale), _), f in zip(chosen, factors, strict=True)
                 }
 
-    def _fourier(self, poly: Poly) -> Dress:
+    def _fourier(self, poly: TrigPolynomial) -> TrigForm:
         """Σ cos jδ by cos^k δ = 2^-k Σ_i C(k, i) cos (k - 2i)δ."""
-        dress: Dress = {}
+        form: TrigForm = {}
         for (k,), factor in poly.items():
             for i in range(k + 1):
                 mono, scale = self._name(abs(k - 2 * i))
-                total = dress.get(mono, 0) + factor * scale * Fraction(comb(k, i), 2**k)
-                dress[mono] = exact(total, 1)
-        return {mono: factor for mono, factor in dress.items() if factor}
-
-
-def _solve(basis: list[tuple[Fraction, ...]], vector: tuple[Fraction, ...]) -> list[Fraction] | None:
-    """The factors with Σ factor·basis = vector, for one or two basis vectors; None where there are none."""
-    if len(basis) == 1:
-        lead = next((i for i, b in enumerate(basis[0]) if b), 0)
-        factors = [vector[lead] / basis[0][lead]]
-    else:
-        a, b = basis
-        rows = range(len(vector))
-        pivot = next(((i, k) for i, k in combinations(rows, 2) if a[i] * b[k] != a[k] * b[i]), None)
-        if pivot is None:
-            return None
-        i, k = pivot
-        determinant = a[i] * b[k] - a[k] * b[i]
-        factors = [
-            (vector[i] * b[k] - vector[k] * b[i]) / determinant,
-            (a[i] * vector[k] - a[k] * vector[i]) / determinant,
-        ]
-    for i, target in enumerate(vector):
-        if sum((f * v[i] for f, v in zip(factors, basis, strict=True)), Fraction(0)) != target:
-            return None
-    return factors
+                total = form.get(mono, 0) + factor * scale * Fraction(comb(k, i), 2**k)
+                form[mono] = exact(total, 1)
+        return {mono: factor for mono, factor in form.items() if factor}

@@ -6,24 +6,24 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.compact.choice import Wardrobe
-from dynsolve.algebra.compact.constant_forms import ConstantDresses
+from dynsolve.algebra.compact.choice import FormChoice
+from dynsolve.algebra.compact.constant_forms import ConstantForms
 from dynsolve.algebra.generators import Pair
 from dynsolve.algebra.ring import Ring
 
 
 @dataclass(frozen=True, slots=True)
 class AngleGroup:
-    """Basic angles that combine, the places of their generators, and how polynomials in them are dressed."""
+    """Basic angles that combine, the indices of their generators, and the choice of form for them."""
 
     angles: tuple[Angle, ...]
     places: tuple[int, ...]
-    wardrobe: Wardrobe
+    forms: FormChoice
 
-    def angle(self, turns: Sequence[int]) -> Angle:
+    def angle(self, multiples: Sequence[int]) -> Angle:
         """The angle of these multiples of the basic ones."""
         total = Angle()
-        for basic, multiple in zip(self.angles, turns, strict=True):
+        for basic, multiple in zip(self.angles, multiples, strict=True):
             total = total + basic * multiple
         return total
 
@@ -34,14 +34,16 @@ def angle_groups(ring: Ring, parallel: Iterable[Iterable[str]] = ()) -> list[Ang
         AngleGroup(
             tuple(pair.angle for pair in pairs),
             tuple(i for pair in pairs for i in (pair.sine, pair.cosine)),
-            Wardrobe(),
+            FormChoice(),
         )
         for pairs in _parallel_pairs(ring, parallel)
     ]
-    constant = [g for g in ring.generators if g.kind == "constant"]
-    wardrobes = [Wardrobe(ConstantDresses(g.angle.degrees)) for g in constant]
-    groups += [AngleGroup((g.angle,), (g.index,), w) for g, w in zip(constant, wardrobes, strict=True)]
-    return groups
+    constant = [
+        AngleGroup((g.angle,), (g.index,), FormChoice(ConstantForms(g.angle.degrees)))
+        for g in ring.generators
+        if g.kind == "constant"
+    ]
+    return groups + constant
 
 
 def _parallel_pairs(ring: Ring, parallel: Iterable[Iterable[str]]) -> list[tuple[Pair, ...]]:

@@ -18,16 +18,16 @@ from flint import Ordering, fmpq_mpoly_ctx
 
 from dynsolve.algebra.expr import Expr
 
-Factor = int | Fraction
+Rational = int | Fraction
 """A rational factor: an int wherever it is whole, since those are fast."""
 
 Exponents = tuple[int, ...]
-Terms = dict[Exponents, Factor]
+Terms = dict[Exponents, Rational]
 
 _Key = TypeVar("_Key", bound=Hashable)
 
 
-def exact(value: Factor, divisor: Factor) -> Factor:
+def exact(value: Rational, divisor: Rational) -> Rational:
     """value / divisor, an int where it is whole."""
     if isinstance(value, int) and isinstance(divisor, int) and not value % divisor:
         return value // divisor
@@ -35,7 +35,7 @@ def exact(value: Factor, divisor: Factor) -> Factor:
     return quotient.numerator if quotient.denominator == 1 else quotient
 
 
-def primitive(poly: Mapping[_Key, Factor]) -> tuple[frozenset[tuple[_Key, Factor]], Factor]:
+def primitive(poly: Mapping[_Key, Rational]) -> tuple[frozenset[tuple[_Key, Rational]], Rational]:
     """(key, factor): polynomials that differ by a rational factor alone share the key.
 
     >>> primitive({"x": 2, "y": -4}) == (frozenset({("x", 1), ("y", -2)}), 2)
@@ -58,7 +58,7 @@ def primitive(poly: Mapping[_Key, Factor]) -> tuple[frozenset[tuple[_Key, Factor
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class TermLayout:
     """Which generator each place of the exponents belongs to.
 
     `groups` are (number of the angle group, how many places it has), the next one
@@ -70,16 +70,16 @@ class Frame:
     parameters: tuple[int, ...]
     rates: tuple[int, ...]
 
-    def without_rates(self) -> Frame:
-        """The frame after the velocities have been split off."""
+    def without_rates(self) -> TermLayout:
+        """The layout after the velocities have been split off."""
         return replace(self, rates=())
 
-    def without_leading(self) -> Frame:
-        """The frame after the masses have been split off."""
+    def without_leading(self) -> TermLayout:
+        """The layout after the masses have been split off."""
         return replace(self, leading=())
 
-    def without_group(self) -> Frame:
-        """The frame after the first angle group has been split off."""
+    def without_group(self) -> TermLayout:
+        """The layout after the first angle group has been split off."""
         return replace(self, groups=self.groups[1:])
 
     @property
@@ -104,8 +104,10 @@ def split_middle(terms: Terms, start: int, stop: int) -> dict[Exponents, Terms]:
     return result
 
 
-def read_terms(expr: Expr, groups: Sequence[Sequence[int]], kinds: Mapping[int, str]) -> tuple[Frame, Terms]:
-    """The terms of an expression in the frame of the generators it uses.
+def read_terms(
+    expr: Expr, groups: Sequence[Sequence[int]], kinds: Mapping[int, str]
+) -> tuple[TermLayout, Terms]:
+    """The terms of an expression in the layout of the generators it uses.
 
     `groups` are the angle groups' generators, sines and cosines in turn; `kinds`
     says `leading`, `parameter` or `rate` of the others.
@@ -116,18 +118,18 @@ def read_terms(expr: Expr, groups: Sequence[Sequence[int]], kinds: Mapping[int, 
         kind: tuple(i for i in sorted(used) if kinds.get(i) == kind)
         for kind in ("leading", "parameter", "rate")
     }
-    frame = Frame(
+    layout = TermLayout(
         tuple((g, len(places)) for g, places in present), rest["leading"], rest["parameter"], rest["rate"]
     )
-    order = [*(i for _, places in present for i in places), *frame.symbols]
+    order = [*(i for _, places in present for i in places), *layout.symbols]
     if not order:
-        return frame, {(): _factor(expr.poly.leading_coefficient())}
+        return layout, {(): _factor(expr.poly.leading_coefficient())}
     # Reading through a ring of these generators alone is several times faster.
     small = fmpq_mpoly_ctx.get(("x", len(order)), Ordering.lex)
     place = {i: k for k, i in enumerate(order)}
     projected = expr.poly.project_to_context(small, {i: place[i] for i in used})
-    return frame, {tuple(map(int, e)): _factor(f) for e, f in projected.to_dict().items()}
+    return layout, {tuple(map(int, e)): _factor(f) for e, f in projected.to_dict().items()}
 
 
-def _factor(value: Any) -> Factor:
+def _factor(value: Any) -> Rational:
     return int(value.p) if value.q == 1 else Fraction(int(value.p), int(value.q))

@@ -1,7 +1,7 @@
-"""An expression as terms that a person would name: a monomial in the symbols times waves.
+"""An expression as terms that a person would name: monomials in the symbols times Fourier forms.
 
-A wave is the sine or cosine of an integer combination of the ring's basic angles;
-c₁² - s₁² is one wave, cos 2θ₁, whatever dress it came in.
+A term of a Fourier form is a sine or cosine of an integer combination of the ring's basic
+angles (`algebra.fourier`); c₁² - s₁² is one of them, cos 2θ₁, however it was written.
 """
 
 from __future__ import annotations
@@ -9,39 +9,41 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
 from math import prod
 from typing import Any
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fourier import TrigFunction, fourier_form, terms_of
 from dynsolve.algebra.rationals import fraction, rational
 from dynsolve.algebra.ring import Ring
 
 Monomial = tuple[tuple[int, int], ...]
 """(generator, exponent) of the generators that are no sines and cosines."""
 
-Wave = tuple[str, tuple[int, ...]]
-"""(`sin` or `cos`, multiples of the basic angles), the first multiple that is not 0 positive."""
-
 ONE: Monomial = ()
 
 MOST_TERMS = 600
-MOST_WAVES = 8_000
+"""The most terms of an expression that is taken apart."""
+
+MOST_TRIG_TERMS = 8_000
+"""The most sines and cosines that its Fourier forms may have."""
+
 HIGHEST = 10
+"""The highest degree in sines and cosines."""
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """monomial · Σ coefficient·wave"""
+    """monomial · Fourier form: `fourier` are the sines and cosines, each with its factor."""
 
     monomial: Monomial
-    waves: tuple[tuple[Wave, Fraction], ...]
+    fourier: tuple[tuple[TrigFunction, Fraction], ...]
 
     @property
-    def single(self) -> tuple[Wave, Fraction] | None:
-        """The one wave, where it is one."""
-        return self.waves[0] if len(self.waves) == 1 else None
+    def single(self) -> tuple[TrigFunction, Fraction] | None:
+        """The one sine or cosine, where it is one."""
+        return self.fourier[0] if len(self.fourier) == 1 else None
 
 
 def is_small(expr: Expr) -> bool:
@@ -63,24 +65,22 @@ def is_small(expr: Expr) -> bool:
         if sum(powers) > HIGHEST:
             return False
         total += prod(power + 1 for power in powers)
-    return total <= MOST_WAVES
+    return total <= MOST_TRIG_TERMS
 
 
 def parts(expr: Expr) -> dict[Monomial, Part]:
     """The parts of an expression, by monomial."""
-    width = len(expr.ring.pairs)
-    return {m: Part(m, _waves(terms, width)) for m, terms in _groups(expr).items()}
+    return {m: Part(m, _fourier_terms(terms)) for m, terms in _groups(expr).items()}
 
 
 def differing(a: Expr, b: Expr) -> tuple[dict[Monomial, Part], dict[Monomial, Part]]:
     """The parts in which two expressions differ; what is equal, which is most, is not taken apart."""
-    width = len(a.ring.pairs)
     ours, theirs = _groups(a), _groups(b)
     found: tuple[dict[Monomial, Part], dict[Monomial, Part]] = {}, {}
     for into, groups, others in zip(found, (ours, theirs), (theirs, ours), strict=True):
         for monomial, terms in groups.items():
             if others.get(monomial) != terms:
-                into[monomial] = Part(monomial, _waves(terms, width))
+                into[monomial] = Part(monomial, _fourier_terms(terms))
     return found
 
 
@@ -110,68 +110,22 @@ def monomials(expr: Expr) -> list[Monomial]:
     return list(found)
 
 
-_Laurent = dict[tuple[int, ...], tuple[int, int]]
-"""Σ (a + bi) Π z_k^{n_k}, z_k = exp(iθ_k), at (n_1, n_2, ...)"""
+def _fourier_terms(terms: Mapping[tuple[int, ...], Fraction]) -> tuple[tuple[TrigFunction, Fraction], ...]:
+    return tuple(sorted(terms_of(fourier_form(terms))))
 
 
-def _waves(terms: Mapping[tuple[int, ...], Fraction], width: int) -> tuple[tuple[Wave, Fraction], ...]:
-    """Products of powers of sines and cosines as sums of waves, by exponentials."""
-    total: dict[tuple[int, ...], list[Fraction]] = {}
-    for powers, value in terms.items():
-        share = value / (1 << sum(powers))
-        for vector, (re, im) in _exponentials(powers, width).items():
-            sums = total.setdefault(vector, [Fraction(0), Fraction(0)])
-            sums[0] += re * share
-            sums[1] += im * share
-    found: dict[Wave, Fraction] = {}
-    for vector, (a, b) in total.items():
-        lead = next((x for x in vector if x), 0)
-        if lead < 0:
-            continue
-        factor = 2 if lead else 1
-        if a:
-            found["cos", vector] = factor * a
-        if b:
-            found["sin", vector] = -factor * b
-    return tuple(sorted(found.items()))
-
-
-@lru_cache(maxsize=4096)
-def _exponentials(powers: tuple[int, ...], width: int) -> _Laurent:
-    """2^Σpowers Π sin^a cos^b in exponentials; powers are those of sine and cosine in turn."""
-    product: _Laurent = {(0,) * width: (1, 0)}
-    for k in range(width):
-        for _ in range(powers[2 * k]):
-            product = _shift(product, k, sine=True)
-        for _ in range(powers[2 * k + 1]):
-            product = _shift(product, k, sine=False)
-    return product
-
-
-def _shift(product: _Laurent, k: int, *, sine: bool) -> _Laurent:
-    """times (z + 1/z), or (z - 1/z)/i"""
-    result: _Laurent = {}
-    for vector, (re, im) in product.items():
-        for step in (1, -1):
-            to = (*vector[:k], vector[k] + step, *vector[k + 1 :])
-            x, y = (im * step, -re * step) if sine else (re, im)
-            a, b = result.get(to, (0, 0))
-            result[to] = (a + x, b + y)
-    return {v: c for v, c in result.items() if c[0] or c[1]}
-
-
-def angle_of(ring: Ring, wave: Wave) -> Angle:
-    """The angle of a wave."""
+def angle_of(ring: Ring, function: TrigFunction) -> Angle:
+    """The angle of a sine or cosine."""
     total = Angle.zero()
-    for pair, times in zip(ring.pairs, wave[1], strict=True):
+    for pair, times in zip(ring.pairs, function[1], strict=True):
         total = total + pair.angle * times
     return total
 
 
-def wave_expr(ring: Ring, wave: Wave, factor: Fraction = Fraction(1)) -> Expr:
-    """factor·sin or factor·cos of a wave's angle."""
-    angle = angle_of(ring, wave)
-    return (ring.sin(angle) if wave[0] == "sin" else ring.cos(angle)) * factor
+def trig_expr(ring: Ring, function: TrigFunction, factor: Fraction = Fraction(1)) -> Expr:
+    """factor·sin or factor·cos"""
+    angle = angle_of(ring, function)
+    return (ring.sin(angle) if function[0] == "sin" else ring.cos(angle)) * factor
 
 
 def monomial_expr(ring: Ring, monomial: Iterable[tuple[int, int]], factor: Fraction = Fraction(1)) -> Expr:
@@ -186,6 +140,6 @@ def monomial_expr(ring: Ring, monomial: Iterable[tuple[int, int]], factor: Fract
 def part_expr(ring: Ring, part: Part) -> Expr:
     """A part as an expression."""
     total = ring.zero
-    for wave, factor in part.waves:
-        total = total + wave_expr(ring, wave, factor)
+    for function, factor in part.fourier:
+        total = total + trig_expr(ring, function, factor)
     return total * monomial_expr(ring, part.monomial)

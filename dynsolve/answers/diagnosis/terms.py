@@ -13,20 +13,20 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fourier import TrigFunction
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
 from dynsolve.answers.diagnosis.fourier import (
     Monomial,
     Part,
-    Wave,
     angle_of,
     differing,
     is_small,
     monomial_expr,
     part_expr,
     parts,
-    wave_expr,
+    trig_expr,
 )
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
@@ -107,16 +107,16 @@ class TermDiagnoser:
         ratio = _ratio(mine, expected)
         if ratio is not None:
             return [self._factor(expected, ratio, self._number_of(mine), self._number_of(expected))]
-        single = self._waves(mine, expected)
+        single = self._trig_function(mine, expected)
         if single is not None:
             return [single]
-        return self._waves_apart(mine, expected)
+        return self._term_by_term(mine, expected)
 
     def _factor(self, expected: Part, ratio: Fraction, yours: Fraction, other: Fraction) -> TermSlip:
         if ratio == -1:
             return _found(1, "sign", term=self._said(expected))
         weight = 1 if abs(ratio) in (2, Fraction(1, 2)) else 2
-        bare = Part(expected.monomial, tuple((w, c / other) for w, c in expected.waves))
+        bare = Part(expected.monomial, tuple((w, c / other) for w, c in expected.fourier))
         mine, theirs = self.words.number(yours), self.words.number(other)
         return _found(weight, "factor", term=self._said(bare), yours=mine, other=theirs)
 
@@ -125,41 +125,41 @@ class TermDiagnoser:
         return lambda: self.words.of(part_expr(self.ring, part))
 
     def _number_of(self, part: Part) -> Fraction:
-        return part.waves[0][1]
+        return part.fourier[0][1]
 
-    def _waves(self, mine: Part, expected: Part) -> TermSlip | None:
-        """A slip in the one wave of a part: the wrong function, the wrong angle."""
+    def _trig_function(self, mine: Part, expected: Part) -> TermSlip | None:
+        """A slip in the one sine or cosine of a part: the wrong function, the wrong angle."""
         m, e = mine.single, expected.single
         if m is None or e is None or abs(m[1]) != abs(e[1]):
             return None
-        (wave, _), (wanted, _) = m, e
+        (function, _), (wanted, _) = m, e
         yours = self._said(mine)
-        mine_says, theirs = self._wave_words(wave), self._wave_words(wanted)
+        mine_says, theirs = self._function_words(function), self._function_words(wanted)
         if wanted == ("cos", (0,) * len(wanted[1])):
-            if wave[0] == "cos" and all(x % 2 == 0 for x in wave[1]):
+            if function[0] == "cos" and all(x % 2 == 0 for x in function[1]):
                 return _found(2, "double_angle", yours=yours, part=mine_says)
             return _found(3, "extra_factor", yours=yours, part=mine_says)
-        if not any(wave[1]):
+        if not any(function[1]):
             return _found(3, "dropped_factor", yours=yours, part=theirs)
-        if wave[1] == wanted[1]:
+        if function[1] == wanted[1]:
             return _found(2, "sin_for_cos", yours=yours, part=mine_says, other=self._instead(m, e))
-        if wave[0] == wanted[0]:
-            code = "angle_product" if self._is_product(wave) else "angle"
+        if function[0] == wanted[0]:
+            code = "angle_product" if self._is_product(function) else "angle"
             return _found(2 + (m[1] != e[1]), code, yours=yours, part=mine_says, other=self._instead(m, e))
         return None
 
-    def _is_product(self, wave: Wave) -> bool:
-        return any(len(atom) > 1 for atom, _ in angle_of(self.ring, wave).terms)
+    def _is_product(self, function: TrigFunction) -> bool:
+        return any(len(atom) > 1 for atom, _ in angle_of(self.ring, function).terms)
 
-    def _wave_words(self, wave: Wave) -> Told:
-        return lambda: self._signed(wave)[1]
+    def _function_words(self, function: TrigFunction) -> Told:
+        return lambda: self._signed(function)[1]
 
-    def _signed(self, wave: Wave) -> tuple[bool, str]:
-        """Whether a wave is written with a sign (sin(θ₁ - (θ₁ + θ₂)) is -s₂), and its words without it."""
-        text = self.words.of(wave_expr(self.ring, wave))
+    def _signed(self, function: TrigFunction) -> tuple[bool, str]:
+        """Whether it is written with a sign (sin(θ₁ - (θ₁ + θ₂)) is -s₂), and its words without it."""
+        text = self.words.of(trig_expr(self.ring, function))
         return text.startswith("-"), text.removeprefix("-")
 
-    def _instead(self, mine: tuple[Wave, Fraction], expected: tuple[Wave, Fraction]) -> Told:
+    def _instead(self, mine: tuple[TrigFunction, Fraction], expected: tuple[TrigFunction, Fraction]) -> Told:
         """What belongs where a function stands: with a sign where the sign is another, too."""
 
         def told() -> str:
@@ -170,32 +170,32 @@ class TermDiagnoser:
 
         return told
 
-    def _waves_apart(self, mine: Part, expected: Part) -> list[TermSlip]:
-        """Each wave by itself: one that is missing, one too many, one with another number."""
-        ours, theirs = dict(mine.waves), dict(expected.waves)
+    def _term_by_term(self, mine: Part, expected: Part) -> list[TermSlip]:
+        """Each sine or cosine by itself: one that is missing, one too many, one with another number."""
+        ours, theirs = dict(mine.fourier), dict(expected.fourier)
         missing = {w: c for w, c in theirs.items() if w not in ours}
         extra = {w: c for w, c in ours.items() if w not in theirs}
         other = [w for w in ours if w in theirs and ours[w] != theirs[w]]
         found: list[TermSlip] = []
-        for wave in other:
-            have, want = ours[wave], theirs[wave]
-            found.append(self._factor(Part(expected.monomial, ((wave, want),)), have / want, have, want))
-        for wave, value in list(extra.items()):
+        for function in other:
+            have, want = ours[function], theirs[function]
+            found.append(self._factor(Part(expected.monomial, ((function, want),)), have / want, have, want))
+        for function, value in list(extra.items()):
             for wanted, number in list(missing.items()):
-                one = self._waves(
-                    Part(mine.monomial, ((wave, value),)), Part(mine.monomial, ((wanted, number),))
+                one = self._trig_function(
+                    Part(mine.monomial, ((function, value),)), Part(mine.monomial, ((wanted, number),))
                 )
                 if one is not None:
                     found.append(one)
-                    del extra[wave], missing[wanted]
+                    del extra[function], missing[wanted]
                     break
-        for wave, value in missing.items():
-            found.append(self._missing(Part(mine.monomial, ((wave, value),))))
-        for wave, value in extra.items():
-            found.append(self._extra(Part(mine.monomial, ((wave, value),))))
+        for function, value in missing.items():
+            found.append(self._missing(Part(mine.monomial, ((function, value),))))
+        for function, value in extra.items():
+            found.append(self._extra(Part(mine.monomial, ((function, value),))))
         if len(found) > 2:
             term = self._monomial(mine.monomial)
-            factor = self._said(Part((), mine.waves))
+            factor = self._said(Part((), mine.fourier))
             return [_found(5, "trig_part", term=term, yours=factor)]
         return found
 
@@ -319,10 +319,10 @@ class TermDiagnoser:
 
 
 def _ratio(mine: Part, expected: Part) -> Fraction | None:
-    """r where the waves of one are r times those of the other."""
-    if [w for w, _ in mine.waves] != [w for w, _ in expected.waves]:
+    """r where the factors of one are r times those of the other."""
+    if [w for w, _ in mine.fourier] != [w for w, _ in expected.fourier]:
         return None
-    ratios = {m / e for (_, m), (_, e) in zip(mine.waves, expected.waves, strict=True)}
+    ratios = {m / e for (_, m), (_, e) in zip(mine.fourier, expected.fourier, strict=True)}
     return ratios.pop() if len(ratios) == 1 else None
 
 

@@ -1,4 +1,4 @@
-"""Every dress is the same function; constant angles are written as a person writes them."""
+"""Every form is the same function; constant angles are written as a person writes them."""
 
 from __future__ import annotations
 
@@ -9,30 +9,34 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dynsolve.algebra.compact.constant_forms import ConstantDresses
-from dynsolve.algebra.compact.trig_forms import Dress, Poly, dresses
+from dynsolve.algebra.compact.constant_forms import ConstantForms
+from dynsolve.algebra.compact.trig_forms import TrigForm, TrigPolynomial, trig_forms
 
 ANGLES = (0.7, -1.3)
 
 
-def value(dress: Dress, delta: float = 0.0) -> float:
+def value(form: TrigForm, delta: float = 0.0) -> float:
     total = 0.0
-    for monomial, factor in dress.items():
+    for monomial, factor in form.items():
         term = float(factor)
-        for (name, turns), exponent in monomial:
+        for (name, multiples), exponent in monomial:
             if name == "sqrt":
-                term *= math.sqrt(turns[0]) ** exponent
+                term *= math.sqrt(multiples[0]) ** exponent
             else:
-                angle = delta * turns[0] if delta else sum(t * a for t, a in zip(turns, ANGLES, strict=True))
+                angle = (
+                    delta * multiples[0]
+                    if delta
+                    else sum(t * a for t, a in zip(multiples, ANGLES, strict=True))
+                )
                 term *= getattr(math, name)(angle) ** exponent
         total += term
     return total
 
 
-def plain_value(poly: Poly) -> float:
-    waves = [f(a) for a in ANGLES for f in (math.sin, math.cos)]
+def plain_value(poly: TrigPolynomial) -> float:
+    functions = [f(a) for a in ANGLES for f in (math.sin, math.cos)]
     return sum(
-        float(f) * math.prod(w**e for w, e in zip(waves, exponents, strict=True))
+        float(f) * math.prod(w**e for w, e in zip(functions, exponents, strict=True))
         for exponents, f in poly.items()
     )
 
@@ -42,13 +46,13 @@ polynomials = st.dictionaries(powers, st.integers(-5, 5).filter(bool), min_size=
 
 
 @given(polynomials)
-def test_every_dress_is_the_same_function(poly: Poly) -> None:
-    for dress in dresses(poly):
-        assert value(dress) == pytest.approx(plain_value(poly), abs=1e-9)
+def test_every_form_is_the_same_function(poly: TrigPolynomial) -> None:
+    for form in trig_forms(poly):
+        assert value(form) == pytest.approx(plain_value(poly), abs=1e-9)
 
 
 @pytest.mark.parametrize(
-    ("poly", "waves"),
+    ("poly", "function"),
     [
         ({(0, 2, 0, 0): 2, (0, 0, 0, 0): -1}, "cos(2,0)"),
         ({(1, 1, 0, 0): 2}, "sin(2,0)"),
@@ -56,24 +60,24 @@ def test_every_dress_is_the_same_function(poly: Poly) -> None:
         ({(1, 0, 0, 1): 1, (0, 1, 1, 0): 1}, "sin(1,1)"),
     ],
 )
-def test_what_is_one_wave_is_found(poly: Poly, waves: str) -> None:
+def test_what_is_one_sine_or_cosine_is_found(poly: TrigPolynomial, function: str) -> None:
     single = [
-        f"{name}({','.join(map(str, turns))})"
-        for dress in dresses(poly)
-        if len(dress) == 1
-        for monomial in dress
-        for (name, turns), _ in monomial
+        f"{name}({','.join(map(str, multiples))})"
+        for form in trig_forms(poly)
+        if len(form) == 1
+        for monomial in form
+        for (name, multiples), _ in monomial
     ]
-    assert waves in single
+    assert function in single
 
 
 @given(
     st.sampled_from([10, 5, 18, 9]),
     st.dictionaries(st.integers(0, 5), st.integers(-4, 4).filter(bool), min_size=1),
 )
-def test_constant_dresses_are_the_same_number(degrees: int, powers: dict[int, int]) -> None:
-    write = ConstantDresses(Fraction(degrees))
+def test_constant_forms_are_the_same_number(degrees: int, powers: dict[int, int]) -> None:
+    write = ConstantForms(Fraction(degrees))
     delta = math.radians(degrees)
     number = sum(f * math.cos(delta) ** k for k, f in powers.items())
-    for dress in write({(k,): f for k, f in powers.items()}):
-        assert value(dress, delta) == pytest.approx(number, abs=1e-9)
+    for form in write({(k,): f for k, f in powers.items()}):
+        assert value(form, delta) == pytest.approx(number, abs=1e-9)

@@ -1,0 +1,127 @@
+"""Which atom a generator of the ring is, and a sine or cosine of some angle: how each is printed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
+from dynsolve.algebra.angles import Angle, angle_node
+from dynsolve.algebra.compact.atoms import AtomTable, Rank
+from dynsolve.algebra.compact.groups import AngleGroup
+from dynsolve.algebra.compact.monomials import Monomial
+from dynsolve.algebra.compact.trig_forms import TrigMonomial
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fourier import TrigFunction
+from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.ring import Ring
+from dynsolve.notation.tree import Function, Node, Number, Symbol
+
+
+class RingAtoms:
+    """The atoms of one ring, numbered in printing order.
+
+    `kinds` says of every generator whether it is `leading` (named in `leading`), another
+    `parameter`, a `rate` (velocity or acceleration) or an `angle`; `groups` are the ring's
+    angles; `form` writes the denominator that an inverse stands for.
+    """
+
+    def __init__(
+        self,
+        ring: Ring,
+        leading: Iterable[str],
+        groups: Sequence[AngleGroup],
+        form: Callable[[Expr], Node],
+    ) -> None:
+        self.ring = ring
+        self.table = AtomTable()
+        self._groups = groups
+        self._form = form
+        self._order = {name: i for i, name in enumerate(leading)}
+        self.kinds = {g.index: self._kind(g) for g in ring.generators}
+        self._symbols: dict[int, tuple[int, int]] = {}
+        self._number_symbols()
+        self._trig: dict[tuple[int, TrigFunction], tuple[int, int]] = {}
+
+    def _kind(self, g: Generator) -> str:
+        if g.kind in ("sin", "cos", "constant"):
+            return "angle"
+        if g.kind == "symbol" and g.dots:
+            return "rate"
+        return "leading" if g.name in self._order else "parameter"
+
+    # -- symbols and roots -------------------------------------------------------------------------
+
+    def _number_symbols(self) -> None:
+        """Masses first, then g, other parameters, coordinates, accelerations, velocities."""
+        printed = [g for g in self.ring.generators if g.kind in ("symbol", "root")]
+        for g in sorted(printed, key=self._place):
+            node = Symbol(g.name, g.dots) if g.node is None else Function("sqrt", g.node)
+            self._symbols[g.index] = self.table.number(node, self._rank(g)), 1
+
+    def _place(self, g: Generator) -> tuple[object, ...]:
+        order = self._order.get(g.name, 0)
+        return self._rank(g), order, g.dots != 2, g.name != "g", g.kind != "symbol", g.index
+
+    def _rank(self, g: Generator) -> Rank:
+        kind = self.kinds[g.index]
+        if isinstance(g.node, Number):
+            return Rank.ROOT
+        if kind == "parameter":
+            return Rank.COORDINATE if g.name in self.ring.names else Rank.PARAMETER
+        return Rank.LEADING if kind == "leading" else Rank.RATE
+
+    def monomial(self, generators: Sequence[int], exponents: Sequence[int]) -> Monomial:
+        """The monomial in atoms of some generators' exponents."""
+        parts = []
+        for i, e in zip(generators, exponents, strict=True):
+            if e:
+                atom, sign = self._symbol(i)
+                parts.append((atom, sign * e))
+        parts.sort()
+        return tuple(parts)
+
+    def _symbol(self, index: int) -> tuple[int, int]:
+        """(atom, ±1) of a generator; an inverse is what it inverts, to the power -1."""
+        found = self._symbols.get(index)
+        if found is None:
+            inverted = self._form(Expr(self.ring, self.ring.inverses[index]))
+            found = self._symbols[index] = self.table.number(inverted), -1
+        return found
+
+    # -- sines and cosines -------------------------------------------------------------------------
+
+    def trig_monomial(self, mono: TrigMonomial, group: int) -> tuple[int, Monomial]:
+        """(±1, the monomial in atoms) of sines and cosines in the angles of a group."""
+        sign, parts = 1, []
+        for function, e in mono:
+            turned, atom = self._trig_atom(group, function)
+            sign *= turned**e
+            parts.append((atom, e))
+        return sign, tuple(sorted(parts))
+
+    def _trig_atom(self, group: int, function: TrigFunction) -> tuple[int, int]:
+        found = self._trig.get((group, function))
+        if found is None:
+            found = self._trig[group, function] = self._new_trig_atom(group, function)
+        return found
+
+    def _new_trig_atom(self, group: int, function: TrigFunction) -> tuple[int, int]:
+        """(±1, atom) of a sine or cosine: -sin(θ₁ - θ₂) is printed as sin(θ₂ - θ₁)."""
+        name, multiples = function
+        if name == "sqrt":
+            return 1, self.table.number(Function(name, Number(multiples[0])), Rank.ROOT)
+        angle = self._groups[group].angle(multiples)
+        sign = 1
+        if self._reads_better_negated(angle):
+            angle, sign = -angle, (-1 if name == "sin" else 1)
+        last = max(k for k, m in enumerate(multiples) if m)
+        order = (group, last, sum(map(abs, multiples)), name != "sin")
+        node = Function(name, angle_node(angle, self.ring.names))
+        return sign, self.table.number(node, Rank.TRIG, order)
+
+    def _reads_better_negated(self, angle: Angle) -> bool:
+        """Few minus signs, and of as many the last coordinate positive: q₁ + q₂ - q₄, and q₂ - q₁."""
+        rates = dict(angle.terms)
+        moving = [rates[((name, 1),)] for name in self.ring.names if ((name, 1),) in rates]
+        moving = moving or [rate for _, rate in angle.terms]
+        negative = sum(rate < 0 for rate in moving)
+        return 2 * negative > len(moving) or (2 * negative == len(moving) and bool(moving) and moving[-1] < 0)
