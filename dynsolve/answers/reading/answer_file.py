@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from dynsolve.answers.reading.definitions import own_symbols
 from dynsolve.answers.reading.displays import Display
-from dynsolve.answers.reading.equation_reader import Session
+from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.limits import MAX_ANSWERS
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.submission import Place
@@ -43,7 +43,7 @@ class KeyedText:
     end: int
 
 
-def read_answer_file(session: Session, source: Source) -> tuple[tuple[str, str], list[Finding]]:
+def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str, str], list[Finding]]:
     """Read an answer file; gives (problem, student) as it says, and what is wrong with the file."""
     text = source.text
     entries = {entry.key: entry for entry in _block(text, 0, len(text))}
@@ -51,7 +51,7 @@ def read_answer_file(session: Session, source: Source) -> tuple[tuple[str, str],
     head = tuple(_word(text, entries.get(key)) for key in ("problem", "student"))
     for key in ("symbols", "let"):
         for entry in _inner(text, entries.get(key)):
-            fault = own_symbols(session, _display(source, entry), entry.key, key == "symbols")
+            fault = own_symbols(reader, _display(source, entry), entry.key, key == "symbols")
             if fault is not None:
                 faults.append(_finding(source, entry, fault.message, fault.help))
     if "answers" in entries:
@@ -64,7 +64,7 @@ def read_answer_file(session: Session, source: Source) -> tuple[tuple[str, str],
     for entry in answers[:MAX_ANSWERS]:
         display = _display(source, entry)
         if display.text.strip():
-            session.answer(entry.key, source.place(entry.at, len(entry.key)), display)
+            reader.read_answer(entry.key, source.place(entry.at, len(entry.key)), display)
     return (head[0], head[1]), faults
 
 

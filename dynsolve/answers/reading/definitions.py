@@ -3,46 +3,45 @@
 from __future__ import annotations
 
 from dynsolve.answers.reading.displays import Display
-from dynsolve.answers.reading.equation_reader import Session
+from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grids import Abstract, Value
-from dynsolve.answers.reading.lexer import scan
-from dynsolve.answers.reading.prepare import expand, simplified
-from dynsolve.answers.reading.right_side import Read, read_member
+from dynsolve.answers.reading.prepare import prepared
+from dynsolve.answers.reading.right_side import RightSide, read_right_side
 from dynsolve.answers.reading.vocabulary import Meaning, key, spellings
 from dynsolve.errors import ReadError
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Node
 
 
-def own_symbols(session: Session, display: Display, name: str, is_symbol: bool) -> ReadError | None:
+def own_symbols(reader: EquationReader, display: Display, name: str, is_symbol: bool) -> ReadError | None:
     """Keep one of the student's names; the error where its meaning cannot be read."""
     try:
-        shown = simplified(scan(name))[:-1]
+        shown = prepared(name)[:-1]
         plain = key("".join(t.text for t in shown if t.kind in ("name", "letter", "number")))
         dots = sum(t.dots + (t.text == "dot") + 2 * (t.text == "ddot") for t in shown)
-        tokens = simplified(expand(scan(display.text), session.macros))[:-1]
+        tokens = prepared(display.text, reader.macros)[:-1]
     except ReadError as error:
-        session.vocabulary.broken[key(name)] = error.message
+        reader.vocabulary.broken[key(name)] = error.message
         return error
-    found = read_member(session.vocabulary, tokens)
+    found = read_right_side(reader.vocabulary, tokens)
     if isinstance(found, ReadError):
-        session.vocabulary.broken[plain] = found.message
+        reader.vocabulary.broken[plain] = found.message
         return found
     if isinstance(found.value, Abstract):
         return ReadError(found.value.why, 0, 1, "write it in the symbols of the problem")
     if not plain:
         return ReadError("this is no name", 0, 1, "a name is a letter with an index: q1")
     if is_symbol:
-        _keep(session, plain, dots, found)
+        _keep(reader, plain, dots, found)
     else:
-        session.vocabulary.define(plain, Meaning(found.value))
+        reader.vocabulary.define(plain, Meaning(found.value))
     return None
 
 
-def _keep(session: Session, name: str, dots: int, found: Read) -> None:
+def _keep(reader: EquationReader, name: str, dots: int, found: RightSide) -> None:
     """A name for a coordinate is one for its derivatives, and for its sine and cosine too."""
-    vocabulary = session.vocabulary
+    vocabulary = reader.vocabulary
     if dots:
         vocabulary.derive(name, dots, found.value)
         return

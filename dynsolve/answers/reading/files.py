@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import PurePath
 
-from dynsolve.answers.reading.equation_reader import Session
+from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.limits import MAX_BYTES
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source, decoded
@@ -47,10 +47,10 @@ class FileReader:
             return Submission("", "", file, (), (), (Finding(message, "hand in the text alone", file),))
         if self.printer.remembered > MOST_PRINTED:
             self.printer = UnicodePrinter(self.style)
-        session = Session(self.vocabulary.fresh(), self.printer)
-        problem, student, faults = _read(session, Source(decoded(content), file))
-        session.finish()
-        answers, refused = tuple(session.answers), tuple(session.not_recognized)
+        reader = EquationReader(self.vocabulary.fresh(), self.printer)
+        problem, student, faults = _read(reader, Source(decoded(content), file))
+        reader.found.settle()
+        answers, refused = tuple(reader.found.answers), tuple(reader.found.not_recognized)
         return Submission(problem, student, file, answers, refused, tuple(faults))
 
 
@@ -63,22 +63,22 @@ def read_submission(problem: Problem, source: bytes | str, file: str) -> Submiss
     return FileReader(problem)(source, file)
 
 
-def _read(session: Session, source: Source) -> tuple[str, str, list[Finding]]:
+def _read(reader: EquationReader, source: Source) -> tuple[str, str, list[Finding]]:
     """Read a file by its ending; gives the problem and the student that it names, and its faults."""
     ending = PurePath(source.file.replace("\0", "")).suffix.lower()
     if ending == ".ipynb":
         from dynsolve.answers.reading.notebooks import read_notebook
 
-        return "", "", read_notebook(session, source)
+        return "", "", read_notebook(reader, source)
     if ending in (".html", ".htm"):
         from dynsolve.answers.reading.web import read_page
 
-        read_page(session, source)
+        read_page(reader, source)
     elif ending in _REPORTS or (ending not in _ANSWER_FILES and _is_report(source.text)):
-        read_report(session, source, latex=ending == ".tex")
+        read_report(reader, source, latex=ending == ".tex")
     else:
         from dynsolve.answers.reading.answer_file import read_answer_file
 
-        (problem, student), faults = read_answer_file(session, source)
+        (problem, student), faults = read_answer_file(reader, source)
         return problem, student, faults
     return "", "", []

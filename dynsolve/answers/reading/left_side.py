@@ -10,7 +10,7 @@ from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.names import UnknownName
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.prepare import cut_names
+from dynsolve.answers.reading.name_splitting import split_names
 from dynsolve.answers.reading.vocabulary import Vocabulary, key
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Negative, Reference, Sum
@@ -24,33 +24,33 @@ class NamedAnswers:
 
 
 @dataclass(frozen=True, slots=True)
-class Unknown:
-    """A side that is a name which means nothing; `simple` where it is that name alone."""
+class UnknownSide:
+    """A side that is a name which means nothing; `is_name_alone` says that it is nothing but that name."""
 
     key: str
     family: tuple[str, ...]
-    simple: bool
+    is_name_alone: bool
     message: str
 
 
-Side = NamedAnswers | Unknown | None
+LeftSide = NamedAnswers | UnknownSide | None
 """What a side of an equation names; None where it is something else."""
 
 
-def sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[Side]:
+def read_left_sides(vocabulary: Vocabulary, members: list[list[Token]]) -> list[LeftSide]:
     """What each member names: the first one, those before the last, and the last if no other does."""
-    found: list[Side] = []
+    found: list[LeftSide] = []
     for index, member in enumerate(members):
         side = None
         last = index == len(members) - 1
         if index == 0:
-            side = side_of(vocabulary, member)
+            side = read_left_side(vocabulary, member)
         elif not last or not any(isinstance(side, NamedAnswers) for side in found):
-            side = side_of(vocabulary, member)
-            if isinstance(side, Unknown) or (last and _is_symbol(vocabulary, member)):
+            side = read_left_side(vocabulary, member)
+            if isinstance(side, UnknownSide) or (last and _is_symbol(vocabulary, member)):
                 side = None
         elif member[0].kind in ("begin", "[") and not any(t.kind in ("+", "-") for t in member):
-            side = side_of(vocabulary, member)
+            side = read_left_side(vocabulary, member)
             side = side if isinstance(side, NamedAnswers) else None
         found.append(side)
     return found
@@ -63,19 +63,19 @@ def _is_symbol(vocabulary: Vocabulary, member: list[Token]) -> bool:
     return len(member) < 6 and not script and text in vocabulary.symbols
 
 
-def side_of(vocabulary: Vocabulary, member: list[Token]) -> Side:
+def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
     """The name that a side is, None where it is something else."""
     if len(member) > 200:
         return None
-    tokens = cut_names(member, vocabulary, naming=True)
+    tokens = split_names(member, vocabulary, naming=True)
     reader = FormulaReader(tokens, vocabulary, naming=True)
     try:
         value = reader.value()
     except UnknownName as error:
         simple = _is_simple(tokens, error.form)
-        return Unknown(_defined_key(error.form), error.family if simple else (), simple, error.message)
+        return UnknownSide(_defined_key(error.form), error.family if simple else (), simple, error.message)
     except UnknownVariable as error:
-        return Unknown("", error.family, False, error.message)
+        return UnknownSide("", error.family, False, error.message)
     except ReadError:
         return None
     candidates = _named(vocabulary, value, reader.candidates)

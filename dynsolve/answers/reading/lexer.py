@@ -143,12 +143,12 @@ _GREEK_COMMANDS = {
 _DIMENSION = re.compile(r"\s*\[\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm|in|mu)\s*\]")
 
 
-def scan(text: str) -> list[Token]:
+def tokenize(text: str) -> list[Token]:
     r"""The tokens of a text, an `end` token last.
 
     Raises ReadError for a character of no formula, and for a text over the bounds.
 
-    >>> [token.text for token in scan(r"m_2 \dot{θ}")]
+    >>> [token.text for token in tokenize(r"m_2 \dot{θ}")]
     ['m_2', 'dot', '{', 'theta', '}', '']
     """
     if len(text) > MAX_LENGTH:

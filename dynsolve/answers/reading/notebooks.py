@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from dynsolve.answers.reading.equation_reader import Session
+from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source
 from dynsolve.errors import Finding
@@ -15,7 +15,7 @@ MAX_LOST = 50
 """After so many lines that are not found in the file as they are no place is looked for."""
 
 
-def read_notebook(session: Session, source: Source) -> list[Finding]:
+def read_notebook(reader: EquationReader, source: Source) -> list[Finding]:
     """Read the Markdown cells of a notebook; gives what is wrong with the file."""
     try:
         content = json.loads(source.text)
@@ -40,7 +40,7 @@ def read_notebook(session: Session, source: Source) -> list[Finding]:
         origins.append((offset, line, column))
         lines.append(text)
         offset += len(text)
-    read_report(session, Source("".join(lines), source.file, tuple(origins)))
+    read_report(reader, Source("".join(lines), source.file, tuple(origins)))
     return []
 
 

@@ -1,20 +1,21 @@
-"""Tokens made ready for reading: the student's macros written out, faces of type left out.
+r"""A text made ready for the grammar: its tokens, with macros written out and fonts left out.
 
-What is left has one spelling for one thing: a group of one token is that token, runs
-of letters are cut into the names of the problem (`m_2gL_1` is m_2, g, L_1).
+What is left has one spelling for one thing: `\mathbf{q}_{1}`, `{q}_1` and `q_1` are the same
+tokens.  Nothing here depends on the problem; runs of letters are cut into its names later
+(`name_splitting`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.lexer import Token, tokenize
 from dynsolve.answers.reading.limits import MAX_TOKENS
-from dynsolve.answers.reading.vocabulary import Vocabulary, key
 from dynsolve.errors import ReadError
 
-_FACES = frozenset(
+_FONTS = frozenset(
     "mathbf boldsymbol bm mathrm mathit mathsf mathtt mathbb mathnormal pmb bf rm vec underline "
     "overrightarrow operatorname ensuremath boxed mathop mathord mathrel mathbin smash bold".split()
 )
@@ -25,7 +26,7 @@ _ENVIRONMENTS = frozenset(
 )
 _SINGLE = frozenset({"name", "letter", "number", "text"})
 _WORDS = frozenset("and og where hvor der with med so such or eller for då da".split())
-_CALLABLE = frozenset("sin cos tan sqrt cot sec csc".split())
+_FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +35,15 @@ class Macro:
 
     body: tuple[Token, ...]
     takes: int = 0
+
+
+def prepared(text: str, macros: Mapping[str, Macro] = MappingProxyType({})) -> list[Token]:
+    r"""The tokens of a text, ready for the grammar, an `end` token last; raises ReadError where it has none.
+
+    >>> [token.text for token in prepared(r"\mathbf{D}_{1} \tfrac12")]
+    ['D', '_', '1', 'frac', '1', '2', '']
+    """
+    return simplified(expand(tokenize(text), macros))
 
 
 def expand(tokens: list[Token], macros: Mapping[str, Macro]) -> list[Token]:
@@ -86,7 +96,7 @@ def _filled(macro: Macro, argument: list[Token], call: Token) -> list[Token]:
 
 
 def simplified(tokens: list[Token]) -> list[Token]:
-    """Tokens without faces of type, environments that only align, and groups around one token."""
+    """Tokens without fonts, environments that only align, and groups around one token."""
     out: list[Token] = []
     groups: list[int] = []
     position, last = 0, len(tokens) - 1
@@ -95,7 +105,7 @@ def simplified(tokens: list[Token]) -> list[Token]:
         position += 1
         kind = token.kind
         if kind == "command":
-            if token.text in _FACES:
+            if token.text in _FONTS:
                 if token.text == "boxed" and tokens[position].kind == "{":
                     groups.append(-1)
                     position += 1
@@ -172,7 +182,7 @@ def _word(token: Token, out: list[Token]) -> Token | None:
         return (
             token._replace(kind="name") if word.isascii() and word.isalnum() and word[0].isalpha() else None
         )
-    if word in _CALLABLE:
+    if word in _FUNCTIONS:
         return token._replace(kind="name")
     if any(part.strip(",.:;").lower() in _WORDS for part in word.split()):
         return token._replace(kind="separator")
@@ -182,92 +192,3 @@ def _word(token: Token, out: list[Token]) -> Token | None:
 def _in_script(out: list[Token]) -> bool:
     back = next((i for i in range(len(out) - 1, max(len(out) - 8, -1), -1) if out[i].kind == "{"), -1)
     return back > 0 and out[back - 1].kind in ("_", "^")
-
-
-def cut_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False) -> list[Token]:
-    """Runs of letters cut into names: `m_2gL_1` into m_2, g and L_1."""
-    out: list[Token] = []
-    script = 0
-    for position, token in enumerate(tokens):
-        if token.kind == "{" and out and out[-1].kind in ("_",):
-            script += 1
-        elif token.kind == "}" and script:
-            script -= 1
-        if (
-            token.kind != "name"
-            or len(token.text) < 2
-            or script
-            or vocabulary.bare_symbol(token.text) is not None
-            or (out and out[-1].kind == "_")
-        ):
-            out.append(token)
-            continue
-        open_end = tokens[position + 1].kind == "_" if position + 1 < len(tokens) else False
-        called = position + 1 < len(tokens) and tokens[position + 1].kind == "("
-        pieces = _pieces(token.text, vocabulary, open_end, called, naming)
-        if len(pieces) == 1:
-            out.append(token)
-            continue
-        start = token.start
-        for number, piece in enumerate(pieces):
-            end = start + len(piece) if token.end - token.start == len(token.text) else token.end
-            dots = token.dots if number == 0 else 0
-            out.append(Token("name", piece, start, end, dots, token.spaced and number == 0))
-            start = end if end != token.end else start
-    return out
-
-
-_LONGEST_RUN = 60
-
-
-def _pieces(text: str, vocabulary: Vocabulary, open_end: bool, called: bool, naming: bool) -> list[str]:
-    """The fewest names that make up a run of letters; the run itself where there are none."""
-    if _known(text, vocabulary, naming) or text in CALLS or len(text) > _LONGEST_RUN:
-        return [text]
-    starts = _starts(text)
-    ends = [*starts[1:], len(text)]
-    best: dict[int, list[str] | None] = {len(text): []}
-    for start in reversed(starts):
-        found: list[str] | None = None
-        for end in reversed([e for e in ends if e > start]):
-            rest = best.get(end)
-            piece = text[start:end]
-            if rest is None or (found is not None and len(rest) + 1 >= len(found)):
-                continue
-            final = end == len(text)
-            good = _known(piece, vocabulary, naming) or (final and open_end and len(piece) == 1)
-            good = good or (piece in _CALLABLE and (not final or called))
-            if good:
-                found = [piece, *rest]
-        best[start] = found
-    return best[starts[0]] or [text]
-
-
-def _starts(text: str) -> list[int]:
-    """Where a name may begin: at the letters that are no part of an index in braces."""
-    starts, inside = [], False
-    for i, character in enumerate(text):
-        inside = inside or character == "{"
-        if character == "}":
-            inside = False
-        elif character.isalpha() and not inside and (i == 0 or text[i - 1] != "_"):
-            starts.append(i)
-    return starts
-
-
-def _known(piece: str, vocabulary: Vocabulary, naming: bool) -> bool:
-    if piece[-1] == "_":
-        return False
-    name = key(piece)
-    if vocabulary.symbol(name) is not None:
-        return True
-    if name in vocabulary.quantities and (naming or len(name) > 1 or len(piece) == 1):
-        return True
-    return vocabulary.short_angle(name) is not None
-
-
-CALLS = frozenset(
-    "sin cos tan sqrt cot sec csc Sin Cos Tan Sqrt SIN COS Derivative diff Diff Matrix matrix Rational "
-    "transpose Transpose MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix Integer deg array np".split()
-)
-"""Words that are functions, never products of letters."""

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from itertools import islice
 
 from dynsolve.answers.reading.displays import Display, is_label
-from dynsolve.answers.reading.equation_reader import Session
-from dynsolve.answers.reading.lexer import Token, closing_brace, scan
+from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.lexer import Token, closing_brace, tokenize
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
-from dynsolve.answers.reading.prepare import Macro, simplified
+from dynsolve.answers.reading.prepare import Macro, prepared
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.submission import Place
 from dynsolve.errors import ReadError
@@ -50,7 +50,7 @@ class MacroDefinition:
     macro: Macro
 
 
-def read_report(session: Session, source: Source, latex: bool = False) -> None:
+def read_report(reader: EquationReader, source: Source, latex: bool = False) -> None:
     """Read the displayed equations of a report, in order, with the macros that hold for each."""
     text = _COMMENT.sub(lambda found: " " * len(found.group()), source.text) if latex else source.text
     text, macros = _macros(text)
@@ -61,8 +61,8 @@ def read_report(session: Session, source: Source, latex: bool = False) -> None:
     for offset, display in displays[:MAX_EQUATIONS]:
         while waiting and waiting[-1].offset <= offset:
             found = waiting.pop()
-            session.macros[found.name] = found.macro
-        session.display(display)
+            reader.macros[found.name] = found.macro
+        reader.read_display(display)
 
 
 def _macros(text: str) -> tuple[str, list[MacroDefinition]]:
@@ -95,7 +95,7 @@ def _body(text: str) -> list[Token]:
     for number, piece in enumerate(text.split("#1")):
         if number:
             tokens.append(Token("argument", "#1", 0, 0))
-        tokens += scan(piece)[:-1]
+        tokens += tokenize(piece)[:-1]
     return tokens
 
 
@@ -210,6 +210,6 @@ def _label_alone(text: str) -> str:
     if len(text) > 40 or not _MAYBE_LABEL.match(text):
         return ""
     try:
-        return is_label(simplified(scan(text)))
+        return is_label(prepared(text))
     except ReadError:
         return ""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.prepare import cut_names
+from dynsolve.answers.reading.name_splitting import split_names
 from dynsolve.answers.reading.size import size
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
@@ -21,7 +21,7 @@ _WAYS: tuple[frozenset[str], ...] = (frozenset(), frozenset({"inertia"}), frozen
 
 
 @dataclass(frozen=True, slots=True)
-class Read:
+class RightSide:
     """A member that was read, with what its value is made of."""
 
     value: Value
@@ -31,34 +31,34 @@ class Read:
     is_definition: bool
 
 
-def read_member(
+def read_right_side(
     vocabulary: Vocabulary, member: list[Token], owners: tuple[str, ...] = ()
-) -> Read | ReadError:
+) -> RightSide | ReadError:
     """A member's value, or why it has none; readings that take a bolder guess come last.
 
     `owners` are the answers it may be a value of.
     """
     if not member:
         return ReadError("there is nothing here", 0, 1, EXPECTED)
-    tokens = cut_names(member, vocabulary)
-    first: Read | ReadError | None = None
+    tokens = split_names(member, vocabulary)
+    first: RightSide | ReadError | None = None
     for options in _WAYS:
         if options and not _may_help(options, tokens):
             continue
         found = _read(vocabulary, tokens, owners, options)
-        if isinstance(found, Read) and _has_shape(vocabulary, found, owners):
+        if isinstance(found, RightSide) and _has_shape(vocabulary, found, owners):
             return found
-        if first is None or (isinstance(first, ReadError) and isinstance(found, Read)):
+        if first is None or (isinstance(first, ReadError) and isinstance(found, RightSide)):
             first = found
     assert first is not None
-    if isinstance(first, Read):
+    if isinstance(first, RightSide):
         return first
     return ReadError(first.message, max(first.offset, member[0].start), max(first.length, 1), first.help)
 
 
 def _read(
     vocabulary: Vocabulary, tokens: list[Token], owners: tuple[str, ...], options: frozenset[str]
-) -> Read | ReadError:
+) -> RightSide | ReadError:
     owner = owners[0] if owners else ""
     reader = FormulaReader(tokens, vocabulary, owner=owner, options=options)
     try:
@@ -72,10 +72,10 @@ def _read(
         return error
     except RecursionError:
         return ReadError("this is nested too deeply", 0, 1, "write it in fewer levels")
-    return Read(value, tuple(reader.references), tuple(reader.notes), tuple(reader.free), definition)
+    return RightSide(value, tuple(reader.references), tuple(reader.notes), tuple(reader.free), definition)
 
 
-def _has_shape(vocabulary: Vocabulary, found: Read, owners: tuple[str, ...]) -> bool:
+def _has_shape(vocabulary: Vocabulary, found: RightSide, owners: tuple[str, ...]) -> bool:
     """Whether a value has the shape of one of the answers it is given for."""
     value = found.value
     if isinstance(value, Abstract) or not owners:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from html.parser import HTMLParser
 
-from dynsolve.answers.reading.equation_reader import Session
+from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source
 
@@ -21,12 +21,12 @@ _LONGEST_TAG_STACK = 5_000
 _HIDDEN = re.compile(r"[^\n]")
 
 
-def read_page(session: Session, source: Source) -> None:
+def read_page(reader: EquationReader, source: Source) -> None:
     """Read the displayed equations of a web page."""
     page = _WebPage()
     page.feed(_closed(_without_comments(source.text)))
     page.close()
-    read_report(session, Source("".join(page.pieces), source.file, tuple(page.origins) or ((0, 1, 1),)))
+    read_report(reader, Source("".join(page.pieces), source.file, tuple(page.origins) or ((0, 1, 1),)))
 
 
 def _without_comments(text: str) -> str:

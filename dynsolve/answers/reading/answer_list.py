@@ -1,0 +1,145 @@
+"""The answers of one hand-in as they are found: a value becomes a record under a name of its shape."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.right_side import EXPECTED, RightSide
+from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown
+from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.answers.submission import Answer, NotRecognized
+from dynsolve.errors import ReadError
+from dynsolve.notation.unicode import UnicodePrinter
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where values come from: a display, the label of the equation in it, and its number in the file."""
+
+    display: Display
+    label: str
+    equation: int
+
+    def not_recognized(self, start: int, end: int) -> NotRecognized:
+        """The record of a stretch of the display that names nothing known."""
+        text = self.display.text[start:end]
+        return NotRecognized(shown(text), self.label, self.display.locate(start, 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """One member of a chain a = b = c that is no name: its value, or why it has none."""
+
+    index: int
+    tokens: list[Token]
+    found: RightSide | ReadError
+
+
+@dataclass(frozen=True, slots=True)
+class _Undecided:
+    """An equation whose left side has an index that does not exist, and the answers it gives if it counts.
+
+    It is taken for the one answer of its `family` that is absent; `position` is its place
+    among the answers.
+    """
+
+    family: tuple[str, ...]
+    answers: list[Answer]
+    refused: NotRecognized
+    position: int
+
+
+@dataclass(slots=True)
+class AnswerList:
+    """The answers of one hand-in, in the order of the file; `printer` writes how each was read."""
+
+    vocabulary: Vocabulary
+    printer: UnicodePrinter
+    answers: list[Answer] = field(default_factory=list)
+    not_recognized: list[NotRecognized] = field(default_factory=list)
+    _undecided: list[_Undecided] = field(default_factory=list)
+    _models: list[Answer] = field(default_factory=list)
+
+    def value(self, names: list[tuple[str, ...]], member: Member, origin: Origin) -> list[Answer]:
+        """The answers that one value gives, one for each tuple of candidate names.
+
+        A model D(q) q̈ + C(q, q̇) q̇ + g(q) gives its D, C and g; what it says of the
+        torques is kept until it is known whether they are given on their own.
+        """
+        assert isinstance(member.found, RightSide)
+        is_torque = any(candidates[0] == "tau" for candidates in names)
+        parts = model_parts(self.vocabulary, member.found.value) if is_torque else {}
+        made = [
+            self.answer((name,), replace(member, found=replace(member.found, value=part)), origin)
+            for name, part in parts.items()
+        ]
+        for candidates in names:
+            answer = self.answer(candidates, member, origin)
+            (self._models if parts and candidates[0] == "tau" else made).append(answer)
+        return made
+
+    def answer(self, candidates: tuple[str, ...], member: Member, origin: Origin) -> Answer:
+        """The record of one value, under the first of its names that has the shape of the value."""
+        found, tokens, display = member.found, member.tokens, origin.display
+        if isinstance(found, ReadError):
+            return self.unreadable(candidates, found, origin, member.index)
+        start, end = tokens[0].start, max(token.end for token in tokens)
+        fits = fitted(self.vocabulary, candidates, found.value)
+        if not fits:
+            error = misfit(self.vocabulary, candidates, found.value, start, end)
+            return self.unreadable(candidates, error, origin, member.index)
+        name, node, note = fits[0]
+        note = "" if display.plain and "row" in note else note
+        return Answer(
+            name=name,
+            label=origin.label,
+            node=node,
+            place=display.locate(start, end - start),
+            text=shown(display.text[start:end]),
+            read_as=self.printer.text(node),
+            notes=(*found.notes, note) if note else found.notes,
+            alternatives=tuple(other for other, _, _ in fits[1:]),
+            references=found.references,
+            free=found.free,
+            occurrence=(origin.equation, member.index),
+        )
+
+    def unreadable(self, candidates: tuple[str, ...], error: ReadError, origin: Origin, index: int) -> Answer:
+        """The record of a value that could not be read."""
+        display = origin.display
+        return Answer(
+            name=candidates[0],
+            label=origin.label,
+            node=None,
+            place=display.locate(error.offset, error.length),
+            text=shown(display.text),
+            fault=error.message,
+            expected=error.help or EXPECTED,
+            alternatives=candidates[1:],
+            occurrence=(origin.equation, index),
+        )
+
+    def put_off(self, family: tuple[str, ...], answers: list[Answer], refused: NotRecognized) -> None:
+        """Keep an equation until it is known which answers of its family are absent."""
+        self._undecided.append(_Undecided(family, answers, refused, len(self.answers)))
+
+    def settle(self) -> None:
+        """Decide what needs the whole file: indices that do not exist, and a model without torques."""
+        given = {answer.name for answer in self.answers}
+        shift = 0
+        for undecided in self._undecided:
+            absent = [name for name in undecided.family if name not in given]
+            if len(absent) == 1 and undecided.answers:
+                name = absent[0]
+                note = f"taken for {name}, the only one of its kind that is absent"
+                taken = [replace(a, name=name, notes=(*a.notes, note)) for a in undecided.answers]
+                self.answers[undecided.position + shift : undecided.position + shift] = taken
+                shift += len(taken)
+                given.add(name)
+            else:
+                self.not_recognized.append(undecided.refused)
+        forces = {q.force for q in self.vocabulary.coordinates}
+        if self._models and "tau" not in given and not forces <= given:
+            self.answers += self._models

@@ -1,0 +1,93 @@
+"""Runs of letters cut into the names of the problem: `m_2gL_1` is m_2, g and L_1."""
+
+from __future__ import annotations
+
+from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.vocabulary import Vocabulary, key
+
+_LONGEST_RUN = 60
+_FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
+_CALLS = frozenset(
+    "sin cos tan sqrt cot sec csc Sin Cos Tan Sqrt SIN COS Derivative diff Diff Matrix matrix Rational "
+    "transpose Transpose MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix Integer deg array np".split()
+)
+"""Words that are functions, never products of letters."""
+
+
+def split_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False) -> list[Token]:
+    """Runs of letters cut into names: `m_2gL_1` into m_2, g and L_1."""
+    out: list[Token] = []
+    script = 0
+    for position, token in enumerate(tokens):
+        if token.kind == "{" and out and out[-1].kind in ("_",):
+            script += 1
+        elif token.kind == "}" and script:
+            script -= 1
+        if (
+            token.kind != "name"
+            or len(token.text) < 2
+            or script
+            or vocabulary.bare_symbol(token.text) is not None
+            or (out and out[-1].kind == "_")
+        ):
+            out.append(token)
+            continue
+        open_end = tokens[position + 1].kind == "_" if position + 1 < len(tokens) else False
+        called = position + 1 < len(tokens) and tokens[position + 1].kind == "("
+        pieces = _pieces(token.text, vocabulary, open_end, called, naming)
+        if len(pieces) == 1:
+            out.append(token)
+            continue
+        start = token.start
+        for number, piece in enumerate(pieces):
+            end = start + len(piece) if token.end - token.start == len(token.text) else token.end
+            dots = token.dots if number == 0 else 0
+            out.append(Token("name", piece, start, end, dots, token.spaced and number == 0))
+            start = end if end != token.end else start
+    return out
+
+
+def _pieces(text: str, vocabulary: Vocabulary, open_end: bool, called: bool, naming: bool) -> list[str]:
+    """The fewest names that make up a run of letters; the run itself where there are none."""
+    if _known(text, vocabulary, naming) or text in _CALLS or len(text) > _LONGEST_RUN:
+        return [text]
+    starts = _starts(text)
+    ends = [*starts[1:], len(text)]
+    best: dict[int, list[str] | None] = {len(text): []}
+    for start in reversed(starts):
+        found: list[str] | None = None
+        for end in reversed([e for e in ends if e > start]):
+            rest = best.get(end)
+            piece = text[start:end]
+            if rest is None or (found is not None and len(rest) + 1 >= len(found)):
+                continue
+            final = end == len(text)
+            good = _known(piece, vocabulary, naming) or (final and open_end and len(piece) == 1)
+            good = good or (piece in _FUNCTIONS and (not final or called))
+            if good:
+                found = [piece, *rest]
+        best[start] = found
+    return best[starts[0]] or [text]
+
+
+def _starts(text: str) -> list[int]:
+    """Where a name may begin: at the letters that are no part of an index in braces."""
+    starts, inside = [], False
+    for i, character in enumerate(text):
+        inside = inside or character == "{"
+        if character == "}":
+            inside = False
+        elif character.isalpha() and not inside and (i == 0 or text[i - 1] != "_"):
+            starts.append(i)
+    return starts
+
+
+def _known(piece: str, vocabulary: Vocabulary, naming: bool) -> bool:
+    if piece[-1] == "_":
+        return False
+    name = key(piece)
+    if vocabulary.symbol(name) is not None:
+        return True
+    if name in vocabulary.quantities and (naming or len(name) > 1 or len(piece) == 1):
+        return True
+    return vocabulary.short_angle(name) is not None
