@@ -63,6 +63,20 @@ SPELLED: dict[str, str] = {letter: name for name, letter in GREEK.items()} | {
 SUBSCRIPT_DIGITS = "₀₁₂₃₄₅₆₇₈₉"
 SUPERSCRIPT_DIGITS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 
+_SCRIPT = {"I": "𝓘", "L": "𝓛", "B": "ℬ", "E": "ℰ", "F": "ℱ", "H": "ℋ", "M": "ℳ", "R": "ℛ"}
+
+
+def script_letter(base: str) -> str:
+    """A capital Latin letter in script; everything else as it is.
+
+    >>> script_letter("L"), script_letter("K"), script_letter("ab")
+    ('𝓛', '𝒦', 'ab')
+    """
+    if len(base) == 1 and "A" <= base <= "Z":
+        return _SCRIPT.get(base) or chr(0x1D49C + ord(base) - ord("A"))
+    return base
+
+
 # Letters of other alphabets that cannot be told from a Latin letter by eye.
 _LOOK_ALIKES = dict(
     zip(

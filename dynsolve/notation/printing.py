@@ -1,24 +1,21 @@
-"""What the printers share: the style, the walk over the tree, numbers and shorthands.
+"""What every printer shares: the style, the walk over the tree, the signs of sums.
 
-A printer has a method for each type of node that returns its text.  To add one, derive
-from `FormulaPrinter` (or from `Printer`, for a notation of expressions alone), and write
-its function beside the others.  A printer never changes what the tree says; it only decides on parentheses.
+A printer has a method for each class of nodes that it writes, called after the class:
+`_big_sum` writes a `BigSum`.  A printer of expressions alone (Python) derives from `Printer`;
+one of whole formulas derives from `FormulaPrinter` in `notation.formulas`, which says how.  A
+printer never changes what the tree says; it only decides on parentheses.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 from dynsolve.notation.tree import (
-    BigSum,
-    Cross,
-    Degrees,
-    Derivative,
     Function,
     Letter,
-    Matrix,
     Negative,
     Node,
     Number,
@@ -26,13 +23,8 @@ from dynsolve.notation.tree import (
     Power,
     Product,
     Quotient,
-    Reference,
-    Relation,
-    Row,
     Sum,
     Symbol,
-    Transpose,
-    Words,
 )
 
 
@@ -57,33 +49,24 @@ class Style:
 
 PLAIN = Style()
 
-Rules = Mapping[type[Node], Callable[[Any, Any], str]]
-
-_METHODS: Mapping[type[Node], str] = {
-    Symbol: "_symbol",
-    Number: "_number",
-    Product: "_product",
-    Sum: "_sum",
-    Power: "_power",
-    Negative: "_negative",
-    Quotient: "_quotient",
-    Function: "_function",
-    Degrees: "_degrees",
-    Matrix: "_matrix",
-    Letter: "_letter",
-    Row: "_row",
-    Words: "_words",
-    Transpose: "_transpose",
-    Cross: "_cross",
-    Derivative: "_derivative",
-    BigSum: "_big_sum",
-    Parenthesized: "_in_parentheses",
-    Relation: "_relation",
-    Reference: "_reference",
-}
-
 # Sub-trees that are shared come as these; leaves and short nodes cost less than their entry.
 _REMEMBERED = frozenset({Sum, Product, Quotient, Power, Function, Letter})
+_CAPITAL = re.compile(r"(?<!^)(?=[A-Z])")
+
+
+class _Methods(dict[type[Node], Callable[[Any, Any], str]]):
+    """The method of a printer for each class of nodes, looked up by the name of the class once."""
+
+    def __init__(self, printer: type[Printer]) -> None:
+        self.printer = printer
+
+    def __missing__(self, kind: type[Node]) -> Callable[[Any, Any], str]:
+        name = "_" + _CAPITAL.sub("_", kind.__name__).lower()
+        if not hasattr(self.printer, name):
+            raise TypeError(f"{kind.__name__} cannot be written in {self.printer.notation}")
+        method: Callable[[Any, Any], str] = getattr(self.printer, name)
+        self[kind] = method
+        return method
 
 
 class Printer:
@@ -94,12 +77,20 @@ class Printer:
     parts alive.
     """
 
-    rules: ClassVar[Rules] = {}
     notation: ClassVar[str] = ""
+    """The notation's name, for error messages."""
+
+    minus: ClassVar[str] = "-"
+    """What a negative begins with."""
+
+    signs: ClassVar[tuple[str, str]] = (" + ", " - ")
+    """Plus and minus between two terms."""
+
+    _methods: ClassVar[_Methods]
 
     def __init_subclass__(cls) -> None:
-        """Make the table that is looked up for every node."""
-        cls.rules = {kind: getattr(cls, name) for kind, name in _METHODS.items() if hasattr(cls, name)}
+        """Give every printer its own table of methods."""
+        cls._methods = _Methods(cls)
 
     def __init__(self, style: Style = PLAIN) -> None:
         self.style = style
@@ -111,11 +102,7 @@ class Printer:
         if known is not None:
             return known[1]
         kind = type(node)
-        try:
-            rule = self.rules[kind]
-        except KeyError:
-            raise TypeError(f"{kind.__name__} cannot be written in {self.notation}") from None
-        text = rule(self, node)
+        text = self._methods[kind](self, node)
         if kind in _REMEMBERED:
             self._memory[id(node)] = (node, text)
         return text
@@ -129,65 +116,31 @@ class Printer:
         """The text in parentheses as the notation writes them."""
         return f"({text})"
 
+    def _digits(self, text: str) -> str:
+        """A whole number or a decimal as the notation writes it."""
+        return text
+
     def _sum(self, node: Sum) -> str:
         """Terms with their signs between them: a minus that leads a term becomes the sign."""
         if not node.terms:
-            return "0"
+            return self._digits("0")
+        plus, minus = self.signs
+        lead = self.minus
         pieces: list[str] = []
         for term in node.terms:
             text = self.text(term)
-            pieces += (" - ", text[1:]) if text.startswith("-") else (" + ", text)
-        pieces[0] = "" if pieces[0] == " + " else "-"
+            pieces += (minus, text[len(lead) :]) if text.startswith(lead) else (plus, text)
+        pieces[0] = "" if pieces[0] == plus else lead
         return "".join(pieces)
 
     def _negative(self, node: Negative) -> str:
         text = self.text(node.argument)
-        if type(node.argument) is Sum or text.startswith("-"):
+        if type(node.argument) is Sum or text.startswith(self.minus):
             text = self.parenthesized(text)
-        return "-" + text
+        return self.minus + text
 
-    def _in_parentheses(self, node: Parenthesized) -> str:
+    def _parenthesized(self, node: Parenthesized) -> str:
         return self.parenthesized(self.text(node.argument))
-
-
-class FormulaPrinter(Printer):
-    """A printer of whole formulas: what the textbook's formulas have in common in every notation."""
-
-    between: ClassVar[str] = " "
-    """What stands between parts side by side."""
-
-    minus: ClassVar[str] = "-"
-    """What a negative begins with."""
-
-    compound: ClassVar[frozenset[type[Node]]] = frozenset({Sum, Product, Cross, BigSum, Derivative, Relation})
-    """What needs parentheses beside the sign of a cross product."""
-
-    def _row(self, node: Row) -> str:
-        return self.between.join(map(self.text, node.parts))
-
-    def _reference(self, node: Reference) -> str:
-        return self.text(Words(str(node)))
-
-    def _operand(self, node: Node) -> str:
-        text = self.text(node)
-        needed = type(node) in self.compound or text.startswith(self.minus)
-        return self.parenthesized(text) if needed else text
-
-    def _summand(self, node: Node) -> str:
-        """What a running sum adds up."""
-        text = self.text(node)
-        needed = type(node) in (Sum, Relation) or text.startswith(self.minus)
-        return self.parenthesized(text) if needed else text
-
-    def _relation(self, node: Relation) -> str:
-        text = self.text(node.parts[0]) if node.parts else ""
-        for sign, part in zip(node.signs, node.parts[1:], strict=True):
-            text += self._sign(sign) + self.text(part)
-        return text
-
-    def _sign(self, sign: str) -> str:
-        """The sign of a relation with the blanks around it."""
-        return f" {sign} "
 
 
 def decimal_text(p: int, q: int) -> str | None:

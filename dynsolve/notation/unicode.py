@@ -7,12 +7,13 @@ braces where the subscript has more than letters and digits (I_{xx,1}).
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from dataclasses import replace
 
-from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS
-from dynsolve.notation.names import split
+from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS, script_letter
+from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.printing import (
     PLAIN,
-    FormulaPrinter,
     Style,
     decimal_text,
     flat_factors,
@@ -27,7 +28,6 @@ from dynsolve.notation.tree import (
     Derivative,
     Function,
     Letter,
-    Matrix,
     Negative,
     Node,
     Number,
@@ -39,33 +39,30 @@ from dynsolve.notation.tree import (
     Row,
     Sum,
     Symbol,
-    Transpose,
     Words,
 )
+from dynsolve.notation.walk import children
 
 _DOTS = ("", "\u0307", "\u0308", "\u20db")
-_STAR = "⋆"
 _SUBSCRIPTS = dict(zip("0123456789ijkn+-=()", SUBSCRIPT_DIGITS + "ᵢⱼₖₙ₊₋₌₍₎", strict=True))
-_SUPERSCRIPTS = dict(zip("0123456789inT+-()", SUPERSCRIPT_DIGITS + "ⁱⁿᵀ⁺⁻⁽⁾", strict=True))
+_SUPERSCRIPTS = dict(zip("0123456789inT+-()⋆", SUPERSCRIPT_DIGITS + "ⁱⁿᵀ⁺⁻⁽⁾⋆", strict=True))
 _FRACTIONS = {
-    (1, 2): "½",
-    (1, 3): "⅓",
-    (2, 3): "⅔",
-    (1, 4): "¼",
-    (3, 4): "¾",
-    (1, 6): "⅙",
-    (5, 6): "⅚",
-    (1, 8): "⅛",
-    (3, 8): "⅜",
-    (5, 8): "⅝",
-    (7, 8): "⅞",
+    ("1", "2"): "½",
+    ("1", "3"): "⅓",
+    ("2", "3"): "⅔",
+    ("1", "4"): "¼",
+    ("3", "4"): "¾",
+    ("1", "6"): "⅙",
+    ("5", "6"): "⅚",
+    ("1", "8"): "⅛",
+    ("3", "8"): "⅜",
+    ("5", "8"): "⅝",
+    ("7", "8"): "⅞",
 }
 _FRACTION_SIGNS = frozenset(_FRACTIONS.values())
-_SCRIPT = {"I": "𝓘", "L": "𝓛", "B": "ℬ", "E": "ℰ", "F": "ℱ", "H": "ℋ", "M": "ℳ", "R": "ℛ"}
 _RUN = re.compile(r"[A-Za-z]+|[^A-Za-z]+")
 _BARE_BASES = frozenset({Symbol, Parenthesized})
 _BARE_DENOMINATORS = frozenset({Symbol, Function, Power, Letter, Parenthesized})
-_BARE_TRANSPOSED = frozenset({Symbol, Parenthesized, Matrix})
 
 
 def to_unicode(node: Node, style: Style = PLAIN) -> str:
@@ -121,21 +118,9 @@ def _shifted(index: str, table: dict[str, str], sign: str) -> str:
     return sign + (index if index.isalnum() else f"{{{index}}}")
 
 
-def _accented(base: str, dots: int) -> str:
-    return GREEK.get(base, base) + _DOTS[dots]
-
-
 def _with_greek(index: str) -> str:
     """`omega1` -> `ω1`: Greek letters that are spelled out in an index."""
     return "".join(GREEK.get(run, run) for run in _RUN.findall(index))
-
-
-def _joined(groups: tuple[str, ...]) -> str:
-    """Groups of indices; a comma only where the next would not be seen to begin."""
-    text = ""
-    for group in map(_with_greek, groups):
-        text += "," + group if text and not (text[-1].isdecimal() and group[0].isalpha()) else group
-    return text
 
 
 class UnicodePrinter(FormulaPrinter):
@@ -143,67 +128,74 @@ class UnicodePrinter(FormulaPrinter):
 
     notation = "Unicode"
     between = ""
+    star = "⋆"
     compound = FormulaPrinter.compound | {Quotient}
 
-    def __init__(self, style: Style = PLAIN) -> None:
-        super().__init__(style)
-        self._symbols: dict[tuple[str, int], str] = {}
+    def _base(self, base: str) -> str:
+        return GREEK.get(base, base)
 
-    # Numbers and names
+    def _styled(self, base: str, style: str) -> str:
+        base = self._base(printable(base))
+        return script_letter(base) if style == "script" else base
 
-    def _number(self, node: Number) -> str:
-        if node.q == 1:
-            return str(node.p)
-        if (self.style.decimal or node.decimal) and (decimal := decimal_text(node.p, node.q)):
-            return decimal
-        return _FRACTIONS.get((node.p, node.q)) or f"{node.p}/{node.q}"
+    def _dotted(self, base: str, dots: int) -> str:
+        return base + _DOTS[dots]
 
-    def _degrees(self, node: Degrees) -> str:
-        text = decimal_text(node.p, node.q)
-        return f"{text}°" if text else f"({node.p}/{node.q})°"
-
-    def _symbol(self, node: Symbol) -> str:
-        key = (node.name, node.dots)
-        text = self._symbols.get(key)
-        if text is None:
-            base, groups = split(node.name)
-            text = self._symbols[key] = _accented(base, node.dots) + (
-                lowered(_joined(groups)) if groups else ""
-            )
-        return text + _STAR if self.style.starred(node) else text
-
-    def _letter(self, node: Letter) -> str:
-        base = printable(node.base)
-        if node.style == "script" and len(base) == 1 and "A" <= base <= "Z":
-            base = _SCRIPT.get(base) or chr(0x1D49C + ord(base) - ord("A"))
-        text = _accented(base, node.dots)
-        if node.sub is not None:
-            text += lowered(self._index(node.sub))
-        if node.sup is not None:
-            text += raised(self._index(node.sup))
+    def _indices(self, groups: Sequence[str]) -> str:
+        """Groups of indices; a comma only where the next would not be seen to begin."""
+        text = ""
+        for group in map(_with_greek, groups):
+            text += "," + group if text and not (text[-1].isdecimal() and group[0].isalpha()) else group
         return text
 
     def _index(self, node: Node) -> str:
         """What stands in a subscript, on one level: v_1 is `v1`."""
         match node:
             case Symbol():
-                base, groups = split(node.name)
-                return _accented(base, node.dots) + _joined(groups)
+                return "".join(self._symbol_parts(node))
             case Letter():
-                parts = [part for part in (node.sub, node.sup) if part is not None]
-                return _accented(printable(node.base), node.dots) + "".join(map(self._index, parts))
-            case Row():
-                return "".join(map(self._index, node.parts))
-            case Product():
-                return "".join(map(self._index, node.factors))
+                base, sub = self._letter_parts(replace(node, style="italic"))
+                return base + sub + ("" if node.sup is None else self._index(node.sup))
+            case Row() | Product():
+                return "".join(map(self._index, children(node)))
             case Words():
                 return printable(node.text)
         return self.text(node).replace(" ", "")
 
+    def _scripted(self, base: str, sub: str, sup: str) -> str:
+        if sub:
+            base += lowered(sub)
+        return base + raised(sup) if sup else base
+
+    def _fraction(self, above: str, below: str) -> str:
+        return _FRACTIONS.get((above, below)) or f"{above}/{below}"
+
+    def _root(self, argument: Node) -> str:
+        text = self.text(argument)
+        return f"√{text}" if type(argument) in _BARE_BASES or is_whole(argument) else f"√({text})"
+
+    def _applied(self, name: str, argument: str, exponent: str = "") -> str:
+        return f"{name}{exponent}({argument})"
+
+    def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
+        lines = (f"[{', '.join(row)}]" for row in rows)
+        return f"[{', '.join(lines)}]"
+
+    def _differential(self, d: str, of: Node) -> str:
+        return d + self._operand(of)
+
+    def _degrees(self, node: Degrees) -> str:
+        text = decimal_text(node.p, node.q)
+        return f"{text}°" if text else f"({node.p}/{node.q})°"
+
     def _words(self, node: Words) -> str:
         return printable(node.text)
 
-    # Arithmetic
+    def _big_sum(self, node: BigSum) -> str:
+        below = f"{self._index(node.index)}={self._index(node.lower)}"
+        return f"{self._scripted('Σ', below, self._index(node.upper))} {self._summand(node.body)}"
+
+    # -- Parentheses on one line -------------------------------------------------------------------------
 
     def _product(self, node: Product) -> str:
         factors = flat_factors(node)
@@ -234,14 +226,12 @@ class UnicodePrinter(FormulaPrinter):
         return f"({text})" if open_ended and not last else text
 
     def _quotient(self, node: Quotient) -> str:
-        if is_numeric(node) and (sign := _fraction_sign(node)):
-            return sign
         numerator = self._numerator(node.numerator)
         denominator = self.text(node.denominator)
         is_number = denominator.replace(".", "", 1).isdecimal()
         if not (is_number or type(node.denominator) in _BARE_DENOMINATORS):
             denominator = f"({denominator})"
-        return f"{numerator}/{denominator}"
+        return self._fraction(numerator, denominator)
 
     def _numerator(self, node: Node) -> str:
         if type(node) is Negative:
@@ -260,7 +250,7 @@ class UnicodePrinter(FormulaPrinter):
         base = node.base
         if type(base) is Function and base.name != "sqrt":
             if shorthand(base, self.style) is None and is_whole(node.exponent):
-                return f"{base.name}{exponent}({self.text(base.argument)})"
+                return self._applied(base.name, self.text(base.argument), exponent)
             return self.text(base) + exponent
         text = self.text(base)
         bare = type(base) in _BARE_BASES or is_whole(base) or (type(base) is Letter and base.sup is None)
@@ -271,52 +261,6 @@ class UnicodePrinter(FormulaPrinter):
         if all(character in _SUPERSCRIPTS for character in text):
             return raised(text)
         return f"^{text}" if type(node) is Symbol else f"^({text})"
-
-    def _function(self, node: Function) -> str:
-        if short := shorthand(node, self.style):
-            return short[0] + lowered(short[1])
-        argument = self.text(node.argument)
-        if node.name == "sqrt":
-            bare = type(node.argument) in _BARE_BASES or is_whole(node.argument)
-            return f"√{argument}" if bare else f"√({argument})"
-        return f"{node.name}({argument})"
-
-    # Formulas of the textbook
-
-    def _matrix(self, node: Matrix) -> str:
-        rows = (f"[{', '.join(map(self.text, row))}]" for row in node.rows)
-        return f"[{', '.join(rows)}]"
-
-    def _transpose(self, node: Transpose) -> str:
-        argument = node.argument
-        text = self.text(argument)
-        bare = type(argument) in _BARE_TRANSPOSED or (type(argument) is Letter and argument.sup is None)
-        return (text if bare else f"({text})") + "ᵀ"
-
-    def _cross(self, node: Cross) -> str:
-        return f"{self._operand(node.left)} × {self._operand(node.right)}"
-
-    def _derivative(self, node: Derivative) -> str:
-        d = "d" if node.total else "∂"
-        by = self._operand(node.by)
-        if node.of is None:
-            return f"{d}/{d}{by}"
-        of = self.text(node.of)
-        if type(node.of) in (Symbol, Letter):
-            return f"{d}{of}/{d}{by}"
-        return f"{d}/{d}{by} {of if type(node.of) is Parenthesized else f'({of})'}"
-
-    def _big_sum(self, node: BigSum) -> str:
-        below = f"{self._index(node.index)}={self._index(node.lower)}"
-        return f"Σ{lowered(below)}{raised(self._index(node.upper))} {self._summand(node.body)}"
-
-
-def _fraction_sign(node: Quotient) -> str | None:
-    """The one character of 1/2 and its like, where both numbers are whole."""
-    p, q = node.numerator, node.denominator
-    if isinstance(p, Number) and isinstance(q, Number) and p.q == q.q == 1:
-        return _FRACTIONS.get((p.p, q.p))
-    return None
 
 
 def _is_applied(node: Node) -> bool:
