@@ -1,1 +1,22 @@
-"""What a student wrote: reading it, comparing it, following it, diagnosing it."""
+"""What a student wrote: from a line of LaTeX to its verdict.
+
+    reading       the file -> equations -> formula trees, one `Answer` each      `submission`
+    judging       the trees -> values in one ring -> compared with the key, and with what
+                  the student's own earlier answers lead to
+    diagnosis     what is left is wrong: which slip explains it
+    report,       the `Report` as JSON, and as a document for a student or a teacher
+    feedback
+
+`judge` ties them together: `Checker` for one problem, `Judge` for one hand-in.  Why an
+answer got its verdict is decided, in this order, by
+
+    judging.key_comparison   is every entry equal to the key's?  (`entry_comparison`:
+                             exactly, with numbers for symbols, or rounded)       correct
+    judging.explanation      do the student's own answers lead to it?             follows
+    answer_verdict           neither                                              wrong
+    diagnosis.diagnoser      why: the first explanation of its list that fits
+    unwritten                what is asked for and not written by itself          missing
+
+and `verdict` has the records of all that is said.  `sandbox` runs this within limits of
+time and memory, `public` is `dynsolve.check`.
+"""

@@ -1,13 +1,16 @@
-"""The table of slips: what can go wrong, told to the person it happened to.
+"""Diagnosis: which slip explains an answer that is wrong, told to the person it happened to.
 
-A slip is a record (`Slip`): its code, its kind in a few words, a message in the
-second person that says what happened, and what to look at.  How a slip is
-recognized stands in one of three files:
+A slip is a record in `slips`: its code, its kind in a few words, a message in the second
+person that says what happened, and what to look at.  `diagnoser` tries the explanations
+one after the other, the simplest first, in the order of the list at its end:
 
-- `terms`: in single terms: a sign, a factor, a lost mass, square or dot;
-- `steps`: a step of the derivation done otherwise from the student's own inputs;
-- `changed_rules`: the whole derivation with one rule replaced.
+    steps            this step done otherwise, from the student's own inputs
+    terms            one number for the whole; one slip, or several, in single terms:
+                     in `symbol_slips` (a mass, a square, a dot), in `function_slips`
+                     (sine for cosine, a wrong angle, a number)
+    substitution     one symbol, angle or function for another throughout
+    changed_rules    an earlier step done otherwise, and all that follows from it
 
-To add a slip, write its record in `slips` with an example, and its recognition in
-one of the three; the tests run every example.
+To add a slip, write its record with an example in `slips`, and its recognition in the
+file above that it belongs to; the tests run every example.
 """

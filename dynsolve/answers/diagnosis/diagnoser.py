@@ -1,23 +1,18 @@
 """Naming the slip in an answer that is wrong.
 
-What is explained is the difference between the answer and the value that the
-student's own nearest answers lead to.  The simplest slip that explains it wins:
-
-1. one number for the whole (a sign, a factor), or one substitution (m₁ for m₂,
-   θ₂ for θ₁ + θ₂, gravity's sign);
-2. one slip in one term;
-3. the step done otherwise;
-4. the derivation with a rule replaced;
-5. several slips in several terms, each named;
-6. where none fits, which terms differ.
+What is explained is the difference between the answer and the value that the student's
+own nearest answers lead to.  The explanations are tried in the order of `_IN_ORDER`, at
+the end of this file; the first that leads exactly to the answer is told, so that the
+simplest wins.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import islice
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
@@ -28,8 +23,9 @@ from dynsolve.answers.diagnosis.fourier import is_small, monomial_expr, monomial
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.diagnosis.substitution import substitutions
+from dynsolve.answers.diagnosis.term_slips import LIGHT, TermSlip, tell
 from dynsolve.answers.diagnosis.term_writer import TermWriter
-from dynsolve.answers.diagnosis.terms import LIGHT, TermDiagnoser, TermSlip
+from dynsolve.answers.diagnosis.terms import TermDiagnoser
 from dynsolve.answers.judging.entry_comparison import WrittenEntry
 from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -38,9 +34,6 @@ from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType
 from dynsolve.robot.units import ENERGY, INERTIA, LENGTH, NONE, Dimension, describe, dimension, times
-
-MOST_NAMED = 4
-"""More slips than this in one answer are told as the terms that differ."""
 
 MOST_OF_IT = Fraction(1, 2)
 """What shares so much of its terms with the key was taken from it, not from a slip before it."""
@@ -64,6 +57,21 @@ class WrongEntry:
     def mine(self) -> Expr | None:
         """The answer as an element of the ring."""
         return as_expr(self.written.value)
+
+
+@dataclass(frozen=True)
+class _Case:
+    """An answer that is wrong, as an element of the ring, and the value that it is held against."""
+
+    wrong: WrongEntry
+    mine: Expr
+    expected: Expr
+    find_slips: TermDiagnoser
+
+    @cached_property
+    def term_slips(self) -> list[TermSlip]:
+        """The slips in single terms, none where there are too many terms to look for them."""
+        return self.find_slips(self.mine, self.expected) or []
 
 
 class Diagnoser:
@@ -127,26 +135,45 @@ class Diagnoser:
         return question.expected[0]
 
     def _named(self, question: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
-        expected = self.expected(question)
         if self._is_constant(question, mine):
             yield slip("constant_term")
-        one = self._first_of(self._variants(question, question.target.node), question, mine)
-        if one is None:
-            one = self.terms.whole(mine, expected)
-        if one is None:
-            one = next(substitutions(self.graph, self.words, mine, expected), None)
-        if one is not None:
-            yield self._refined(one, question)
-            return
-        found = self.terms(mine, expected)
-        if found is not None and len(found) == 1 and found[0].weight < LIGHT:
-            yield found[0].diagnosis
-            return
-        one = self._first_of(self._derived(question, mine), question, mine)
-        if one is not None:
-            yield one
-            return
-        yield from self._told(found or [], _in_common(mine, expected))
+        case = _Case(question, mine, self.expected(question), self.terms)
+        explained = (tuple(explain(self, case)) for explain in _IN_ORDER)
+        yield from next(filter(None, explained), ())
+
+    # -- one explanation after the other, see _IN_ORDER --------------------------------------------
+
+    def _step_otherwise(self, case: _Case) -> Iterator[Diagnosis]:
+        """The step itself done otherwise: a Jacobian at the frame's origin, a rule of d/dt left out."""
+        found = self._first_of(self._variants(case.wrong, case.wrong.target.node), case.wrong, case.mine)
+        if found is not None:
+            yield self._refined(found, case.wrong)
+
+    def _one_number(self, case: _Case) -> Iterator[Diagnosis]:
+        """One number for all of it: a sign, a factor."""
+        found = self.terms.whole(case.mine, case.expected)
+        if found is not None:
+            yield self._refined(found, case.wrong)
+
+    def _one_substitution(self, case: _Case) -> Iterator[Diagnosis]:
+        """One symbol, angle or function for another throughout: m₁ for m₂, θ₂ for θ₁ + θ₂."""
+        for found in islice(substitutions(self.graph, self.words, case.mine, case.expected), 1):
+            yield self._refined(found, case.wrong)
+
+    def _one_term(self, case: _Case) -> Iterator[Diagnosis]:
+        """One slip in one term: a lost square, a dropped mass."""
+        if len(case.term_slips) == 1 and case.term_slips[0].weight < LIGHT:
+            yield case.term_slips[0].diagnosis
+
+    def _earlier_step_otherwise(self, case: _Case) -> Iterator[Diagnosis]:
+        """A step long before done otherwise, and everything after it as it should be."""
+        found = self._first_of(self._derived(case.wrong, case.mine), case.wrong, case.mine)
+        if found is not None:
+            yield found
+
+    def _several_terms(self, case: _Case) -> Iterator[Diagnosis]:
+        """Several slips in several terms, each named; where they are too many, which terms differ."""
+        yield from tell(case.term_slips, _in_common(case.mine, case.expected))
 
     def _first_of(
         self, values: Iterator[tuple[Any, Diagnosis]], question: WrongEntry, mine: Expr
@@ -162,7 +189,7 @@ class Diagnoser:
         )
 
     def _derived(self, question: WrongEntry, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
-        """What slips long before lead to; to 0 leads what was left out, not what was mistaken."""
+        """What an earlier step done otherwise makes of a node; 0 is explained by what is left out alone."""
         is_zero = all(value.is_zero for value in mine)
         for value, told in self.derivation_slips.values(question.target.node):
             if not is_zero or told.code.endswith("_missing"):
@@ -173,31 +200,6 @@ class Diagnoser:
         if one.code in ("sign", "sign_all") and question.target.node.rstrip("0123456789") in ("P", "g"):
             return slip("gravity_sign")
         return one
-
-    def _told(self, found: list[TermSlip], right: int) -> Iterator[Diagnosis]:
-        """The slips where they are few; of many, which terms are written that should not be.
-
-        Missing terms are named only beside as many right ones: who writes 0 is not told the answer.
-        """
-        found = sorted(found, key=lambda f: f.weight)
-        missing = sum(f.code == "missing_term" for f in found)
-        if len(found) <= MOST_NAMED and missing <= right:
-            yield from (one.diagnosis for one in found)
-            return
-        if missing == len(found):
-            yield slip("terms_missing", yours=f"{missing} terms are" if missing > 1 else "A term is")
-            return
-        light = [one for one in found if one.weight < LIGHT]
-        yield from (one.diagnosis for one in light[:MOST_NAMED])
-        if len(light) < len(found):
-            extra = [f for f in found if f.code == "extra_term"]
-            yours = f"{missing} {'is' if missing == 1 else 'are'} missing. " if missing else ""
-            if extra:
-                more = f", and {len(extra) - MOST_NAMED} more" if len(extra) > MOST_NAMED else ""
-                yours += (
-                    f"These do not belong: {', '.join(f.word('term') for f in extra[:MOST_NAMED])}{more}."
-                )
-            yield slip("terms_differ", yours=yours.strip())
 
     # -- the step, the derivation ------------------------------------------------------------------
 
@@ -374,3 +376,14 @@ def _same(a: Any, b: Matrix) -> bool:
         and a.shape == b.shape
         and all(x == y for x, y in zip(a.entries, b.entries, strict=True))
     )
+
+
+_IN_ORDER: tuple[Callable[[Diagnoser, _Case], Iterator[Diagnosis]], ...] = (
+    Diagnoser._step_otherwise,
+    Diagnoser._one_number,
+    Diagnoser._one_substitution,
+    Diagnoser._one_term,
+    Diagnoser._earlier_step_otherwise,
+    Diagnoser._several_terms,
+)
+"""The explanations in the order in which they are tried: the first that explains an answer is told."""

@@ -1,1 +1,14 @@
-"""Comparing what a student wrote with the key, and with what the student's own answers lead to."""
+"""Comparing what a student wrote with the key, and with what the student's own answers lead to.
+
+answer_ring, ring_extension   the ring that holds the key and all that was written
+evaluate                      a formula tree -> its value in that ring
+answer_values                 the answers of a hand-in with their values
+graph                         which answers lead to which, by which routes
+entry_comparison              whether two scalars are equal
+key_comparison                an answer compared with the key, entry by entry
+zero_height                   the zero of height that the student has chosen
+hand_in                       all of these for one hand-in
+student_values                the student's own values, where the next two start
+follow_through                the values that they lead to
+explanation                   which of those explains an answer
+"""
