@@ -1,0 +1,485 @@
+"""Every family of quantities, one record each, in the order of the derivation.
+
+To add a quantity:
+
+1. its record here, at its place in the derivation;
+2. its formula in `dynsolve.derivation`, in the file of its section of the textbook, and its rule there;
+3. its step in the stage's file of `dynsolve.explain`.
+
+Reading, judging, marks, numbers, JSON and NumPy take what they must know from the record.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from itertools import product
+
+from dynsolve.notation.tree import Node, Product, Symbol
+from dynsolve.quantities import letters
+from dynsolve.quantities.family import Family, Letter, Owner
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.dimensions import ENERGY, INERTIA, LENGTH, NONE, dimension, times
+from dynsolve.robot.model import Body, Coordinate
+
+PER_SECOND = dimension(time=-1)
+VELOCITY = times(LENGTH, PER_SECOND)
+MOMENTUM = times(INERTIA, PER_SECOND)
+
+
+def _set(letter: Node) -> Letter:
+    """The letter of what the robot has one of."""
+    return lambda robot: letter
+
+
+def _of_body(letter: Callable[[Body], Node]) -> Letter:
+    return lambda robot, b: letter(robot.bodies[b - 1])
+
+
+def _of_coordinate(letter: Callable[[Coordinate], Node]) -> Letter:
+    return lambda robot, i: letter(robot.coordinates[i - 1])
+
+
+def _each(*pieces: str | Iterable[str]) -> tuple[str, ...]:
+    """Every choice of one of each piece, joined.
+
+    >>> _each("K T", "v w", "{b}")
+    ('Kv{b}', 'Kw{b}', 'Tv{b}', 'Tw{b}')
+    """
+    choices = [piece.split(" ") if isinstance(piece, str) else piece for piece in pieces]
+    return tuple("".join(choice) for choice in product(*choices))
+
+
+# What students write for v and ω of a body, and before it for the energy that belongs to it.
+_V = _each("v vc vm", "{b}")
+_W = _each("omega omegac w wc", "{b}")
+_ENERGY = "K Ek T E"
+
+
+# -- forward kinematics ----------------------------------------------------------------------------
+
+H0 = Family(name="H0", stage=Stage.KINEMATICS, shape=(4, 4), is_answer=False)
+
+A = Family(
+    name="A{i}",
+    owner=Owner.ROW,
+    stage=Stage.KINEMATICS,
+    shape=(4, 4),
+    letter=lambda robot, i: letters.A(i),
+    json="A",
+)
+
+H = Family(
+    name="H{i}",
+    owner=Owner.ROW,
+    stage=Stage.KINEMATICS,
+    shape=(4, 4),
+    letter=letters.H,
+    json="H",
+    spellings=("T{i}", "H0{i}", "T0{i}"),
+)
+
+# -- the Jacobian of the end of the arm ------------------------------------------------------------
+
+JV = Family(
+    name="Jv",
+    stage=Stage.JACOBIAN,
+    shape=(3, "n"),
+    letter=_set(letters.JV),
+    json="Jv",
+    dimension=LENGTH,
+    per=("column",),
+    dimension_is_told=False,
+    spellings=("JP", "Jp"),
+    part_of="J",
+)
+
+JW = Family(
+    name="Jw",
+    stage=Stage.JACOBIAN,
+    shape=(3, "n"),
+    letter=_set(letters.JW),
+    json="Jw",
+    dimension=NONE,
+    dimension_is_told=False,
+    spellings=("Jomega", "JO", "JOmega"),
+    part_of="J",
+)
+
+J = Family(name="J", stage=Stage.JACOBIAN, shape=(6, "n"), letter=_set(letters.J))
+
+# -- the bodies: mass centres, velocities, inertia -------------------------------------------------
+
+RC = Family(
+    name="rc{b}",
+    owner=Owner.BODY,
+    stage=Stage.INERTIA,
+    capped_in=Stage.KINEMATICS,
+    shape=(3, 1),
+    letter=_of_body(letters.rc),
+    json="r_c",
+    dimension=LENGTH,
+    spellings=("pc{b}", "oc{b}", "rm{b}"),
+)
+
+R = Family(
+    name="R{b}",
+    owner=Owner.BODY,
+    stage=Stage.INERTIA,
+    shape=(3, 3),
+    letter=_of_body(lambda body: letters.of_body("R", body, "bold")),
+    json="R",
+    dimension=NONE,
+    is_answer=False,
+    spins=True,
+)
+
+JV_BODY = Family(
+    name="Jv{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    capped_in=Stage.JACOBIAN,
+    shape=(3, "n"),
+    letter=_of_body(letters.jv),
+    json="Jv",
+    dimension=LENGTH,
+    per=("column",),
+    dimension_is_told=False,
+    spellings=_each("J", _V),
+)
+
+JW_BODY = Family(
+    name="Jw{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    capped_in=Stage.JACOBIAN,
+    shape=(3, "n"),
+    letter=_of_body(letters.jw),
+    json="Jw",
+    dimension=NONE,
+    dimension_is_told=False,
+    spellings=_each("J", _W),
+)
+
+V = Family(
+    name="v{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    capped_in=Stage.JACOBIAN,
+    shape=(3, 1),
+    letter=_of_body(lambda body: letters.of_body("v", body, "bold")),
+    json="v",
+    dimension=VELOCITY,
+    spellings=_V,
+)
+
+W = Family(
+    name="w{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    capped_in=Stage.JACOBIAN,
+    shape=(3, 1),
+    letter=_of_body(lambda body: letters.of_body("omega", body, "bold")),
+    json="w",
+    dimension=PER_SECOND,
+    unit="rad/s",
+    spellings=_W,
+)
+
+I_BODY = Family(
+    name="I_body{b}",
+    owner=Owner.BODY,
+    stage=Stage.INERTIA,
+    shape=(3, 3),
+    letter=lambda robot, b: letters.tensor(robot, robot.bodies[b - 1]),
+    json="I_body",
+    dimension=INERTIA,
+    spellings=("Ib{b}", "I{b}", "Ic{b}", "I{b}b", "I{b}body"),
+    spins=True,
+)
+
+I = Family(  # noqa: E741  the book's symbol
+    name="I{b}",
+    owner=Owner.BODY,
+    stage=Stage.INERTIA,
+    shape=(3, 3),
+    letter=_of_body(lambda body: letters.of_body("I", body, "script")),
+    json="I_base",
+    dimension=INERTIA,
+    spellings=("I0{b}", "Ibase{b}", "I{b}base"),
+    spins=True,
+)
+
+# -- energies --------------------------------------------------------------------------------------
+
+P_BODY = Family(
+    name="P{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    letter=_of_body(lambda body: letters.of_body("P", body)),
+    json="P",
+    dimension=ENERGY,
+    unit="J",
+    spellings=_each("U Ep PE Epot V", "{b}"),
+    part_of="P",
+)
+
+KV = Family(
+    name="Kv{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    letter=_of_body(lambda body: letters.energy_part("v", body)),
+    json="Kv",
+    dimension=ENERGY,
+    unit="J",
+    spellings=(*_each(_ENERGY, _V), "K{b}v", *_each("Klin Ktrans Kt KT KL Kl", "{b}")),
+    part_of="K{b}",
+)
+
+KW = Family(
+    name="Kw{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    letter=_of_body(lambda body: letters.energy_part("omega", body)),
+    json="Kw",
+    dimension=ENERGY,
+    unit="J",
+    spellings=(*_each(_ENERGY, _W), "K{b}omega", "K{b}w", *_each("Krot Kr KR", "{b}")),
+    part_of="K{b}",
+    spins=True,
+)
+
+K_BODY = Family(
+    name="K{b}",
+    owner=Owner.BODY,
+    stage=Stage.ENERGY,
+    letter=_of_body(lambda body: letters.of_body("K", body)),
+    json="K",
+    dimension=ENERGY,
+    unit="J",
+    spellings=_each("T Ek KE Ekin", "{b}"),
+    part_of="K",
+)
+
+P = Family(
+    name="P",
+    stage=Stage.ENERGY,
+    letter=_set(letters.P),
+    json="P",
+    dimension=ENERGY,
+    unit="J",
+    spellings=("U", "Ep", "PE", "Epot", "Ptot", "Ptotal", "V", "Etp", "Utot"),
+)
+
+K = Family(
+    name="K",
+    stage=Stage.ENERGY,
+    letter=_set(letters.K),
+    json="K",
+    dimension=ENERGY,
+    unit="J",
+    spellings=("T", "Ek", "KE", "Ekin", "Ktot", "Ktotal", "Ttot"),
+)
+
+# -- Lagrange --------------------------------------------------------------------------------------
+
+L = Family(
+    name="L",
+    stage=Stage.LAGRANGIAN,
+    letter=_set(letters.L),
+    json="L",
+    dimension=ENERGY,
+    unit="J",
+    spellings=("Lagrangian",),
+)
+
+
+def _momentum(q: Coordinate) -> Node:
+    return letters.slope(letters.L, letters.rate(q))
+
+
+DLDQD = Family(
+    name="dLdqd{i}",
+    owner=Owner.COORDINATE,
+    stage=Stage.TORQUE,
+    capped_in=Stage.LAGRANGIAN,
+    letter=_of_coordinate(_momentum),
+    json="dL_dqdot",
+    dimension=MOMENTUM,
+    per=("owner",),
+    spellings=("dLdqdot{i}", "dLd{name}dot"),
+)
+
+DDT = Family(
+    name="ddt{i}",
+    owner=Owner.COORDINATE,
+    stage=Stage.TORQUE,
+    capped_in=Stage.LAGRANGIAN,
+    letter=_of_coordinate(lambda q: letters.time_rate(_momentum(q))),
+    json="ddt",
+    dimension=ENERGY,
+    per=("owner",),
+    unit="N m",
+    spellings=("ddtdLdqd{i}",),
+)
+
+DLDQ = Family(
+    name="dLdq{i}",
+    owner=Owner.COORDINATE,
+    stage=Stage.TORQUE,
+    capped_in=Stage.LAGRANGIAN,
+    letter=_of_coordinate(lambda q: letters.slope(letters.L, Symbol(q.name))),
+    json="dL_dq",
+    dimension=ENERGY,
+    per=("owner",),
+    unit="N m",
+    spellings=("dLd{name}",),
+)
+
+FORCE = Family(
+    name="{force}",
+    rule="tau{i}",
+    owner=Owner.COORDINATE,
+    stage=Stage.TORQUE,
+    letter=_of_coordinate(letters.force),
+    json="force",
+    dimension=ENERGY,
+    per=("owner",),
+    unit="N m",
+    spellings=(*_each("tau f F Q", "{i}"), *_each("tau f F", "{q}")),
+    weak=("tau{s}", "f{s}"),
+    aliases=("tau{i}", "f{i}"),
+    part_of="tau",
+)
+
+TAU = Family(
+    name="tau",
+    stage=Stage.TORQUE,
+    shape=("n", 1),
+    letter=_set(letters.TAU),
+    json="tau",
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    spellings=("tauvec",),
+)
+
+# -- the vectorized form ---------------------------------------------------------------------------
+
+D = Family(
+    name="D",
+    stage=Stage.VECTORIZED,
+    shape=("n", "n"),
+    letter=_set(letters.D),
+    json="D",
+    dimension=INERTIA,
+    per=("row", "column"),
+    spellings=("M", "B", "Dq", "Mq"),
+    aliases=("M", "B"),
+)
+
+D_ENTRY = Family(
+    name="d{i}{j}",
+    rule="D",
+    owner=Owner.PAIR,
+    stage=Stage.VECTORIZED,
+    letter=lambda robot, i, j: letters.entry("d", i, j),
+    spellings=_each("D m M b B", "{i}{j}"),
+    aliases=_each("D m M b B", "{i}{j}"),
+    part_of="D",
+    mirrored=True,
+)
+
+CHRISTOFFEL = Family(name="christoffel", stage=Stage.VECTORIZED, is_answer=False)
+
+C_SYMBOL = Family(
+    name="c{i}{j}{k}",
+    rule="christoffel",
+    owner=Owner.TRIPLE,
+    stage=Stage.VECTORIZED,
+    letter=lambda robot, i, j, k: letters.entry("c", i, j, k),
+    spellings=_each("C Gamma", "{i}{j}{k}"),
+    aliases=("C{i}{j}{k}",),
+    part_of="christoffel",
+)
+
+C = Family(
+    name="C",
+    stage=Stage.VECTORIZED,
+    shape=("n", "n"),
+    letter=_set(letters.C),
+    json="C",
+    dimension=MOMENTUM,
+    per=("row", "column"),
+    dimension_is_told=False,
+)
+
+C_ENTRY = Family(
+    name="C{i}{j}",
+    rule="C",
+    owner=Owner.PAIR,
+    stage=Stage.VECTORIZED,
+    letter=lambda robot, i, j: letters.entry("c", i, j),
+    spellings=("c{i}{j}",),
+    aliases=("c{i}{j}",),
+    part_of="C",
+)
+
+G = Family(
+    name="g",
+    stage=Stage.VECTORIZED,
+    shape=("n", 1),
+    letter=_set(letters.G),
+    json="g",
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    spellings=("G", "phi", "gvec"),
+    aliases=("G",),
+)
+
+G_ENTRY = Family(
+    name="g{i}",
+    rule="g",
+    owner=Owner.COORDINATE,
+    stage=Stage.VECTORIZED,
+    letter=lambda robot, i: letters.entry("g", i),
+    spellings=("G{i}", "phi{i}", "Phi{i}"),
+    aliases=("phi{i}", "G{i}"),
+    part_of="g",
+)
+
+CQD = Family(
+    name="Cqd",
+    stage=Stage.VECTORIZED,
+    shape=("n", 1),
+    letter=_set(Product((letters.C, letters.QD))),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    spellings=("c", "V", "Cqdot", "h", "C"),
+    aliases=("c", "V"),
+)
+
+# -- the same, assembled directly ------------------------------------------------------------------
+
+G_DIRECT = Family(
+    name="g_direct",
+    stage=Stage.VECTORIZED,
+    shape=("n", 1),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    is_answer=False,
+)
+
+D_DIRECT = Family(
+    name="D_direct",
+    stage=Stage.VECTORIZED,
+    shape=("n", "n"),
+    dimension=INERTIA,
+    per=("row", "column"),
+    is_answer=False,
+)
+
+FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
+"""The records above, in their order."""

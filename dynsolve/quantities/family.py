@@ -1,0 +1,100 @@
+"""What a family of quantities is: everything that one record says of K₁, K₂, ... at once.
+
+Names and spellings are templates.  What stands in braces is the owner's:
+
+    {i}                 the row's number, or the coordinate's place
+    {b}                 the body's name
+    {i}{j}, {i}{j}{k}   the indices of an entry
+    {force}             the coordinate's generalized force: tau1 of an angle, f1 of a length
+    {q}                 each of the names of a coordinate: its own, q1, and theta1 or d1
+    {name}, {s}         its own name, and the subscript of that
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from typing import Literal
+
+from dynsolve.notation.tree import Node
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.dimensions import Dimension
+from dynsolve.robot.model import Robot
+
+
+class Owner(Enum):
+    """What has one quantity of a family each."""
+
+    ROBOT = 0
+    ROW = 1
+    BODY = 2
+    COORDINATE = 3
+    PAIR = 4
+    """Two coordinates: the entries of an n×n matrix."""
+    TRIPLE = 5
+    """Three coordinates: the Christoffel symbols."""
+
+
+Size = int | Literal["n"]
+"""Rows or columns; n is the number of coordinates."""
+
+Letter = Callable[..., Node]
+"""letter(robot, *index): what a quantity is set with; the printers make every notation of it."""
+
+
+def _no_letter(robot: Robot, *index: int) -> Node:
+    raise LookupError("this quantity is never printed by itself")
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Family:
+    """The quantities of one kind.
+
+    `name` is the template of the names that answers and results have, `rule` of those of
+    the rules of the derivation that give them (an entry has that of its matrix).
+    `stage` is where it is derived and explained; `capped_in` the stage that its marks
+    count in, where that is another.  `shape` is rows and columns, None for a scalar.
+    `letter` is what it is set with; `json` its key in `results`, empty for what is not
+    exported.
+
+    The dimension of an entry is `dimension` over that of the coordinates that `per`
+    names: of its row, its column, or of the quantity's owner.  `unit` is what a unit of
+    `dimension` is called (N m, and not J, of a torque).  An answer whose terms have
+    another dimension is told so where `dimension_is_told`.
+
+    `spellings` are what students write for it besides its name, `weak` what they may
+    write where it means nothing else; a family without `is_answer` is none of the answers.
+    `aliases` are the further names that `find` and `marks` take.
+
+    `part_of` is the whole it is added up to, or an entry of.  `spins` marks what a point
+    mass has in name only; `mirrored` an entry that equals the one across the diagonal.
+    """
+
+    name: str
+    stage: Stage
+    owner: Owner = Owner.ROBOT
+    rule: str = ""
+    shape: tuple[Size, Size] | None = None
+    capped_in: Stage | None = None
+    letter: Letter = _no_letter
+    json: str = ""
+    dimension: Dimension | None = None
+    per: tuple[Literal["row", "column", "owner"], ...] = ()
+    unit: str = ""
+    dimension_is_told: bool = True
+    is_answer: bool = True
+    spellings: tuple[str, ...] = ()
+    weak: tuple[str, ...] = ()
+    aliases: tuple[str, ...] = ()
+    part_of: str = ""
+    spins: bool = False
+    mirrored: bool = False
+
+    @property
+    def is_vector(self) -> bool:
+        """Whether it is a column vector by its nature, and no matrix that may have one column."""
+        return self.shape is not None and self.shape[1] == 1
+
+    def __repr__(self) -> str:
+        return f"<Family {self.name}>"

@@ -1,0 +1,282 @@
+"""The quantities of one robot: which there are, by name, and what is part of what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import groupby, product
+
+from dynsolve.notation.tree import Node
+from dynsolve.quantities.families import FAMILIES
+from dynsolve.quantities.family import Family, Owner
+from dynsolve.quantities.spelling import key, open_index, other_names, subscripts
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.dimensions import LENGTH, Dimension, times
+from dynsolve.robot.model import Coordinate, JointType, Robot
+
+Shape = tuple[int, int] | None
+"""Rows and columns of a quantity; None for a scalar."""
+
+MOST_INDEXED = 9
+"""Entries have names up to this index: d_111 could be two of them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Owners:
+    """What a robot has that quantities belong to: rows of its table, coordinates, bodies by name.
+
+    `points` are the bodies without inertia.
+    """
+
+    rows: int
+    coordinates: tuple[Coordinate, ...]
+    bodies: tuple[str, ...]
+    points: frozenset[str] = frozenset()
+
+    @staticmethod
+    def of(robot: Robot) -> Owners:
+        """Those of a robot."""
+        bodies = tuple(body.name for body in robot.bodies)
+        points = frozenset(body.name for body in robot.bodies if body.is_point)
+        return Owners(len(robot.joints), robot.coordinates, bodies, points)
+
+    def indices(self, owner: Owner) -> Iterator[tuple[int, ...]]:
+        """The index of every owner of a kind, from 1."""
+        count = {Owner.ROW: self.rows, Owner.BODY: len(self.bodies), Owner.COORDINATE: len(self.coordinates)}
+        if owner in count:
+            return ((i,) for i in range(1, count[owner] + 1))
+        repeat = {Owner.ROBOT: 0, Owner.PAIR: 2, Owner.TRIPLE: 3}[owner]
+        return product(range(1, min(len(self.coordinates), MOST_INDEXED) + 1), repeat=repeat)
+
+    def words(self, owner: Owner, index: tuple[int, ...]) -> dict[str, str]:
+        """What stands for the braces of a family's templates; see `dynsolve.quantities.family`."""
+        match owner:
+            case Owner.ROW:
+                return {"i": str(index[0])}
+            case Owner.BODY:
+                return {"b": self.bodies[index[0] - 1]}
+            case Owner.COORDINATE:
+                q = self.coordinates[index[0] - 1]
+                return {"i": str(q.index), "force": q.force}
+        return dict(zip("ijk", map(str, index), strict=False))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Quantity:
+    """One quantity of a robot.
+
+    `name` is what answers and results call it (f2, d12, Kv1), `rule` the rule of the
+    derivation that gives it (tau2, D, Kv1).  `index` says whose it is, from 1: the row's
+    number, the place of the body or the coordinate, the indices of an entry.  `whole` is
+    what it is part of, empty for most, and `entry` its place there, from 0, if that is a
+    matrix, a vector or the Christoffel symbols (which are kept for i ≤ j).
+    """
+
+    name: str
+    rule: str
+    family: Family
+    index: tuple[int, ...]
+    shape: Shape
+    whole: str = ""
+    entry: tuple[int, ...] = ()
+
+    @property
+    def is_read_off(self) -> bool:
+        """Whether it has no rule of its own: an entry of D, C, g, a Christoffel symbol."""
+        return bool(self.entry) and self.rule == self.whole
+
+    def letter(self, robot: Robot) -> Node:
+        """What it is set with."""
+        return self.family.letter(robot, *self.index)
+
+
+class Quantities(Mapping[str, Quantity]):
+    """The quantities by name, in the order of the derivation.
+
+    >>> from dynsolve.robot.model import Coordinate, JointType
+    >>> theta, d = Coordinate("theta1", JointType.REVOLUTE, 1), Coordinate("d2", JointType.PRISMATIC, 2)
+    >>> found = Quantities(Owners(2, (theta, d), ("1", "p"), frozenset("p")))
+    >>> found["Kp"].family, found["f2"].rule, found["d21"].entry, found["D"].shape
+    (<Family K{b}>, 'tau2', (1, 0), (2, 2))
+    >>> found.canonical("M"), found.canonical("tau2"), found.stage("Kp"), found.parts("Kp")
+    ('D', 'f2', <Stage.ENERGY: 'energy'>, ('Kvp',))
+    """
+
+    def __init__(self, owners: Owners) -> None:
+        self.owners = owners
+        self._by_name: dict[str, Quantity] = {}
+        for owner, families in groupby(FAMILIES, key=lambda family: family.owner):
+            group = tuple(families)
+            for index in owners.indices(owner):
+                words = owners.words(owner, index)
+                for family in group:
+                    quantity = self._made(family, index, words)
+                    self._by_name.setdefault(quantity.name, quantity)
+
+    def _made(self, family: Family, index: tuple[int, ...], words: dict[str, str]) -> Quantity:
+        n = len(self.owners.coordinates)
+        name, whole = family.name.format(**words), family.part_of.format(**words)
+        shape = family.shape and (n if family.shape[0] == "n" else family.shape[0],
+                                  n if family.shape[1] == "n" else family.shape[1])  # fmt: skip
+        return Quantity(name, family.rule.format(**words) or name, family, index, shape, whole,
+                        self._entry(family, index))  # fmt: skip
+
+    def _entry(self, family: Family, index: tuple[int, ...]) -> tuple[int, ...]:
+        if not family.part_of or family.owner in (Owner.ROBOT, Owner.BODY):
+            return ()
+        places = tuple(i - 1 for i in index)
+        if family.owner is Owner.TRIPLE:
+            return (*sorted(places[:2]), places[2])
+        return places if family.owner is Owner.PAIR else (places[0], 0)
+
+    def __getitem__(self, name: str) -> Quantity:
+        return self._by_name[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._by_name)
+
+    def __len__(self) -> int:
+        return len(self._by_name)
+
+    # -- names -------------------------------------------------------------------------------------
+
+    def canonical(self, text: str) -> str | None:
+        """The name of the answer that `find` or `marks` calls so, None for what is none."""
+        text = text.strip()
+        found = self._by_name.get(self._aliases.get(text, text))
+        return found.name if found is not None and found.family.is_answer else None
+
+    @cached_property
+    def _aliases(self) -> dict[str, str]:
+        found: dict[str, str] = {}
+        for quantity in self.values():
+            for alias in self.spelled(quantity, quantity.family.aliases):
+                found.setdefault(alias, quantity.name)
+        return found
+
+    def answers(self) -> Iterator[Quantity]:
+        """Those that an answer may be given for."""
+        return (quantity for quantity in self.values() if quantity.family.is_answer)
+
+    def spelled(self, quantity: Quantity, templates: tuple[str, ...]) -> Iterator[str]:
+        """Templates of its family, filled in; each once."""
+        owner = quantity.family.owner
+        words = self.owners.words(owner, quantity.index)
+        names = [{}] if owner is not Owner.COORDINATE else self._coordinate_names[quantity.index[0] - 1]
+        return iter(dict.fromkeys(text.format(**words, **more) for text in templates for more in names))
+
+    @cached_property
+    def _coordinate_names(self) -> list[list[dict[str, str]]]:
+        """Of each coordinate what stands for {q}, {name} and {s}, once for each of its names."""
+        spoken = {q.name: subscript for subscript, q in subscripts(self.owners.coordinates).items()}
+        return [
+            [{"q": other, "name": other_names(q, spoken[q.name])[0], "s": spoken[q.name]}
+             for other in other_names(q, spoken[q.name])]
+            for q in self.owners.coordinates
+        ]  # fmt: skip
+
+    # -- wholes and parts --------------------------------------------------------------------------
+
+    def stage(self, name: str) -> Stage:
+        """The stage that the marks of an answer count in."""
+        family = self[name].family
+        return family.capped_in or family.stage
+
+    def of_rule(self, rule: str) -> Quantity | None:
+        """The quantity that a rule of the derivation gives: tau2 gives f2."""
+        return self._by_rule.get(rule)
+
+    @cached_property
+    def _by_rule(self) -> dict[str, Quantity]:
+        return {quantity.rule: quantity for quantity in self.values() if not quantity.is_read_off}
+
+    def of_family(self, family: Family) -> tuple[Quantity, ...]:
+        """The members of a family, in their order."""
+        return tuple(quantity for quantity in self.values() if quantity.family is family)
+
+    def parts(self, name: str) -> tuple[str, ...]:
+        """The answers that a whole can be given by: its entries, or what it is added up from."""
+        return tuple(self._parts.get(name, ()))
+
+    @cached_property
+    def _parts(self) -> dict[str, list[str]]:
+        found: dict[str, list[str]] = {}
+        all_named = len(self.owners.coordinates) <= MOST_INDEXED
+        for quantity in self.answers():
+            if quantity.whole and self.is_real(quantity) and (all_named or len(quantity.index) < 2):
+                found.setdefault(quantity.whole, []).append(quantity.name)
+        return found
+
+    def is_real(self, quantity: Quantity) -> bool:
+        """Whether there is anything to it: no rotation of a point mass."""
+        if not quantity.family.spins:
+            return True
+        return self.owners.bodies[quantity.index[0] - 1] not in self.owners.points
+
+    def mirrored(self, name: str) -> str:
+        """The entry across the diagonal, which is equal: d21 for d12; the name itself for all others."""
+        quantity = self.get(name)
+        if quantity is None or not quantity.family.mirrored:
+            return name
+        i, j = quantity.index
+        return quantity.family.name.format(i=j, j=i)
+
+    def place(self, name: str) -> int:
+        """Where a name stands in the order of the derivation; others come last."""
+        return self._places.get(name, len(self))
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {name: place for place, name in enumerate(self)}
+
+    def dimension(self, quantity: Quantity, row: int = 0, column: int = 0) -> Dimension | None:
+        """The dimension of an entry of a quantity, counted from 0; None where nothing is known of it."""
+        family = quantity.family
+        if family.dimension is None:
+            return None
+        found = family.dimension
+        for which in family.per:
+            k = {"row": row, "column": column, "owner": quantity.index[0] - 1 if quantity.index else 0}[which]
+            if self.owners.coordinates[k].type is JointType.PRISMATIC:
+                found = times(found, LENGTH, -1)
+        return found
+
+    # -- spellings ---------------------------------------------------------------------------------
+
+    @cached_property
+    def spellings(self) -> Mapping[str, tuple[str, ...]]:
+        """The answers by what students write for them, without `_` and braces; several where that is shared.
+
+        I1 may be the tensor along the body's axes and along those of the base, V is P or C q̇.
+        """
+        found: dict[str, dict[str, None]] = {}
+        for quantity in self.answers():
+            family = quantity.family
+            for text in (quantity.name, *self.spelled(quantity, family.spellings)):
+                found.setdefault(key(text), {})[quantity.name] = None
+            weak = tuple(self.spelled(quantity, family.weak))
+            if weak and weak[0] not in found:
+                for text in weak:
+                    found.setdefault(text, {})[quantity.name] = None
+        return {text: tuple(names) for text, names in found.items()}
+
+    @cached_property
+    def open_spellings(self) -> Mapping[str, tuple[str, ...]]:
+        """The same for names with an index that there is not: `K#` are K1, K2, ..., `d##` entries of D."""
+        found: dict[str, set[str]] = {}
+        for text, names in self.spellings.items():
+            stem = open_index(text)
+            if stem:
+                found.setdefault(stem, set()).update(name for name in names if self[name].index)
+        return {stem: tuple(sorted(names, key=self.place)) for stem, names in found.items() if names}
+
+
+@lru_cache(maxsize=64)  # every hand-in of a cohort asks for those of its problem
+def _made(owners: Owners) -> Quantities:
+    return Quantities(owners)
+
+
+def quantities(robot: Robot) -> Quantities:
+    """The quantities of a robot."""
+    return _made(Owners.of(robot))
