@@ -218,4 +218,4 @@ def with_marks(judged: JudgedAnswer) -> JudgedAnswer:
 
 def in_order(graph: AnswerGraph, names: Iterable[str]) -> tuple[str, ...]:
     """Answers in the order of the derivation, each once."""
-    return tuple(sorted(dict.fromkeys(names), key=graph.place))
+    return tuple(sorted(dict.fromkeys(names), key=graph.quantities.place))

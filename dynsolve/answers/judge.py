@@ -85,7 +85,7 @@ class Judge:
     def report(self) -> Report:
         """Everything that is said of the hand-in."""
         answers = self._answers()
-        ordered = sorted(answers.values(), key=lambda answer: self.graph.place(answer.name))
+        ordered = sorted(answers.values(), key=lambda answer: self.graph.quantities.place(answer.name))
         wrong = [answer for answer in ordered if answer.verdict is Verdict.WRONG]
         first = next((answer for answer in wrong if answer.given), wrong[0] if wrong else None)
         return Report(

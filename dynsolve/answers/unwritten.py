@@ -48,13 +48,14 @@ def unwritten(graph: AnswerGraph, name: str, of: Fraction, answers: Answers) -> 
 
 def _within_whole(graph: AnswerGraph, base: JudgedAnswer, answers: Answers) -> JudgedAnswer | None:
     """An entry as it stands in the matrix, or as the one that it mirrors in D."""
-    name, place = graph.whole(base.name)
-    mirrored = answers.get(f"d{place[1]}{place[0]}") if name == "D" else None
+    name, entry = graph.quantities.entry_of(base.name)
+    mirrored = answers.get(graph.quantities.mirrored(base.name))
     if mirrored is not None and mirrored.given:
         return replace(mirrored, name=base.name, of=base.of, given=False, notes=(BY_MIRROR,))
     whole = answers.get(name)
     if whole is None or not whole.given:
         return None
+    place = tuple(i + 1 for i in entry)
     found = next((e for e in whole.entries if place in (e.index, (*e.index, place[1]))), None)
     return replace(
         base, verdict=found.verdict if found else whole.verdict, label=whole.label, place=whole.place,
@@ -67,8 +68,8 @@ def _within_whole(graph: AnswerGraph, base: JudgedAnswer, answers: Answers) -> J
 def _written_parts(graph: AnswerGraph, name: str, answers: Answers) -> list[JudgedAnswer] | None:
     """The written answers that a whole is made of, None where one of them is missing."""
     found: list[JudgedAnswer] = []
-    for part in graph.parts(name):
-        mirrored = f"d{part[2]}{part[1]}" if name == "D" else part
+    for part in graph.quantities.parts(name):
+        mirrored = graph.quantities.mirrored(part)
         if part in answers:
             found.append(answers[part])
         elif mirrored in answers:

@@ -17,6 +17,7 @@ def losses(judge: Judge, report: Report) -> dict[str, str]:
     What is not written has lost what the matrix has that it is an entry of, or its parts.
     """
     found: dict[str, str] = {}
+    quantities = judge.graph.quantities
     for answer in report.answers:
         compared = judge.hand_in.comparisons.get(answer.name)
         following = answer.verdict is Verdict.FOLLOWS or any(
@@ -28,7 +29,7 @@ def losses(judge: Judge, report: Report) -> dict[str, str]:
                 found[answer.name] = loss
     for answer in report.answers:
         if not answer.given:
-            sources = (judge.graph.whole(answer.name)[0], *judge.graph.parts(answer.name))
+            sources = (quantities.entry_of(answer.name)[0], *quantities.parts(answer.name))
             loss = next((found[name] for name in sources if name in found), "")
             if loss:
                 found[answer.name] = loss

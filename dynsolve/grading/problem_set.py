@@ -18,7 +18,6 @@ from pathlib import Path
 from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.grading.policy import Policy
-from dynsolve.problem.answer_names import AnswerNames
 from dynsolve.problem.cells import read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, free_text, items, mapping, whole_number
 from dynsolve.problem.library import find
@@ -26,6 +25,7 @@ from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.source import Faults, as_source
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode, read_nodes
+from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.stages import Stage
 
 SET_FILE = "set.yaml"
@@ -152,7 +152,7 @@ def _marks(
     found: dict[str, dict[str, Fraction]] = {}
     for stem in fields or ():
         assert fields is not None
-        value, names = fields.get(stem), _answer_names(readings[stem][0])
+        value, names = fields.get(stem), Quantities(readings[stem][0].parsed.owners)
         if not isinstance(value, MappingNode):
             faults.error(fields.span_of(stem), f"the marks of {stem} are a mapping", "write {P: 2, K: 4}")
             continue
@@ -169,12 +169,6 @@ def _marks(
             else:
                 found[stem][name] = _number(faults, points, f"the marks for {name}") or Fraction(0)
     return found
-
-
-def _answer_names(reading: Reading) -> AnswerNames:
-    kinds = enumerate(reading.parsed.table.coordinates, 1)
-    forces = [f"{'tau' if kind == 'revolute' else 'f'}{i}" for i, (_, kind) in kinds]
-    return AnswerNames(len(reading.parsed.table.rows), forces, [body.name for body in reading.parsed.bodies])
 
 
 def _policy(faults: Faults, node: YamlNode | None) -> Policy:

@@ -112,23 +112,19 @@ def _joined(read: list[Submission]) -> Submission:
 def _parts(judge: Judge, report: Report) -> dict[str, tuple[JudgedAnswer, ...]]:
     """The parts of the wholes that are not written; of a matrix also where some of them are missing."""
     given = {answer.name: answer for answer in report.answers if answer.given}
+    quantities = judge.graph.quantities
     found = {}
     for answer in report.answers:
         if answer.given:
             continue
-        names = judge.graph.parts(answer.name)
-        pieces = [_part(name, given) for name in names]
+        names = quantities.parts(answer.name)
+        pieces = [given.get(name) or given.get(quantities.mirrored(name)) for name in names]
         written = [piece for piece in pieces if piece is not None]
-        of_matrix = all(judge.graph.whole(name)[0] == answer.name for name in names)
+        of_matrix = all(quantities[name].entry for name in names)
         if written and (of_matrix or len(written) == len(pieces)):
             missing = (JudgedAnswer(name, Verdict.MISSING) for name in names)
             found[answer.name] = tuple(p or m for p, m in zip(pieces, missing, strict=True))
     return found
-
-
-def _part(name: str, given: dict[str, JudgedAnswer]) -> JudgedAnswer | None:
-    mirrored = f"d{name[2]}{name[1]}" if name[0] == "d" and len(name) == 3 else name
-    return given.get(name) or given.get(mirrored)
 
 
 def _answer(answer: JudgedAnswer, marked: Marked) -> Data:

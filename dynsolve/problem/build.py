@@ -16,7 +16,7 @@ from dynsolve.problem.source import Faults
 from dynsolve.problem.table import COLUMNS, DHRow
 from dynsolve.problem.values import CellValues, evaluate
 from dynsolve.robot.geometry import Links
-from dynsolve.robot.model import Axes, AxesKind, Body, Coordinate, Joint, JointType, Robot
+from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
 _TIP_ROW = (
@@ -45,10 +45,7 @@ def build_robot(faults: Faults, parsed: ParsedFile) -> Robot | None:
     return Robot(
         ring=ring,
         convention=parsed.convention,
-        coordinates=tuple(
-            Coordinate(name, JointType(kind), index)
-            for index, (name, kind) in enumerate(parsed.table.coordinates, 1)
-        ),
+        coordinates=parsed.coordinates,
         joints=tuple(known),
         bodies=tuple(body for body in bodies if body),
         gravity=gravity,

@@ -14,7 +14,6 @@ from dynsolve.errors import AlgebraError, ReadError
 from dynsolve.notation.evaluate import evaluate
 from dynsolve.notation.names import normalize
 from dynsolve.notation.tree import Node as Tree
-from dynsolve.problem.answer_names import AnswerNames
 from dynsolve.problem.cells import Cell, read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.model import FIND
@@ -22,6 +21,7 @@ from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode
+from dynsolve.quantities.index import Quantities
 
 _UNIT = re.compile(r"[A-Za-zµμΩ°%0-9²³⁻¹·*/^ .()-]{1,30}")
 _FIND_HELP = PROBLEM["find"].help
@@ -40,13 +40,10 @@ class Exercise:
 
 def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercise:
     """The values, units, marks and answers asked for; everything wrong with them is reported."""
-    forces = [
-        f"{'tau' if kind == 'revolute' else 'f'}{i}"
-        for i, (_, kind) in enumerate(parsed.table.coordinates, 1)
-    ]
     names = None  # as long as the table or a body is faulty, which answers there are is not known
-    if parsed.table.sound and not any(body.faulty for body in parsed.bodies):
-        names = AnswerNames(len(parsed.table.rows), forces, [body.name for body in parsed.bodies])
+    is_sound = parsed.table.sound and not any(body.faulty for body in parsed.bodies)
+    if is_sound and ("find" in fields or "marks" in fields):
+        names = Quantities(parsed.owners)
     values, written = _read_values(faults, fields.get("values"))
     return Exercise(
         find=_read_find(faults, fields.get("find"), names) or FIND,
@@ -57,7 +54,7 @@ def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercis
     )
 
 
-def _read_find(faults: Faults, node: YamlNode | None, names: AnswerNames | None) -> tuple[str, ...]:
+def _read_find(faults: Faults, node: YamlNode | None, names: Quantities | None) -> tuple[str, ...]:
     listed = (
         (node,) if isinstance(node, ScalarNode) and node.text else items(faults, node, "find", _FIND_HELP)
     )
@@ -71,7 +68,7 @@ def _read_find(faults: Faults, node: YamlNode | None, names: AnswerNames | None)
     return tuple(found)
 
 
-def _answer(faults: Faults, node: YamlNode, names: AnswerNames | None) -> str | None:
+def _answer(faults: Faults, node: YamlNode, names: Quantities | None) -> str | None:
     if isinstance(node, FaultyNode):
         return None
     if not isinstance(node, ScalarNode):
@@ -97,7 +94,7 @@ def _entries(faults: Faults, node: YamlNode | None, key: str) -> tuple[tuple[Sca
     return ()
 
 
-def _read_marks(faults: Faults, node: YamlNode | None, names: AnswerNames | None) -> dict[str, Fraction]:
+def _read_marks(faults: Faults, node: YamlNode | None, names: Quantities | None) -> dict[str, Fraction]:
     marks: dict[str, Fraction] = {}
     for key, value in _entries(faults, node, "marks"):
         name = _answer(faults, key, names)

@@ -11,7 +11,8 @@ from dynsolve.problem.bodies import ParsedBody
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.table import DHTable
-from dynsolve.robot.model import AxesKind, Convention
+from dynsolve.quantities.index import Owners
+from dynsolve.robot.model import AxesKind, Convention, Coordinate, JointType
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,19 @@ class ParsedFile:
     gravity: tuple[Cell, ...] | None
     base: ParsedBase
     bodies: tuple[ParsedBody, ...]
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """The generalized coordinates in their order."""
+        return tuple(
+            Coordinate(name, JointType(kind), index)
+            for index, (name, kind) in enumerate(self.table.coordinates, 1)
+        )
+
+    @property
+    def owners(self) -> Owners:
+        """What the answers to this problem can belong to."""
+        return Owners(len(self.table.rows), self.coordinates, tuple(body.name for body in self.bodies))
 
     @property
     def rotations(self) -> Iterator[ParsedRotation]:

@@ -18,8 +18,8 @@ from dynsolve.notation.tree import Node, Product, Symbol
 from dynsolve.quantities import letters
 from dynsolve.quantities.family import Family, Letter, Owner
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.dimensions import ENERGY, INERTIA, LENGTH, NONE, dimension, times
 from dynsolve.robot.model import Body, Coordinate
+from dynsolve.robot.units import ENERGY, INERTIA, LENGTH, NONE, dimension, times
 
 PER_SECOND = dimension(time=-1)
 VELOCITY = times(LENGTH, PER_SECOND)

@@ -19,8 +19,8 @@ from typing import Literal
 
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.dimensions import Dimension
 from dynsolve.robot.model import Robot
+from dynsolve.robot.units import Dimension
 
 
 class Owner(Enum):

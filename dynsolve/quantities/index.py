@@ -12,8 +12,8 @@ from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Owner
 from dynsolve.quantities.spelling import key, open_index, other_names, subscripts
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.dimensions import LENGTH, Dimension, times
 from dynsolve.robot.model import Coordinate, JointType, Robot
+from dynsolve.robot.units import LENGTH, Dimension, times
 
 Shape = tuple[int, int] | None
 """Rows and columns of a quantity; None for a scalar."""
@@ -159,6 +159,10 @@ class Quantities(Mapping[str, Quantity]):
         """Those that an answer may be given for."""
         return (quantity for quantity in self.values() if quantity.family.is_answer)
 
+    def examples(self) -> tuple[str, ...]:
+        """The names of the answers but for the entries of matrices."""
+        return tuple(quantity.name for quantity in self.answers() if len(quantity.index) < 2)
+
     def spelled(self, quantity: Quantity, templates: tuple[str, ...]) -> Iterator[str]:
         """Templates of its family, filled in; each once."""
         owner = quantity.family.owner
@@ -194,6 +198,11 @@ class Quantities(Mapping[str, Quantity]):
     def of_family(self, family: Family) -> tuple[Quantity, ...]:
         """The members of a family, in their order."""
         return tuple(quantity for quantity in self.values() if quantity.family is family)
+
+    def entry_of(self, name: str) -> tuple[str, tuple[int, ...]]:
+        """The matrix or vector that an answer is an entry of, and its place there, from 0."""
+        quantity = self.get(name)
+        return (quantity.whole, quantity.entry) if quantity is not None and quantity.entry else ("", ())
 
     def parts(self, name: str) -> tuple[str, ...]:
         """The answers that a whole can be given by: its entries, or what it is added up from."""

@@ -32,8 +32,9 @@ from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
-from dynsolve.robot.model import JointType
-from dynsolve.robot.units import ENERGY, INERTIA, LENGTH, NONE, Dimension, describe, dimension, times
+from dynsolve.quantities import families
+from dynsolve.quantities.index import Quantity
+from dynsolve.robot.units import Dimension, describe
 
 MOST_OF_IT = Fraction(1, 2)
 """What shares so much of its terms with the key was taken from it, not from a slip before it."""
@@ -197,7 +198,9 @@ class Diagnoser:
 
     def _refined(self, one: Diagnosis, question: WrongEntry) -> Diagnosis:
         """A wrong sign of everything that is gravity is gravity's."""
-        if one.code in ("sign", "sign_all") and question.target.node.rstrip("0123456789") in ("P", "g"):
+        quantity = self._quantity(question)
+        is_gravity = quantity is not None and quantity.family in (families.P_BODY, families.P, families.G)
+        if is_gravity and one.code in ("sign", "sign_all"):
             return slip("gravity_sign")
         return one
 
@@ -210,8 +213,7 @@ class Diagnoser:
         return self.graph.key(node) if value is None else value
 
     def _variants(self, question: WrongEntry, node: str) -> Iterator[tuple[Any, Diagnosis]]:
-        nodes = {"C": "Cqd", "christoffel": "Cqd"}
-        if question.target.christoffel is not None or nodes.get(node):
+        if node in ("C", "christoffel"):
             return
 
         def value(name: str) -> Any:
@@ -238,8 +240,8 @@ class Diagnoser:
 
     def _is_constant(self, question: WrongEntry, mine: Expr) -> bool:
         """Whether a potential energy differs by a constant only."""
-        bodies = {f"P{b.name}" for b in self.graph.robot.bodies}
-        if question.target.node not in {"P", "L", *bodies}:
+        quantity = self._quantity(question)
+        if quantity is None or quantity.family not in (families.P_BODY, families.P, families.L):
             return False
         difference = mine - self.expected(question)
         return not difference.is_zero and not self.ring.depends_on_coordinates(difference)
@@ -265,65 +267,16 @@ class Diagnoser:
                 return
 
     def _dimension(self, question: WrongEntry) -> Dimension | None:
-        """The dimension of an answer, by its name."""
-        node = question.target.node
-        entry = question.target.entry
-        row, column = entry if entry is not None else (question.row, question.column)
-        head = node.rstrip("0123456789") if node not in self._heads else node
-        for name in sorted(self._heads, key=len, reverse=True):
-            if node.startswith(name):
-                head = name
-                break
-        return self._of_head(head, node[len(head) :], row, column)
+        """The dimension of an answer, None where nothing is told of it."""
+        quantity = self._quantity(question)
+        if quantity is None or not quantity.family.dimension_is_told:
+            return None
+        place = question.target.entry or (question.row, question.column)
+        return self.graph.quantities.dimension(quantity, place[0], place[1])
 
-    _heads = (
-        "P",
-        "K",
-        "L",
-        "Kv",
-        "Kw",
-        "tau",
-        "dLdqd",
-        "ddt",
-        "dLdq",
-        "D",
-        "Cqd",
-        "g",
-        "I_body",
-        "I",
-        "rc",
-        "v",
-        "w",
-    )
-
-    def _of_head(self, head: str, index: str, row: int, column: int) -> Dimension | None:
-        match head:
-            case "P" | "K" | "L" | "Kv" | "Kw":
-                return ENERGY
-            case "I_body" | "I":
-                return INERTIA
-            case "rc":
-                return LENGTH
-            case "v":
-                return dimension(length=1, time=-1)
-            case "w":
-                return dimension(time=-1)
-            case "D":
-                per = times(self._unit(row), self._unit(column))
-                return times(dimension(mass=1, length=2), per, -1)
-            case "Cqd" | "g":
-                return times(ENERGY, self._unit(row), -1)
-            case "tau" | "ddt" | "dLdq":
-                return times(ENERGY, self._unit(int(index) - 1 if index.isdigit() else row), -1)
-            case "dLdqd":
-                per = self._unit(int(index) - 1)
-                return times(dimension(mass=1, length=2, time=-1), per, -1)
-        return None
-
-    def _unit(self, k: int) -> Dimension:
-        """The dimension of coordinate k, from 0."""
-        q = self.graph.robot.coordinates[k]
-        return NONE if q.type is JointType.REVOLUTE else LENGTH
+    def _quantity(self, question: WrongEntry) -> Quantity | None:
+        """What the answer is, or is an entry of."""
+        return self.graph.quantities.of_rule(question.target.node)
 
     # -- matrices, differences ---------------------------------------------------------------------
 

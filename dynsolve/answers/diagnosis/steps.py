@@ -7,6 +7,7 @@ the step goes wrong in a way that people do.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 from dynsolve.algebra.angles import Angle
@@ -18,7 +19,10 @@ from dynsolve.derivation import energy, inertia, jacobian, kinematics, vectorize
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
+from dynsolve.quantities import families
+from dynsolve.quantities.family import Family
+from dynsolve.quantities.index import quantities
+from dynsolve.robot.model import AxesKind, Body, Convention, Coordinate, Joint, Robot
 
 Variant = tuple[Any, Diagnosis]
 """A value that a step gives when it goes wrong, and the slip."""
@@ -29,36 +33,24 @@ InputValue = Callable[[str], Any]
 
 def variants(robot: Robot, node: str, value: InputValue) -> Iterator[Variant]:
     """What a step may give when it goes wrong; `value` gives its inputs."""
-    head, index = _split(node)
-    maker = _MAKERS.get(head)
-    if maker is not None:
-        yield from maker(robot, index, value)
-
-
-def _split(node: str) -> tuple[str, str]:
-    for head in sorted(_MAKERS, key=len, reverse=True):
-        if node.startswith(head):
-            return head, node[len(head) :]
-    return node, ""
-
-
-def _body(robot: Robot, name: str) -> Body | None:
-    return next((b for b in robot.bodies if b.name == name), None)
-
-
-def _joint(robot: Robot, index: str) -> Joint | None:
-    return next((j for j in robot.joints if str(j.index) == index), None)
+    quantity = quantities(robot).of_rule(node)
+    if quantity is None:
+        return
+    family, index = quantity.family, quantity.index
+    if family in _OF_ROBOT:
+        yield from _OF_ROBOT[family](robot, value)
+    elif family in _OF_ROW:
+        yield from _OF_ROW[family](robot, robot.joints[index[0] - 1], value)
+    elif family in _OF_BODY:
+        yield from _OF_BODY[family](robot, robot.bodies[index[0] - 1], value)
+    elif family in _OF_COORDINATE:
+        yield from _OF_COORDINATE[family](robot, robot.coordinates[index[0] - 1], value)
 
 
 # -- kinematics ------------------------------------------------------------------------------------
 
 
-def _dh(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
-    from dataclasses import replace
-
-    joint = _joint(robot, index)
-    if joint is None:
-        return
+def _dh(robot: Robot, joint: Joint, value: InputValue) -> Iterator[Variant]:
     right = kinematics.dh_matrix(robot, joint)
     bare = Angle(tuple(t for t in joint.theta.terms if t[0][0][0] in robot.ring.names))
     if joint.theta != bare and bare.terms:
@@ -69,19 +61,16 @@ def _dh(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
     yield right.T, slip("transposed")
 
 
-def _frame(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
-    if index.isdigit() and int(index) > 1:
-        yield value(f"A{index}") @ value(f"H{int(index) - 1}"), slip("order")
+def _frame(robot: Robot, joint: Joint, value: InputValue) -> Iterator[Variant]:
+    if joint.index > 1:
+        yield value(f"A{joint.index}") @ value(f"H{joint.index - 1}"), slip("order")
 
 
-def _center(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
-    body = _body(robot, name)
-    if body is None:
-        return
+def _center(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
     for link in (body.link, body.link - 1):
         yield (
             kinematics.origin(value(f"H{link}")),
-            slip("frame_origin", part=str(link), other=name),
+            slip("frame_origin", part=str(link), other=body.name),
         )
 
 
@@ -92,30 +81,31 @@ def _frames(value: InputValue, link: int) -> list[Matrix]:
     return [value(f"H{i}") for i in range(link + 1)]
 
 
-def _linear_jacobian(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
-    body = _body(robot, name)
-    if body is None:
-        return
+def _linear_jacobian(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
     frames = _frames(value, len(robot.joints))
     tip = kinematics.origin(frames[body.link])
     yield (
         jacobian.linear_jacobian(robot, frames, tip, body.link),
-        slip("frame_origin", part=str(body.link), other=name),
+        slip("frame_origin", part=str(body.link), other=body.name),
     )
     if body.link < len(robot.joints):
         yield (
-            jacobian.linear_jacobian(robot, frames, value(f"rc{name}"), len(robot.joints)),
-            slip("joint_columns", part=name),
+            jacobian.linear_jacobian(robot, frames, value(f"rc{body.name}"), len(robot.joints)),
+            slip("joint_columns", part=body.name),
         )
 
 
-def _angular_jacobian(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
-    body = _body(robot, name)
-    link = body.link if body is not None else len(robot.joints)
-    frames = _frames(value, len(robot.joints))
-    yield _all_turn(robot, frames, link), slip("prismatic_turns")
-    if body is not None and link < len(robot.joints):
-        yield jacobian.angular_jacobian(robot, frames, len(robot.joints)), slip("joint_columns", part=name)
+def _end_jacobian(robot: Robot, value: InputValue) -> Iterator[Variant]:
+    links = len(robot.joints)
+    yield _all_turn(robot, _frames(value, links), links), slip("prismatic_turns")
+
+
+def _angular_jacobian(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    links = len(robot.joints)
+    frames = _frames(value, links)
+    yield _all_turn(robot, frames, body.link), slip("prismatic_turns")
+    if body.link < links:
+        yield jacobian.angular_jacobian(robot, frames, links), slip("joint_columns", part=body.name)
 
 
 def _all_turn(robot: Robot, frames: list[Matrix], link: int) -> Matrix:
@@ -132,17 +122,16 @@ def _all_turn(robot: Robot, frames: list[Matrix], link: int) -> Matrix:
 # -- inertia and energies --------------------------------------------------------------------------
 
 
-def _body_inertia(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
-    body = _body(robot, name)
-    if body is None or body.inertia is None:
+def _body_inertia(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    if body.inertia is None:
         return
-    right = value(f"I_body{name}")
+    right = value(f"I_body{body.name}")
     if body.about_point is None:
         yield from _about_joint(robot, body, right)
         return
-    yield body.inertia, slip("parallel_axis_missing", part=name)
-    yield right + right - body.inertia, slip("parallel_axis_twice", part=name)
-    yield body.inertia + body.inertia - right, slip("parallel_axis_twice", part=name)
+    yield body.inertia, slip("parallel_axis_missing", part=body.name)
+    yield right + right - body.inertia, slip("parallel_axis_twice", part=body.name)
+    yield body.inertia + body.inertia - right, slip("parallel_axis_twice", part=body.name)
 
 
 def _about_joint(robot: Robot, body: Body, right: Matrix) -> Iterator[Variant]:
@@ -158,58 +147,51 @@ def _about_joint(robot: Robot, body: Body, right: Matrix) -> Iterator[Variant]:
         yield right + inertia.steiner(body.mass, offset), slip("parallel_axis_twice", part=body.name)
 
 
-def _base_inertia(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
-    body = _body(robot, name)
-    if body is None:
-        return
-    tensor, R = value(f"I_body{name}"), value(f"R{name}")
-    yield tensor, slip("not_rotated", part=name)
-    yield R.T @ tensor @ R, slip("rotation_transposed", part=name)
+def _base_inertia(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    tensor, R = value(f"I_body{body.name}"), value(f"R{body.name}")
+    yield tensor, slip("not_rotated", part=body.name)
+    yield R.T @ tensor @ R, slip("rotation_transposed", part=body.name)
     if body.axes.kind is AxesKind.LINK:
         before = inertia.body_rotation(robot, body, value(f"H{body.link - 1}"))
-        yield before @ tensor @ before.T, slip("frame_before", part=name)
+        yield before @ tensor @ before.T, slip("frame_before", part=body.name)
     frame = kinematics.rotation(value(f"H{body.link}"))
-    yield frame @ tensor @ frame.T, slip("not_rotated", part=name)
+    yield frame @ tensor @ frame.T, slip("not_rotated", part=body.name)
 
 
-def _rotational(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
-    body = _body(robot, name)
-    if body is None or body.is_point:
+def _rotational(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    if body.is_point:
         return
-    w = value(f"w{name}")
-    yield energy.rotational_energy(w, value(f"I_body{name}")), slip("spin_frame", part=name)
-    for tensor, told in _base_inertia(robot, name, value):
+    w = value(f"w{body.name}")
+    yield energy.rotational_energy(w, value(f"I_body{body.name}")), slip("spin_frame", part=body.name)
+    for tensor, told in _base_inertia(robot, body, value):
         yield energy.rotational_energy(w, tensor), told
 
 
-def _linear(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
-    body = _body(robot, name)
-    if body is None:
-        return
-    for J, told in _linear_jacobian(robot, name, value):
+def _linear(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    for J, told in _linear_jacobian(robot, body, value):
         yield energy.linear_energy(body.mass, energy.velocity(robot, J)), told
 
 
-def _potential(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
-    body = _body(robot, name)
-    if body is None:
-        right = value("P")
-        yield -right, slip("gravity_sign")
-        for b in robot.bodies:
-            yield right - value(f"P{b.name}"), slip("body_missing", part=b.name, other="P")
-        return
-    right = energy.potential_energy(robot, body.mass, value(f"rc{name}"))
+def _total_potential(robot: Robot, value: InputValue) -> Iterator[Variant]:
+    right = value("P")
     yield -right, slip("gravity_sign")
-    for center, told in _center(robot, name, value):
+    for body in robot.bodies:
+        yield right - value(f"P{body.name}"), slip("body_missing", part=body.name, other="P")
+
+
+def _potential(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    right = energy.potential_energy(robot, body.mass, value(f"rc{body.name}"))
+    yield -right, slip("gravity_sign")
+    for center, told in _center(robot, body, value):
         yield energy.potential_energy(robot, body.mass, center), told
 
 
-def _kinetic(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
-    body = _body(robot, name)
-    if body is not None:
-        yield value(f"Kv{name}"), slip("rotation_missing")
-        yield value(f"Kw{name}"), slip("translation_missing")
-        return
+def _kinetic(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    yield value(f"Kv{body.name}"), slip("rotation_missing")
+    yield value(f"Kw{body.name}"), slip("translation_missing")
+
+
+def _total_kinetic(robot: Robot, value: InputValue) -> Iterator[Variant]:
     bodies = robot.bodies
     total = energy.total(robot.ring, tuple(value(f"K{b.name}") for b in bodies))
     for b in bodies:
@@ -224,14 +206,14 @@ def _kinetic(robot: Robot, name: str, value: InputValue) -> Iterator[Variant]:
 # -- Lagrange --------------------------------------------------------------------------------------
 
 
-def _lagrangian(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
+def _lagrangian(robot: Robot, value: InputValue) -> Iterator[Variant]:
     yield value("K") + value("P"), slip("lagrangian_sum")
     yield value("K"), slip("gravity_missing")
 
 
-def _rate(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
+def _rate(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
     """d/dt ∂L/∂q̇ with one coordinate held constant, all of them, or inner derivatives left out."""
-    ring, p = robot.ring, value(f"dLdqd{index}")
+    ring, p = robot.ring, value(f"dLdqd{q.index}")
     slopes = [ring.diff(p, k) for k in range(robot.n)]
     moving = [k for k, slope in enumerate(slopes) if not slope.is_zero]
     if not moving:
@@ -257,8 +239,8 @@ def _written(name: str, dots: int = 0) -> str:
     return to_unicode(Symbol(name, dots), PLAIN)
 
 
-def _force(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
-    rate, slope = value(f"ddt{index}"), value(f"dLdq{index}")
+def _force(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
+    rate, slope = value(f"ddt{q.index}"), value(f"dLdq{q.index}")
     if slope.is_zero:
         return
     yield rate + slope, slip("slope_sign")
@@ -268,10 +250,7 @@ def _force(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
 # -- the vectorized form ---------------------------------------------------------------------------
 
 
-def _forces(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
-    if index:
-        yield from _force(robot, index, value)
-        return
+def _forces(robot: Robot, value: InputValue) -> Iterator[Variant]:
     yield from _rows(value("tau"))
 
 
@@ -289,13 +268,13 @@ def _rows(right: Matrix) -> Iterator[Variant]:
                 )
 
 
-def _gravity(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
+def _gravity(robot: Robot, value: InputValue) -> Iterator[Variant]:
     right = value("g")
     yield -right, slip("gravity_sign")
     yield from _rows(right)
 
 
-def _coriolis(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
+def _coriolis(robot: Robot, value: InputValue) -> Iterator[Variant]:
     D = value("D")
     symbols = vectorized.christoffel_symbols(robot, D)
     ring, n = robot.ring, robot.n
@@ -317,26 +296,39 @@ def _sum(zero: Expr, terms: Iterator[Expr]) -> Expr:
     return zero
 
 
-def _inertia_matrix(robot: Robot, index: str, value: InputValue) -> Iterator[Variant]:
+def _inertia_matrix(robot: Robot, value: InputValue) -> Iterator[Variant]:
     yield from _rows(value("D"))
 
 
-_MAKERS: dict[str, Callable[[Robot, str, InputValue], Iterator[Variant]]] = {
-    "A": _dh,
-    "H": _frame,
-    "rc": _center,
-    "Jv": _linear_jacobian,
-    "Jw": _angular_jacobian,
-    "I_body": _body_inertia,
-    "I": _base_inertia,
-    "Kw": _rotational,
-    "Kv": _linear,
-    "K": _kinetic,
-    "P": _potential,
-    "L": _lagrangian,
-    "ddt": _rate,
-    "tau": _forces,
-    "D": _inertia_matrix,
-    "Cqd": _coriolis,
-    "g": _gravity,
+_OF_ROBOT: dict[Family, Callable[[Robot, InputValue], Iterator[Variant]]] = {
+    families.JW: _end_jacobian,
+    families.P: _total_potential,
+    families.K: _total_kinetic,
+    families.L: _lagrangian,
+    families.TAU: _forces,
+    families.D: _inertia_matrix,
+    families.CQD: _coriolis,
+    families.G: _gravity,
+}
+
+_OF_ROW: dict[Family, Callable[[Robot, Joint, InputValue], Iterator[Variant]]] = {
+    families.A: _dh,
+    families.H: _frame,
+}
+
+_OF_BODY: dict[Family, Callable[[Robot, Body, InputValue], Iterator[Variant]]] = {
+    families.RC: _center,
+    families.JV_BODY: _linear_jacobian,
+    families.JW_BODY: _angular_jacobian,
+    families.I_BODY: _body_inertia,
+    families.I: _base_inertia,
+    families.P_BODY: _potential,
+    families.KV: _linear,
+    families.KW: _rotational,
+    families.K_BODY: _kinetic,
+}
+
+_OF_COORDINATE: dict[Family, Callable[[Robot, Coordinate, InputValue], Iterator[Variant]]] = {
+    families.DDT: _rate,
+    families.FORCE: _force,
 }

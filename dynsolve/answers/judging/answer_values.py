@@ -15,7 +15,7 @@ from dynsolve.algebra.fraction import RationalExpr, as_expr, equal
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import Field, FieldBuilder
 from dynsolve.answers.judging.evaluate import Evaluator
-from dynsolve.answers.judging.graph import AnswerGraph, MatrixEntry
+from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.submission import Answer
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
@@ -106,13 +106,10 @@ class AnswerValues:
         """The student's own value: of the answer itself, or of the matrix that it is an entry of."""
         place = self._last.get(name)
         if place is None:
-            entry = self.graph.entry(name)
-            if entry is None:
-                force = self.graph.node(name).removeprefix("tau")
-                if not force.isdigit():
-                    return None
-                entry = MatrixEntry("tau", int(force) - 1, 0)
-            name, row, column = entry.whole, entry.row + 1, entry.column + 1
+            name, entry = self.graph.quantities.entry_of(name)
+            if len(entry) != 2:
+                return None
+            row, column = entry[0] + 1, entry[1] + 1
             place = self._last.get(name)
         if place is None or place in self._busy:
             return None
@@ -122,16 +119,12 @@ class AnswerValues:
         return None if value.rows is None else _entry(value.rows, row, column)
 
     def _from_key(self, name: str, row: int | None, column: int | None) -> RationalExpr:
-        symbol = self.graph.christoffel(name)
-        if symbol is not None:
-            return RationalExpr(self.field.key("christoffel")[symbol])
-        entry = self.graph.entry(name)
-        if entry is not None:
-            name, row, column = entry.whole, entry.row + 1, entry.column + 1
-        node = name if name == "C" else self.graph.node(name)
-        if node not in self.field.rules:
+        quantity = self.graph.quantities.get(name)
+        if quantity is None or quantity.rule not in self.field.rules:
             raise AlgebraError(f"{name} is not a quantity of this problem")
-        value = self.field.key(node)
+        value = self.field.key(quantity.rule)
+        if quantity.is_read_off:
+            return RationalExpr(value[quantity.entry])
         if isinstance(value, Matrix):
             if row is None or column is None or row > value.shape[0] or column > value.shape[1]:
                 raise AlgebraError(f"{name} is a matrix and stands where a number should")

@@ -1,4 +1,4 @@
-"""The derivation as a grader sees it: which answers lead to which, what is part of what, in which order.
+"""The derivation as a grader sees it: which answers lead to which.
 
 A quantity has one route or several to it (D from τ or from K, g from τ or from P).
 The formulas are the textbook's rules on the field's robot; here stands only what
@@ -7,8 +7,7 @@ they are fed with.  The Coriolis term is held by its vector C q̇, since C is fr
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
@@ -18,11 +17,18 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import Field
 from dynsolve.derivation import vectorized
 from dynsolve.derivation.energy import velocities
-from dynsolve.problem.answer_names import AnswerNames
-from dynsolve.robot.model import Robot
+from dynsolve.quantities import families
+from dynsolve.quantities.index import Quantities, quantities
+from dynsolve.robot.model import Body, Robot
 
-_ENTRY = re.compile(r"([dCg])([1-9])([1-9])?")
-_SYMBOL = re.compile(r"c([1-9])([1-9])([1-9])")
+_STATED = (families.H0, families.A, families.I_BODY)
+"""What the problem says, so that nothing of the student's leads to it."""
+
+_LINEAR = (
+    families.J, families.K_BODY, families.K, families.P, families.L, families.DLDQD, families.DDT,
+    families.DLDQ, families.FORCE, families.TAU,
+)  # fmt: skip
+"""What is made of sums and derivatives alone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,15 +43,6 @@ class Route:
     linear: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class MatrixEntry:
-    """An answer that is one entry of a matrix: its whole and the place in it, from 0."""
-
-    whole: str
-    row: int
-    column: int
-
-
 class AnswerGraph:
     """The graph of one robot in one field; `shift` is the potential a mass of 1 has at zero height."""
 
@@ -57,88 +54,19 @@ class AnswerGraph:
     # -- names -------------------------------------------------------------------------------------
 
     @cached_property
-    def _forces(self) -> dict[str, str]:
-        return {q.force: f"tau{q.index}" for q in self.robot.coordinates}
+    def quantities(self) -> Quantities:
+        """What the robot has that an answer may be given for."""
+        return quantities(self.robot)
 
     def node(self, name: str) -> str:
         """The node of the graph that an answer is held at: f2 at tau2, C at Cqd."""
-        return "Cqd" if name == "C" else self._forces.get(name, name)
+        quantity = self.quantities.get("Cqd" if name == "C" else name)
+        return name if quantity is None else quantity.rule
 
     def answer(self, node: str) -> str:
         """The answer's name of a node: tau2 is f2 where coordinate 2 slides."""
-        return next((force for force, name in self._forces.items() if name == node), node)
-
-    def entry(self, name: str) -> MatrixEntry | None:
-        """The whole and the place of d11, C12, g1, None for an answer that is no entry."""
-        found = _ENTRY.fullmatch(name)
-        if found is None:
-            return None
-        whole = {"d": "D", "C": "C", "g": "g"}[found[1]]
-        if (whole == "g") != (found[3] is None):
-            return None
-        return MatrixEntry(whole, int(found[2]) - 1, int(found[3] or 1) - 1)
-
-    def whole(self, name: str) -> tuple[str, tuple[int, int]]:
-        """The matrix that an answer is an entry of, and its place there, from 1; an empty name for others."""
-        entry, node = self.entry(name), self.node(name)
-        if entry is not None:
-            return entry.whole, (entry.row + 1, entry.column + 1)
-        if node in self._forces.values():
-            return "tau", (int(node.removeprefix("tau")), 1)
-        return "", (0, 0)
-
-    def christoffel(self, name: str) -> tuple[int, int, int] | None:
-        """(i, j, k) from 0 of c121, with i ≤ j."""
-        found = _SYMBOL.fullmatch(name)
-        if found is None:
-            return None
-        i, j, k = (int(digit) - 1 for digit in found.groups())
-        return min(i, j), max(i, j), k
-
-    def parts(self, name: str) -> tuple[str, ...]:
-        """The answers that a whole can be given by."""
-        bodies = [body.name for body in self.robot.bodies]
-        n = self.robot.n
-        if name in ("P", "K"):
-            return tuple(f"{name}{b}" for b in bodies)
-        if name == "tau":
-            return tuple(self._forces)
-        if name == "g":
-            return tuple(f"g{k + 1}" for k in range(n))
-        if name in ("D", "C"):
-            letter = "d" if name == "D" else "C"
-            return tuple(f"{letter}{i + 1}{j + 1}" for i in range(n) for j in range(n))
-        if name == "J":
-            return ("Jv", "Jw")
-        if name[0] == "K" and name[1:] in bodies:
-            body = next(b for b in self.robot.bodies if b.name == name[1:])
-            return (f"Kv{body.name}",) if body.is_point else (f"Kv{body.name}", f"Kw{body.name}")
-        return ()
-
-    @cached_property
-    def _places(self) -> dict[str, int]:
-        return {name: place for place, name in enumerate(self._ordered())}
-
-    def _ordered(self) -> Iterator[str]:
-        for name in self.field.rules:
-            if name == "christoffel":
-                n = range(1, self.robot.n + 1)
-                yield from (f"c{i}{j}{k}" for i in n for j in n for k in n)
-                continue
-            yield self.answer(name)
-            if self.robot.bodies and name in ("D", "C", "g"):
-                yield from self.parts(name)
-
-    def place(self, name: str) -> int:
-        """Where a name stands in the order of the derivation."""
-        return self._places.get(name, len(self._places))
-
-    @cached_property
-    def names(self) -> AnswerNames:
-        """The names of this robot's answers."""
-        robot = self.robot
-        forces = [q.force for q in robot.coordinates]
-        return AnswerNames(len(robot.joints), forces, [body.name for body in robot.bodies])
+        quantity = self.quantities.of_rule(node)
+        return node if quantity is None else quantity.name
 
     # -- values ------------------------------------------------------------------------------------
 
@@ -151,8 +79,14 @@ class AnswerGraph:
             return value - self.shift * self._mass
         if node == "P":
             return value + self.shift * self._mass
-        body = next((b for b in self.robot.bodies if node == f"P{b.name}"), None)
+        body = self._lifted(node)
         return value if body is None else value + self.shift * body.mass
+
+    def _lifted(self, node: str) -> Body | None:
+        """The body whose potential energy a node is."""
+        quantity = self.quantities.of_rule(node)
+        is_lifted = quantity is not None and quantity.family is families.P_BODY
+        return self.robot.bodies[quantity.index[0] - 1] if quantity is not None and is_lifted else None
 
     @property
     def _mass(self) -> Expr:
@@ -163,7 +97,8 @@ class AnswerGraph:
 
     def routes(self, node: str) -> Sequence[Route]:
         """The routes to a node; none for what the table gives."""
-        if node not in self.field.rules or node.startswith(("I_body", "A")) or node == "H0":
+        quantity = self.quantities.of_rule(node)
+        if node not in self.field.rules or quantity is None or quantity.family in _STATED:
             return ()
         rule = self.field.rules[node]
         match node:
@@ -179,16 +114,11 @@ class AnswerGraph:
                 return (Route(("tau",), self._gravity), Route(("P",), self._gravity_vector))
             case "C" | "christoffel":
                 return (Route(("D",), self._symbols if node == "christoffel" else self._coriolis_matrix),)
-        if self.shift is not None and any(node == f"P{b.name}" for b in self.robot.bodies):
-            mass = next(b.mass for b in self.robot.bodies if node == f"P{b.name}")
-            lift = self.shift * mass
+        body = self._lifted(node)
+        if self.shift is not None and body is not None:
+            lift = self.shift * body.mass
             return (Route(rule.inputs, lambda rc: rule.compute(rc) + lift, linear=False),)
-        linear = node in self._sums or node.startswith(("dLdq", "ddt", "tau"))
-        return (Route(rule.inputs, rule.compute, linear),) if rule.inputs else ()
-
-    @cached_property
-    def _sums(self) -> frozenset[str]:
-        return frozenset({"K", "P", "L", "J", *(f"K{body.name}" for body in self.robot.bodies)})
+        return (Route(rule.inputs, rule.compute, quantity.family in _LINEAR),) if rule.inputs else ()
 
     # -- the vectorized form, from what students have ----------------------------------------------
 

@@ -19,17 +19,14 @@ Rows = tuple[tuple[WrittenEntry, ...], ...]
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """What an answer is held against: a node, and the one entry of it that was asked for."""
+    """What an answer is held against: a node, and the one entry of it, from 0, that was asked for."""
 
     node: str
-    entry: tuple[int, int] | None = None
-    christoffel: tuple[int, int, int] | None = None
+    entry: tuple[int, ...] = ()
 
     def of(self, value: Any) -> Any:
         """The part of a node's value that is meant."""
-        if self.christoffel is not None:
-            return value[self.christoffel]
-        return value if self.entry is None else value[self.entry]
+        return value[self.entry] if self.entry else value
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,12 +74,9 @@ class KeyComparer:
 
     def target(self, name: str) -> Target:
         """What an answer of this name is held against."""
-        entry = self.graph.entry(name)
-        if entry is not None:
-            return Target(entry.whole, (entry.row, entry.column))
-        symbol = self.graph.christoffel(name)
-        if symbol is not None:
-            return Target("christoffel", None, symbol)
+        quantity = self.graph.quantities.get(name)
+        if quantity is not None and quantity.is_read_off:
+            return Target(quantity.rule, quantity.entry)
         return Target(self.graph.node(name))
 
     def key(self, target: Target) -> Any:

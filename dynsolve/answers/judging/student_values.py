@@ -27,10 +27,9 @@ class _Owner:
     def all(self) -> Iterator[tuple[str, StudentValue]]:
         for name, held in self.held.items():
             target = held.target
-            complete = target.entry is None and target.christoffel is None
             second = name == "Cqd" and "C" in self.held
             known = held.given.rows is not None and target.node in self.graph.field.rules
-            if complete and known and not second:
+            if not target.entry and known and not second:
                 yield target.node, self._value(name, held)
         for whole in ("D", "g"):
             if whole not in self.held:
@@ -48,13 +47,15 @@ class _Owner:
         if not self.graph.robot.bodies:
             return
         key: Matrix = self.graph.key(whole)
+        quantities = self.graph.quantities
+        parts = {quantities[part].entry: part for part in quantities.parts(whole)}
         entries: list[list[Expr]] = []
         names: list[str] = []
         for i, row in enumerate(key.rows):
             entries.append([])
             for j in range(len(row)):
-                candidates = (f"d{i + 1}{j + 1}", f"d{j + 1}{i + 1}") if whole == "D" else (f"g{i + 1}",)
-                name = next((c for c in candidates if c in self.held), None)
+                part = parts.get((i, j), "")
+                name = next((c for c in (part, quantities.mirrored(part)) if c in self.held), None)
                 held = self.held[name] if name else None
                 if name is None or held is None or held.given.rows is None or not held.rows:
                     return
