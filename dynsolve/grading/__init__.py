@@ -3,6 +3,7 @@
     problem_set, policy     what is graded, and how it is marked (`set.yaml`)
     uploads -> hand_ins     files, safely read -> who handed in what for which problem
     run, fingerprints       what has to be computed; what has not is in the record
+    rows                    what the record is told of a hand-in, judged or not
     pool, worker, cluster   bounded processes, on this machine or on a Dask scheduler
     work, losses, marking   one hand-in there: its verdicts, its marks
     pages                   the student's page

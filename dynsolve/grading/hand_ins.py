@@ -67,6 +67,11 @@ class HandIn:
     late: bool = False
     left: tuple[str, ...] = ()
 
+    @property
+    def key(self) -> tuple[str, str]:
+        """The student and the problem."""
+        return self.student, self.problem
+
 
 @dataclass(frozen=True, slots=True)
 class Intake:

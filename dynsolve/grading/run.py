@@ -9,30 +9,28 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
+from functools import partial
+from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol
 
-from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.fingerprints import (
     causes,
     fingerprint,
     fingerprints,
-    of_marks,
-    of_policy,
-    program,
-    short,
     touches_marks_alone,
 )
 from dynsolve.grading.hand_ins import File, HandIn, Intake
-from dynsolve.grading.marking import mark, rescored
+from dynsolve.grading.marking import rescored
 from dynsolve.grading.policy import to_data
 from dynsolve.grading.pool import Bounds
-from dynsolve.grading.problem_set import Item, ProblemSet
-from dynsolve.grading.record import Key, Record
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.record import Record
+from dynsolve.grading.rows import row_of_result, rows_of_absent
 from dynsolve.grading.uploads import Uploads, digest
 
 Data = dict[str, Any]
@@ -42,9 +40,6 @@ AHEAD = 4
 
 PATIENCE = 10.0
 """Seconds in which nothing is done before the pool is asked whether it is still there."""
-
-MOST_LOST = 3
-"""So many equations that were not recognized are named where nothing was, and so many files."""
 
 Advance = Callable[[int, int], None]
 
@@ -95,47 +90,47 @@ def grade_all(
     Raises KeyboardInterrupt after what is done was written.
     """
     record.set_intake(intake.students, intake.waiting)
-    known = record.fingerprints()
-    keys = {(h.student, h.problem) for h in intake.hand_ins}
     record.keep_only({(student, stem) for student in intake.students for stem in problems.stems})
-    other = [
-        h
-        for h in intake.hand_ins
-        if known.get((h.student, h.problem)) not in fingerprints(problems, h, pool.bounds)
-    ]
-    due = [hand_in for hand_in in other if not _is_rescored(record, problems, hand_in, pool.bounds)]
+    known, bounds = record.fingerprints(), pool.bounds
+    changed = [h for h in intake.hand_ins if known.get(h.key) not in fingerprints(problems, h, bounds)]
+    due = [hand_in for hand_in in changed if not _is_rescored(record, problems, hand_in, bounds)]
     pool.prepare(len(due))
-    record.write_all(_absent(problems, intake, keys, known))
+    record.write_all(rows_of_absent(problems, intake, known))
+    results = _results(pool, due, partial(_submitted, pool, problems, uploads))
+    for done, (hand_in, said) in enumerate(results, 1):
+        record.write_all([row_of_result(problems, hand_in, said, bounds)])
+        if advance is not None:
+            advance(done, len(due))
+    return Done(len(intake.hand_ins), len(due), len(changed) - len(due))
+
+
+def _results(
+    pool: Pool, due: list[HandIn], submit: Callable[[HandIn], Future[Data]]
+) -> Iterator[tuple[HandIn, Data]]:
+    """Each hand-in with what the pool says of it, as soon as it is done."""
     running: dict[Future[Data], HandIn] = {}
     waiting = iter(due)
-    done = 0
     while True:
-        for hand_in in _some(waiting, AHEAD * pool.jobs - len(running)):
-            running[_submitted(pool, problems, uploads, hand_in)] = hand_in
+        for hand_in in islice(waiting, max(AHEAD * pool.jobs - len(running), 0)):
+            running[submit(hand_in)] = hand_in
         if not running:
-            break
+            return
         finished, _ = wait(running, timeout=PATIENCE, return_when=FIRST_COMPLETED)
         if not finished:
             pool.check()
         for future in finished:
-            hand_in = running.pop(future)
-            _write(record, problems, hand_in, future.result(), pool.bounds)
-            done += 1
-            if advance is not None:
-                advance(done, len(due))
-    return Done(len(intake.hand_ins), done, len(other) - len(due))
+            yield running.pop(future), future.result()
 
 
 def _is_rescored(record: Record, problems: ProblemSet, hand_in: HandIn, bounds: Bounds) -> bool:
     """Mark a hand-in anew where its verdicts still hold; False where it must be judged."""
-    key = (hand_in.student, hand_in.problem)
-    old, kept = record.kept(key)
+    old, kept = record.kept(hand_in.key)
     new = causes(problems, hand_in, bounds if "bounds" in old else None)
     if not old or not touches_marks_alone(old, new) or not all(answer.basis for answer in kept):
         return False
     points = problems.item(hand_in.problem).problem.marks
     marks = rescored(kept, points, problems.policy, hand_in.late)
-    record.rescore(key, fingerprint(new), json.dumps(new, sort_keys=True), marks)
+    record.rescore(hand_in.key, fingerprint(new), json.dumps(new, sort_keys=True), marks)
     return True
 
 
@@ -146,47 +141,6 @@ def _submitted(pool: Pool, problems: ProblemSet, uploads: Uploads, hand_in: Hand
         lost: Future[Data] = Future()
         lost.set_result({"reason": error.findings[0].message, "again": True})
         return lost
-
-
-def _absent(
-    problems: ProblemSet, intake: Intake, keys: set[Key], known: Mapping[Key, str]
-) -> Iterator[tuple[Key, str, str, Data]]:
-    """The new rows of what was not handed in, or only in a form that waits for a human."""
-    reasons: dict[Key, list[str]] = {}
-    for entry in intake.waiting:
-        for stem in (entry.problem,) if entry.problem else problems.stems:
-            reasons.setdefault((entry.student, stem), []).append(f"{entry.file}: {entry.reason}")
-    missing = {item.stem: _not_judged(problems, "", item, []) for item in problems.items}
-    for student in intake.students:
-        for item in problems.items:
-            key = (student, item.stem)
-            if key in keys:
-                continue
-            said = _some_of(reasons.get(key, []))
-            word, causes, row = _not_judged(problems, student, item, said) if said else missing[item.stem]
-            if known.get(key) != word:
-                yield key, word, causes, row
-
-
-def _not_judged(problems: ProblemSet, student: str, item: Item, said: list[str]) -> tuple[str, str, Data]:
-    """The row of what was not handed in, or waits for a human: its fingerprint, its causes, what it holds."""
-    found = {"hand-in": short(said), "marks": of_marks(item), "program": program()}
-    found["policy"] = of_policy(problems.policy)
-    reason = "; ".join(said)
-    row = _unread(problems, student, item.stem, reason)
-    rest = {"files": [], "left": [], "late": False, "reason": reason, "notes": []}
-    return short(found), json.dumps(found, sort_keys=True), {**row, **rest}
-
-
-def _some_of(said: list[str]) -> list[str]:
-    """A few of many reasons, and how many more there are."""
-    more = len(said) - MOST_LOST
-    return said if more <= 1 else [*said[:MOST_LOST], f"and {more} more"]
-
-
-def _some(source: Iterator[HandIn], count: int) -> Iterator[HandIn]:
-    for _, hand_in in zip(range(count), source, strict=False):
-        yield hand_in
 
 
 def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
@@ -212,52 +166,3 @@ def _same(uploads: Uploads, file: File) -> bytes:
         message = "it was changed while it was graded: grade again"
         raise InputError([Finding(message, "", str(file.upload.path))])
     return content
-
-
-def _write(record: Record, problems: ProblemSet, hand_in: HandIn, said: Data, bounds: Bounds) -> None:
-    row = said.get("result", {})
-    reason = said.get("reason", "") or _empty(row)
-    over = "reason" in said or row.get("over", False)
-    if reason:
-        row = _unread(problems, hand_in.student, hand_in.problem, reason)
-    found = {} if said.get("again") else causes(problems, hand_in, bounds if over else None)
-    record.write(
-        (hand_in.student, hand_in.problem),
-        fingerprint(found) if found else "",
-        json.dumps(found, sort_keys=True),
-        {
-            **row,
-            "files": [file.name for file in hand_in.files],
-            "left": list(hand_in.left),
-            "late": hand_in.late,
-            "reason": reason,
-            "notes": [*row.get("faults", ()), *row.get("not_recognized", ())],
-        },
-    )
-
-
-def _empty(row: Data) -> str:
-    """Why a hand-in is for a human to look at in which no answer was found; nothing where there is one."""
-    if any(answer["verdict"] != "missing" for answer in row["answers"]):
-        return ""
-    lost = [f"not recognized: {text}" for text in row["not_recognized"][:MOST_LOST]]
-    return "; ".join([*row["faults"], *lost]) or "no answer was found in it"
-
-
-def _unread(problems: ProblemSet, student: str, stem: str, reason: str) -> Data:
-    """The row of what could not be judged: unreadable, for a human to look at; missing without a reason."""
-    from dynsolve.grading.pages import bare_page
-
-    item = problems.item(stem)
-    html, markdown = bare_page(item.problem.title, student, reason) if reason else ("", "")
-    verdict = Verdict.UNREADABLE if reason else Verdict.MISSING
-    blank = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form", "basis"), "")
-    marked = mark((JudgedAnswer(n, verdict, of=of) for n, of in item.problem.marks.items()), problems.policy)
-    answers = [
-        {
-            **blank, "name": m.name, "verdict": str(verdict), "marks": "0", "of": str(m.of), "line": 0,
-            "why": f"{m.why} ({reason})" if reason else m.why, "diagnosis": [], "fault": reason,
-        }
-        for m in marked
-    ]  # fmt: skip
-    return {"answers": answers, "html": html, "markdown": markdown}
