@@ -1,10 +1,18 @@
-"""How the tests run: Hypothesis draws the same robots on every CI run, and fresh ones at home."""
+"""How the tests run: Hypothesis draws the same robots on every CI run, and fresh ones at home.
+
+Whatever is done with a robot of six or more joints takes long, so it is marked as slow here.
+"""
 
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
+import pytest
 from hypothesis import HealthCheck, settings
+
+LARGE = {"panda-7r", "puma560", "stanford-6"}
+"""The problems of the library with six or more joints."""
 
 settings.register_profile(
     "home",
@@ -14,3 +22,12 @@ settings.register_profile(
 )
 settings.register_profile("ci", parent=settings.get_profile("home"), derandomize=True, print_blob=True)
 settings.load_profile("ci" if os.environ.get("CI") else "home")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark as slow what is done with a large robot."""
+    for item in items:
+        given = item.callspec.params.values() if hasattr(item, "callspec") else ()
+        names = {value.stem if isinstance(value, Path) else str(value) for value in given}
+        if names & LARGE:
+            item.add_marker(pytest.mark.slow)

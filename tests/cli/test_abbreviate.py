@@ -10,6 +10,8 @@ import pytest
 
 from tests.cli.running import dynsolve
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_long_model_is_written_in_names() -> None:
     ran = dynsolve("solve", "puma560")

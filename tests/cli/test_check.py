@@ -62,6 +62,7 @@ def test_a_wrong_answer_ends_with_1_and_json_is_the_contract(problem: Path, tmp_
     assert first["diagnosis"][0]["code"] == "dropped_square"
 
 
+@pytest.mark.slow
 def test_the_ladder_tells_more_and_more(problem: Path, tmp_path: Path) -> None:
     answers = write(tmp_path, WRONG)
     said = [check(problem, answers, "--hints", str(level)).out for level in (1, 2, 3)]

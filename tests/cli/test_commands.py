@@ -132,6 +132,7 @@ def test_from_and_to() -> None:
     assert headings == ["4. Potential and kinetic energy", "5. The Lagrangian"]
 
 
+@pytest.mark.slow
 def test_levels_of_detail_differ_in_length() -> None:
     brief, normal, full = (
         len(dynsolve("solve", "planar-2r", "--detail", level).out) for level in ("brief", "normal", "full")
@@ -139,6 +140,7 @@ def test_levels_of_detail_differ_in_length() -> None:
     assert brief < normal / 2 < normal < full
 
 
+@pytest.mark.slow
 def test_a_terminal_has_colour_and_its_own_width() -> None:
     ran = in_terminal("solve", "in3140-rp", columns=72)
     assert ran.code == 0 and "\x1b[1m" in ran.out
@@ -147,6 +149,7 @@ def test_a_terminal_has_colour_and_its_own_width() -> None:
     assert max(map(width, plain.out.splitlines())) <= 72
 
 
+@pytest.mark.slow
 def test_colour_changes_no_text() -> None:
 
     coloured = in_terminal("solve", "planar-2r")

@@ -12,6 +12,8 @@ import pytest
 from tests.cli.running import dynsolve
 from tests.support import LIBRARY, ROOT
 
+pytestmark = pytest.mark.slow
+
 
 def test_svg_goes_to_standard_output() -> None:
     ran = dynsolve("draw", "in3140-rp")

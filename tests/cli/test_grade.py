@@ -21,6 +21,8 @@ from tests.cli.running import dynsolve, environment, started
 from tests.grading.generate import course, problem_set
 from tests.support import ROOT, record_of, with_files
 
+pytestmark = pytest.mark.slow
+
 RIGHT = "problem: in3140-rp\nanswers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n  g: [0, 0]\n"
 WRONG = RIGHT.replace("L2^2*theta1'^2)", "L2*theta1'^2)")
 

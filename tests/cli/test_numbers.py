@@ -9,6 +9,8 @@ import pytest
 
 from tests.cli.running import dynsolve
 
+pytestmark = pytest.mark.slow
+
 SET = ("--set", "L1=0.4,m1=2", "--set", "m2=1,I1zz=0.05", "--set", "g=9.81")
 AT = ("--at", "theta1=30deg,L2=0.2,theta1_dot=0.5,L2_dot=0.1")
 

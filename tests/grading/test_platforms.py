@@ -19,6 +19,8 @@ import dynsolve
 from dynsolve.grading.public import Grades
 from tests.support import ROOT
 
+pytestmark = pytest.mark.slow
+
 K = "(I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2"
 RIGHT = f"answers:\n  K: {K}\n  g: [0, 0]\n"
 WRONG = RIGHT.replace("L2^2*theta1'^2)", "L2*theta1'^2)")

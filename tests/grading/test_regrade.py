@@ -11,6 +11,8 @@ import dynsolve
 from tests.grading.generate import PROBLEMS, course, problem_set
 from tests.support import record_of
 
+pytestmark = pytest.mark.slow
+
 COUNT = 12
 STUDENTS = COUNT // len(PROBLEMS)
 

@@ -25,6 +25,8 @@ from dynsolve.grading.work import grade_one
 from tests.grading.generate import PROBLEMS, course, problem_set
 from tests.support import ROOT
 
+pytestmark = pytest.mark.slow
+
 RIGHT = "answers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n"
 WRONG = "answers:\n  K: 0\n"
 

@@ -22,6 +22,8 @@ from dynsolve.answers.report import to_json
 from dynsolve.solution.solution import Solution
 from tests.grading.generate import _latex
 
+pytestmark = pytest.mark.slow
+
 TWISTED = """
 convention: modified
 gravity: [0, -9.81, 0]

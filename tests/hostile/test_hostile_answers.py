@@ -12,6 +12,8 @@ from dynsolve.answers.submission import Submission
 from dynsolve.problem import Problem, load
 from dynsolve.problem.library import find
 
+pytestmark = pytest.mark.slow
+
 LIMIT = 2.0
 """Seconds of the processor for any single answer: no verdict on how busy the machine is."""
 

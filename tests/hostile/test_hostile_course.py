@@ -17,6 +17,8 @@ import dynsolve
 from dynsolve.errors import ProblemError
 from tests.support import ROOT
 
+pytestmark = pytest.mark.slow
+
 RIGHT = "answers:\n  K: (I1zz*theta1'^2)/2 + m2*(L2'^2 + L2^2*theta1'^2)/2\n  g: [0, 0]\n"
 REPORT = (
     r"$$K = \frac{1}{2} I_{1zz} \dot{\theta}_1^2 + \frac{m_2}{2} (\dot{L}_2^2 + L_2^2 \dot{\theta}_1^2)$$"

@@ -10,6 +10,8 @@ from tests.oracle.comparison import assert_agrees
 from tests.oracle.reading import load
 from tests.support import LIBRARY, TEXTBOOKS, solve_json
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("path", LIBRARY + TEXTBOOKS, ids=lambda path: path.stem)
 def test_agrees_with_pinocchio(path: Path) -> None:

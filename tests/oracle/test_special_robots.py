@@ -201,6 +201,7 @@ masses:
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_agrees_with_pinocchio(name: str) -> None:
     text = f"title: {name}\n{CASES[name].strip()}\n"

@@ -109,12 +109,14 @@ def _library() -> list[tuple[str, State]]:
     return [(path.stem, _state(load(path), solve_json(path), seed=7)) for path in LIBRARY]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("identity", IDENTITIES, ids=lambda identity: identity.__name__)
 def test_the_library_obeys_physics(identity: Callable[[State], None]) -> None:
     for _, state in _library():
         identity(state)
 
 
+@pytest.mark.slow
 @given(text=robots(max_joints=3, physical=True))
 def test_random_robots_obey_physics(text: str) -> None:
     note(text)

@@ -9,6 +9,8 @@ import pytest
 
 from tests.cli.running import dynsolve
 
+pytestmark = pytest.mark.slow
+
 BEGINNINGS = {
     "sol.pdf": b"%PDF-",
     "sol.html": b"<!DOCTYPE html>",

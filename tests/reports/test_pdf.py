@@ -14,6 +14,8 @@ from tests.cli.running import dynsolve
 from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, text_of
 from tests.support import LIBRARY, ROOT
 
+pytestmark = pytest.mark.slow
+
 SMALL = [path for path in LIBRARY if path.stem not in ("puma560", "panda-7r")]
 
 

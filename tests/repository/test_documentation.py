@@ -23,7 +23,7 @@ from dynsolve.errors import ExitCode
 from dynsolve.grading.problem_set import KEYS, POLICY_KEYS
 from dynsolve.problem.documentation import tables
 from dynsolve.problem.lint import lint_text
-from tests.pages import blocks, examples, files, run, sections
+from tests.repository.pages import blocks, examples, files, run, sections
 from tests.support import ROOT
 
 PAGE = (ROOT / "problems" / "README.md").read_text(encoding="utf-8")
@@ -62,6 +62,7 @@ def test_a_problem_file_is_sound_and_solved(text: str) -> None:
     assert dynsolve.solve(text).to_json()["format"] == "dynsolve-solution/1"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("section", EXAMPLES)
 def test_the_examples_print_what_they_say(section: str, tmp_path: Path) -> None:
     _folder(tmp_path)

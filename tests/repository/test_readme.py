@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.pages import blocks, examples, files, run, sections
+from tests.repository.pages import blocks, examples, files, run, sections
 from tests.support import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -58,6 +58,7 @@ def _course(folder: Path) -> None:
         shutil.copy(folder / "problems" / f"{stem}.yaml", folder / "course")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("section", EXAMPLES)
 def test_the_examples_print_what_they_say(section: str, tmp_path: Path) -> None:
     shutil.copytree(ROOT / "problems", tmp_path / "problems")

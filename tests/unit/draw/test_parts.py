@@ -128,6 +128,7 @@ def test_the_latex_has_balanced_groups() -> None:
     assert tex.count("{") == tex.count("}") and "%" not in tex.replace("%\n", "")
 
 
+@pytest.mark.slow
 def test_parts_of_a_robot_keep_apart() -> None:
     from dynsolve.draw.orientation import setting
     from dynsolve.draw.pose import best_pose

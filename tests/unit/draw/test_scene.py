@@ -35,6 +35,7 @@ ODD = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
 def test_no_label_lies_on_another(path: Path) -> None:
     assert overlapping(drawn(path)) == []

@@ -188,12 +188,14 @@ def rank_of_the_regressor(problem: str) -> int:
     return int((sizes > 1e-5 * sizes[0]).sum())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("problem", "count"), [("puma560", 36), ("puma560-first3", 15)])
 def test_the_constants_are_as_few_as_can_be(problem: str, count: int) -> None:
     assert len(abbreviate(solved(problem).forms, True).constants) == count
     assert rank_of_the_regressor(problem) == count
 
 
+@pytest.mark.slow
 def test_a_long_model_becomes_short() -> None:
     for problem in LONG:
         assert is_long(solved(problem).forms)
@@ -275,6 +277,7 @@ def entries(solution: dynsolve.Solution, values: dict[str, float]) -> dict[str, 
     return known
 
 
+@pytest.mark.slow
 def test_formulas_in_names_are_right() -> None:
     solution = solved("stanford-6")
     values = state(solution, 3)
@@ -335,6 +338,7 @@ def test_nothing_fills_pages() -> None:
                     assert len(to_unicode(part, style)) < 600
 
 
+@pytest.mark.slow
 def test_a_long_model_with_numbers_for_its_masses() -> None:
     """Numbers need no names; what recurs does, and the steps say what they are made of all the same."""
     draw = random.Random(1)

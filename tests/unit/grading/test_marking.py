@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 from fractions import Fraction
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -127,6 +128,7 @@ _POLICIES = st.builds(
 )
 
 
+@pytest.mark.slow
 @given(_answers(), _POLICIES, st.booleans(), st.booleans())
 @settings(max_examples=300, deadline=None)
 def test_marks_hold_together_whatever_the_policy(
@@ -153,6 +155,7 @@ def test_marks_hold_together_whatever_the_policy(
     assert of == maximum(((a.name, a.of) for a in answers), policy)
 
 
+@pytest.mark.slow
 @given(_answers(), _POLICIES)
 @settings(max_examples=200, deadline=None)
 def test_what_is_right_earns_no_less_than_what_is_not(answers: list[JudgedAnswer], policy: Policy) -> None:

@@ -166,6 +166,7 @@ def test_a_worker_is_replaced_when_it_goes_over_its_memory() -> None:
         worker.end()
 
 
+@pytest.mark.slow
 def test_a_worker_that_takes_too_long_is_ended_and_the_next_hand_in_has_another() -> None:
     sums = [f"  K: (m1*L1 + m2*L2 + I1zz + g + theta1')^8 + {i}\n" for i in range(30)]
     worker = Worker(Bounds(0.01, 1 << 30))
@@ -191,6 +192,7 @@ def test_time_is_the_processors_so_that_no_verdict_depends_on_how_busy_the_machi
         worker.end()
 
 
+@pytest.mark.slow
 def test_what_hangs_without_working_is_ended_by_the_clock(monkeypatch: pytest.MonkeyPatch) -> None:
     worker = Worker(Bounds())
     try:
@@ -204,6 +206,7 @@ def test_what_hangs_without_working_is_ended_by_the_clock(monkeypatch: pytest.Mo
         worker.end()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "fault"),
     [
@@ -224,6 +227,7 @@ def test_one_answer_that_is_too_much_spoils_no_other(heavy: None, name: str, fau
     assert found["g"]["verdict"] == "wrong"
 
 
+@pytest.mark.slow
 def test_where_too_many_answers_are_too_much_all_of_the_hand_in_is(heavy: None) -> None:
     worker = Worker(Bounds(0.5, 1 << 30))
     text = "answers:\n" + "".join(f"  P1: {i}*m1\n" for i in range(20)) + RIGHT_K[9:]
