@@ -17,7 +17,7 @@ import sys
 from collections.abc import Iterable, Sequence
 from textwrap import wrap
 
-from dynsolve.problem.kinds import BRACKETS, Key, Kind, ListOf, OneOf, Record, Shared, Word, either, ways
+from dynsolve.problem.kinds import BRACKETS, Key, Keyed, ListOf, OneOf, Shared, ValueKind, Word, either, ways
 from dynsolve.problem.specification import BODY, PROBLEM, ROW, SHAPE
 from dynsolve.robot.shapes import KINDS
 
@@ -46,7 +46,7 @@ def _parts(key: Key) -> list[str]:
     """The keys of each item of a list, a line each."""
     items = key.kind.items if isinstance(key.kind, ListOf) else None
     record = items.kind if isinstance(items, Shared) else items
-    if not isinstance(record, Record):
+    if not isinstance(record, Keyed):
         return []
     width = max(map(len, record.names)) + 2
     return [
@@ -56,7 +56,7 @@ def _parts(key: Key) -> list[str]:
     ]
 
 
-def _choice(kind: Kind) -> str:
+def _choice(kind: ValueKind) -> str:
     """The ways in which a value can be written, where there are several."""
     kind = kind.kind if isinstance(kind, Shared) else kind
     return f" Write {either(ways(kind))}.".replace("`", "") if isinstance(kind, OneOf | Word) else ""
@@ -75,7 +75,7 @@ def tables() -> tuple[str, ...]:
     return (*map(_keys, (PROBLEM, ROW, BODY)), _shapes())
 
 
-def _keys(record: Record) -> str:
+def _keys(record: Keyed) -> str:
     return _table(("key", "value", "default", "meaning"), map(_row, record.keys))
 
 

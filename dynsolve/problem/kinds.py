@@ -34,7 +34,7 @@ class Word:
 class ListOf:
     """A list of at least `least` and at most `most` values of one kind."""
 
-    items: Kind
+    items: ValueKind
     called: str
     least: int = 0
     most: int | None = None
@@ -44,12 +44,12 @@ class ListOf:
 class MapOf:
     """A mapping from names that the file chooses to values of one kind."""
 
-    values: Kind
+    values: ValueKind
     called: str
 
 
 @dataclass(frozen=True, slots=True)
-class Record:
+class Keyed:
     """A mapping with known keys, at least `least` of them."""
 
     keys: tuple[Key, ...]
@@ -74,7 +74,7 @@ class Record:
 class OneOf:
     """A value of one of several kinds."""
 
-    kinds: tuple[Kind, ...]
+    kinds: tuple[ValueKind, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,12 +82,12 @@ class Shared:
     """A kind that several keys have; the schema defines it once, under `name`."""
 
     name: str
-    kind: Kind
+    kind: ValueKind
     called: str
     meaning: str = ""
 
 
-Kind = Plain | Word | ListOf | MapOf | Record | OneOf | Shared
+ValueKind = Plain | Word | ListOf | MapOf | Keyed | OneOf | Shared
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +102,7 @@ class Key:
     """
 
     name: str
-    kind: Kind
+    kind: ValueKind
     meaning: str = ""
     example: str = ""
     default: str = ""
@@ -122,7 +122,7 @@ class Key:
         return self.remedy or f"write {self.name}: {self.example}"
 
 
-def ways(kind: Kind) -> list[str]:
+def ways(kind: ValueKind) -> list[str]:
     """The ways in which a value of this kind is written; code is set in backticks.
 
     >>> ways(OneOf((Word(("tip", "origin")), Plain("a number", {}))))
@@ -133,7 +133,7 @@ def ways(kind: Kind) -> list[str]:
             return [f"`{choice}`" for choice in choices]
         case OneOf(kinds):
             return [way for one in kinds for way in ways(one)]
-        case Record(keys):
+        case Keyed(keys):
             brief = len(keys) > 2
             return [f"`{{{', '.join(key.name if brief else f'{key.name}: {key.example}' for key in keys)}}}`"]
     return [kind.called]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from dynsolve.problem.kinds import Key, Kind, ListOf, MapOf, OneOf, Plain, Record, Shared, Word
+from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, ValueKind, Word
 from dynsolve.problem.specification import PROBLEM
 
 Schema = dict[str, Any]
@@ -32,7 +32,7 @@ def schema() -> Schema:
     }
 
 
-def _schema_of(kind: Kind, shared: dict[str, Schema]) -> Schema:
+def _schema_of(kind: ValueKind, shared: dict[str, Schema]) -> Schema:
     """What JSON Schema says of a kind of value; kinds of several keys are gathered in `shared`."""
     match kind:
         case Plain(_, json):
@@ -46,7 +46,7 @@ def _schema_of(kind: Kind, shared: dict[str, Schema]) -> Schema:
             return {"type": "array", "items": _schema_of(items, shared), **_given(bounds)}
         case MapOf(values):
             return {"type": "object", "additionalProperties": _schema_of(values, shared)}
-        case Record(keys, least):
+        case Keyed(keys, least):
             required = [key.name for key in kind.required]
             return {
                 "type": "object",

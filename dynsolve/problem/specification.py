@@ -15,7 +15,7 @@ to, and give what was read a place in `Problem` or `Robot`.
 
 from __future__ import annotations
 
-from dynsolve.problem.kinds import Key, ListOf, MapOf, OneOf, Plain, Record, Shared, Word
+from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, Word
 from dynsolve.robot.model import Convention
 from dynsolve.robot.shapes import AXES, KINDS
 
@@ -41,7 +41,7 @@ ROTATION = Shared(
 
 # -- a row of the table ----------------------------------------------------------------------------
 
-ROW = Record(
+ROW = Keyed(
     (
         Key(
             "theta",
@@ -67,22 +67,22 @@ ROW = Record(
 AXIS = Word(AXES)
 CENTERS = Word(("tip", "origin", "midpoint"))
 ABOUT = Word(("center", "origin", "joint"))
-ALONG = Record((Key("along", EXPRESSION, example="1/2", required=True),))
-NEAR = Record((Key("near", VECTOR, example="[lc1, 0, 0]", required=True),))
-MEASURED = Record((*ALONG.keys, *NEAR.keys))
-TENSOR = Record(tuple(Key(name, EXPRESSION) for name in ("xx", "yy", "zz", "xy", "xz", "yz")), least=1)
-FROM_BASE = Record((Key("base", ROTATION, example="Rz(theta1)", required=True),))
+ALONG = Keyed((Key("along", EXPRESSION, example="1/2", required=True),))
+NEAR = Keyed((Key("near", VECTOR, example="[lc1, 0, 0]", required=True),))
+MEASURED = Keyed((*ALONG.keys, *NEAR.keys))
+TENSOR = Keyed(tuple(Key(name, EXPRESSION) for name in ("xx", "yy", "zz", "xy", "xz", "yz")), least=1)
+FROM_BASE = Keyed((Key("base", ROTATION, example="Rz(theta1)", required=True),))
 POINT = Word(("point",))
 NO_VALUE = Word(("none",))
 
 
-def dimensions(shape: str) -> Record:
+def dimensions(shape: str) -> Keyed:
     """The dimensions of a shape."""
     kind = KINDS[shape]
     keys = [Key(name, EXPRESSION, example="...", required=True) for name in kind.keys]
     if kind.has_axis:
         keys.append(Key("axis", AXIS, "The axis in the body-attached frame.", "x"))
-    return Record(tuple(keys))
+    return Keyed(tuple(keys))
 
 
 def _shape(name: str) -> Key:
@@ -93,12 +93,12 @@ def _shape(name: str) -> Key:
 
 SHAPE = Shared(
     "shape",
-    OneOf((POINT, *(Record((_shape(name),)) for name in KINDS if KINDS[name].dimensions))),
+    OneOf((POINT, *(Keyed((_shape(name),)) for name in KINDS if KINDS[name].dimensions))),
     "`point`, or a shape with its dimensions",
     "A uniform body: {rod: {length: l1, axis: x}}.",
 )
 
-BODY = Record(
+BODY = Keyed(
     (
         Key(
             "mass",
@@ -165,9 +165,9 @@ MAX_BODIES = 100
 CONVENTION = Word(tuple(convention.value for convention in Convention))
 ROWS = ListOf(Shared("row", ROW, "a row"), "a list of rows", 1, MAX_ROWS)
 BODIES = ListOf(Shared("body", BODY, "a body"), "a list of bodies", 0, MAX_BODIES)
-BASE = Record((Key("rotate", ROTATION, example="Rz(90deg)"), Key("move", VECTOR, example="[0, 0, h]")))
+BASE = Keyed((Key("rotate", ROTATION, example="Rz(90deg)"), Key("move", VECTOR, example="[0, 0, h]")))
 
-PROBLEM = Record(
+PROBLEM = Keyed(
     (
         Key(
             "title",

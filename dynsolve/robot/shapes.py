@@ -1,8 +1,12 @@
 """Uniform bodies and their inertia about the mass centre.
 
-The principal moments stand as formulas of one text, in the letters of the
-textbook: the same text is evaluated for a robot and printed in the explanation.
-Adding a shape is adding one record to `KINDS`.
+The principal moments are formulas in the letters of the textbook; the same text is
+evaluated for a robot and printed in the explanation.  To add a shape, add its record to
+`KINDS`: the keys of its dimensions with their letters, and I_xx, I_yy, I_zz about the mass
+centre with the shape's own axis along z.  The reader of problem files, the JSON Schema and
+the file of `dynsolve new` know it from there; `dynsolve/draw/solids.py` holds its outline
+for pictures, and `python -m dynsolve.problem.documentation` prints the table for
+`problems/README.md`.
 
 Source: Spong, Hutchinson, Vidyasagar, Robot Modeling and Control (2006), section
 7.2.1, for the box and the method: I_xx = ∫ (y² + z²) dm and so on.  The tests hold
@@ -29,8 +33,8 @@ MASS = "m"
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
-    """A shape: its dimensions and its principal moments.
+class ShapeKind:
+    """A kind of shape: its dimensions and its principal moments.
 
     `dimensions` are (key in the file, letter in the formulas).  `moments` are
     I_xx, I_yy, I_zz about the mass centre with the body's own axis along z.
@@ -53,39 +57,39 @@ class Kind:
 _ROUND_SIDE = "m*(3*r^2 + l^2)/12"
 _HOLLOW_SIDE = "m*(3*(ro^2 + ri^2) + l^2)/12"
 
-KINDS: Mapping[str, Kind] = {
+KINDS: Mapping[str, ShapeKind] = {
     kind.name: kind
     for kind in (
-        Kind("point", (), None),
-        Kind(
+        ShapeKind("point", (), None),
+        ShapeKind(
             "box",
             (("x", "x"), ("y", "y"), ("z", "z")),
             ("m*(y^2 + z^2)/12", "m*(x^2 + z^2)/12", "m*(x^2 + y^2)/12"),
         ),
-        Kind(
+        ShapeKind(
             "cylinder",
             (("radius", "r"), ("length", "l")),
             (_ROUND_SIDE, _ROUND_SIDE, "m*r^2/2"),
             has_axis=True,
             along_link=True,
         ),
-        Kind(
+        ShapeKind(
             "hollow_cylinder",
             (("outer", "ro"), ("inner", "ri"), ("length", "l")),
             (_HOLLOW_SIDE, _HOLLOW_SIDE, "m*(ro^2 + ri^2)/2"),
             has_axis=True,
             along_link=True,
         ),
-        Kind(
+        ShapeKind(
             "rod",
             (("length", "l"),),
             ("m*l^2/12", "m*l^2/12", "0"),
             has_axis=True,
             along_link=True,
         ),
-        Kind("disk", (("radius", "r"),), ("m*r^2/4", "m*r^2/4", "m*r^2/2"), has_axis=True),
-        Kind("sphere", (("radius", "r"),), ("2*m*r^2/5",) * 3),
-        Kind("shell", (("radius", "r"),), ("2*m*r^2/3",) * 3),
+        ShapeKind("disk", (("radius", "r"),), ("m*r^2/4", "m*r^2/4", "m*r^2/2"), has_axis=True),
+        ShapeKind("sphere", (("radius", "r"),), ("2*m*r^2/5",) * 3),
+        ShapeKind("shell", (("radius", "r"),), ("2*m*r^2/3",) * 3),
     )
 }
 """Every shape by its name."""
