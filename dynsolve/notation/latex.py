@@ -12,6 +12,7 @@ from dynsolve.notation.tree import BigSum, Degrees, Node, Words
 _DOTS = ("", r"\dot", r"\ddot", r"\dddot")
 _STYLES = {"bold": r"\mathbf", "script": r"\mathcal", "upright": r"\mathrm"}
 SIGNS = {
+    "×": r"\times",
     "≈": r"\approx",
     "≠": r"\neq",
     "≡": r"\equiv",
@@ -21,6 +22,8 @@ SIGNS = {
     "⇒": r"\Rightarrow",
     "⇔": r"\Leftrightarrow",
 }
+"""Sign of a relation, or of a cross product -> LaTeX."""
+
 _ESCAPES = {
     "\\": r"\textbackslash{}",
     "^": r"\textasciicircum{}",

@@ -16,19 +16,14 @@ from importlib.resources import files
 from dynsolve.document import (
     Block,
     Document,
-    Equations,
     Fold,
     Formula,
     Heading,
     Inline,
-    List,
-    Note,
     Picture,
     Prose,
     Table,
     Text,
-    Uses,
-    Verbatim,
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
@@ -36,9 +31,10 @@ from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Number, Relation, Row
 from dynsolve.render.boxes import holds_matrix
 from dynsolve.render.flow import Flow, Notation, together
+from dynsolve.render.page import MarkupPage
 from dynsolve.render.references import numbered, with_results
 from dynsolve.render.typesetting import entry_name, listed
-from dynsolve.render.words import Speech, visible
+from dynsolve.render.words import visible
 
 PHONE = 16.5
 """What fits a phone, in em."""
@@ -118,15 +114,14 @@ class _Entry:
     steps: list[tuple[str, str, int]] = field(default_factory=list)
 
 
-class _Page:
+class _Page(MarkupPage):
     """Turns blocks into HTML, and remembers what the contents and the styles need."""
 
     def __init__(self, style: Style, labels: dict[str, int]) -> None:
-        self.printer = MathMLPrinter(style)
-        self.words = Speech(escape, self.inline)
+        printer = MathMLPrinter(style)
+        super().__init__(printer, labels)
         self.ruler = Ruler(style)
-        self.flow = Flow(html_notation(self.printer), self.ruler, _FINE)
-        self.labels = labels
+        self.flow = Flow(html_notation(printer), self.ruler, _FINE)
         self.entries: list[_Entry] = []
         self.widths: set[int] = set()
 
@@ -143,29 +138,46 @@ class _Page:
             yield from self.block(block)
         yield "</section>\n" if is_open else ""
 
-    def block(self, block: Block) -> Iterator[str]:
-        match block:
-            case Heading(text, level):
-                yield f'<h{level} dir="auto">{self.words(text)}</h{level}>\n'
-            case Text(parts):
-                yield f'<p class="why" dir="auto">{self.prose(parts)}</p>\n'
-            case Formula():
-                yield from self.formula(block)
-            case Equations(nodes):
-                lines = "".join(map(self.broken, nodes))
-                yield f'<div class="formula work"><div class="box">{lines}</div></div>\n'
-            case Uses(labels):
-                yield from self.uses(labels)
-            case List(items):
-                yield "<ul>" + "".join(f"<li>{self.prose(item)}</li>" for item in items) + "</ul>\n"
-            case Note(parts):
-                yield f'<p class="note"><strong>Note.</strong> {self.prose(parts)}</p>\n'
-            case Table():
-                yield self.table(block)
-            case Picture(svg, caption):
-                yield f"<figure>{svg}<figcaption>{self.words(caption)}</figcaption></figure>\n"
-            case Fold():
-                yield from self.fold(block)
+    def heading(self, heading: Heading) -> Iterator[str]:
+        level = heading.level
+        yield f'<h{level} dir="auto">{self.words(heading.text)}</h{level}>\n'
+
+    def text(self, text: Text) -> Iterator[str]:
+        yield f'<p class="why" dir="auto">{self.prose(text.parts)}</p>\n'
+
+    def equations(self, nodes: Sequence[Node]) -> Iterator[str]:
+        lines = "".join(map(self.broken, nodes))
+        yield f'<div class="formula work"><div class="box">{lines}</div></div>\n'
+
+    def reference(self, label: str) -> str:
+        return f'<a href="#eq-{label}">{super().reference(label)}</a>'
+
+    def uses(self, sentence: str) -> Iterator[str]:
+        yield f'<p class="uses">{sentence}</p>\n'
+
+    def list(self, items: Sequence[Prose]) -> Iterator[str]:
+        yield "<ul>" + "".join(f"<li>{self.prose(item)}</li>" for item in items) + "</ul>\n"
+
+    def note(self, parts: Prose) -> Iterator[str]:
+        yield f'<p class="note"><strong>Note.</strong> {self.prose(parts)}</p>\n'
+
+    def table(self, table: Table) -> Iterator[str]:
+        head = "".join(f"<th>{self.cell(cell)}</th>" for cell in table.header)
+        body = "".join(
+            "<tr>" + "".join(f"<td>{self.cell(cell)}</td>" for cell in cells) + "</tr>"
+            for cells in table.rows
+        )
+        yield (
+            f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>\n'
+        )
+
+    def cell(self, cell: Inline) -> str:
+        """A cell of a table, in which no formula is broken."""
+        return self.whole(cell) if isinstance(cell, Node) else self.part(cell)
+
+    def picture(self, picture: Picture) -> Iterator[str]:
+        caption = self.words(picture.caption)
+        yield f"<figure>{picture.svg}<figcaption>{caption}</figcaption></figure>\n"
 
     def fold(self, fold: Fold) -> Iterator[str]:
         title = self.words(fold.title)
@@ -173,50 +185,24 @@ class _Page:
         if self.entries:
             self.entries[-1].steps.append((anchor, title, fold.level))
         yield f'<details open class="step l{int(fold.level)}" id="{anchor}"><summary>{title}</summary>\n'
-        for block in with_results(fold.blocks):
-            yield from self.block(block)
+        yield from self.blocks(with_results(fold.blocks))
         yield "</details>\n"
 
-    def prose(self, parts: Prose) -> str:
-        return "".join(map(self.part, parts))
+    def escaped(self, text: str) -> str:
+        return escape(text)
 
-    def part(self, part: Inline) -> str:
-        """A piece of a sentence."""
-        match part:
-            case str():
-                return self.words(part)
-            case Verbatim(text):
-                return f'<code dir="auto">{escape(visible(text))}</code>'
-        return self.sentence_part(part)
-
-    def sentence_part(self, node: Node) -> str:
-        """A formula in a sentence; a long one may be broken."""
-        if self.ruler.width(node) <= PHONE / 2:
-            return self.inline(node)
-        return "<wbr>".join(math(piece.text) for piece in self.flow.pieces(node))
+    def verbatim(self, text: str) -> str:
+        return f'<code dir="auto">{escape(visible(text))}</code>'
 
     def inline(self, node: Node) -> str:
+        """A formula in a sentence; a long one may be broken."""
+        if self.ruler.width(node) <= PHONE / 2:
+            return self.whole(node)
+        return "<wbr>".join(math(piece.text) for piece in self.flow.pieces(node))
+
+    def whole(self, node: Node) -> str:
+        """A formula that is not broken."""
         return math(self.printer.text(node))
-
-    def uses(self, labels: Sequence[str]) -> Iterator[str]:
-        known = [label for label in labels if label in self.labels]
-        if known:
-            links = [f'<a href="#eq-{label}">({self.labels[label]})</a>' for label in known]
-            listed = ", ".join(links[:-1]) + " and " * (len(links) > 1) + links[-1]
-            yield f'<p class="uses">With {listed}:</p>\n'
-
-    def table(self, table: Table) -> str:
-        head = "".join(f"<th>{self.cell(cell)}</th>" for cell in table.header)
-        body = "".join(
-            "<tr>" + "".join(f"<td>{self.cell(cell)}</td>" for cell in cells) + "</tr>"
-            for cells in table.rows
-        )
-        return (
-            f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>\n'
-        )
-
-    def cell(self, cell: Inline) -> str:
-        return self.inline(cell) if isinstance(cell, Node) else self.part(cell)
 
     # -- displayed formulas ------------------------------------------------------------------------
 

@@ -9,29 +9,22 @@ from itertools import chain, groupby
 from dynsolve.document import (
     Block,
     Document,
-    Equations,
-    Fold,
     Formula,
     Heading,
-    Inline,
-    List,
-    Note,
     Picture,
     Prose,
     Table,
     Text,
     Uses,
-    Verbatim,
 )
-from dynsolve.notation.extent import Ruler
-from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.latex import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Matrix, Node, Words
+from dynsolve.notation.tree import Node, Words
 from dynsolve.render.flow import Notation
 from dynsolve.render.latex_text import latex_text
-from dynsolve.render.references import numbered, slug, with_sources
-from dynsolve.render.typesetting import Line, Setter
-from dynsolve.render.words import Speech
+from dynsolve.render.page import TypesetPage
+from dynsolve.render.references import numbered, slug
+from dynsolve.render.typesetting import Line
 
 PAGE = 42.8
 """The width of our own page, in em."""
@@ -42,7 +35,6 @@ FRAGMENT_PAGE = 32.8
 _NUMBER = 3.4
 _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 _TALL = (r"\frac", r"\sum", r"\begin")
-_SIGNS = {"≈": r"\approx", "≠": r"\neq", "≤": r"\leq", "≥": r"\geq", "⇒": r"\Rightarrow", "×": r"\times"}
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
 
 _PREAMBLE = r"""\documentclass[a4paper,11pt]{article}
@@ -110,7 +102,7 @@ def latex_notation(printer: LatexPrinter) -> Notation:
         plus="{} +",
         minus="{} -",
         lead="-",
-        relation=lambda sign: "{} " + _SIGNS.get(sign, sign),
+        relation=lambda sign: "{} " + SIGNS.get(sign, sign),
         opened=opened,
         closed=closed,
         joined=" ".join,
@@ -120,10 +112,10 @@ def latex_notation(printer: LatexPrinter) -> Notation:
 class _Printer(LatexPrinter):
     """LaTeX for a page: rows with fractions in them stand further apart, formulas side by side too."""
 
-    def _matrix(self, node: Matrix) -> str:
-        rows = [" & ".join(map(self.text, row)) for row in node.rows]
-        ends = [r" \\[3pt] " if r"\frac" in row else r" \\ " for row in rows[:-1]]
-        body = "".join(chain.from_iterable(zip(rows, [*ends, ""], strict=True)))
+    def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
+        lines = [" & ".join(row) for row in rows]
+        ends = [r" \\[3pt] " if r"\frac" in line else r" \\ " for line in lines[:-1]]
+        body = "".join(chain.from_iterable(zip(lines, [*ends, ""], strict=True)))
         return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
 
     def _words(self, node: Words) -> str:
@@ -132,16 +124,12 @@ class _Printer(LatexPrinter):
         return "," if node.text == "," else super()._words(node)
 
 
-class _Page:
-    """Turns blocks into LaTeX; knows the page's width and the numbers of the equations."""
+class _Page(TypesetPage):
+    """Turns blocks into LaTeX."""
 
     def __init__(self, style: Style, width: float, document: Document) -> None:
-        self.printer = _Printer(style)
-        self.words = Speech(latex_text, self.inline)
-        ruler, notation = Ruler(style), latex_notation(self.printer)
-        self.plain = Setter(notation, ruler, width)
-        self.with_number = Setter(notation, ruler, width - _NUMBER)
-        self.labels = numbered(document)
+        printer = _Printer(style)
+        super().__init__(printer, latex_notation(printer), numbered(document), width, _NUMBER)
         self.prefix = slug(document)
 
     def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
@@ -158,94 +146,79 @@ class _Page:
                 yield from self.block(block)
                 in_text = isinstance(block, Text | Uses)
 
-    def block(self, block: Block) -> Iterator[str]:
-        match block:
-            case Heading(text, level):
-                yield self.heading(text, level)
-            case Text(parts, source):
-                beside = f"\\formulasource{{{self.words(source)}}}" if source else ""
-                yield f"{self.prose(parts)}{beside}"
-            case Equations(nodes):
-                yield from _aligned(self.plain.equations(nodes), "")
-            case Uses(labels):
-                yield from self.uses(labels)
-            case List(items):
-                yield "\\begin{itemize}"
-                yield from (f"\\item {self.prose(item)}" for item in items)
-                yield "\\end{itemize}"
-            case Note(parts):
-                yield f"\\begin{{quote}}\\small\\textbf{{Note.}} {self.prose(parts)}\\end{{quote}}"
-            case Table():
-                yield self.table(block)
-            case Picture(_, caption, latex):
-                if latex:
-                    yield f"\\begin{{center}}\n{latex}\n\n\\small {self.words(caption)}\n\\end{{center}}"
-            case Fold(title, blocks):
-                yield self.heading(title, 3)
-                yield from self.blocks(with_sources(blocks))
-
-    def heading(self, text: str, level: int) -> str:
+    def heading(self, heading: Heading) -> Iterator[str]:
         """A heading keeps the number that it has in the whole derivation."""
-        command = ("section", "section", "subsection")[level - 1]
-        found = _NUMBERED.fullmatch(text)
-        words = f"{found[1]}\\quad {self.words(found[2])}" if found else self.words(text)
-        return f"\\{command}*{{{words}}}"
+        command = ("section", "section", "subsection")[heading.level - 1]
+        found = _NUMBERED.fullmatch(heading.text)
+        words = f"{found[1]}\\quad {self.words(found[2])}" if found else self.words(heading.text)
+        yield f"\\{command}*{{{words}}}"
 
-    def prose(self, parts: Prose) -> str:
-        """A sentence with its formulas."""
-        return "".join(map(self.part, parts))
+    def text(self, text: Text) -> Iterator[str]:
+        source = f"\\formulasource{{{self.words(text.source)}}}" if text.source else ""
+        yield self.prose(text.parts) + source
 
-    def part(self, part: Inline) -> str:
-        """A piece of a sentence, or a cell of a table."""
-        match part:
-            case str():
-                return self.words(part)
-            case Verbatim(text):
-                return f"\\texttt{{{latex_text(text)}}}"
-        return self.inline(part)
-
-    def inline(self, node: Node) -> str:
-        """A formula in a sentence."""
-        return f"${self.printer.text(node)}$"
-
-    def uses(self, labels: Sequence[str]) -> Iterator[str]:
-        known = [label for label in labels if label in self.labels]
-        if known:
-            references = [f"\\eqref{{{self.prefix}:{label}}}" for label in known]
-            listed = ", ".join(references[:-1]) + " and " * (len(references) > 1) + references[-1]
-            yield f"With {listed}:"
+    def formula(self, formula: Formula) -> Iterator[str]:
+        yield from self.formulas([formula])
 
     def formulas(self, formulas: Iterable[Formula]) -> Iterator[str]:
         """Displays: formulas of one line together, one that is broken alone."""
-        rows: list[tuple[list[Line], str]] = []
+        rows: list[tuple[Line, str]] = []
         for formula in formulas:
+            lines = self.setter(formula).set(formula)
             is_numbered = formula.label in self.labels
-            lines = (self.with_number if is_numbered else self.plain).set(formula)
             label = f"\\label{{{self.prefix}:{formula.label}}}" if is_numbered else ""
             if len(lines) == 1:
-                rows.append((lines, label))
+                rows.append((lines[0], label))
             elif lines:
                 yield from _gathered(rows)
                 rows = []
                 yield from _aligned(lines, label)
         yield from _gathered(rows)
 
-    def table(self, table: Table) -> str:
+    def equations(self, nodes: Sequence[Node]) -> Iterator[str]:
+        yield from _aligned(self.unnumbered.equations(nodes), "")
+
+    def reference(self, label: str) -> str:
+        return f"\\eqref{{{self.prefix}:{label}}}"
+
+    def uses(self, sentence: str) -> Iterator[str]:
+        yield sentence
+
+    def list(self, items: Sequence[Prose]) -> Iterator[str]:
+        yield "\\begin{itemize}"
+        yield from (f"\\item {self.prose(item)}" for item in items)
+        yield "\\end{itemize}"
+
+    def note(self, parts: Prose) -> Iterator[str]:
+        yield f"\\begin{{quote}}\\small\\textbf{{Note.}} {self.prose(parts)}\\end{{quote}}"
+
+    def table(self, table: Table) -> Iterator[str]:
         rows = [" & ".join(map(self.part, row)) for row in (table.header, *table.rows)]
         head, *body = rows
         columns = "c" * len(table.header)
-        return (
+        yield (
             f"\\begin{{center}}\n\\begin{{tabular}}{{{columns}}}\n{head} \\\\ \\hline\\rule{{0pt}}{{2.6ex}}"
             + " \\\\\n".join(body)
             + " \\\\\n\\end{tabular}\n\\end{center}"
         )
 
+    def picture(self, picture: Picture) -> Iterator[str]:
+        if picture.latex:
+            caption = self.words(picture.caption)
+            yield f"\\begin{{center}}\n{picture.latex}\n\n\\small {caption}\n\\end{{center}}"
 
-def _gathered(rows: Sequence[tuple[list[Line], str]]) -> Iterator[str]:
+    def escaped(self, text: str) -> str:
+        return latex_text(text)
+
+    def verbatim(self, text: str) -> str:
+        return f"\\texttt{{{latex_text(text)}}}"
+
+
+def _gathered(rows: Sequence[tuple[Line, str]]) -> Iterator[str]:
     """Formulas of one line each, one under the other."""
     if not rows:
         return
-    texts = [f"{line.left} {line.right}".strip() for (line,), _ in rows]
+    texts = [line.alone for line, _ in rows]
     if len(rows) == 1:
         label = rows[0][1]
         star = "" if label else "*"
@@ -263,9 +236,8 @@ def _aligned(lines: Sequence[Line], label: str) -> Iterator[str]:
         last = len(part) - 1
         rows = []
         for place, line in enumerate(part):
-            indent = "\\qquad " if line.indented else ""
             tag = (number if place == last else r" \notag") if number else ""
-            rows.append(f"{line.left} & {indent}{line.right}{tag}")
+            rows.append(line.aligned("\\qquad ") + tag)
         star = "" if number else "*"
         body = " \\\\\n".join(rows)
         yield f"\\begin{{align{star}}}\n{body}\n\\end{{align{star}}}"

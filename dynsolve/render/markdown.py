@@ -7,33 +7,27 @@ keep, where Markdown takes a backslash away from `\\`.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from dynsolve.document import (
-    Block,
     Document,
-    Equations,
-    Fold,
     Formula,
     Heading,
     Inline,
-    List,
-    Note,
     Picture,
     Prose,
     Table,
     Text,
-    Uses,
     Verbatim,
 )
-from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Matrix, Node, Words
+from dynsolve.notation.tree import Node, Words
 from dynsolve.render.latex import latex_notation
-from dynsolve.render.references import numbered, with_sources
-from dynsolve.render.typesetting import Line, Setter
-from dynsolve.render.words import Speech, visible
+from dynsolve.render.page import TypesetPage
+from dynsolve.render.references import numbered
+from dynsolve.render.typesetting import Line
+from dynsolve.render.words import visible
 
 PAGE = 40.0
 """The width of a page on GitHub, in em."""
@@ -52,9 +46,7 @@ def render(document: Document, style: Style = PLAIN) -> str:
 class _Printer(LatexPrinter):
     r"""LaTeX that Markdown leaves alone: `\cr` for `\\`, no escaped signs."""
 
-    def _matrix(self, node: Matrix) -> str:
-        rows = r" \cr ".join(" & ".join(map(self.text, row)) for row in node.rows)
-        return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
+    row_end = r" \cr "
 
     def _words(self, node: Words) -> str:
         if node.text.strip() == ",":
@@ -62,80 +54,53 @@ class _Printer(LatexPrinter):
         return super()._words(node)
 
 
-class _Page:
-    """Turns blocks into Markdown."""
+class _Page(TypesetPage):
+    """Turns blocks into Markdown, each with an empty line after it."""
 
     def __init__(self, style: Style, labels: dict[str, int]) -> None:
-        self.printer = _Printer(style)
-        self.words = Speech(escaped, self.inline)
-        ruler, notation = Ruler(style), latex_notation(self.printer)
-        self.plain = Setter(notation, ruler, PAGE)
-        self.with_number = Setter(notation, ruler, PAGE - _NUMBER)
-        self.labels = labels
+        printer = _Printer(style)
+        super().__init__(printer, latex_notation(printer), labels, PAGE, _NUMBER)
 
-    def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
-        """The blocks one after the other, each with an empty line after it."""
-        for block in blocks:
-            yield from self.block(block)
+    def heading(self, heading: Heading) -> Iterator[str]:
+        yield f"{'#' * heading.level} {self.words(heading.text)}\n"
 
-    def block(self, block: Block) -> Iterator[str]:
-        match block:
-            case Heading(text, level):
-                yield f"{'#' * level} {self.words(text)}\n"
-            case Text(parts, source):
-                yield _begun(self.prose(parts)) + (f" *({self.words(source)})*" if source else "") + "\n"
-            case Formula():
-                yield from self.formula(block)
-            case Equations(nodes):
-                yield from self.display(self.plain.equations(nodes))
-            case Uses(labels):
-                known = [f"({self.labels[label]})" for label in labels if label in self.labels]
-                if known:
-                    yield f"With {', '.join(known[:-1]) + ' and ' * (len(known) > 1) + known[-1]}:\n"
-            case List(items):
-                yield "\n".join(f"- {self.prose(item)}" for item in items) + "\n"
-            case Note(parts):
-                yield f"> **Note.** {self.prose(parts)}\n"
-            case Table():
-                yield self.table(block)
-            case Picture(_, caption):
-                yield f"*{self.words(caption)}*\n" if caption else ""
-            case Fold(title, blocks):
-                yield f"### {self.words(title)}\n"
-                yield from self.blocks(with_sources(blocks))
-
-    def prose(self, parts: Prose) -> str:
-        return "".join(map(self.part, parts))
-
-    def part(self, part: Inline) -> str:
-        match part:
-            case str():
-                return self.words(part)
-            case Verbatim(text):
-                return code(text)
-        return self.inline(part)
-
-    def inline(self, node: Node) -> str:
-        return f"${self.printer.text(node)}$"
+    def text(self, text: Text) -> Iterator[str]:
+        source = f" *({self.words(text.source)})*" if text.source else ""
+        yield _begun(self.prose(text.parts)) + source + "\n"
 
     def formula(self, formula: Formula) -> Iterator[str]:
         number = self.labels.get(formula.label)
-        lines = (self.with_number if number else self.plain).set(formula)
-        yield from self.display(lines, rf" \tag{{{number}}}" if number else "")
+        yield from _display(self.setter(formula).set(formula), rf" \tag{{{number}}}" if number else "")
 
-    def display(self, lines: Sequence[Line], number: str = "") -> Iterator[str]:
-        for start in range(0, len(lines), _MOST_LINES):
-            is_last = start + _MOST_LINES >= len(lines)
-            tag = number if is_last else ""
-            yield f"$$\n{_rows(lines[start : start + _MOST_LINES])}{tag}\n$$\n"
+    def equations(self, nodes: Sequence[Node]) -> Iterator[str]:
+        yield from _display(self.unnumbered.equations(nodes))
 
-    def table(self, table: Table) -> str:
+    def uses(self, sentence: str) -> Iterator[str]:
+        yield sentence + "\n"
+
+    def list(self, items: Sequence[Prose]) -> Iterator[str]:
+        yield "\n".join(f"- {self.prose(item)}" for item in items) + "\n"
+
+    def note(self, parts: Prose) -> Iterator[str]:
+        yield f"> **Note.** {self.prose(parts)}\n"
+
+    def table(self, table: Table) -> Iterator[str]:
         rows = [" | ".join(map(self.cell, row)) for row in (table.header, *table.rows)]
         rule = " | ".join([":---:"] * len(table.header))
-        return "\n".join(f"| {row} |" for row in (rows[0], rule, *rows[1:])) + "\n"
+        yield "\n".join(f"| {row} |" for row in (rows[0], rule, *rows[1:])) + "\n"
 
     def cell(self, cell: Inline) -> str:
+        """A cell of a table; a bar in it would begin the next."""
         return self.part(cell).replace("|", "\\|") if isinstance(cell, Verbatim) else self.part(cell)
+
+    def picture(self, picture: Picture) -> Iterator[str]:
+        yield f"*{self.words(picture.caption)}*\n" if picture.caption else ""
+
+    def escaped(self, text: str) -> str:
+        return escaped(text)
+
+    def verbatim(self, text: str) -> str:
+        return code(text)
 
 
 def escaped(text: str) -> str:
@@ -165,12 +130,15 @@ def _begun(text: str) -> str:
     return re.sub(r"^(\d+)([.)])", r"\1\\\2", re.sub(r"^([+=-])", r"\\\1", text))
 
 
+def _display(lines: Sequence[Line], number: str = "") -> Iterator[str]:
+    """Displays of lines, a very long formula in several; the number stands in the last."""
+    for start in range(0, len(lines), _MOST_LINES):
+        tag = number if start + _MOST_LINES >= len(lines) else ""
+        yield f"$$\n{_rows(lines[start : start + _MOST_LINES])}{tag}\n$$\n"
+
+
 def _rows(lines: Sequence[Line]) -> str:
     if len(lines) == 1:
-        return f"{lines[0].left} {lines[0].right}".strip()
-    rows = []
-    for line in lines:
-        indent = "\\qquad " if line.indented else ""
-        rows.append(f"{line.left} & {indent}{line.right}")
-    body = " \\cr\n".join(rows)
+        return lines[0].alone
+    body = " \\cr\n".join(line.aligned("\\qquad ") for line in lines)
     return f"\\begin{{aligned}}\n{body}\n\\end{{aligned}}"

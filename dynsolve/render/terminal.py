@@ -10,25 +10,21 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.document import (
-    Block,
     Document,
-    Equations,
     Fold,
     Formula,
     Heading,
-    Inline,
-    List,
-    Note,
+    Picture,
     Prose,
     Table,
     Text,
-    Verbatim,
 )
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import UnicodePrinter, printable, width
 from dynsolve.render.breaking import HARD_SPACE, wrap
 from dynsolve.render.formulas import set_formula
+from dynsolve.render.page import Page
 
 WIDTH = 100
 """The width where none is known, in a pipe."""
@@ -56,69 +52,54 @@ def render(document: Document, columns: int = WIDTH, style: Style = PLAIN) -> It
     ['Energy', '──────', '', '    P₁ = m₁', '']
     """
     page = _Page(max(columns, NARROWEST), UnicodePrinter(style))
-    for block in document.blocks:
-        yield from page.block(block)
+    yield from page.blocks(document.blocks)
 
 
-@dataclass(frozen=True, slots=True)
-class _Page:
-    columns: int
-    printer: UnicodePrinter
+class _Page(Page[StyledLine]):
+    """Turns blocks into lines of at most `columns` cells; formulas have no numbers."""
 
-    def block(self, block: Block) -> Iterator[StyledLine]:
-        match block:
-            case Heading(text, level):
-                yield from self.heading(printable(text), level)
-            case Text(parts):
-                yield from self.paragraph(parts)
-            case Formula():
-                yield from self.formula(block)
-            case Equations(nodes):
-                yield from self.equations(nodes)
-            case List(items):
-                for item in items:
-                    yield from self.hanging(item, "• ", "")
-                yield StyledLine("")
-            case Note(parts):
-                yield from self.hanging(parts, "Note: ", "note")
-                yield StyledLine("")
-            case Table():
-                yield from self.table(block)
-            case Fold(title, blocks):
-                yield StyledLine(printable(title), "step")
-                for inner in blocks:
-                    yield from self.block(inner)
+    def __init__(self, columns: int, printer: UnicodePrinter) -> None:
+        self.columns = columns
+        self.printer = printer
+        self.labels = {}
 
-    def heading(self, text: str, level: int) -> Iterator[StyledLine]:
-        kind = "title" if level == 1 else "heading"
-        lines = wrap(text, self.columns, self.columns)
+    def heading(self, heading: Heading) -> Iterator[StyledLine]:
+        kind, rule = ("title", "═") if heading.level == 1 else ("heading", "─")
+        lines = wrap(printable(heading.text), self.columns, self.columns)
         for line in lines:
             yield StyledLine(line, kind)
-        yield StyledLine(("═" if level == 1 else "─") * max(map(width, lines)), kind)
+        yield StyledLine(rule * max(map(width, lines)), kind)
         yield StyledLine("")
 
-    def words(self, parts: Prose) -> str:
-        """Prose as one text, its formulas unbroken."""
-        return "".join(map(self.part, parts))
+    def words(self, text: str) -> str:
+        return printable(text)
 
-    def part(self, part: Inline) -> str:
-        """A piece of a sentence, or a cell of a table."""
-        match part:
-            case str():
-                return printable(part)
-            case Verbatim(text):
-                return printable(text)
-        return self.printer.text(part).replace(" ", HARD_SPACE)
+    def verbatim(self, text: str) -> str:
+        return printable(text)
 
-    def paragraph(self, parts: Prose) -> Iterator[StyledLine]:
+    def inline(self, node: Node) -> str:
+        """A formula in a sentence, unbroken."""
+        return self.printer.text(node).replace(" ", HARD_SPACE)
+
+    def text(self, text: Text) -> Iterator[StyledLine]:
         room = min(self.columns, _PROSE)
-        for line in wrap(self.words(parts), room, room):
+        for line in wrap(self.prose(text.parts), room, room):
             yield StyledLine(line)
         yield StyledLine("")
 
+    def list(self, items: Sequence[Prose]) -> Iterator[StyledLine]:
+        for item in items:
+            yield from self.hanging(item, "• ", "")
+        yield StyledLine("")
+
+    def note(self, parts: Prose) -> Iterator[StyledLine]:
+        yield from self.hanging(parts, "Note: ", "note")
+        yield StyledLine("")
+
     def hanging(self, parts: Prose, sign: str, kind: str) -> Iterator[StyledLine]:
+        """Prose that is indented, with a sign before its first line."""
         room = min(self.columns, _PROSE) - _INDENT - len(sign)
-        for i, line in enumerate(wrap(self.words(parts), room, room)):
+        for i, line in enumerate(wrap(self.prose(parts), room, room)):
             yield StyledLine(" " * _INDENT + (" " * len(sign) if i else sign) + line, kind)
 
     def formula(self, formula: Formula) -> Iterator[StyledLine]:
@@ -145,9 +126,19 @@ class _Page:
                 yield StyledLine(" " * _INDENT + line.rstrip(), "formula")
         yield StyledLine("")
 
+    def uses(self, sentence: str) -> Iterator[StyledLine]:
+        yield from ()
+
+    def picture(self, picture: Picture) -> Iterator[StyledLine]:
+        yield from ()
+
+    def fold(self, fold: Fold) -> Iterator[StyledLine]:
+        yield StyledLine(printable(fold.title), "step")
+        yield from self.blocks(fold.blocks)
+
     def table(self, table: Table) -> Iterator[StyledLine]:
         rows = (table.header, *table.rows)
-        cells = [[self.words((cell,)).replace(HARD_SPACE, " ") for cell in row] for row in rows]
+        cells = [[self.part(cell).replace(HARD_SPACE, " ") for cell in row] for row in rows]
         widths = [max(map(width, column)) for column in zip(*cells, strict=True)]
         for i, row in enumerate(cells):
             yield StyledLine(" " * _INDENT + _padded(row, widths))

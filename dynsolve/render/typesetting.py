@@ -29,6 +29,15 @@ class Line:
     right: str
     indented: bool = False
 
+    @property
+    def alone(self) -> str:
+        """The text of a line that is level with no other."""
+        return f"{self.left} {self.right}".strip()
+
+    def aligned(self, indent: str) -> str:
+        """The text with `&` at the place where lines are level, and an indent where it goes on."""
+        return f"{self.left} & {indent if self.indented else ''}{self.right}"
+
 
 class Setter:
     """Sets formulas in `room` em."""

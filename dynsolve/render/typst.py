@@ -2,34 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from dynsolve.document import (
-    Block,
     Document,
-    Equations,
-    Fold,
     Formula,
     Heading,
-    Inline,
-    List,
-    Note,
     Picture,
     Prose,
     Table,
     Text,
-    Uses,
-    Verbatim,
 )
 from dynsolve.errors import UsageError
-from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.flow import Notation
-from dynsolve.render.references import numbered, with_sources
-from dynsolve.render.typesetting import Line, Setter
-from dynsolve.render.words import Speech, visible
+from dynsolve.render.page import TypesetPage
+from dynsolve.render.references import numbered
+from dynsolve.render.typesetting import Line
+from dynsolve.render.words import visible
 
 PAGE = 45.0
 """The width of the page, in em."""
@@ -103,102 +95,71 @@ def typst_notation(printer: TypstPrinter) -> Notation:
     )
 
 
-class _Page:
+class _Page(TypesetPage):
     """Turns blocks into Typst."""
 
     def __init__(self, style: Style, labels: dict[str, int]) -> None:
-        self.printer = TypstPrinter(style)
-        self.words = Speech(_string, self.inline)
-        ruler, notation = Ruler(style), typst_notation(self.printer)
-        self.plain = Setter(notation, ruler, PAGE)
-        self.with_number = Setter(notation, ruler, PAGE - _NUMBER)
-        self.labels = labels
+        printer = TypstPrinter(style)
+        super().__init__(printer, typst_notation(printer), labels, PAGE, _NUMBER)
 
-    def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
-        """The blocks one after the other."""
-        for block in blocks:
-            yield from self.block(block)
+    def heading(self, heading: Heading) -> Iterator[str]:
+        yield f"#heading(level: {heading.level})[{self.words(heading.text)}]"
 
-    def block(self, block: Block) -> Iterator[str]:
-        match block:
-            case Heading(text, level):
-                yield f"#heading(level: {level})[{self.words(text)}]"
-            case Text(parts, source):
-                beside = f"#source[{self.words(source)}]" if source else ""
-                yield f"{self.prose(parts)}{beside}\n"
-            case Formula():
-                yield from self.formula(block)
-            case Equations(nodes):
-                yield f"$ {_rows(self.plain.equations(nodes))} $"
-            case Uses(labels):
-                yield from self.uses(labels)
-            case List(items):
-                yield from (f"- {self.prose(item)}" for item in items)
-                yield ""
-            case Note(parts):
-                yield f"#note[*Note.* {self.prose(parts)}]"
-            case Table():
-                yield self.table(block)
-            case Picture(svg, caption):
-                image = f'image(bytes({quoted(svg)}), format: "svg")'
-                yield f"#align(center)[#{image} #text(size: 9pt)[{self.words(caption)}]]"
-            case Fold(title, blocks):
-                yield f"#heading(level: 3)[{self.words(title)}]"
-                yield from self.blocks(with_sources(blocks))
-
-    def prose(self, parts: Prose) -> str:
-        return "".join(map(self.part, parts))
-
-    def part(self, part: Inline) -> str:
-        """A piece of a sentence, or a cell of a table."""
-        match part:
-            case str():
-                return self.words(part)
-            case Verbatim(text):
-                return f"#raw({quoted(visible(text))});"
-        return self.inline(part)
-
-    def inline(self, node: Node) -> str:
-        return f"${self.printer.text(node)}$"
-
-    def uses(self, labels: Sequence[str]) -> Iterator[str]:
-        known = [label for label in labels if label in self.labels]
-        if known:
-            links = [f"#link(<eq-{label}>)[({self.labels[label]})]" for label in known]
-            listed = ", ".join(links[:-1]) + " and " * (len(links) > 1) + links[-1]
-            yield f"#block(sticky: true)[With {listed}:]"
+    def text(self, text: Text) -> Iterator[str]:
+        source = f"#source[{self.words(text.source)}]" if text.source else ""
+        yield f"{self.prose(text.parts)}{source}\n"
 
     def formula(self, formula: Formula) -> Iterator[str]:
-        number = self.labels.get(formula.label)
-        lines = (self.with_number if number else self.plain).set(formula)
+        lines = self.setter(formula).set(formula)
         if not lines:
             return
         display = f"$ {_rows(lines)} $"
-        if number:
+        if number := self.labels.get(formula.label):
             numbering = f"#set math.equation(numbering: _ => [({number})])"
-            yield f"#[{numbering}\n{display} <eq-{formula.label}>]"
-        else:
-            yield display
+            display = f"#[{numbering}\n{display} <eq-{formula.label}>]"
+        yield display
 
-    def table(self, table: Table) -> str:
+    def equations(self, nodes: Sequence[Node]) -> Iterator[str]:
+        yield f"$ {_rows(self.unnumbered.equations(nodes))} $"
+
+    def reference(self, label: str) -> str:
+        return f"#link(<eq-{label}>)[{super().reference(label)}]"
+
+    def uses(self, sentence: str) -> Iterator[str]:
+        yield f"#block(sticky: true)[{sentence}]"
+
+    def list(self, items: Sequence[Prose]) -> Iterator[str]:
+        yield from (f"- {self.prose(item)}" for item in items)
+        yield ""
+
+    def note(self, parts: Prose) -> Iterator[str]:
+        yield f"#note[*Note.* {self.prose(parts)}]"
+
+    def table(self, table: Table) -> Iterator[str]:
         cells = [f"[{self.part(cell)}]" for row in (table.header, *table.rows) for cell in row]
         columns = len(table.header)
-        return (
+        yield (
             f"#align(center, table(columns: {columns}, stroke: none, align: center, "
             f"inset: (x: 0.8em, y: 0.35em), {', '.join(cells[:columns])}, table.hline(stroke: 0.5pt), "
             f"{', '.join(cells[columns:])}))"
         )
 
+    def picture(self, picture: Picture) -> Iterator[str]:
+        image = f'image(bytes({quoted(picture.svg)}), format: "svg")'
+        yield f"#align(center)[#{image} #text(size: 9pt)[{self.words(picture.caption)}]]"
+
+    def escaped(self, text: str) -> str:
+        """Words as a string, so that nothing in them is markup."""
+        return f"#{quoted(_known(text))};"
+
+    def verbatim(self, text: str) -> str:
+        return f"#raw({quoted(visible(text))});"
+
 
 def _rows(lines: Sequence[Line]) -> str:
     if len(lines) == 1:
-        return f"{lines[0].left} {lines[0].right}".strip()
-    return " \\\n".join(f"{line.left} & {'#h(2em) ' if line.indented else ''}{line.right}" for line in lines)
-
-
-def _string(text: str) -> str:
-    """Words as a string, so that nothing in them is markup."""
-    return f"#{quoted(_known(text))};"
+        return lines[0].alone
+    return " \\\n".join(line.aligned("#h(2em) ") for line in lines)
 
 
 def _known(text: str) -> str:

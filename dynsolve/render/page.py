@@ -1,0 +1,194 @@
+"""What every format of a document has in common: `Page` turns its blocks into pieces of the format.
+
+To add a format, write a file with a `render` function and a page that derives from `Page`,
+or from `TypesetPage` where lines are broken here and not by whoever shows them; its methods
+are one for each kind of block and one for each kind of thing in a sentence.  A solution has
+it once it stands in `render.formats` and `solution.reports`.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Generic, TypeVar
+
+from dynsolve.document import (
+    Block,
+    Equations,
+    Fold,
+    Formula,
+    Heading,
+    Inline,
+    List,
+    Note,
+    Picture,
+    Prose,
+    Table,
+    Text,
+    Uses,
+    Verbatim,
+)
+from dynsolve.notation.extent import Ruler
+from dynsolve.notation.formulas import FormulaPrinter
+from dynsolve.notation.tree import Node
+from dynsolve.render.flow import Notation
+from dynsolve.render.references import with_sources
+from dynsolve.render.typesetting import Setter
+from dynsolve.render.words import Speech
+
+_Piece = TypeVar("_Piece")
+
+
+class Page(ABC, Generic[_Piece]):
+    """Turns blocks into pieces of one format: text, or the lines of a terminal."""
+
+    labels: Mapping[str, int]
+    """The numbers of the formulas that have a label."""
+
+    def blocks(self, blocks: Iterable[Block]) -> Iterator[_Piece]:
+        """Blocks one after the other."""
+        for block in blocks:
+            yield from self.block(block)
+
+    def block(self, block: Block) -> Iterator[_Piece]:
+        """One block."""
+        match block:
+            case Heading():
+                yield from self.heading(block)
+            case Text():
+                yield from self.text(block)
+            case Formula():
+                yield from self.formula(block)
+            case Equations(nodes):
+                yield from self.equations(nodes)
+            case Uses(labels):
+                references = [self.reference(label) for label in labels if label in self.labels]
+                if references:
+                    last = " and " * (len(references) > 1) + references[-1]
+                    yield from self.uses(f"With {', '.join(references[:-1])}{last}:")
+            case List(items):
+                yield from self.list(items)
+            case Note(parts):
+                yield from self.note(parts)
+            case Table():
+                yield from self.table(block)
+            case Picture():
+                yield from self.picture(block)
+            case Fold():
+                yield from self.fold(block)
+
+    @abstractmethod
+    def heading(self, heading: Heading) -> Iterator[_Piece]:
+        """A heading."""
+
+    @abstractmethod
+    def text(self, text: Text) -> Iterator[_Piece]:
+        """A paragraph."""
+
+    @abstractmethod
+    def formula(self, formula: Formula) -> Iterator[_Piece]:
+        """A displayed formula."""
+
+    @abstractmethod
+    def equations(self, nodes: Sequence[Node]) -> Iterator[_Piece]:
+        """Equations in one display."""
+
+    def reference(self, label: str) -> str:
+        """A reference to a numbered formula."""
+        return f"({self.labels[label]})"
+
+    @abstractmethod
+    def uses(self, sentence: str) -> Iterator[_Piece]:
+        """The sentence that says what goes into the next formula."""
+
+    @abstractmethod
+    def list(self, items: Sequence[Prose]) -> Iterator[_Piece]:
+        """Items, one under another."""
+
+    @abstractmethod
+    def note(self, parts: Prose) -> Iterator[_Piece]:
+        """A remark beside the text."""
+
+    @abstractmethod
+    def table(self, table: Table) -> Iterator[_Piece]:
+        """A table."""
+
+    @abstractmethod
+    def picture(self, picture: Picture) -> Iterator[_Piece]:
+        """A drawing."""
+
+    @abstractmethod
+    def fold(self, fold: Fold) -> Iterator[_Piece]:
+        """Blocks that belong together under a title."""
+
+    def prose(self, parts: Prose) -> str:
+        """A sentence with its formulas."""
+        return "".join(map(self.part, parts))
+
+    def part(self, part: Inline) -> str:
+        """A piece of a sentence, or a cell of a table."""
+        match part:
+            case str():
+                return self.words(part)
+            case Verbatim(text):
+                return self.verbatim(text)
+        return self.inline(part)
+
+    @abstractmethod
+    def words(self, text: str) -> str:
+        """Words of a sentence."""
+
+    @abstractmethod
+    def verbatim(self, text: str) -> str:
+        """What somebody typed."""
+
+    @abstractmethod
+    def inline(self, node: Node) -> str:
+        """A formula in a sentence."""
+
+
+class MarkupPage(Page[str]):
+    """A page of text with markup, in which mathematics among words is set as formulas."""
+
+    def __init__(self, printer: FormulaPrinter, labels: Mapping[str, int]) -> None:
+        self.printer = printer
+        self.labels = labels
+        self.words_with_formulas = Speech(self.escaped, self.inline)
+
+    def words(self, text: str) -> str:
+        """Words of a sentence, the mathematics among them as formulas."""
+        return self.words_with_formulas(text)
+
+    @abstractmethod
+    def escaped(self, text: str) -> str:
+        """Any text, so that nothing in it is markup."""
+
+
+class TypesetPage(MarkupPage):
+    """A page of a certain width in em, of which `number` em are kept for the number of a formula."""
+
+    def __init__(
+        self,
+        printer: FormulaPrinter,
+        notation: Notation,
+        labels: Mapping[str, int],
+        width: float,
+        number: float,
+    ) -> None:
+        super().__init__(printer, labels)
+        ruler = Ruler(printer.style)
+        self.unnumbered = Setter(notation, ruler, width)
+        self.numbered = Setter(notation, ruler, width - number)
+
+    def setter(self, formula: Formula) -> Setter:
+        """What sets a formula, beside whose number there is less room."""
+        return self.numbered if formula.label in self.labels else self.unnumbered
+
+    def inline(self, node: Node) -> str:
+        """A formula in a sentence."""
+        return f"${self.printer.text(node)}$"
+
+    def fold(self, fold: Fold) -> Iterator[str]:
+        """The blocks of a fold under its title, which cannot be folded away on paper."""
+        yield from self.heading(Heading(fold.title, 3))
+        yield from self.blocks(with_sources(fold.blocks))
