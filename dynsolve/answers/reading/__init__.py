@@ -1,1 +1,30 @@
-"""Reading answers: text and LaTeX as people write them -> trees in the symbols of the problem."""
+r"""Reading answers: text and LaTeX as people write them -> trees in the symbols of the problem.
+
+The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
+
+1. `files` knows the format by the file's ending; `reports`, `answer_file`, `notebooks` or `web`
+   finds the displayed equations, each a `displays.Display`.  `sources` keeps where every
+   character stands in the file, `limits` says how much is read.
+2. `lexer` cuts the text of a display into tokens: letters, numbers, commands, signs.
+3. `prepare` writes the student's macros out and leaves out fonts, sizes and environments that
+   only align, so that one thing has one spelling from here on.
+4. `displays` cuts the tokens into equations, and these at `=` into members.
+5. `equation_reader` takes the equations in order, and keeps what the student defines.
+   `left_side` finds which answers a member names (d11), `right_side` which value it has.
+6. For both, `name_splitting` cuts runs of letters into the names of the problem (`m_2gL_1`), and
+   `grammar` descends over the tokens; what a name means is looked up in the `vocabulary` of
+   the problem.  A value is a tree, or a matrix of trees (`grids`); `size` bounds it.
+7. `answer_list` makes the record (`answers.submission.Answer`), under the name whose shape
+   the value has (`shapes`), and settles at the end what needs the whole file.
+
+`definitions` reads the names that an answer file declares under `symbols:` and `let:`.
+Modules import only those of earlier layers: text (`limits`, `sources`, `lexer`, `prepare`,
+`displays`), names (`grids`, `vocabulary`, `name_splitting`), `grammar`, equations
+(`size`, `shapes`, `left_side`, `right_side`, `answer_list`, `equation_reader`,
+`definitions`), formats (`reports`, `answer_file`, `notebooks`, `web`, `files`).
+
+Where a fault is: a wrong place in a message is `sources`; a wrong sign or command `lexer` or
+`prepare`; an equation cut in two, or a lost label `displays`; a name not known, or taken for
+another `vocabulary` and `grammar.names`; a formula that is refused `grammar`; an answer under
+a wrong name `left_side`; an answer that is missing although it was read `equation_reader`.
+"""

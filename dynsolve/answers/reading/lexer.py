@@ -1,7 +1,8 @@
-r"""Text of an answer, plain or LaTeX, cut into tokens that know their place.
+r"""The lexer: the text of an answer, plain or LaTeX, cut into tokens that know their place.
 
-One scan serves both notations, since people mix them: `\frac{1}{2}*m2*\dot\theta_1^2`.
-What only moves ink about (`\left`, `\,`, `\displaystyle`) yields no token.
+One lexer serves both notations, since people mix them: `\frac{1}{2}*m2*\dot\theta_1^2`.
+What only sets type (`\left`, `\,`, `\displaystyle`) yields no token.  A sign or a command that
+means the same as another (`\cdot`, `·`) is one more row in a table here.
 """
 
 from __future__ import annotations
@@ -78,8 +79,8 @@ _ASCII = str.maketrans(SPELLED | {digit: str(value) for value, digit in enumerat
 _FRACTIONS = dict(zip("½⅓⅔¼¾⅙⅚⅛⅜⅝⅞", "1/2 1/3 2/3 1/4 3/4 1/6 5/6 1/8 3/8 5/8 7/8".split(), strict=True))
 _DOTTED_LETTERS = {"ẋ": "x", "ẏ": "y", "ż": "z", "ḋ": "d", "ṗ": "p"}
 
-# Commands that set type and mean nothing; with the sizes of brackets.
-_INK = frozenset(
+# Commands that only set type, the sizes of brackets among them: they yield no token.
+_LAYOUT = frozenset(
     "left right big Big bigg Bigg bigl bigr Bigl Bigr biggl biggr Biggl Biggr bigm middle "
     "displaystyle textstyle "
     "scriptstyle limits nolimits nonumber notag quad qquad enspace thinspace medspace thickspace "
@@ -163,44 +164,34 @@ def tokenize(text: str) -> list[Token]:
         if len(found) > MAX_TOKENS:
             message = f"an equation of more than {MAX_TOKENS} signs"
             raise ReadError(message, offset, 1, "name parts of it with abbreviations")
-        piece = match(text, offset)
-        if piece is None:
+        match_here = match(text, offset)
+        if match_here is None:
             raise character_error(text[offset], offset)
-        kind, end = str(piece.lastgroup), piece.end()
-        text_of = piece[kind]
-        if offset + len(text_of) < end:
-            spaced, offset = True, end - len(text_of)
+        kind, end = str(match_here.lastgroup), match_here.end()
+        piece = match_here[kind]
+        if offset + len(piece) < end:
+            spaced, offset = True, end - len(piece)
         if kind == "space":
-            spaced = True
-            broken = broken or "\n" in text_of
+            spaced, broken, offset = True, broken or "\n" in piece, end
+            continue
+        is_plain = kind == "number" or (kind == "name" and piece.isascii() and len(piece) <= MAX_IDENTIFIER)
+        frequent = (kind, piece) if is_plain else _FREQUENT.get(piece)
+        if frequent is not None:
+            found.append(new(Token, (*frequent, offset, end, 0, spaced, broken)))
+            spaced = broken = False
         else:
-            if kind == "number" or (kind == "name" and text_of.isascii() and end - offset <= MAX_IDENTIFIER):
-                found.append(new(Token, (kind, text_of, offset, end, 0, spaced, broken)))
-                spaced = broken = False
-                offset = end
-                continue
-            sign = _ONE_SIGN.get(text_of)
-            if sign is not None:
-                found.append(new(Token, (sign[0], sign[1], offset, end, 0, spaced, broken)))
-                spaced = broken = False
-                offset = end
-                continue
-            token = _token(kind, text_of, offset, end, spaced, broken)
+            token, end = _rare_token(text, Token(kind, piece, offset, end, 0, spaced, broken))
             if token is None:
                 spaced = True
             else:
-                if token.kind == "command" and token.text in _WORDS:
-                    token, end = _words(text, token)
                 found.append(token)
                 spaced = broken = False
-                if token.kind == "\\\\" and (skipped := _DIMENSION.match(text, end)):
-                    end = skipped.end()
         offset = end
     found.append(Token("end", "", length, length, 0, spaced, broken))
     return found
 
 
-_ONE_SIGN = (
+_FREQUENT = (
     {sign: (sign, sign) for sign in "+-*/^_=(){}[],;&|:"}
     | {"\\" + name: ("letter", greek) for name, greek in _GREEK_COMMANDS.items()}
     | {"\\" + name: (sign, "\\" + name) for name, sign in _SIGN_COMMANDS.items() if sign != "\\\\"}
@@ -209,24 +200,35 @@ _ONE_SIGN = (
 """The pieces that most formulas are made of, with kind and text: the others take a longer way."""
 
 
-def _token(kind: str, piece: str, start: int, end: int, spaced: bool, broken: bool) -> Token | None:
+def _rare_token(text: str, piece: Token) -> tuple[Token | None, int]:
+    """The token that a piece of the text is, None where it only sets type; and where the text goes on."""
+    token, end = _token(piece), piece.end
+    if token is not None and token.kind == "command" and token.text in _WORDS:
+        return _words(text, token)
+    if token is not None and token.kind == "\\\\" and (skipped := _DIMENSION.match(text, end)):
+        end = skipped.end()
+    return token, end
+
+
+def _token(piece: Token) -> Token | None:
+    kind, text = piece.kind, piece.text
     if kind == "sign":
-        if piece in _DOTTED_LETTERS:
-            return Token("name", _DOTTED_LETTERS[piece], start, end, 1, spaced, broken)
-        if piece == "″":
-            return Token("''", piece, start, end, 0, spaced, broken)
-        if piece == "∂":
-            return Token("command", "partial", start, end, 0, spaced, broken)
-        return Token(_SIGNS.get(piece, piece), piece, start, end, 0, spaced, broken)
+        if text in _DOTTED_LETTERS:
+            return piece._replace(kind="name", text=_DOTTED_LETTERS[text], dots=1)
+        if text == "″":
+            return piece._replace(kind="''")
+        if text == "∂":
+            return piece._replace(kind="command", text="partial")
+        return piece._replace(kind=_SIGNS.get(text, text))
     if kind == "name" or kind == "dotted":
-        return _name(piece, start, end, spaced, broken)
+        return _name(piece)
     if kind == "command":
-        return _command(piece[1:], start, end, spaced, broken)
+        return _command(piece)
     if kind == "percent":
-        return Token("name", "pi", start, end, 0, spaced, broken)
+        return piece._replace(kind="name", text="pi")
     if kind == "fraction":
-        return Token("fraction", _FRACTIONS[piece], start, end, 0, spaced, broken)
-    return Token(kind, piece, start, end, 0, spaced, broken)
+        return piece._replace(text=_FRACTIONS[text])
+    return piece
 
 
 def _words(text: str, command: Token) -> tuple[Token, int]:
@@ -255,15 +257,15 @@ def closing_brace(text: str, opening: int, longest: int = MAX_LENGTH) -> int:
 _BRACE = re.compile(r"\\.|[{}]", re.DOTALL)
 
 
-def _name(piece: str, start: int, end: int, spaced: bool, broken: bool) -> Token:
-    if len(piece) > MAX_IDENTIFIER:
-        message = f"a name of {len(piece)} characters; at most {MAX_IDENTIFIER} are read"
-        raise ReadError(message, start, 1, "a name is a letter with an index: m1, theta1")
-    dots = 0
-    if not piece.isascii():
-        dots = sum(_DOTTED.get(character, 0) for character in piece[1:3])
-        piece = _plain(piece)
-    return Token("name", piece, start, end, dots, spaced, broken)
+def _name(piece: Token) -> Token:
+    text, dots = piece.text, 0
+    if len(text) > MAX_IDENTIFIER:
+        message = f"a name of {len(text)} characters; at most {MAX_IDENTIFIER} are read"
+        raise ReadError(message, piece.start, 1, "a name is a letter with an index: m1, theta1")
+    if not text.isascii():
+        dots = sum(_DOTTED.get(character, 0) for character in text[1:3])
+        text = _plain(text)
+    return piece._replace(kind="name", text=text, dots=dots)
 
 
 def _plain(piece: str) -> str:
@@ -275,16 +277,18 @@ def _plain(piece: str) -> str:
     return piece if piece.isascii() else unicodedata.normalize("NFKC", piece).translate(_ASCII)
 
 
-def _command(name: str, start: int, end: int, spaced: bool, broken: bool) -> Token | None:
+def _command(piece: Token) -> Token | None:
+    name = piece.text[1:]
     name = name.removesuffix("*") if len(name) > 1 else name
-    if name in _INK and name not in SEPARATORS:
+    if name in _LAYOUT and name not in SEPARATORS:
         return None
     if name in ("(", ")", "[", "]", "$", "#", "%", "_"):
-        raise ReadError(f"`\\{name}` cannot stand inside an equation", start, 2, "write the formula alone")
+        message = f"`\\{name}` cannot stand inside an equation"
+        raise ReadError(message, piece.start, 2, "write the formula alone")
     sign = _SIGN_COMMANDS.get(name)
     if sign is not None:
-        return Token(sign, "\\" + name, start, end, 0, spaced, broken)
+        return piece._replace(kind=sign, text="\\" + name)
     greek = _GREEK_COMMANDS.get(name)
     if greek is not None:
-        return Token("letter", greek, start, end, 0, spaced, broken)
-    return Token("command", name, start, end, 0, spaced, broken)
+        return piece._replace(kind="letter", text=greek)
+    return piece._replace(kind="command", text=name)

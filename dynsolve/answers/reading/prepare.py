@@ -24,7 +24,7 @@ _ENVIRONMENTS = frozenset(
     "cases equation align aligned split gather gathered multline eqnarray alignat alignedat flalign "
     "displaymath math subequations dmath IEEEeqnarray".split()
 )
-_SINGLE = frozenset({"name", "letter", "number", "text"})
+_SINGLE = frozenset({"name", "letter", "number"})
 _WORDS = frozenset("and og where hvor der with med so such or eller for då da".split())
 _FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
 
@@ -98,51 +98,65 @@ def _filled(macro: Macro, argument: list[Token], call: Token) -> list[Token]:
 def simplified(tokens: list[Token]) -> list[Token]:
     """Tokens without fonts, environments that only align, and groups around one token."""
     out: list[Token] = []
-    groups: list[int] = []
+    groups: list[int] = []  # where in `out` each open `{` stands; -1 for one that is left out
     position, last = 0, len(tokens) - 1
     while position <= last:
         token = tokens[position]
         position += 1
         kind = token.kind
-        if kind == "command":
-            if token.text in _FONTS:
-                if token.text == "boxed" and tokens[position].kind == "{":
-                    groups.append(-1)
-                    position += 1
-                continue
-            if token.text in _SCRIPT:
-                token = token._replace(text="script")
-            elif token.text in ("frac", "dfrac", "tfrac", "cfrac"):
-                token = token._replace(text="frac")
-                position = _split_digits(tokens, position, token, out)
-                continue
-        elif kind in ("begin", "close") and token.text.rstrip("*") in _ENVIRONMENTS:
-            position = (
-                _skip_columns(tokens, position) if token.text.startswith(("aligned", "alignat")) else position
-            )
-            continue
-        elif kind == "begin" and token.text.startswith("array"):
-            position = _skip_group(tokens, position)
+        if kind == "{":
+            groups.append(len(out))
+            out.append(token)
+        elif kind == "}" and groups:
+            _close_group(token, groups.pop(), out)
+        elif kind == "command":
+            position = _simplify_command(token, tokens, position, groups, out)
+        elif kind == "begin" or kind == "close":
+            position = _simplify_environment(token, tokens, position, out)
         elif kind == "text":
             word = _word(token, out)
-            if word is None:
-                continue
-            token = word
-        elif kind == "{":
-            groups.append(len(out))
-        elif kind == "}" and groups:
-            start = groups.pop()
-            if start < 0:
-                continue
-            inside = len(out) - start - 1
-            if inside == 1 and out[-1].kind in _SINGLE and out[-1].kind != "text":
-                out[start:] = [out[-1]._replace(spaced=out[start].spaced)]
-                continue
-            if inside == 0:
-                del out[start:]
-                continue
-        out.append(token)
+            if word is not None:
+                out.append(word)
+        else:
+            out.append(token)
     return out
+
+
+def _close_group(closing: Token, start: int, out: list[Token]) -> None:
+    """A group around one token is that token, an empty one is nothing."""
+    if start < 0:
+        return
+    inside = len(out) - start - 1
+    if inside == 0:
+        del out[start:]
+    elif inside == 1 and out[-1].kind in _SINGLE:
+        out[start:] = [out[-1]._replace(spaced=out[start].spaced)]
+    else:
+        out.append(closing)
+
+
+def _simplify_command(
+    token: Token, tokens: list[Token], position: int, groups: list[int], out: list[Token]
+) -> int:
+    """A command with one spelling, or left out if it is a font; gives where to go on."""
+    if token.text in _FONTS:
+        if token.text == "boxed" and tokens[position].kind == "{":
+            groups.append(-1)
+            return position + 1
+        return position
+    if token.text in ("frac", "dfrac", "tfrac", "cfrac"):
+        return _split_digits(tokens, position, token._replace(text="frac"), out)
+    out.append(token._replace(text="script") if token.text in _SCRIPT else token)
+    return position
+
+
+def _simplify_environment(token: Token, tokens: list[Token], position: int, out: list[Token]) -> int:
+    r"""`\begin` or `\end`, left out where the environment only aligns; gives where to go on."""
+    name = token.text
+    if name.rstrip("*") in _ENVIRONMENTS:
+        return _skip_columns(tokens, position) if name.startswith(("aligned", "alignat")) else position
+    out.append(token)
+    return _skip_group(tokens, position) if token.kind == "begin" and name.startswith("array") else position
 
 
 def _split_digits(tokens: list[Token], position: int, command: Token, out: list[Token]) -> int:

@@ -6,7 +6,7 @@
     atom     = (number | name | function | fraction | matrix | "(" sum ")" | derivative) scripts
 
 Each rule is a method of `FormulaReader`, or a function of the module that is named after
-what it reads: `brackets`, `functions`, `derivatives`, `calls`, `names`.  Values are only put
+what it reads: `brackets`, `functions`, `derivatives`, `calls`, `names`, `numbers`.  Values are only put
 together: nothing is computed.
 """
 
@@ -14,7 +14,15 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from dynsolve.answers.reading.grammar import brackets, calls, derivatives, functions, names, shorthand
+from dynsolve.answers.reading.grammar import (
+    brackets,
+    calls,
+    derivatives,
+    functions,
+    names,
+    numbers,
+    shorthand,
+)
 from dynsolve.answers.reading.grammar.forms import Form, Scripts
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.scripts import ACCENTS, BEGINS
@@ -29,8 +37,7 @@ from dynsolve.answers.reading.grids import (
 )
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation import tokens as plain
-from dynsolve.notation.tree import Degrees, Node, Number, Power, Product, Quotient
+from dynsolve.notation.tree import Node, Number, Power, Product, Quotient
 
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
 _SMALL_POWERS = frozenset("23456789")
@@ -173,7 +180,7 @@ class FormulaReader(Reader):
         if kind == "name" or kind == "letter":
             return self.word(token)
         if kind == "number":
-            return self.number()
+            return numbers.read(self)
         if kind == "fraction":
             p, _, q = self.take().text.partition("/")
             return self.scripted(Quotient(Number(int(p)), Number(int(q))))
@@ -236,28 +243,6 @@ class FormulaReader(Reader):
             return None
         self.symbols.setdefault(symbol.name)
         return value
-
-    def number(self) -> Value:
-        """A number, with its degrees."""
-        token = self.take()
-        value = plain.rational(plain.FormulaToken("number", token.text, token.start, token.end))
-        if self.token.kind == "°" or (self.token.kind == "name" and self.token.text == "deg"):
-            self.take()
-            return Degrees(value.numerator, value.denominator)
-        if self.token.kind == "^" and self.circle():
-            return Degrees(value.numerator, value.denominator)
-        return self.scripted(_written(value, token.text))
-
-    def circle(self) -> bool:
-        r"""Take `^\circ`, if that is what stands here."""
-        ahead = [self.peek(1), self.peek(2), self.peek(3)]
-        if ahead[0].text == "circ":
-            self.take(), self.take()
-            return True
-        if ahead[0].kind == "{" and ahead[1].text == "circ" and ahead[2].kind == "}":
-            self.take(), self.take(), self.take(), self.take()
-            return True
-        return False
 
     def bracketed(self) -> Value:
         """A parenthesis, a group or a matrix, with its scripts."""
@@ -367,13 +352,6 @@ class FormulaReader(Reader):
             self.names_used += 1
             return Abstract(f"{form.text} with a hat is a letter of the derivation")
         return Grid(tuple((Number(int(row == axis)),) for row in range(3)))
-
-
-def _written(value: Fraction, text: str) -> Number:
-    """A number with as many decimals as were written: 0.10 is 10/100, which rounds more than 0.1 does."""
-    _, point, decimals = text.partition(".")
-    scale = 10 ** len(decimals) if point and decimals.isdigit() and value else value.denominator
-    return Number(int(value * scale), scale, scale != 1)
 
 
 def _with_scalars(scalars: list[Node], other: Value | None) -> Value:
