@@ -2,7 +2,7 @@
 
 A dimension is three exponents, of mass, length and time.  A result is in SI units; a
 value given in others (`units: {L1: mm}`) is turned into them exactly.  To add a unit, add
-its line to `_KNOWN`; to name a dimension, add it to `_SYMBOLS` (in SI) or to `_WORDS`.
+its line to `KNOWN`; to name a dimension, add it to `_SYMBOLS` (in SI) or to `_WORDS`.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def _unit(size: str, mass: int = 0, length: int = 0, time: int = 0) -> Unit:
     return Unit(Fraction(size), dimension(mass, length, time))
 
 
-_KNOWN: Mapping[str, Unit] = {
+KNOWN: Mapping[str, Unit] = {
     "1": _unit("1"),
     "rad": _unit("1"),
     "m": _unit("1", length=1),
@@ -93,7 +93,7 @@ def parse(text: str) -> Unit | None:
     size, dim, sign = Fraction(1), NONE, 1
     compact = text.strip().replace("**", "^").replace("µ", "u").replace("μ", "u").translate(_RAISED)
     if compact in ("deg", "°"):
-        return _KNOWN["deg"]
+        return KNOWN["deg"]
     for piece in re.split(r"([ *·/]+)", compact):
         if not piece.strip(" *·"):
             continue
@@ -101,7 +101,7 @@ def parse(text: str) -> Unit | None:
             sign = -1
             continue
         found = _PIECE.fullmatch(piece)
-        unit = _KNOWN.get(found["unit"]) if found else None
+        unit = KNOWN.get(found["unit"]) if found else None
         if found is None or unit is None or unit.degrees:
             return None
         power = sign * int(found["power"] or 1)

@@ -23,6 +23,7 @@ from dynsolve.errors import ExitCode
 from dynsolve.grading.problem_set import KEYS, POLICY_KEYS
 from dynsolve.problem.documentation import tables
 from dynsolve.problem.lint import lint_text
+from dynsolve.robot.units import KNOWN
 from tests.repository.pages import blocks, examples, files, run, sections
 from tests.support import ROOT
 
@@ -100,6 +101,11 @@ def test_nothing_is_left_out() -> None:
     assert tuple(yaml.safe_load(FILES["set.yaml"])) == KEYS
     assert tuple(yaml.safe_load(FILES["set.yaml"])["policy"]) == POLICY_KEYS
     assert set(POLICY_KEYS) <= written(SECTIONS["Grading"])
+
+
+def test_every_unit_that_is_named_is_known() -> None:
+    (named,) = re.findall(r"^- \*\*`units`\*\*[^`]*`([^`]+)`", SECTIONS["Problem file"], re.MULTILINE)
+    assert {unit.strip() for unit in named.split(",")} == set(KNOWN) - {"1", "°"}
 
 
 def test_docs_prints_every_section() -> None:
