@@ -39,7 +39,7 @@ def _slipped(text: str, chance: random.Random) -> str:
 
 
 @lru_cache(maxsize=1000)
-def _latex(text: str) -> str:
+def latex_of(text: str) -> str:
     text = to_latex(read(text).tree, PLAIN)
     dotted = r"([A-Za-z]|\\[a-z]+)_\{(\w+),\\mathrm\{(d+)ot\}\}"
     return re.sub(dotted, lambda m: rf"\{m[3]}ot{{{m[1]}}}_{{{m[2]}}}", text)
@@ -106,9 +106,9 @@ def _report(problem: str, answers: dict) -> str:
         head = name if len(name) == 1 or name == "tau" else f"{name[0]}_{name[1:]}"
         head = r"\tau" if head == "tau" else head
         if isinstance(value, str):
-            body = _latex(value)
+            body = latex_of(value)
         else:
-            rows = r" \\ ".join(" & ".join(map(_latex, row)) for row in _rows(value))
+            rows = r" \\ ".join(" & ".join(map(latex_of, row)) for row in _rows(value))
             body = rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
         lines += ["$$", f"{head} = {body}", "$$", ""]
     return "\n".join(lines)

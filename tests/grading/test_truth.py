@@ -20,7 +20,7 @@ import dynsolve
 from dynsolve.answers.judge import Checker
 from dynsolve.answers.report import to_json
 from dynsolve.solution.solution import Solution
-from tests.grading.generate import _latex
+from tests.grading.generate import latex_of
 
 pytestmark = pytest.mark.slow
 
@@ -175,11 +175,11 @@ def _report(course: Course, answers: dict[str, Any], chance: random.Random) -> s
     short = chance.choice(sorted(course.parameters - {named}, key=str)) * 2
 
     def write(value: Any) -> str:
-        text = _latex(str(_form(value, chance).subs(short / 2, sympy.Symbol("h") / 2)))
-        return re.sub(rf"(?<![\w\\]){re.escape(_latex(str(named)))}(?![\w^])", lambda _: r"\aa ", text)
+        text = latex_of(str(_form(value, chance).subs(short / 2, sympy.Symbol("h") / 2)))
+        return re.sub(rf"(?<![\w\\]){re.escape(latex_of(str(named)))}(?![\w^])", lambda _: r"\aa ", text)
 
     matrix = (r"\begin{pmatrix} ", r" \end{pmatrix}", r" \\ ", " & ")
-    lines = [rf"$$\newcommand{{\aa}}{{{_latex(str(named))}}}$$", f"$$\nh = {_latex(str(short))}\n$$"]
+    lines = [rf"$$\newcommand{{\aa}}{{{latex_of(str(named))}}}$$", f"$$\nh = {latex_of(str(short))}\n$$"]
     for name, value in answers.items():
         head = re.sub(r"(\D)(\d)", r"\1_\2", name.replace("tau", r"\tau"))
         lines.append(f"$$\n{head} = {_text(value, write, matrix)}\n$$")
