@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import islice
 
 from dynsolve.document import Inline, Prose
-from dynsolve.notation.tree import Matrix, Node, Row, Sum, Words
+from dynsolve.notation.tree import ZERO, Matrix, Node, Row, Sum, Words
 from dynsolve.notation.walk import walk
 from dynsolve.robot.model import Body, Coordinate, JointType
 
@@ -66,7 +66,9 @@ def side_by_side(parts: Sequence[Node]) -> Row:
 
 
 def sum_of(terms: Sequence[Node]) -> Node:
-    """The sum of one term or several, as they are."""
+    """The sum of terms as they are; 0 of none."""
+    if not terms:
+        return ZERO
     return terms[0] if len(terms) == 1 else Sum(tuple(terms))
 
 

@@ -7,9 +7,9 @@ from itertools import count
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Table, Text, Uses
-from dynsolve.explain.abbreviated_steps import definition_blocks
-from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
+from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
 from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.tree import Relation, equation
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
 
@@ -82,6 +82,36 @@ def _stages(
             uses = inputs.get(step.id, ()) if step.uses is None else step.uses
             blocks = tuple(step_blocks(step, detail, uses))
             yield Fold(f"{number} {step.title}", blocks, step.detail)
+
+
+def definition_blocks(short: Abbreviated) -> Iterator[Block]:
+    """The section in which the names are defined."""
+    if not short.definitions:
+        return
+    yield Heading("Abbreviations", 2)
+    if short.constants:
+        yield Fold("Inertial constants", tuple(_constant_blocks(short)), Detail.BRIEF)
+    if short.sums:
+        yield Fold("Recurring terms", tuple(_recurring_blocks(short)), Detail.BRIEF)
+
+
+def _constant_blocks(short: Abbreviated) -> Iterator[Block]:
+    count = len(short.constants)
+    yield Text((
+        f"The {count} base parameters: " if count > 1 else "The base parameter: ",
+        "the combinations of masses, mass centres, moments of inertia and lengths that D and g are made "
+        "of. What the arm does tells no more about its masses than their values.",
+    ))  # fmt: skip
+    yield Equations(tuple(map(_defined, short.constants)))
+
+
+def _recurring_blocks(short: Abbreviated) -> Iterator[Block]:
+    yield Text(("What stands in several places below, each made of those before it.",))
+    yield Equations(tuple(map(_defined, short.sums)))
+
+
+def _defined(definition: Definition) -> Relation:
+    return equation(definition.name, definition.meaning)
 
 
 def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Iterator[Block]:

@@ -15,7 +15,6 @@ from hypothesis import given, settings
 import dynsolve
 from dynsolve.document import Equations
 from dynsolve.errors import AlgebraError, VerificationError
-from dynsolve.explain.abbreviated_steps import definition_blocks
 from dynsolve.explain.abbreviations import Abbreviated, abbreviate, is_long
 from dynsolve.notation.build import cost
 from dynsolve.notation.evaluate import compile_trees, evaluate
@@ -36,7 +35,7 @@ from dynsolve.notation.tree import (
     Words,
 )
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.solution.documents import solution_document
+from dynsolve.solution.documents import definition_blocks, solution_document
 from tests.robots import robots
 from tests.support import ROOT
 
