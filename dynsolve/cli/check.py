@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from dynsolve.cli.common import STDIN, Quiet, read, say, standard_input
+from dynsolve.cli.common import STDIN, Quiet, print_json, read, say, standard_input
 from dynsolve.errors import ExitCode, Finding, InputError
 
 if TYPE_CHECKING:
@@ -55,7 +55,9 @@ def check(
     if not quiet:
         say(report.faults)
     if json:
-        _print_json(report, hints, teacher)
+        from dynsolve.answers.report import to_json
+
+        print_json(to_json(report, level=hints, teacher=teacher))
     else:
         from dynsolve.answers.feedback import FeedbackView
 
@@ -82,16 +84,6 @@ def _source(answer: str) -> tuple[bytes, str]:
         raise InputError(
             [Finding(f"the file cannot be read: {reason.lower()}", "check the path", answer)]
         ) from None
-
-
-def _print_json(report: Report, hints: int, teacher: bool) -> None:
-    import sys
-    from json import dump
-
-    from dynsolve.answers.report import to_json
-
-    dump(to_json(report, level=hints, teacher=teacher), sys.stdout, ensure_ascii=False)
-    sys.stdout.write("\n")
 
 
 def _print_report(report: Report, problem: Problem, view: FeedbackView, html: bool, markdown: bool) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -37,6 +37,14 @@ def read(name: str) -> Problem:
     from dynsolve.problem.library import find
 
     return load(find(name))
+
+
+def print_json(value: Any) -> None:
+    """Print a value as one line of JSON."""
+    from json import dump
+
+    dump(value, sys.stdout, ensure_ascii=False)
+    sys.stdout.write("\n")
 
 
 def standard_input() -> bytes:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from dynsolve.cli.common import Quiet, read, say
+from dynsolve.cli.output import form_of, refuse_on_terminal, write_to_standard_output
 from dynsolve.draw import SUFFIXES, PictureFormat
-from dynsolve.errors import UsageError
 from dynsolve.render.files import check_place, write_whole
 
 
@@ -44,11 +43,13 @@ def draw(
     pose where they can be seen; not to scale. SVG goes to standard output.
     """
     path = None if output in (None, "-") else Path(str(output))
-    form = _form(path, format)
     if path is not None:
+        form = form_of(str(path), path.suffix, SUFFIXES, format)
         check_place(path)
-    elif form in (PictureFormat.PDF, PictureFormat.PNG) and sys.stdout.isatty():
-        raise UsageError(f"{form.upper()} is nothing for a terminal: give -o FILE.{form}")
+    else:
+        form = format or PictureFormat.SVG
+        if form in (PictureFormat.PDF, PictureFormat.PNG):
+            refuse_on_terminal(form)
     from dynsolve.draw import draw as draw_problem
 
     loaded = read(problem)
@@ -57,21 +58,5 @@ def draw(
     data = draw_problem(loaded, form, star=star)
     if path is not None:
         write_whole(path, data)
-        return
-    sys.stdout.flush()
-    sys.stdout.buffer.write(data)
-    sys.stdout.flush()
-
-
-def _form(path: Path | None, format: PictureFormat | None) -> PictureFormat:
-    """The form that the options ask for.  Raises UsageError where they contradict each other."""
-    if path is None:
-        return format or PictureFormat.SVG
-    suffix = SUFFIXES.get(path.suffix.lower())
-    if suffix is None and format is None:
-        raise UsageError(
-            f"which form is {path} to have? Say it with --format, or by its suffix: {', '.join(SUFFIXES)}"
-        )
-    if suffix is not None and format not in (None, suffix):
-        raise UsageError(f"{path} is named as {suffix}, but {format} is asked for")
-    return format or suffix or PictureFormat.SVG
+    else:
+        write_to_standard_output(data)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -16,9 +13,6 @@ from dynsolve.errors import ExitCode
 
 if TYPE_CHECKING:
     from dynsolve.grading.public import Grades
-
-EVERY = 10.0
-"""Seconds between two lines of progress where there is no terminal."""
 
 MOST_REFUSED = 20
 """So many files that are not taken are named on the terminal; the report names them all."""
@@ -103,10 +97,11 @@ def grade(
     Run again, after a stop or a change, the same command goes on: what is in OUT already
     and has not changed is not computed again.
     """
+    from dynsolve.cli.progress import bar_or_lines
     from dynsolve.grading.public import grade as grade_all
 
     try:
-        with _progress(quiet) as advance:
+        with bar_or_lines("grading", quiet) as advance:
             grades = grade_all(
                 problems, submissions, output,
                 lms=str(lms) if lms else None, roster=roster, diff=diff,
@@ -120,30 +115,6 @@ def grade(
     if not quiet:
         _say(grades)
     return ExitCode.DONE
-
-
-@contextmanager
-def _progress(quiet: bool) -> Iterator[Callable[[int, int], None] | None]:
-    """A bar on a terminal; elsewhere a line now and then, with an estimate of what is left."""
-    import sys
-
-    from dynsolve.cli.progress import progress
-
-    if sys.stderr.isatty() or quiet:
-        with progress("grading", quiet) as advance:
-            yield advance
-        return
-    start = said = time.monotonic()
-
-    def line(done: int, of: int) -> None:
-        nonlocal said
-        now = time.monotonic()
-        if now - said > EVERY:
-            said = now
-            left = (now - start) / done * (of - done)
-            typer.echo(f"{done} of {of}, about {left:.0f} s left", err=True)
-
-    yield line
 
 
 def _say(grades: Grades) -> None:

@@ -7,10 +7,11 @@ where there is none.  Without `-o` results go to standard output.
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 import typer
 
@@ -18,6 +19,9 @@ from dynsolve.cli.common import STDIN
 from dynsolve.errors import UsageError
 from dynsolve.render.files import check_place, write_whole
 from dynsolve.render.formats import SUFFIXES, Format, suffix_of
+
+Form = TypeVar("Form", bound=StrEnum)
+"""The forms of a solution, or those of a picture."""
 
 JOINED = (Format.TEXT, Format.JSON)
 """Forms of which one file may hold several."""
@@ -53,7 +57,7 @@ class Output:
         return self.path / f"{stem}{suffix_of(self.format)}"
 
 
-def chosen(
+def chosen_output(
     format: Format | None,
     short: Sequence[Format],
     output: str | None,
@@ -71,27 +75,50 @@ def chosen(
         raise UsageError(f"one form at a time, not {' and '.join(sorted(asked))}")
     path = None if output in (None, "-") else Path(str(output))
     is_folder = path is not None and (path.is_dir() or str(output).endswith(("/", "\\")))
-    suffix = SUFFIXES.get(path.suffix.lower()) if path is not None and not is_folder else None
-    if path is not None and not asked and suffix is None:
-        raise UsageError(
-            f"which form is {output} to have? Say it with --format, or by its suffix: {_suffixes()}"
-        )
-    form = next(iter(asked), None) or suffix or Format.TEXT
-    if suffix not in (None, form):
-        raise UsageError(f"{output} is named as {suffix}, but {form} is asked for")
-    chosen = Output(form, path, is_folder)
+    suffix = "" if path is None or is_folder else path.suffix
+    form = next(iter(asked), None)
+    if path is not None:
+        form = form_of(str(output), suffix, SUFFIXES, form)
+    chosen = Output(form or Format.TEXT, path, is_folder)
     _check(chosen, problems)
     return chosen
 
 
-def _suffixes() -> str:
-    return ", ".join(suffix_of(form) for form in Format)
+def form_of(place: str, suffix: str, suffixes: Mapping[str, Form], asked: Form | None) -> Form:
+    """The form of a file: the one that is asked for, or else that its suffix says.
+
+    Raises UsageError where neither says it, or they contradict each other.
+    """
+    named = suffixes.get(suffix.lower())
+    form = asked or named
+    if form is None:
+        usual: dict[Form, str] = {}
+        for known, of in suffixes.items():
+            usual.setdefault(of, known)
+        listed = ", ".join(usual.values())
+        raise UsageError(f"which form is {place} to have? Say it with --format, or by its suffix: {listed}")
+    if named not in (None, form):
+        raise UsageError(f"{place} is named as {named}, but {form} is asked for")
+    return form
+
+
+def refuse_on_terminal(form: str) -> None:
+    """Raise UsageError where a form that is no text would go to a terminal."""
+    if sys.stdout.isatty():
+        raise UsageError(f"{form.upper()} is nothing for a terminal: give -o FILE.{form}")
+
+
+def write_to_standard_output(data: bytes) -> None:
+    """Write bytes after whatever text was written before."""
+    sys.stdout.flush()
+    sys.stdout.buffer.write(data)
+    sys.stdout.flush()
 
 
 def _check(output: Output, problems: Sequence[str]) -> None:
     if output.path is None:
-        if output.format is Format.PDF and sys.stdout.isatty():
-            raise UsageError("PDF is nothing for a terminal: give -o FILE.pdf")
+        if output.format is Format.PDF:
+            refuse_on_terminal(output.format)
         if len(problems) > 1 and output.format not in JOINED:
             raise UsageError(f"one {output.format} report a problem: give a folder, -o FOLDER/")
         return
@@ -120,9 +147,7 @@ class Writer:
         """A report of a problem."""
         place = self.output.place_of(problem)
         if place is None:
-            sys.stdout.flush()
-            sys.stdout.buffer.write(data)
-            sys.stdout.flush()
+            write_to_standard_output(data)
         else:
             self._parts.setdefault(place, []).append(data)
             if self.output.is_folder:

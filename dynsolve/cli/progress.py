@@ -1,4 +1,4 @@
-"""A progress bar on standard error, where there is a terminal and it takes longer than a second."""
+"""Progress on standard error: a bar where there is a terminal and it takes longer than a second."""
 
 from __future__ import annotations
 
@@ -8,11 +8,16 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+import typer
+
 if TYPE_CHECKING:
     from rich.progress import Progress
 
 PATIENCE = 1.0
 """Seconds without a bar."""
+
+EVERY = 10.0
+"""Seconds between two lines of progress where there is no terminal."""
 
 Advance = Callable[[int, int], None]
 """advance(done, of)"""
@@ -24,7 +29,7 @@ def progress(title: str, quiet: bool = False) -> Iterator[Advance | None]:
     if quiet or not sys.stderr.isatty():
         yield None
         return
-    start, shown = time.monotonic(), _Shown(title)
+    start, shown = time.monotonic(), _Bar(title)
 
     def advance(done: int, of: int) -> None:
         if time.monotonic() - start > PATIENCE:
@@ -36,7 +41,27 @@ def progress(title: str, quiet: bool = False) -> Iterator[Advance | None]:
         shown.close()
 
 
-class _Shown:
+@contextmanager
+def bar_or_lines(title: str, quiet: bool = False) -> Iterator[Advance | None]:
+    """A bar on a terminal; elsewhere a line now and then, with an estimate of what is left."""
+    if sys.stderr.isatty() or quiet:
+        with progress(title, quiet) as advance:
+            yield advance
+        return
+    start = said = time.monotonic()
+
+    def line(done: int, of: int) -> None:
+        nonlocal said
+        now = time.monotonic()
+        if now - said > EVERY:
+            said = now
+            left = (now - start) / done * (of - done)
+            typer.echo(f"{done} of {of}, about {left:.0f} s left", err=True)
+
+    yield line
+
+
+class _Bar:
     """The bar, made when it is first wanted: importing it costs time too."""
 
     def __init__(self, title: str) -> None:

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from dynsolve.cli.common import Problems, Quiet, read, say
+from dynsolve.cli.common import Problems, Quiet, print_json, read, say
 from dynsolve.cli.numbers import AtOption, DigitsOption, SetOption, with_numbers
-from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer
-from dynsolve.cli.output import chosen as chosen_output
+from dynsolve.cli.output import FormatOption, Output, OutputOption, Writer, chosen_output
 from dynsolve.errors import ExitCode, ProblemError, UsageError
 from dynsolve.quantities.stages import Stage
 from dynsolve.render.formats import Format
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class DetailName(StrEnum):
-    """How much is shown."""
+    """How much is shown: the names of `explain.step.Detail`, which `--help` need not import."""
 
     BRIEF = "brief"
     NORMAL = "normal"
@@ -30,7 +29,7 @@ class DetailName(StrEnum):
 
 
 class AbbreviateName(StrEnum):
-    """Whether long results are written in names."""
+    """Whether long results are written in names: `explain.abbreviations.Abbreviate`, not imported either."""
 
     AUTO = "auto"
     NEVER = "never"
@@ -67,9 +66,9 @@ class _View:
     stages: list[str] | None
     detail: DetailName
     star: bool
-    abbreviate: str
+    abbreviate: AbbreviateName
     fragment: bool
-    hint: str = ""
+    hint: Stage | None = None
 
 
 def solve(
@@ -99,23 +98,14 @@ def solve(
     The stages, in order: kinematics, jacobian, inertia, energy, lagrangian, torque,
     vectorized. A robot without masses ends with the Jacobian.
     """
-    stages = _chosen(stage, first, last)
-    short = {
-        Format.JSON: json,
-        Format.LATEX: latex,
-        Format.PDF: pdf,
-        Format.HTML: html,
-        Format.MARKDOWN: markdown,
-    }
-    asked = [form for form, is_asked in short.items() if is_asked]
-    place_and_form = chosen_output(format, asked, output, problem, fragment)
-    if hint and (stages or place_and_form.format is Format.JSON):
-        what = "--json" if place_and_form.format is Format.JSON else "--stage, --from or --to"
+    view = _View(_stages(stage, first, last), detail, star, abbreviate, fragment, hint)
+    options = {"json": json, "latex": latex, "pdf": pdf, "html": html, "markdown": markdown}
+    asked = [Format(name) for name, is_asked in options.items() if is_asked]
+    place = chosen_output(format, asked, output, problem, fragment)
+    if hint and (view.stages or place.format is Format.JSON):
+        what = "--json" if place.format is Format.JSON else "--stage, --from or --to"
         raise UsageError(f"--hint is a text on one stage; it does not go with {what}")
-    view = _View(stages, detail, star, abbreviate.value, fragment, hint.value if hint else "")
-    return _solve_all(
-        problem, place_and_form, view, lambda found: with_numbers(found, set_, at, digits), quiet
-    )
+    return _solve_all(problem, place, view, lambda found: with_numbers(found, set_, at, digits), quiet)
 
 
 def _solve_all(
@@ -139,14 +129,14 @@ def _solve_all(
         if output == Output(Format.TEXT, None):
             _print_document(solution, view, place > 0)
         elif output == Output(Format.JSON, None):
-            _print_json(solution, view)
+            print_json(solution.to_json(view.abbreviate))
         else:
             writer.write(name, _report(solution, output, view))
     writer.close()
     return code
 
 
-def _chosen(stage: list[Stage] | None, first: Stage | None, last: Stage | None) -> list[str] | None:
+def _stages(stage: list[Stage] | None, first: Stage | None, last: Stage | None) -> list[str] | None:
     """The stages that are shown, None for all."""
     order = list(Stage)
     if stage and (first or last):
@@ -168,14 +158,6 @@ def _solved(name: str, quiet: bool) -> Solution:
     problem = read(name)
     with progress(problem.title, quiet) as advance:
         return solve_problem(problem, progress=advance)
-
-
-def _print_json(solution: Solution, view: _View) -> None:
-    import sys
-    from json import dump
-
-    dump(solution.to_json(view.abbreviate), sys.stdout, ensure_ascii=False)
-    sys.stdout.write("\n")
 
 
 def _report(solution: Solution, output: Output, view: _View) -> bytes:

@@ -1,1 +1,14 @@
-"""What a Python user holds: a solution, its numbers, its forms as JSON, SymPy, NumPy and reports."""
+"""What a Python user holds: a solution, its numbers, its forms as JSON, SymPy, NumPy and reports.
+
+    solution        `load`, `solve` and the `Solution` that it gives
+    dynamics        what a solution is made of: a robot's dynamics, derived and verified
+    given_axes      whether orientations that the problem gives may stand as they are
+    numbers/        values for parameters, and what holds at a state
+    symbolic        a result as SymPy
+    numeric         a result as a NumPy function
+    json_export     everything as JSON
+    documents       a solution as a document: stages, steps, numbers
+    reports         that document as text, LaTeX, PDF, HTML or Markdown
+
+`Solution` uses all of these; they take a `Dynamics`, and know nothing of `Solution`.
+"""

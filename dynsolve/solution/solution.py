@@ -149,7 +149,7 @@ class Solution(Dynamics):
 
     def _with(self, given: Given) -> Solution:
         """The solution of the robot with these values in it."""
-        from dynsolve.solution.numbers.robot import robot_with
+        from dynsolve.solution.numbers.substitution import robot_with
 
         try:
             robot = robot_with(self.robot, given.values)
