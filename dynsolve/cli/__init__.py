@@ -1,4 +1,4 @@
-"""The commands, one file each: `solve`, `draw`, `check`, `grade`, `override`, `lint`, `new`, `docs` and others.
+"""The commands, one file each: `solve`, `draw`, `check`, `grade`, `override`, `lint`, `new` and others.
 
 `main` puts them together, and makes every error a message and an exit code.  What
 several commands share:
