@@ -13,6 +13,7 @@ from dynsolve.grading.marking import maximum
 from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record
+from dynsolve.quantities.index import quantities
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +44,10 @@ def standings(record: Record) -> Iterator[Standing]:
 
 def most(problems: ProblemSet) -> dict[str, Fraction]:
     """The most that each problem can earn."""
-    return {item.stem: maximum(item.problem.marks.items(), problems.policy) for item in problems.items}
+    return {
+        item.stem: maximum(item.problem.marks.items(), quantities(item.problem.robot), problems.policy)
+        for item in problems.items
+    }
 
 
 # -- the cohort at a glance --------------------------------------------------------------------------

@@ -13,7 +13,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
-from dynsolve.grading.policy import Policy, rounded, shown, stage_of
+from dynsolve.grading.policy import Policy, rounded, shown
+from dynsolve.quantities.index import Quantities
 
 HALF = Fraction(1, 2)
 
@@ -30,6 +31,7 @@ class Marked:
 
 def mark(
     answers: Iterable[JudgedAnswer],
+    quantities: Quantities,
     policy: Policy,
     late: bool = False,
     losses: dict[str, str] | None = None,
@@ -37,13 +39,14 @@ def mark(
 ) -> tuple[Marked, ...]:
     """The marks of a hand-in's answers, in their order.
 
-    `losses` says of an answer that follows what it has lost on the way; `parts` has the
-    answers that a whole which is not written is judged by.
+    `quantities` are the robot's, which know the stage of each answer.  `losses` says of an
+    answer that follows what it has lost on the way; `parts` has the answers that a whole
+    which is not written is judged by.
     """
     found = [_one(a, policy, (losses or {}).get(a.name, ""), (parts or {}).get(a.name, ())) for a in answers]
     if late and policy.late != 1:
         found = [_late(marked, policy) for marked in found]
-    return tuple(_capped(found, policy))
+    return tuple(_capped(found, quantities, policy))
 
 
 def _one(answer: JudgedAnswer, policy: Policy, loss: str, parts: tuple[JudgedAnswer, ...]) -> Marked:
@@ -106,21 +109,24 @@ def _late(marked: Marked, policy: Policy) -> Marked:
     return replace(marked, marks=marks, why=why)
 
 
-def _capped(found: Iterable[Marked], policy: Policy) -> Iterator[Marked]:
+def _capped(found: Iterable[Marked], quantities: Quantities, policy: Policy) -> Iterator[Marked]:
     """No stage earns more than its cap, the first answers first; nor is it out of more.
 
     What is left of the cap beside the marks that are earned goes to what could be earned,
     in order, so that no answer has more marks than it is out of.
     """
     found, left = list(found), dict(policy.caps)
+    if not left:
+        yield from found
+        return
     earned = []
     for marked in found:
-        stage = stage_of(marked.name)
+        stage = quantities.stage(marked.name)
         earned.append(min(marked.marks, left.get(stage, marked.marks)))
         if stage in left:
             left[stage] -= earned[-1]
     for marked, marks in zip(found, earned, strict=True):
-        stage = stage_of(marked.name)
+        stage = quantities.stage(marked.name)
         if stage not in left:
             yield marked
             continue
@@ -132,15 +138,16 @@ def _capped(found: Iterable[Marked], policy: Policy) -> Iterator[Marked]:
         yield Marked(marked.name, marks, of, why)
 
 
-def maximum(marks: Iterable[tuple[str, Fraction]], policy: Policy) -> Fraction:
+def maximum(marks: Iterable[tuple[str, Fraction]], quantities: Quantities, policy: Policy) -> Fraction:
     """The most that a problem can earn.
 
+    >>> from dynsolve.quantities.index import Owners
     >>> marks = [("K", Fraction(4)), ("P", Fraction(2)), ("D", Fraction(1))]
-    >>> maximum(marks, Policy(caps={"energy": Fraction(5)}))
+    >>> maximum(marks, Quantities(Owners(1, (), ("1",))), Policy(caps={"energy": Fraction(5)}))
     Fraction(6, 1)
     """
     all_of = (Marked(name, of, of, "") for name, of in marks)
-    return sum((marked.of for marked in _capped(all_of, policy)), Fraction(0))
+    return sum((marked.of for marked in _capped(all_of, quantities, policy)), Fraction(0))
 
 
 # -- marks anew --------------------------------------------------------------------------------------
@@ -166,12 +173,18 @@ def basis(answer: JudgedAnswer, parts: tuple[JudgedAnswer, ...]) -> str:
 
 
 def rescored(
-    kept: Iterable[Kept], points: Mapping[str, Fraction], policy: Policy, late: bool
+    kept: Iterable[Kept],
+    points: Mapping[str, Fraction],
+    quantities: Quantities,
+    policy: Policy,
+    late: bool,
 ) -> tuple[Marked, ...]:
     """The marks of a hand-in's answers as they are now.
 
-    >>> kept = [Kept("K", "follows", "", '[["K1"], [], []]')]
-    >>> rescored(kept, {"K": Fraction(4)}, Policy(follow=Fraction(1, 2)), late=False)[0].marks
+    >>> from dynsolve.quantities.index import Owners
+    >>> kept, quantities = [Kept("K", "follows", "", '[["K1"], [], []]')], Quantities(Owners(1, (), ("1",)))
+    >>> policy = Policy(follow=Fraction(1, 2))
+    >>> rescored(kept, {"K": Fraction(4)}, quantities, policy, late=False)[0].marks
     Fraction(2, 1)
     """
     answers, losses, parts = [], {}, {}
@@ -188,4 +201,4 @@ def rescored(
         )
         losses[name] = loss
         parts[name] = tuple(JudgedAnswer(name, Verdict(of)) for of in pieces)
-    return mark(answers, policy, late, losses, parts)
+    return mark(answers, quantities, policy, late, losses, parts)

@@ -8,16 +8,6 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-_OF_LETTERS = {
-    "kinematics": ("A", "H", "rc"),
-    "jacobian": ("J", "Jv", "Jw", "v", "w"),
-    "inertia": ("I", "I_body"),
-    "energy": ("P", "K", "Kv", "Kw"),
-    "lagrangian": ("L", "dLdqd", "ddt", "dLdq"),
-    "torque": ("tau", "f"),
-}
-_STAGE = {letters: stage for stage, names in _OF_LETTERS.items() for letters in names}
-
 
 @dataclass(frozen=True, slots=True)
 class Policy:
@@ -33,15 +23,6 @@ class Policy:
     rounding: Fraction = Fraction(1, 100)
     late: Fraction = Fraction(1)
     hints: int = 3
-
-
-def stage_of(answer: str) -> str:
-    """The stage that an answer belongs to.
-
-    >>> stage_of("K2"), stage_of("I_body1"), stage_of("d12"), stage_of("tau")
-    ('energy', 'inertia', 'vectorized', 'torque')
-    """
-    return _STAGE.get(answer) or _STAGE.get(answer.rstrip("0123456789"), "vectorized")
 
 
 def rounded(marks: Fraction, step: Fraction) -> Fraction:

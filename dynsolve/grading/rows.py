@@ -13,6 +13,7 @@ from dynsolve.grading.marking import mark
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Key
+from dynsolve.quantities.index import quantities
 
 Data = dict[str, Any]
 
@@ -62,7 +63,8 @@ def _unread(problems: ProblemSet, student: str, stem: str, reason: str) -> Data:
     html, markdown = bare_page(item.problem.title, student, reason) if reason else ("", "")
     verdict = Verdict.UNREADABLE if reason else Verdict.MISSING
     blank = dict.fromkeys(("label", "message", "read_as", "note", "loss", "form", "basis"), "")
-    marked = mark((JudgedAnswer(n, verdict, of=of) for n, of in item.problem.marks.items()), problems.policy)
+    unjudged = (JudgedAnswer(name, verdict, of=of) for name, of in item.problem.marks.items())
+    marked = mark(unjudged, quantities(item.problem.robot), problems.policy)
     answers = [
         {
             **blank, "name": m.name, "verdict": str(verdict), "marks": "0", "of": str(m.of), "line": 0,

@@ -32,6 +32,7 @@ from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.rows import row_of_result, rows_of_absent
 from dynsolve.grading.uploads import Uploads, digest
+from dynsolve.quantities.index import quantities
 
 Data = dict[str, Any]
 
@@ -128,8 +129,8 @@ def _is_rescored(record: Record, problems: ProblemSet, hand_in: HandIn, bounds: 
     new = causes(problems, hand_in, bounds if "bounds" in old else None)
     if not old or not touches_marks_alone(old, new) or not all(answer.basis for answer in kept):
         return False
-    points = problems.item(hand_in.problem).problem.marks
-    marks = rescored(kept, points, problems.policy, hand_in.late)
+    problem = problems.item(hand_in.problem).problem
+    marks = rescored(kept, problem.marks, quantities(problem.robot), problems.policy, hand_in.late)
     record.rescore(hand_in.key, fingerprint(new), json.dumps(new, sort_keys=True), marks)
     return True
 

@@ -63,7 +63,7 @@ def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
     report = judge.report()
     lost = losses(judge, report)
     parts = _parts(judge, report)
-    marked = mark(report.answers, policy, payload["late"], lost, parts)
+    marked = mark(report.answers, judge.graph.quantities, policy, payload["late"], lost, parts)
     html, markdown = student_page(report, problem, payload["student"], policy.hints)
     return {
         "answers": [

@@ -12,10 +12,14 @@ from hypothesis import strategies as st
 
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 from dynsolve.grading.marking import mark, maximum
-from dynsolve.grading.policy import Policy, rounded, shown, stage_of
+from dynsolve.grading.policy import Policy, rounded, shown
+from dynsolve.quantities.index import Owners, Quantities
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Coordinate, JointType
 
 F = Fraction
+COORDINATES = (Coordinate("theta1", JointType.REVOLUTE, 1), Coordinate("d2", JointType.PRISMATIC, 2))
+QUANTITIES = Quantities(Owners(2, COORDINATES, ("1", "2")))
 
 
 def _answer(name: str, verdict: Verdict, of: int = 4, entries: str = "", **rest: object) -> JudgedAnswer:
@@ -33,7 +37,7 @@ def test_shares() -> None:
         _answer("g", Verdict.MISSING),
         _answer("L", Verdict.WRONG, of=0),
     ]
-    found = mark(answers, Policy(follow=F(1, 2)))
+    found = mark(answers, QUANTITIES, Policy(follow=F(1, 2)))
     assert [m.marks for m in found] == [4, 2, F(5, 2), 0, 0, 0]
     assert [m.why for m in found] == [
         "correct: 4 of 4",
@@ -46,43 +50,45 @@ def test_shares() -> None:
 
 
 def test_what_follows_and_has_lost_something_earns_half() -> None:
-    (found,) = mark([_answer("tau", Verdict.FOLLOWS)], Policy(), losses={"tau": "body 2 is lost on the way"})
+    (found,) = mark(
+        [_answer("tau", Verdict.FOLLOWS)], QUANTITIES, Policy(), losses={"tau": "body 2 is lost on the way"}
+    )
     assert (found.marks, found.why) == (2, "follows, but body 2 is lost on the way, which earns 50 %: 2 of 4")
 
 
 def test_late_and_rounding() -> None:
     policy = Policy(late=F(4, 5), rounding=F(1, 2))
-    (found,) = mark([_answer("K", Verdict.CORRECT, 3)], policy, late=True)
+    (found,) = mark([_answer("K", Verdict.CORRECT, 3)], QUANTITIES, policy, late=True)
     assert (found.marks, found.why) == (F(5, 2), "correct: 3 of 3; late, 80 % of it: 2.5")
 
 
 def test_a_cap_limits_what_a_stage_earns_and_what_it_is_out_of() -> None:
     answers = [_answer("P", Verdict.CORRECT), _answer("K", Verdict.CORRECT), _answer("D", Verdict.CORRECT)]
-    found = mark(answers, Policy(caps={"energy": F(5)}))
+    found = mark(answers, QUANTITIES, Policy(caps={"energy": F(5)}))
     assert [(m.marks, m.of) for m in found] == [(4, 4), (1, 1), (4, 4)]
     assert found[1].why == "correct: 4 of 4; energy is capped at 5: 1 of 1"
 
 
 def test_a_whole_by_its_parts() -> None:
     parts = {"K": (_answer("K1", Verdict.CORRECT), _answer("K2", Verdict.WRONG))}
-    (found,) = mark([_answer("K", Verdict.WRONG)], Policy(), parts=parts)
+    (found,) = mark([_answer("K", Verdict.WRONG)], QUANTITIES, Policy(), parts=parts)
     assert (found.marks, found.why) == (2, "1 of 2 parts correct: 2 of 4")
 
 
 def test_an_answer_that_follows_in_part_earns_what_is_right_in_full() -> None:
     answers = [_answer("D", Verdict.FOLLOWS, entries="cfff", follows_from=("K",))]
-    (found,) = mark(answers, Policy(follow=F(1, 2)))
+    (found,) = mark(answers, QUANTITIES, Policy(follow=F(1, 2)))
     assert (found.marks, found.why) == (
         F(5, 2), "1 of 4 entries correct, 3 following, which earns 50 %: 2.5 of 4",
     )  # fmt: skip
-    (found,) = mark(answers, Policy(), losses={"D": "body 2 is lost on the way"})
+    (found,) = mark(answers, QUANTITIES, Policy(), losses={"D": "body 2 is lost on the way"})
     assert found.marks == F(5, 2)
     assert "3 following, but body 2 is lost on the way, which earns 50 %: 2.5 of 4" in found.why
 
 
 def test_a_matrix_that_is_written_in_part_earns_what_is_there() -> None:
     parts = {"g": (_answer("g1", Verdict.CORRECT), _answer("g2", Verdict.MISSING))}
-    (found,) = mark([_answer("g", Verdict.MISSING)], Policy(), parts=parts)
+    (found,) = mark([_answer("g", Verdict.MISSING)], QUANTITIES, Policy(), parts=parts)
     assert (found.marks, found.why) == (2, "1 of 2 parts correct, 1 missing: 2 of 4")
 
 
@@ -90,15 +96,22 @@ def test_rounding_takes_nothing_from_all_and_gives_no_more_than_all() -> None:
     policy = Policy(rounding=F(1, 2), late=F(1, 2))
     answers = [JudgedAnswer("K", Verdict.CORRECT, of=F(1, 3)), _answer("D", Verdict.WRONG, 0, "cccw")]
     answers[1] = replace(answers[1], of=F(1, 3))
-    assert [m.marks for m in mark(answers, policy)] == [F(1, 3), F(1, 3)]
-    assert [m.marks for m in mark(answers, policy, late=True)] == [0, 0]
+    assert [m.marks for m in mark(answers, QUANTITIES, policy)] == [F(1, 3), F(1, 3)]
+    assert [m.marks for m in mark(answers, QUANTITIES, policy, late=True)] == [0, 0]
 
 
 def test_a_cap_leaves_no_answer_more_than_it_is_out_of() -> None:
     answers = [_answer("P", Verdict.WRONG), _answer("K", Verdict.CORRECT)]
-    found = mark(answers, Policy(caps={"energy": F(5)}))
+    found = mark(answers, QUANTITIES, Policy(caps={"energy": F(5)}))
     assert [(m.marks, m.of) for m in found] == [(0, 1), (4, 4)]
     assert found[0].why == "wrong: 0 of 4; energy is capped at 5: 0 of 1"
+
+
+def test_the_cap_of_a_stage_is_that_of_bodies_by_any_name() -> None:
+    named = Quantities(Owners(2, COORDINATES, ("p", "m2")))
+    answers = [_answer(name, Verdict.CORRECT, 3) for name in ("Kp", "Kvm2", "D")]
+    found = mark(answers, named, Policy(caps={"energy": F(3)}))
+    assert [(m.marks, m.of) for m in found] == [(3, 3), (0, 0), (3, 3)]
 
 
 _POINTS = st.fractions(0, 10, max_denominator=6)
@@ -135,30 +148,34 @@ def test_marks_hold_together_whatever_the_policy(
     answers: list[JudgedAnswer], policy: Policy, late: bool, lost: bool
 ) -> None:
     losses = {answer.name: "body 2 is lost on the way" for answer in answers if lost}
-    found = mark(answers, policy, late, losses)
+    found = mark(answers, QUANTITIES, policy, late, losses)
     assert [m.name for m in found] == [a.name for a in answers]
     for marked, answer in zip(found, answers, strict=True):
         assert 0 <= marked.marks <= marked.of <= answer.of
         of_it = f": {shown(marked.marks)}"
         said = re.sub(r" \([^()]*\)$", "", marked.why)  # how it was rounded
         assert not answer.of or said.endswith((of_it, f"{of_it} of {shown(marked.of)}"))
-        if answer.verdict is Verdict.CORRECT and not late and stage_of(answer.name) not in policy.caps:
+        if (
+            answer.verdict is Verdict.CORRECT
+            and not late
+            and QUANTITIES.stage(answer.name) not in policy.caps
+        ):
             assert marked.marks == answer.of
         if marked.marks not in (answer.of, rounded(marked.marks, policy.rounding)):
             assert policy.caps or late
     for stage, cap in policy.caps.items():
-        here = [m for m in found if stage_of(m.name) == stage]
-        uncapped = mark(answers, replace(policy, caps={}), late, losses)
-        earned = sum((m.marks for m in uncapped if stage_of(m.name) == stage), F(0))
+        here = [m for m in found if QUANTITIES.stage(m.name) == stage]
+        uncapped = mark(answers, QUANTITIES, replace(policy, caps={}), late, losses)
+        earned = sum((m.marks for m in uncapped if QUANTITIES.stage(m.name) == stage), F(0))
         assert sum((m.marks for m in here), F(0)) == min(cap, earned)
     of = sum((m.of for m in found), F(0))
-    assert of == maximum(((a.name, a.of) for a in answers), policy)
+    assert of == maximum(((a.name, a.of) for a in answers), QUANTITIES, policy)
 
 
 @pytest.mark.slow
 @given(_answers(), _POLICIES)
 @settings(max_examples=200, deadline=None)
 def test_what_is_right_earns_no_less_than_what_is_not(answers: list[JudgedAnswer], policy: Policy) -> None:
-    before = sum((m.marks for m in mark(answers, policy)), F(0))
+    before = sum((m.marks for m in mark(answers, QUANTITIES, policy)), F(0))
     better = [replace(a, verdict=Verdict.CORRECT, entries=()) for a in answers]
-    assert sum((m.marks for m in mark(better, policy)), F(0)) >= before
+    assert sum((m.marks for m in mark(better, QUANTITIES, policy)), F(0)) >= before

@@ -8,6 +8,7 @@ import signal
 import sys
 import threading
 import time
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -305,3 +306,25 @@ def test_a_pool_gives_what_this_process_gives() -> None:
     finally:
         pool.close()
     assert found == [{"result": grade_one(payload(text))} for text in (RIGHT_K, RIGHT_TAU, "", "\0")]
+
+
+PENDULUM = """title: Pendulum
+gravity: [0, -g, 0]
+dh: [{theta: theta1*, a: l}]
+masses: [{mass: m, link: 1, name: NAME}]
+"""
+
+
+@pytest.mark.parametrize("name", ["1", "p", "p2"])
+def test_a_cap_holds_for_a_body_by_any_name(name: str) -> None:
+    """The energy of one body is the whole of it: a stage that is capped at 3 earns 3 for both, with D 4."""
+    text = f"answers:\n  K{name}: m*l^2*theta1'^2/2\n  K: m*l^2*theta1'^2/2\n  D: [[m*l^2]]\n"
+    more = {
+        "problem": {"file": "pendulum.yaml", "text": PENDULUM.replace("NAME", f'"{name}"')},
+        "marks": {f"K{name}": "3", "K": "3", "D": "1"},
+        "policy": to_data(Policy(caps={"energy": Fraction(3)})),
+    }
+    answers = _answers(grade_one({**payload(text), **more}))
+    assert {answer["verdict"] for answer in answers.values()} == {"correct"}
+    for column in ("marks", "of"):
+        assert sum(Fraction(answer[column]) for answer in answers.values()) == 4
