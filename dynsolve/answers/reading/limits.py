@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from dynsolve.errors import ReadError
+from dynsolve.notation.bounds import MAX_DEPTH
+from dynsolve.notation.size import Size, TooLargeError, size
+from dynsolve.notation.tree import Node
+
 MAX_BYTES = 20_000_000
 """Of a file: notebooks and web pages carry their pictures with them."""
 
@@ -42,3 +47,19 @@ MAX_EXPONENT = 20
 MAX_MACROS = 500
 MAX_MACRO_LENGTH = 2_000
 MAX_DEFINITIONS = 300
+
+_MOST = Size(nodes=MAX_NODES, depth=MAX_DEPTH, terms=MAX_TERMS, degree=MAX_DEGREE)
+_SAID = {
+    "nodes": f"this is too large: over {MAX_NODES} signs when its abbreviations are written out",
+    "depth": f"this is nested over {MAX_DEPTH} levels deep",
+    "terms": f"this is too large: multiplied out it would have over {MAX_TERMS} terms",
+    "degree": f"this is too large: it holds powers over {MAX_DEGREE}",
+}
+
+
+def check_size(node: Node) -> None:
+    """Raise ReadError for a value over the bounds on its size."""
+    try:
+        size(node, _MOST)
+    except TooLargeError as error:
+        raise ReadError(_SAID[error.measure], help="write it shorter, or as a sum of its terms") from None

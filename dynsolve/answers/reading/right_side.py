@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.limits import check_size
 from dynsolve.answers.reading.name_splitting import split_names
-from dynsolve.answers.reading.size import size
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO
@@ -67,7 +67,7 @@ def _read(
         if not definition:
             _check_shape(vocabulary, value, owners)
         if not isinstance(value, Abstract):
-            size(value.node if isinstance(value, Grid) else value)
+            check_size(value.node if isinstance(value, Grid) else value)
     except ReadError as error:
         return error
     except RecursionError:

@@ -1,0 +1,136 @@
+"""How large a formula is, known from its tree alone, before anything is multiplied out.
+
+A text of fifteen characters, (a+b+c+d)^20^20, can ask for more work than a machine has, and
+ten lines of `a = b b` name a tree of a thousand leaves.  So a tree is measured before it is
+evaluated; parts that stand in several places are measured once.  How much is too much, and
+what is said about it, is up to the reader: `notation.bounds` for the formulas of problem
+files, `answers.reading.limits` for those of hand-ins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from math import comb
+from typing import Any, NamedTuple
+
+from dynsolve.notation.tree import (
+    Degrees,
+    Function,
+    Matrix,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Reference,
+    Sum,
+    Symbol,
+)
+from dynsolve.notation.walk import children
+
+_BITS = 32
+"""A number counts as a factor more for each so many bits."""
+
+_UNKNOWN_EXPONENT = 20
+
+
+class Size(NamedTuple):
+    """The size of a formula, or a bound on it.
+
+    `nodes` are those of the tree, shared parts counted wherever they stand; `depth` is its
+    height; `terms` and `degree` are upper bounds of those of the formula multiplied out.
+    """
+
+    nodes: int
+    depth: int
+    terms: int
+    degree: int
+
+
+class TooLargeError(Exception):
+    """A formula is over a bound; `measure` is the field of `Size` in which it is."""
+
+    def __init__(self, measure: str) -> None:
+        super().__init__(measure)
+        self.measure = measure
+
+
+def size(node: Node, most: Size) -> Size:
+    """The size of a formula of at most a certain size; raises TooLargeError for a larger one.
+
+    >>> from dynsolve.notation.text import read
+    >>> size(read("2*(a + b)^3").tree, Size(100, 10, 100, 100))
+    Size(nodes=7, depth=4, terms=4, degree=4)
+    """
+    return Size(*_size(node, {}, 1, most))
+
+
+_Plain = tuple[int, int, int, int]
+_LEAF: _Plain = (1, 1, 1, 1)
+_LEAVES = frozenset({Symbol, Reference})
+
+
+def _size(node: Node, known: dict[int, _Plain], level: int, most: Size) -> _Plain:
+    """The size of a part; `known` has sizes by identity, `level` is how deep the part was met."""
+    kind = type(node)
+    if isinstance(node, Number | Degrees):
+        return 1, 1, 1, 1 + (node.p.bit_length() + node.q.bit_length()) // _BITS
+    if kind not in _RULES:
+        return _LEAF
+    found = known.get(id(node))
+    if found is None:
+        if level > most.depth:
+            raise TooLargeError("depth")
+        sizes = [_LEAF if type(p) in _LEAVES else _size(p, known, level + 1, most) for p in children(node)]
+        nodes, depths, terms, degrees = zip(*sizes, strict=True)
+        found = 1 + sum(nodes), 1 + max(depths), *_RULES[kind](node, terms, degrees, most)
+        for measure, here, bound in zip(Size._fields, found, most, strict=True):
+            if here > bound:
+                raise TooLargeError(measure)
+        known[id(node)] = found
+    return found
+
+
+_Counts = tuple[int, ...]
+
+
+def _added(node: Node, terms: _Counts, degrees: _Counts, most: Size) -> tuple[int, int]:
+    return sum(terms), max(degrees)
+
+
+def _beside(node: Node, terms: _Counts, degrees: _Counts, most: Size) -> tuple[int, int]:
+    return max(terms), max(degrees)
+
+
+def _multiplied(node: Node, terms: _Counts, degrees: _Counts, most: Size) -> tuple[int, int]:
+    product = 1
+    for count in terms:
+        if count != 1:
+            product = min(product * count, most.terms + 1)
+    return product, sum(degrees)
+
+
+def _raised(node: Power, terms: _Counts, degrees: _Counts, most: Size) -> tuple[int, int]:
+    exponent = node.exponent
+    inner = exponent.argument if isinstance(exponent, Negative) else exponent
+    count = inner.p if isinstance(inner, Number) else _UNKNOWN_EXPONENT
+    return (comb(terms[0] + count - 1, count) if count else 1), count * degrees[0]
+
+
+def _opaque(node: Function, terms: _Counts, degrees: _Counts, most: Size) -> tuple[int, int]:
+    return 1, 1
+
+
+_RULES: Mapping[type[Node], Callable[[Any, _Counts, _Counts, Size], tuple[int, int]]] = {
+    Sum: _added,
+    Product: _multiplied,
+    Quotient: _added,
+    Power: _raised,
+    Negative: _beside,
+    Parenthesized: _beside,
+    Function: _opaque,
+    Matrix: _beside,
+}
+"""How the terms and the degree of a node come from those of its parts; every other node is a leaf."""
