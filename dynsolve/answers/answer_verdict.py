@@ -16,8 +16,9 @@ from fractions import Fraction
 from itertools import pairwise
 
 from dynsolve.algebra.fraction import RationalExpr
-from dynsolve.answers.diagnosis.diagnoser import Diagnoser, WrongEntry
+from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.slips import slip
+from dynsolve.answers.diagnosis.wrong_entry import WrongEntry
 from dynsolve.answers.judging.answer_values import AnswerValue, same
 from dynsolve.answers.judging.explanation import Explanations, entry_of
 from dynsolve.answers.judging.follow_through import PossibleValue
@@ -48,7 +49,7 @@ class AnswerJudge:
         """What is said of the answer to one quantity."""
         chains = self.hand_in.chains[name]
         compared = self.hand_in.comparisons[name]
-        value, answer = compared.given, compared.given.answer
+        value, answer = compared.answer_value, compared.answer_value.answer
         base = JudgedAnswer(
             name,
             Verdict.UNREADABLE,
@@ -89,7 +90,7 @@ class AnswerJudge:
             notes.append(ROUNDED)
         if self.explanations.lead_elsewhere(compared):
             notes.append(NOT_FROM_OWN)
-        if base.name == "C" and not self._is_christoffel(compared.given):
+        if base.name == "C" and not self._is_christoffel(compared.answer_value):
             notes.append(NOT_CHRISTOFFEL)
         entries = tuple(EntryVerdict(index, Verdict.CORRECT) for index, _, _ in _entries(base.name, compared))
         return replace(base, verdict=Verdict.CORRECT, notes=tuple(notes), entries=entries)

@@ -78,7 +78,7 @@ class Judge:
 
     @cached_property
     def _diagnoser(self) -> Diagnoser:
-        is_shared = self.hand_in.field.same and self.graph.shift is None
+        is_shared = self.hand_in.field.same and self.graph.zero_potential is None
         changed = self.checker.derivation_slips if is_shared else DerivationSlips(self.graph)
         return Diagnoser(self.problem, self.graph, self.explanations.values, changed)
 

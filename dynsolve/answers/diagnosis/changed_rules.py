@@ -1,7 +1,7 @@
 """Slips that run through the derivation: the graph with one rule replaced.
 
 A wrong step is told by what it makes of everything after it.  Each variant of a
-step (see `steps`) is put into the key's derivation, and the answer is held against
+step (see `steps`) is put into the key's derivation, and the answer is compared with
 what comes out at its own place.
 """
 
@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Diagnosis
@@ -79,7 +77,7 @@ class DerivationSlips:
         for node in self._sources():
             right = graph.key(node)
             for wrong, told in variants(robot, node, graph.key):
-                if told.code not in OF_THE_MATRIX and not _equal(wrong, right):
+                if told.code not in OF_THE_MATRIX and wrong != right:
                     yield node, ChangedDerivation(graph, {node: wrong}), told
         yield from self._everywhere()
 
@@ -109,17 +107,9 @@ class DerivationSlips:
             for node in nodes:
                 for wrong, told in variants(robot, node, graph.key):
                     changed = by_code.setdefault(told.code, {})
-                    if node not in changed and not _equal(wrong, graph.key(node)):
+                    if node not in changed and wrong != graph.key(node):
                         changed[node] = wrong
                         told_as.setdefault(told.code, told)
             for code, changed in by_code.items():
                 if len(changed) > 1:
                     yield head, ChangedDerivation(graph, dict(changed)), told_as[code]
-
-
-def _equal(a: Any, b: Any) -> bool:
-    if isinstance(a, Matrix) and isinstance(b, Matrix):
-        return a.shape == b.shape and all(x == y for x, y in zip(a.entries, b.entries, strict=True))
-    if isinstance(a, Expr) and isinstance(b, Expr):
-        return a == b
-    return False

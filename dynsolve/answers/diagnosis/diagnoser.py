@@ -19,50 +19,29 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, DerivationSlips
-from dynsolve.answers.diagnosis.fourier import is_small, monomial_expr, monomials
+from dynsolve.answers.diagnosis.fourier import is_small
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.diagnosis.substitution import substitutions
 from dynsolve.answers.diagnosis.term_slips import LIGHT, TermSlip, tell
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.diagnosis.terms import TermDiagnoser
-from dynsolve.answers.judging.entry_comparison import WrittenEntry
+from dynsolve.answers.diagnosis.wrong_entry import DimensionCheck, WrongEntry
 from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.key_comparison import KeyComparison, Target
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import families
-from dynsolve.quantities.index import Quantity
-from dynsolve.robot.units import Dimension, describe
 
 MOST_OF_IT = Fraction(1, 2)
-"""What shares so much of its terms with the key was taken from it, not from a slip before it."""
-
-
-@dataclass(frozen=True, slots=True)
-class WrongEntry:
-    """One scalar that is wrong: what was written, and what its own inputs lead to, the nearest first.
-
-    The last one that is expected is the key.
-    """
-
-    name: str
-    target: Any
-    written: WrittenEntry
-    expected: tuple[Expr, ...]
-    row: int = 0
-    column: int = 0
-
-    @property
-    def mine(self) -> Expr | None:
-        """The answer as an element of the ring."""
-        return as_expr(self.written.value)
+"""An answer with at least this share of the key's terms is compared with the key."""
 
 
 @dataclass(frozen=True)
 class _Case:
-    """An answer that is wrong, as an element of the ring, and the value that it is held against."""
+    """An answer that is wrong, as an element of the ring, and the value that it is compared with."""
 
     wrong: WrongEntry
     mine: Expr
@@ -82,13 +61,13 @@ class Diagnoser:
         self,
         problem: Problem,
         graph: AnswerGraph,
-        follow: FollowThrough,
+        follow_through: FollowThrough,
         derivation_slips: DerivationSlips,
     ) -> None:
         self.derivation_slips = derivation_slips
         self.problem = problem
         self.graph = graph
-        self.follow = follow
+        self.follow_through = follow_through
         self.dimensions = graph.field.dimensions
         self.ring = graph.field.ring
 
@@ -104,41 +83,37 @@ class Diagnoser:
         """Finds slips in terms."""
         return TermDiagnoser(self.ring, self.dimensions, self.words)
 
-    def __call__(self, question: WrongEntry) -> tuple[Diagnosis, ...]:
+    @cached_property
+    def dimension_check(self) -> DimensionCheck:
+        """Finds terms that cannot be added."""
+        return DimensionCheck(self.graph, self.words, bool(self.problem.values))
+
+    def __call__(self, wrong: WrongEntry) -> tuple[Diagnosis, ...]:
         """The slips in one scalar."""
-        mine = question.mine
+        mine = wrong.mine
         if mine is None or not is_small(mine):
             return ()
-        found = tuple(dict.fromkeys(self._named(question, mine)))
-        return (*found, *(d for d in self._misfits(question, mine) if d not in found))
+        found = tuple(dict.fromkeys(self._named(wrong, mine)))
+        return (*found, *(d for d in self.dimension_check(wrong, mine) if d not in found))
 
-    def expected(self, question: WrongEntry) -> Expr:
-        """The nearest value that the answer may be held against: one whose terms can be added.
+    def expected(self, wrong: WrongEntry) -> Expr:
+        """The nearest value that the answer may be compared with: one whose terms can be added.
 
-        What follows from a term that cannot be added tells nobody how to mend this one.
-        Nor does what an answer was plainly not taken from: where most of it is the key's,
-        and less of it is what its own inputs lead to, it is held against the key.
+        Where it has more of the key's terms than of that value's, and most of them, it was
+        not taken from the student's own inputs, and is compared with the key.
         """
-        nearest, key = self._nearest_fit(question), question.expected[-1]
-        mine = question.mine
+        nearest, key = self.dimension_check.first_that_fits(wrong), wrong.expected[-1]
+        mine = wrong.mine
         if mine is not None and nearest is not key:
             likeness = _likeness(mine, key)
             if likeness >= MOST_OF_IT and likeness > _likeness(mine, nearest):
                 return key
         return nearest
 
-    def _nearest_fit(self, question: WrongEntry) -> Expr:
-        wanted = self._dimension(question)
-        if wanted is not None and not self.problem.values:
-            for value in question.expected:
-                if self.dimensions.fits(value, wanted):
-                    return value
-        return question.expected[0]
-
-    def _named(self, question: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
-        if self._is_constant(question, mine):
+    def _named(self, wrong: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
+        if self._is_constant(wrong, mine):
             yield slip("constant_term")
-        case = _Case(question, mine, self.expected(question), self.terms)
+        case = _Case(wrong, mine, self.expected(wrong), self.terms)
         explained = (tuple(explain(self, case)) for explain in _IN_ORDER)
         yield from next(filter(None, explained), ())
 
@@ -177,48 +152,56 @@ class Diagnoser:
         yield from tell(case.term_slips, _in_common(case.mine, case.expected))
 
     def _first_of(
-        self, values: Iterator[tuple[Any, Diagnosis]], question: WrongEntry, mine: Expr
+        self, values: Iterator[tuple[Any, Diagnosis]], wrong: WrongEntry, mine: Expr
     ) -> Diagnosis | None:
         """The first slip that gives what was written; one entry alone shows no slip of its matrix."""
         return next(
             (
-                told
-                for value, told in values
-                if told.code not in OF_THE_MATRIX and self._at(question, value) == mine
+                diagnosis
+                for value, diagnosis in values
+                if diagnosis.code not in OF_THE_MATRIX and wrong.at(value) == mine
             ),
             None,
         )
 
-    def _derived(self, question: WrongEntry, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
+    def _derived(self, wrong: WrongEntry, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
         """What an earlier step done otherwise makes of a node; 0 is explained by what is left out alone."""
         is_zero = all(value.is_zero for value in mine)
-        for value, told in self.derivation_slips.values(question.target.node):
-            if not is_zero or told.code.endswith("_missing"):
-                yield value, told
+        for value, diagnosis in self.derivation_slips.values(wrong.target.node):
+            if not is_zero or diagnosis.code.endswith("_missing"):
+                yield value, diagnosis
 
-    def _refined(self, one: Diagnosis, question: WrongEntry) -> Diagnosis:
-        """A wrong sign of everything that is gravity is gravity's."""
-        quantity = self._quantity(question)
+    def _refined(self, one: Diagnosis, wrong: WrongEntry) -> Diagnosis:
+        """A wrong sign of a potential energy, or of g, is the wrong sign of gravity."""
+        quantity = self.dimension_check.quantity(wrong)
         is_gravity = quantity is not None and quantity.family in (families.P_BODY, families.P, families.G)
         if is_gravity and one.code in ("sign", "sign_all"):
             return slip("gravity_sign")
         return one
 
+    def _is_constant(self, wrong: WrongEntry, mine: Expr) -> bool:
+        """Whether a potential energy differs by a constant only."""
+        quantity = self.dimension_check.quantity(wrong)
+        if quantity is None or quantity.family not in (families.P_BODY, families.P, families.L):
+            return False
+        difference = mine - self.expected(wrong)
+        return not difference.is_zero and not self.ring.depends_on_coordinates(difference)
+
     # -- the step, the derivation ------------------------------------------------------------------
 
     def nearest(self, node: str) -> Any:
         """A node's value from the student's own nearest answers: their own where there is one."""
-        choices = self.follow.choices(node)
+        choices = self.follow_through.choices(node)
         value = choices[0].value if choices else None
         return self.graph.key(node) if value is None else value
 
-    def _variants(self, question: WrongEntry, node: str) -> Iterator[tuple[Any, Diagnosis]]:
+    def _variants(self, wrong: WrongEntry, node: str) -> Iterator[tuple[Any, Diagnosis]]:
         if node in ("C", "christoffel"):
             return
 
         def value(name: str) -> Any:
             if name == node:  # of a whole, the value that its inputs lead to
-                derived = self.follow.derived(name)
+                derived = self.follow_through.derived(name)
                 return derived[0].value if derived else self.graph.key(name)
             return self.nearest(name)
 
@@ -227,86 +210,37 @@ class Diagnoser:
         except Exception:  # noqa: BLE001  inputs of the student's from which the step cannot be taken
             return
 
-    def _at(self, question: WrongEntry, value: Any) -> Expr | None:
-        found = question.target.of(value)
-        if isinstance(found, Matrix):
-            rows, columns = found.shape
-            if question.row >= rows or question.column >= columns:
-                return None
-            return found[question.row, question.column]
-        return found if isinstance(found, Expr) else None
-
-    # -- constants, dimensions ---------------------------------------------------------------------
-
-    def _is_constant(self, question: WrongEntry, mine: Expr) -> bool:
-        """Whether a potential energy differs by a constant only."""
-        quantity = self._quantity(question)
-        if quantity is None or quantity.family not in (families.P_BODY, families.P, families.L):
-            return False
-        difference = mine - self.expected(question)
-        return not difference.is_zero and not self.ring.depends_on_coordinates(difference)
-
-    def _misfits(self, question: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
-        """Terms that cannot be added to the others."""
-        wanted = self._dimension(question)
-        if wanted is None or not self.dimensions.known or self.problem.values:
-            return
-        terms = [monomial_expr(self.ring, m) for m in monomials(mine)] if is_small(mine) else []
-        known = [(term, found) for term in terms if (found := self.dimensions.of(term)) is not None]
-        for term, found in known:
-            if found != wanted:
-                mixed = any(other != found for _, other in known)
-                how = "but it is added to what is" if mixed else "where this should be"
-                yield slip(
-                    "dimensions",
-                    term=self.words.of(term),
-                    part=describe(found),
-                    how=how,
-                    other=describe(wanted),
-                )
-                return
-
-    def _dimension(self, question: WrongEntry) -> Dimension | None:
-        """The dimension of an answer, None where nothing is told of it."""
-        quantity = self._quantity(question)
-        if quantity is None or not quantity.family.dimension_is_told:
-            return None
-        place = question.target.entry or (question.row, question.column)
-        return self.graph.quantities.dimension(quantity, place[0], place[1])
-
-    def _quantity(self, question: WrongEntry) -> Quantity | None:
-        """What the answer is, or is an entry of."""
-        return self.graph.quantities.of_rule(question.target.node)
-
     # -- matrices, differences ---------------------------------------------------------------------
 
-    def whole(self, question: WrongEntry, held: Any, found: tuple[Diagnosis, ...]) -> tuple[Diagnosis, ...]:
+    def whole(
+        self, wrong: WrongEntry, compared: KeyComparison, found: tuple[Diagnosis, ...]
+    ) -> tuple[Diagnosis, ...]:
         """The slips of a matrix, given those of its entries: one for all, where one explains all."""
-        mine = [[as_expr(w.value) for w in row] for row in held.rows]
+        mine = [[as_expr(w.value) for w in row] for row in compared.rows]
         if len(mine) * len(mine[0]) == 1 or any(e is None for row in mine for e in row):
             return found
-        target = question.target
+        target = wrong.target
         given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
-        candidates = [*self._variants(question, target.node), *self._transposed(target)]
-        for value, told in candidates:
-            if _same(target.of(value), given):
-                return (told, *(d for d in found if d.code == "dimensions"))
-        for value, told in self._derived(question, *given.entries):
-            if _same(target.of(value), given):
-                return (told, *(d for d in found if d.code == "dimensions"))
+        candidates = [*self._variants(wrong, target.node), *self._transposed(target)]
+        for value, diagnosis in candidates:
+            if target.of(value) == given:
+                return (diagnosis, *(d for d in found if d.code == "dimensions"))
+        for value, diagnosis in self._derived(wrong, *given.entries):
+            if target.of(value) == given:
+                return (diagnosis, *(d for d in found if d.code == "dimensions"))
         return found
 
-    def _transposed(self, target: Any) -> Iterator[tuple[Any, Diagnosis]]:
+    def _transposed(self, target: Target) -> Iterator[tuple[Any, Diagnosis]]:
         right = target.of(self.graph.key(target.node))
         if isinstance(right, Matrix) and right.shape[0] == right.shape[1] > 1:
             yield right.T, slip("transposed")
 
-    def difference(self, question: WrongEntry) -> Node | None:
+    def difference(self, wrong: WrongEntry) -> Node | None:
         """The answer minus what was expected, in compact form."""
-        mine = question.mine
+        mine = wrong.mine
         if mine is None:
             return None
-        difference = mine - self.expected(question)
+        difference = mine - self.expected(wrong)
         return self.words.form(difference) if is_small(difference) else None
 
 
@@ -321,14 +255,6 @@ def _likeness(a: Expr, b: Expr) -> Fraction:
     """The share of the terms of two values that they have in common."""
     same = _in_common(a, b)
     return Fraction(same, max(len(a) + len(b) - same, 1))
-
-
-def _same(a: Any, b: Matrix) -> bool:
-    return (
-        isinstance(a, Matrix)
-        and a.shape == b.shape
-        and all(x == y for x, y in zip(a.entries, b.entries, strict=True))
-    )
 
 
 _IN_ORDER: tuple[Callable[[Diagnoser, _Case], Iterator[Diagnosis]], ...] = (

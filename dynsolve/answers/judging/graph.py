@@ -2,7 +2,8 @@
 
 A quantity has one route or several to it (D from τ or from K, g from τ or from P).
 The formulas are the textbook's rules on the field's robot; here stands only what
-they are fed with.  The Coriolis term is held by its vector C q̇, since C is free.
+they are fed with.  Many matrices C give the same C q̇, so this
+vector is what the Coriolis term is compared by.
 """
 
 from __future__ import annotations
@@ -44,12 +45,16 @@ class Route:
 
 
 class AnswerGraph:
-    """The graph of one robot in one field; `shift` is the potential a mass of 1 has at zero height."""
+    """The graph of one robot in one ring.
 
-    def __init__(self, field: Field, shift: Expr | None = None) -> None:
+    `zero_potential` is the potential that a unit of mass has at the key's zero of height,
+    where the student has chosen another zero.
+    """
+
+    def __init__(self, field: Field, zero_potential: Expr | None = None) -> None:
         self.field = field
         self.robot: Robot = field.robot
-        self.shift = shift
+        self.zero_potential = zero_potential
 
     # -- names -------------------------------------------------------------------------------------
 
@@ -59,7 +64,7 @@ class AnswerGraph:
         return quantities(self.robot)
 
     def node(self, name: str) -> str:
-        """The node of the graph that an answer is held at: f2 at tau2, C at Cqd."""
+        """The node of the graph that an answer is compared at: f2 at tau2, C at Cqd."""
         quantity = self.quantities.get("Cqd" if name == "C" else name)
         return name if quantity is None else quantity.rule
 
@@ -71,16 +76,16 @@ class AnswerGraph:
     # -- values ------------------------------------------------------------------------------------
 
     def key(self, node: str) -> Any:
-        """The key's value of a node; the zero level of height is the student's."""
+        """The key's value of a node; at the student's own zero of height."""
         value = self.field.key(node)
-        if self.shift is None:
+        if self.zero_potential is None:
             return value
         if node == "L":
-            return value - self.shift * self._mass
+            return value - self.zero_potential * self._mass
         if node == "P":
-            return value + self.shift * self._mass
+            return value + self.zero_potential * self._mass
         body = self._lifted(node)
-        return value if body is None else value + self.shift * body.mass
+        return value if body is None else value + self.zero_potential * body.mass
 
     def _lifted(self, node: str) -> Body | None:
         """The body whose potential energy a node is."""
@@ -115,8 +120,8 @@ class AnswerGraph:
             case "C" | "christoffel":
                 return (Route(("D",), self._symbols if node == "christoffel" else self._coriolis_matrix),)
         body = self._lifted(node)
-        if self.shift is not None and body is not None:
-            lift = self.shift * body.mass
+        if self.zero_potential is not None and body is not None:
+            lift = self.zero_potential * body.mass
             return (Route(rule.inputs, lambda rc: rule.compute(rc) + lift, linear=False),)
         return (Route(rule.inputs, rule.compute, quantity.family in _LINEAR),) if rule.inputs else ()
 

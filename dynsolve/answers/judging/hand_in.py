@@ -41,31 +41,14 @@ class ComparedHandIn:
         values = AnswerValues(field, answers)
         self.field = values.field
         self.compare_entry = EntryComparer(numbers)
-        self.graph = AnswerGraph(self.field)
-        self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
-        self.chains = self._by_quantity(values.all)
+        at_keys_height = KeyComparer(values.graph, self.compare_entry, values.changed)
+        self.chains = _by_quantity(values.all, at_keys_height)
         energies = dict(self._energies())
-        self.graph.shift = potential_at_zero_height(self.field, energies, self.field.dimensions)
+        potential = potential_at_zero_height(self.field, energies, self.field.dimensions)
+        self.graph = AnswerGraph(self.field, potential)
+        self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
         self.comparisons = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
         self.assembled_coriolis = self._assembled_coriolis()
-
-    def _by_quantity(self, values: Sequence[AnswerValue]) -> dict[str, list[Chain]]:
-        found: dict[str, list[Chain]] = {}
-        for value in values:
-            chains = found.setdefault(self._quantity(value), [])
-            if chains and chains[-1][0].answer.occurrence[0] == value.answer.occurrence[0]:
-                chains[-1].append(value)
-            else:
-                chains.append([value])
-        return found
-
-    def _quantity(self, value: AnswerValue) -> str:
-        """The name of the quantity that is meant: of several that the notation allows, the one it equals."""
-        answer = value.answer
-        for name in (answer.name, *answer.alternatives) if answer.alternatives and value.rows else ():
-            if self.compare(name, value).correct:
-                return name
-        return self.graph.answer(answer.name)
 
     def _energies(self) -> Iterator[tuple[str, Expr]]:
         """The student's P_i, P and L, where they are expressions of the ring."""
@@ -89,7 +72,11 @@ class ComparedHandIn:
         rows: list[Chain] = []
         for i in range(n):
             row = [self.comparisons.get(f"C{i + 1}{j + 1}") for j in range(n)]
-            found = [entry.given for entry in row if entry is not None and entry.given.rows is not None]
+            found = [
+                entry.answer_value
+                for entry in row
+                if entry is not None and entry.answer_value.rows is not None
+            ]
             if len(found) < n or any(len(value.entries) != 1 for value in found):
                 return None
             rows.append(found)
@@ -102,3 +89,24 @@ class ComparedHandIn:
 def last(chains: Sequence[Chain]) -> AnswerValue:
     """The answer that counts of those given for one quantity: the last member of the last equation."""
     return chains[-1][-1]
+
+
+def _by_quantity(values: Sequence[AnswerValue], compare: KeyComparer) -> dict[str, list[Chain]]:
+    """The equations of each quantity, in the order of the hand-in."""
+    found: dict[str, list[Chain]] = {}
+    for value in values:
+        chains = found.setdefault(_quantity(value, compare), [])
+        if chains and chains[-1][0].answer.occurrence[0] == value.answer.occurrence[0]:
+            chains[-1].append(value)
+        else:
+            chains.append([value])
+    return found
+
+
+def _quantity(value: AnswerValue, compare: KeyComparer) -> str:
+    """The name of the quantity that is meant: of several that the notation allows, the one it equals."""
+    answer = value.answer
+    for name in (answer.name, *answer.alternatives) if answer.alternatives and value.rows else ():
+        if compare(name, value).correct:
+            return name
+    return compare.graph.answer(answer.name)

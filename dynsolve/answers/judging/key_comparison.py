@@ -1,4 +1,4 @@
-"""Answers held against the key, entry by entry; C by the rows of C q̇."""
+"""Answers compared with the key, entry by entry; C by the rows of C q̇."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Rows = tuple[tuple[WrittenEntry, ...], ...]
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """What an answer is held against: a node, and the one entry of it, from 0, that was asked for."""
+    """What an answer is compared with: a node, and the one entry of it, from 0, that was asked for."""
 
     node: str
     entry: tuple[int, ...] = ()
@@ -39,9 +39,9 @@ class Obstacle:
 
 @dataclass(frozen=True, slots=True)
 class KeyComparison:
-    """An answer held against the key: its entries as they are compared, and whether each is right."""
+    """An answer compared with the key: its entries as they are compared, and whether each is right."""
 
-    given: AnswerValue
+    answer_value: AnswerValue
     target: Target
     rows: tuple[tuple[WrittenEntry, ...], ...] = ()
     right: tuple[tuple[str | None, ...], ...] = ()
@@ -61,19 +61,19 @@ class KeyComparison:
 
 
 class KeyComparer:
-    """Holds answers against the key in a graph; `moved` evaluates a changed tree."""
+    """Compares answers with the key; `changed` gives the value of a tree with a decimal changed."""
 
     def __init__(
-        self, graph: AnswerGraph, compare: EntryComparer, moved: Callable[[Node], RationalExpr]
+        self, graph: AnswerGraph, compare: EntryComparer, changed: Callable[[Node], RationalExpr]
     ) -> None:
         self.graph = graph
         self.robot = graph.robot
         self.field = graph.field
         self.compare = compare
-        self.moved = moved
+        self.changed = changed
 
     def target(self, name: str) -> Target:
-        """What an answer of this name is held against."""
+        """What an answer of this name is compared with."""
         quantity = self.graph.quantities.get(name)
         if quantity is not None and quantity.is_read_off:
             return Target(quantity.rule, quantity.entry)
@@ -83,75 +83,75 @@ class KeyComparer:
         """The key's value of a target."""
         return target.of(self.graph.key(target.node))
 
-    def __call__(self, name: str, given: AnswerValue) -> KeyComparison:
-        """Hold one answer; where it is too large to be compared, it has a fault."""
+    def __call__(self, name: str, value: AnswerValue) -> KeyComparison:
+        """Compare one answer; where it is too large to be compared, it has a fault."""
         try:
-            return self._hold(name, given)
+            return self._compared(name, value)
         except AlgebraError as error:
-            refused = replace(given, rows=None, fault=error.message, expected=error.help)
+            refused = replace(value, rows=None, fault=error.message, expected=error.help)
             return KeyComparison(refused, self.target(name))
 
-    def _hold(self, name: str, given: AnswerValue) -> KeyComparison:
+    def _compared(self, name: str, value: AnswerValue) -> KeyComparison:
         target = self.target(name)
-        if given.rows is None or target.node not in self.field.rules:
-            return KeyComparison(given, target)
+        if value.rows is None or target.node not in self.field.rules:
+            return KeyComparison(value, target)
         key = self.key(target)
-        rows, obstacles = self._coriolis(given) if name == "C" else self._rows(given, key)
+        rows, obstacles = self._coriolis(value) if name == "C" else self._rows(value, key)
         if not rows:
-            return KeyComparison(given, target, obstacles=obstacles)
+            return KeyComparison(value, target, obstacles=obstacles)
         matrix = key if isinstance(key, Matrix) else Matrix(self.field.ring, ((key,),))
         right = tuple(
             tuple(map(self.compare, expected, written))
             for expected, written in zip(matrix.rows, rows, strict=True)
         )
-        return KeyComparison(given, target, rows, right, obstacles)
+        return KeyComparison(value, target, rows, right, obstacles)
 
-    def _rows(self, given: AnswerValue, key: Any) -> tuple[Rows, tuple[Obstacle, ...]]:
+    def _rows(self, value: AnswerValue, key: Any) -> tuple[Rows, tuple[Obstacle, ...]]:
         """The entries as they are compared, in the key's shape."""
-        assert given.rows is not None
-        rows = fitted(given.rows, key)
+        assert value.rows is not None
+        rows = fitted(value.rows, key)
         if rows is None:
-            return (), (self._misfit(given, key),)
-        nodes = iter([node for row in given.nodes for node in row])
-        blank = given.nodes[0][0]  # one 0 for a whole vector, and the last row of a transformation
+            return (), (self._misfit(value, key),)
+        nodes = iter([node for row in value.nodes for node in row])
+        blank = value.nodes[0][0]  # one 0 for a whole vector, and the last row of a transformation
         return tuple(
-            tuple(WrittenEntry(value, next(nodes, blank), self.moved) for value in row) for row in rows
+            tuple(WrittenEntry(value, next(nodes, blank), self.changed) for value in row) for row in rows
         ), ()
 
-    def _misfit(self, given: AnswerValue, key: Any) -> Obstacle:
-        assert given.rows is not None
+    def _misfit(self, value: AnswerValue, key: Any) -> Obstacle:
+        assert value.rows is not None
         shape = key.shape if isinstance(key, Matrix) else (1, 1)
         wanted = f"a {shape[0]}×{shape[1]} matrix" if shape != (1, 1) else "a single expression"
         mine = (
-            f"a {len(given.rows)}×{len(given.rows[0])} matrix" if given.is_matrix else "a single expression"
+            f"a {len(value.rows)}×{len(value.rows[0])} matrix" if value.is_matrix else "a single expression"
         )
-        return Obstacle("shape", f"You wrote {mine}; {given.answer.name} is {wanted}.")
+        return Obstacle("shape", f"You wrote {mine}; {value.answer.name} is {wanted}.")
 
-    def _coriolis(self, given: AnswerValue) -> tuple[Rows, tuple[Obstacle, ...]]:
+    def _coriolis(self, value: AnswerValue) -> tuple[Rows, tuple[Obstacle, ...]]:
         """C as its C q̇, n×1; a C with accelerations in it is none."""
-        assert given.rows is not None
+        assert value.rows is not None
         n, ring = self.robot.n, self.field.ring
-        zero = len(given.entries) == 1 and given.entries[0].is_zero
-        if not zero and (len(given.rows) != n or len(given.rows[0]) != n):
-            return (), (self._misfit(given, self.field.key("C")),)
+        zero = len(value.entries) == 1 and value.entries[0].is_zero
+        if not zero and (len(value.rows) != n or len(value.rows[0]) != n):
+            return (), (self._misfit(value, self.field.key("C")),)
         rows = []
-        for row in given.nodes if not zero else ((given.nodes[0][0],) * n,) * n:
+        for row in value.nodes if not zero else ((value.nodes[0][0],) * n,) * n:
             factors = zip(row, ring.names, strict=True)
             node: Node = Sum(tuple(Product((entry, Symbol(name, 1))) for entry, name in factors))
-            rows.append((WrittenEntry(self.moved(node), node, self.moved),))
-        return tuple(rows), tuple(self._unfit(given))
+            rows.append((WrittenEntry(self.changed(node), node, self.changed),))
+        return tuple(rows), tuple(self._unfit(value))
 
-    def _unfit(self, given: AnswerValue) -> Iterator[Obstacle]:
+    def _unfit(self, value: AnswerValue) -> Iterator[Obstacle]:
         """What no C may hold: accelerations, or joint variables in a denominator."""
         ring = self.field.ring
         accelerations = [ring.symbol(name, 2).poly.degrees() for name in ring.names]
         indices = [list(degrees).index(1) for degrees in accelerations]
-        for entry in given.entries:
-            value = as_expr(entry)
-            if value is None:
+        for entry in value.entries:
+            expr = as_expr(entry)
+            if expr is None:
                 yield Obstacle("C_not_polynomial")
                 return
-            degrees = value.poly.degrees() if value.poly else ()
+            degrees = expr.poly.degrees() if expr.poly else ()
             if degrees and any(degrees[i] > 0 for i in indices):
                 yield Obstacle("acceleration_in_C")
                 return

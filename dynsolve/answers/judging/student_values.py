@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
@@ -14,54 +13,47 @@ from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison
 
 
-def student_values(graph: AnswerGraph, held: Mapping[str, KeyComparison]) -> dict[str, StudentValue]:
-    """The values of the nodes that a student handed in, a matrix also by its entries."""
-    return dict(_Owner(graph, held).all())
+def student_values(graph: AnswerGraph, compared: Mapping[str, KeyComparison]) -> dict[str, StudentValue]:
+    """The values of the nodes that a student handed in; D and g also where they were given by entries."""
+    found = {}
+    for name, one in compared.items():
+        is_known = one.answer_value.rows is not None and one.target.node in graph.field.rules
+        is_second = name == "Cqd" and "C" in compared
+        if not one.target.entry and is_known and not is_second:
+            found[one.target.node] = _value(graph, name, one)
+    for whole in ("D", "g") if graph.robot.bodies else ():
+        assembled = None if whole in compared else _assembled(graph, compared, whole)
+        if assembled is not None:
+            found[whole] = assembled
+    return found
 
 
-@dataclass(frozen=True, slots=True)
-class _Owner:
-    graph: AnswerGraph
-    held: Mapping[str, KeyComparison]
+def _value(graph: AnswerGraph, name: str, compared: KeyComparison) -> StudentValue:
+    key = graph.key(compared.target.node)
+    if compared.correct:
+        return StudentValue(key)
+    rows = tuple(tuple(written.value for written in row) for row in compared.rows)
+    return StudentValue(as_value(rows, key) if rows else None, (name,))
 
-    def all(self) -> Iterator[tuple[str, StudentValue]]:
-        for name, held in self.held.items():
-            target = held.target
-            second = name == "Cqd" and "C" in self.held
-            known = held.given.rows is not None and target.node in self.graph.field.rules
-            if not target.entry and known and not second:
-                yield target.node, self._value(name, held)
-        for whole in ("D", "g"):
-            if whole not in self.held:
-                yield from self._whole(whole)
 
-    def _value(self, name: str, held: KeyComparison) -> StudentValue:
-        key = self.graph.key(held.target.node)
-        if held.correct:
-            return StudentValue(key)
-        rows = tuple(tuple(written.value for written in row) for row in held.rows)
-        return StudentValue(as_value(rows, key) if rows else None, (name,))
-
-    def _whole(self, whole: str) -> Iterator[tuple[str, StudentValue]]:
-        """A matrix that was given entry by entry; of a symmetric one half is enough."""
-        if not self.graph.robot.bodies:
-            return
-        key: Matrix = self.graph.key(whole)
-        quantities = self.graph.quantities
-        parts = {quantities[part].entry: part for part in quantities.parts(whole)}
-        entries: list[list[Expr]] = []
-        names: list[str] = []
-        for i, row in enumerate(key.rows):
-            entries.append([])
-            for j in range(len(row)):
-                part = parts.get((i, j), "")
-                name = next((c for c in (part, quantities.mirrored(part)) if c in self.held), None)
-                held = self.held[name] if name else None
-                if name is None or held is None or held.given.rows is None or not held.rows:
-                    return
-                value = key[i, j] if held.correct else as_expr(held.rows[0][0].value)
-                if value is None:
-                    return
-                entries[-1].append(value)
-                names += [] if held.correct else [name]
-        yield whole, StudentValue(Matrix.of(self.graph.field.ring, entries), tuple(dict.fromkeys(names)))
+def _assembled(graph: AnswerGraph, compared: Mapping[str, KeyComparison], whole: str) -> StudentValue | None:
+    """A matrix that was given entry by entry; of a symmetric one half is enough."""
+    key: Matrix = graph.key(whole)
+    parts = {graph.quantities[part].entry: part for part in graph.quantities.parts(whole)}
+    entries: list[list[Expr]] = []
+    wrong: dict[str, None] = {}
+    for i, row in enumerate(key.rows):
+        entries.append([])
+        for j, right in enumerate(row):
+            part = parts.get((i, j), "")
+            name = next((c for c in (part, graph.quantities.mirrored(part)) if c in compared), None)
+            one = compared[name] if name else None
+            if name is None or one is None or one.answer_value.rows is None or not one.rows:
+                return None
+            value = right if one.correct else as_expr(one.rows[0][0].value)
+            if value is None:
+                return None
+            entries[-1].append(value)
+            if not one.correct:
+                wrong[name] = None
+    return StudentValue(Matrix.of(graph.field.ring, entries), tuple(wrong))

@@ -1,8 +1,8 @@
-"""The zero level of height, which is the student's to choose.
+"""The zero of height, which is the student's to choose.
 
 P may differ from the key by h0 Σ m_i |g|, with one height h0 for all bodies, free of
 coordinates, masses and g, of dimension length.  What is looked for is the potential
-φ = |g| h0 that a unit of mass has at the key's zero level.
+φ = |g| h0 that a unit of mass has at the key's zero of height.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.units import LENGTH
 
 
-def potential_at_zero_height(field: Field, own: Mapping[str, Expr], dimensions: Dimensions) -> Expr | None:
-    """φ as most of P_i and P have it, or as L has it where there is no P; None for the key's own level.
+def potential_at_zero_height(field: Field, values: Mapping[str, Expr], dimensions: Dimensions) -> Expr | None:
+    """φ as most of P_i and P have it, or as L has it where there is no P; None for the key's own zero.
 
-    `own` are the student's values of P_i, P and L.
+    `values` are the student's values of P_i, P and L.
     """
-    energies = {name: value for name, value in own.items() if name != "L"}
-    levels = list(_levels(field, energies or own, dimensions))
+    energies = {name: value for name, value in values.items() if name != "L"}
+    levels = list(_levels(field, energies or values, dimensions))
     if not levels:
         return None
     counts = Counter(level for level in levels)
@@ -32,13 +32,13 @@ def potential_at_zero_height(field: Field, own: Mapping[str, Expr], dimensions: 
     return None if best.is_zero else best
 
 
-def _levels(field: Field, own: Mapping[str, Expr], dimensions: Dimensions) -> Iterable[Expr]:
+def _levels(field: Field, values: Mapping[str, Expr], dimensions: Dimensions) -> Iterable[Expr]:
     robot = field.robot
     total = field.ring.zero
     for body in robot.bodies:
         total = total + body.mass
     masses = {"P": total, "L": -total, **{f"P{body.name}": body.mass for body in robot.bodies}}
-    for name, value in own.items():
+    for name, value in values.items():
         difference = value - field.key(name)
         if difference.is_zero:
             yield difference
