@@ -8,10 +8,11 @@ from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grids import Abstract, Value
 from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
-from dynsolve.answers.reading.vocabulary import Meaning, key, spellings
+from dynsolve.answers.reading.vocabulary import Meaning, spellings
 from dynsolve.errors import ReadError
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Node
+from dynsolve.quantities.spelling import key
 
 
 def own_symbols(reader: EquationReader, display: Display, name: str, is_symbol: bool) -> ReadError | None:

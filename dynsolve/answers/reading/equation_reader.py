@@ -25,10 +25,11 @@ from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_ME
 from dynsolve.answers.reading.prepare import Macro, prepared
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
 from dynsolve.answers.reading.shapes import fitted, model_parts, shown
-from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary, key
+from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
 from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.quantities.spelling import key
 
 
 class EquationReader:
@@ -113,7 +114,7 @@ class EquationReader:
         self, first: list[Token], names: list[tuple[str, ...]], read: list[Member]
     ) -> bool:
         """Whether `h = ...` defines an abbreviation, its value having no shape of what books call h."""
-        if len(names) > 1 or len(first) > 1 or key(first[0].text) in self.vocabulary.shapes:
+        if len(names) > 1 or len(first) > 1 or self.vocabulary.is_answer(key(first[0].text)):
             return False
         values = _values(read)
         return bool(values) and not self._any_fits(names[0], values)
@@ -203,7 +204,7 @@ class EquationReader:
 
     def _key(self, name: str) -> LeftSide:
         """What a key of an answer file names."""
-        if name.startswith("I") and name in self.vocabulary.shapes:
+        if name.startswith("I") and self.vocabulary.is_answer(name):
             return NamedAnswers((name,))
         try:
             return read_left_side(self.vocabulary, prepared(name)[:-1])

@@ -11,9 +11,10 @@ from dynsolve.answers.reading.grammar.names import UnknownName
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.name_splitting import split_names
-from dynsolve.answers.reading.vocabulary import Vocabulary, key
+from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Negative, Reference, Sum
+from dynsolve.quantities.spelling import key
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.vocabulary import Vocabulary, key
+from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.quantities.spelling import key
 
 _LONGEST_RUN = 60
 _FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
@@ -88,6 +89,6 @@ def _known(piece: str, vocabulary: Vocabulary, naming: bool) -> bool:
     name = key(piece)
     if vocabulary.symbol(name) is not None:
         return True
-    if name in vocabulary.quantities and (naming or len(name) > 1 or len(piece) == 1):
+    if vocabulary.named(name) and (naming or len(name) > 1 or len(piece) == 1):
         return True
     return vocabulary.short_angle(name) is not None

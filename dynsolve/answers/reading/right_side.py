@@ -80,7 +80,7 @@ def _has_shape(vocabulary: Vocabulary, found: RightSide, owners: tuple[str, ...]
     value = found.value
     if isinstance(value, Abstract) or not owners:
         return True
-    shapes = [vocabulary.shapes.get(owner) for owner in owners]
+    shapes = [vocabulary.shape(owner) for owner in owners]
     if isinstance(value, Grid):
         return any(shape and value.shape in (shape, shape[::-1]) for shape in shapes)
     return value == ZERO or None in shapes or (1, 1) in shapes
@@ -88,7 +88,7 @@ def _has_shape(vocabulary: Vocabulary, found: RightSide, owners: tuple[str, ...]
 
 def _check_shape(vocabulary: Vocabulary, value: Value, owners: tuple[str, ...]) -> None:
     """Raise ReadError for a matrix where only a scalar belongs."""
-    if isinstance(value, Grid) and owners and not any(vocabulary.shapes.get(o) for o in owners):
+    if isinstance(value, Grid) and owners and not any(vocabulary.shape(o) for o in owners):
         rows, columns = value.shape
         message = f"{owners[0]} is one expression; this is a {rows}×{columns} matrix"
         raise ReadError(message, help="check what is transposed, and what is a vector")
@@ -100,7 +100,7 @@ def _is_names_only(reader: FormulaReader, vocabulary: Vocabulary) -> bool:
         return False
     if not reader.symbols:
         return True
-    vectors = any(vocabulary.shapes.get(name) for name in reader.references)
+    vectors = any(vocabulary.shape(name) for name in reader.references)
     return vectors and set(reader.symbols) <= vocabulary.masses
 
 

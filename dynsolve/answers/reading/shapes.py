@@ -41,7 +41,7 @@ def fitted(vocabulary: Vocabulary, candidates: tuple[str, ...], value: Value) ->
     exact: list[tuple[str, Node, str]] = []
     loose: list[tuple[str, Node, str]] = []
     for name in candidates:
-        shape = vocabulary.shapes.get(name)
+        shape = vocabulary.shape(name)
         if shape is None:
             if isinstance(value, Node):
                 exact.append((name, value, ""))
@@ -68,7 +68,7 @@ def misfit(
 ) -> ReadError:
     """The error about a value that none of its names can have."""
     name = candidates[0]
-    shape = vocabulary.shapes.get(name)
+    shape = vocabulary.shape(name)
     found = f"a {value.shape[0]}×{value.shape[1]} matrix" if isinstance(value, Grid) else "one expression"
     wanted = f"a {shape[0]}×{shape[1]} matrix" if shape else "one expression"
     return ReadError(f"{name} is {wanted}; this is {found}", start, max(end - start, 1), f"write {wanted}")

@@ -10,30 +10,18 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from itertools import product
 
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Function, Node, Sum, Symbol
 from dynsolve.problem.model import Problem
+from dynsolve.quantities.index import Quantities, Shape, quantities
+from dynsolve.quantities.spelling import key, open_index, subscripts
 from dynsolve.robot.model import Coordinate, JointType
 
-Shape = tuple[int, int] | None
-"""Rows and columns of a quantity; None for a scalar."""
-
-_STRIP = re.compile(r"[_{}, ]")
 _VECTORS = ("q", "theta", "Theta")
 _RUNNING = re.compile(r"(?:[vwcml]|omega|lin|rot)?[ijkn]{1,3}(?:-?1)?")
 _SHORTHAND = re.compile(r"([sScC])([0-9]+)")
-
-
-def key(name: str) -> str:
-    """The letters and digits of a name.
-
-    >>> key("I_{1,zz}"), key("theta_1")
-    ('I1zz', 'theta1')
-    """
-    return name if name.isalnum() else _STRIP.sub("", name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,20 +37,16 @@ class Vocabulary:
     """The names of one problem.
 
     `symbols` are those of the problem by key, `others` further spellings of them;
-    `quantities` are canonical names by key, several where the notation allows several;
+    `quantities` are what an answer may be given for;
     `derived` are derivatives that were defined on their own, `broken` definitions that
     could not be read, `angles` the student's own by subscript.
-    `shapes` are those of every canonical name; `masses` are the masses, the moments of inertia and g;
-    `defined` is what the student defined.
+    `masses` are the masses, the moments of inertia and g; `defined` is what the student defined.
     """
 
     coordinates: tuple[Coordinate, ...]
     symbols: dict[str, Symbol]
     others: dict[str, Symbol]
-    quantities: dict[str, tuple[str, ...]]
-    shapes: dict[str, Shape]
-    families: dict[str, tuple[str, ...]]
-    bodies: tuple[str, ...]
+    quantities: Quantities
     masses: frozenset[str]
     defined: dict[str, Meaning] = field(default_factory=dict)
     derived: dict[tuple[str, int], Value] = field(default_factory=dict)
@@ -73,8 +57,8 @@ class Vocabulary:
     def fresh(self) -> Vocabulary:
         """The names of the problem alone, for another hand-in."""
         return Vocabulary(
-            self.coordinates, self.symbols, self.others, self.quantities, self.shapes, self.families,
-            self.bodies, self.masses, subscripts=self.subscripts,
+            self.coordinates, self.symbols, self.others, self.quantities, self.masses,
+            subscripts=self.subscripts,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
@@ -174,20 +158,28 @@ class Vocabulary:
             return next((q for q in self.coordinates if q.name == node.name), None)
         return None
 
+    def named(self, name: str) -> tuple[str, ...]:
+        """The answers that a name may stand for, by its key; several where the notation allows several."""
+        return self.quantities.spellings.get(name, ())
+
     def family(self, name: str) -> tuple[str, ...]:
-        """The quantities of the kind that a name with an unknown index belongs to."""
-        return self.families.get(_family(name), ())
+        """The answers of the kind that a name with an unknown index belongs to."""
+        return self.quantities.open_spellings.get(open_index(name), ())
+
+    def is_answer(self, name: str) -> bool:
+        """Whether this is the name of an answer, as answers are kept."""
+        quantity = self.quantities.get(name)
+        return quantity is not None and quantity.family.is_answer
+
+    def shape(self, name: str) -> Shape:
+        """Rows and columns of an answer; None for a scalar, and for what is none."""
+        quantity = self.quantities.get(name)
+        return quantity.shape if quantity is not None else None
 
 
 def is_running(index: str) -> bool:
     """Whether an index runs: K_i, v_{ci}, omega_{i-1}."""
     return bool(_RUNNING.fullmatch(key(index)))
-
-
-def _family(name: str) -> str:
-    """What names with another index have in common: `P3` is P#, `d13` is d##."""
-    stem = name.rstrip("0123456789")
-    return stem + "#" * (len(name) - len(stem)) if stem != name else ""
 
 
 def _sorted_key(name: str) -> str:
@@ -202,25 +194,10 @@ def vocabulary(problem: Problem) -> Vocabulary:
     symbols = {key(name): Symbol(name) for name in robot.parameters}
     symbols |= {key(q.name): Symbol(q.name) for q in coordinates}
     others: dict[str, Symbol] = {"pi": Symbol("pi")}
-    subscripts = _subscripts(coordinates)
-    _add_derivatives(others, symbols, subscripts)
-    bodies = tuple(body.name for body in robot.bodies)
-    quantities, shapes, families = _quantities(robot.n, len(robot.joints), coordinates, bodies, subscripts)
+    spoken = subscripts(coordinates)
+    _add_derivatives(others, symbols, spoken)
     masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
-    return Vocabulary(
-        coordinates, symbols, others, quantities, shapes, families, bodies, masses, subscripts=subscripts
-    )
-
-
-def _subscripts(coordinates: tuple[Coordinate, ...]) -> dict[str, Coordinate]:
-    """Coordinates by the subscript of their name; by their place where names have none, or share one."""
-    found: dict[str, Coordinate] = {}
-    for q in coordinates:
-        index = "".join(split(q.name)[1])
-        if not index.isdigit() or index in found:
-            return {str(q.index): q for q in coordinates}
-        found[index] = q
-    return found
+    return Vocabulary(coordinates, symbols, others, quantities(robot), masses, subscripts=spoken)
 
 
 def _add_derivatives(
@@ -251,104 +228,3 @@ def spellings(name: str) -> list[tuple[str, int]]:
         for mark in marks:
             found += [(plain + mark, dots), (base + mark + index, dots), (mark + plain, dots)]
     return [*found, ("d2" + plain, 2)]
-
-
-def _quantities(
-    n: int,
-    rows: int,
-    coordinates: tuple[Coordinate, ...],
-    bodies: tuple[str, ...],
-    subscripts: dict[str, Coordinate],
-) -> tuple[dict[str, tuple[str, ...]], dict[str, Shape], dict[str, tuple[str, ...]]]:
-    table = _Quantities(n)
-    frame: Shape = (4, 4)
-    for i in range(1, rows + 1):
-        table.add(f"A{i}", frame, "A", (f"A{i}",))
-        table.add(f"H{i}", frame, "H", (f"H{i}", f"T{i}", f"H0{i}", f"T0{i}"))
-    table.add("Jv", (3, n), "", ("Jv", "JP", "Jp"))
-    table.add("Jw", (3, n), "", ("Jw", "Jomega", "JO", "JOmega"))
-    table.add("J", (6, n), "", ("J",))
-    for b in bodies:
-        _add_body(table, b, n)
-    table.add("P", None, "", ("P", "U", "Ep", "PE", "Epot", "Ptot", "Ptotal", "V", "Etp", "Utot"))
-    table.add("K", None, "", ("K", "T", "Ek", "KE", "Ekin", "Ktot", "Ktotal", "Ttot"))
-    table.add("L", None, "", ("L", "Lagrangian"))
-    _add_torques(table, coordinates, subscripts)
-    vector: Shape = (n, 1)
-    table.add("tau", vector, "", ("tau", "tauvec"))
-    table.add("D", (n, n), "", ("D", "M", "B", "Dq", "Mq"))
-    table.add("C", (n, n), "", ("C",))
-    table.add("g", vector, "", ("g", "G", "phi", "gvec"))
-    table.add("Cqd", vector, "", ("Cqd", "c", "V", "Cqdot", "h", "C"))
-    digits = [str(digit) for digit in range(1, n + 1)]
-    for row, column in product(digits, digits):
-        ij = row + column
-        table.add(f"d{ij}", None, "d", tuple(letter + ij for letter in "dDmMbB"))
-        table.add(f"C{ij}", None, "C", (f"C{ij}", f"c{ij}"))
-        for k in digits:
-            table.add(f"c{ij}{k}", None, "c", (f"c{ij}{k}", f"C{ij}{k}", f"Gamma{ij}{k}"))
-    return table.names, table.shapes, table.families
-
-
-class _Quantities:
-    def __init__(self, n: int) -> None:
-        self.names: dict[str, tuple[str, ...]] = {}
-        self.shapes: dict[str, Shape] = {}
-        self.families: dict[str, tuple[str, ...]] = {}
-
-    def add(self, canonical: str, shape: Shape, family: str, spellings: tuple[str, ...]) -> None:
-        self.shapes[canonical] = shape
-        for spelling in (canonical, *spellings):
-            spelling = key(spelling)
-            known = self.names.get(spelling, ())
-            if canonical not in known:
-                self.names[spelling] = (*known, canonical)
-            if family and (stem := _family(spelling)):
-                members = self.families.get(stem, ())
-                if canonical not in members:
-                    self.families[stem] = (*members, canonical)
-
-
-def _add_body(table: _Quantities, b: str, n: int) -> None:
-    column: Shape = (3, 1)
-    table.add(f"rc{b}", column, "rc", (f"rc{b}", f"pc{b}", f"oc{b}", f"rm{b}"))
-    for canonical, marks in (("v", ("v",)), ("w", ("omega", "w"))):
-        points = ("", "c", "m") if canonical == "v" else ("", "c")
-        for mark in marks:
-            spellings = tuple(f"{mark}{point}{b}" for point in points)
-            table.add(f"{canonical}{b}", column, canonical, spellings)
-            table.add(f"J{canonical}{b}", (3, n), f"J{canonical}", tuple(f"J{s}" for s in spellings))
-            kinetic = tuple(f"{K}{s}" for s in spellings for K in ("K", "Ek", "T", "E"))
-            table.add(f"K{canonical}{b}", None, f"K{canonical}", (*kinetic, f"K{b}{mark}"))
-    words = ("Klin", "Ktrans", "Kt", "KT", "KL", "Kl"), ("Krot", "Kr", "KR")
-    for canonical, kinds in zip(("Kv", "Kw"), words, strict=True):
-        table.add(f"{canonical}{b}", None, canonical, tuple(f"{kind}{b}" for kind in kinds))
-    table.add(f"I_body{b}", (3, 3), "I", (f"Ibody{b}", f"Ib{b}", f"I{b}", f"Ic{b}", f"I{b}b", f"I{b}body"))
-    table.add(f"I{b}", (3, 3), "I", (f"I{b}", f"I0{b}", f"Ibase{b}", f"I{b}base"))
-    table.add(f"P{b}", None, "P", (f"P{b}", f"U{b}", f"Ep{b}", f"PE{b}", f"Epot{b}", f"V{b}"))
-    table.add(f"K{b}", None, "K", (f"K{b}", f"T{b}", f"Ek{b}", f"KE{b}", f"Ekin{b}"))
-
-
-def _add_torques(
-    table: _Quantities, coordinates: tuple[Coordinate, ...], subscripts: dict[str, Coordinate]
-) -> None:
-    spoken = {q.name: index for index, q in subscripts.items()}
-    for q in coordinates:
-        i = q.index
-        letter = "theta" if q.type is JointType.REVOLUTE else "d"
-        names = dict.fromkeys((key(q.name), f"q{i}", f"{letter}{spoken[q.name]}"))
-        force = [
-            f"tau{i}",
-            f"f{i}",
-            f"F{i}",
-            f"Q{i}",
-            *(mark + n for n in names for mark in ("tau", "f", "F")),
-        ]
-        table.add(q.force, None, "tau", tuple(force))
-        name = key(q.name)
-        table.add(f"dLdqd{i}", None, "dLdqd", (f"dLdqd{i}", f"dLdqdot{i}", f"dLd{name}dot"))
-        table.add(f"ddt{i}", None, "ddt", (f"ddt{i}", f"ddtdLdqd{i}"))
-        table.add(f"dLdq{i}", None, "dLdq", (f"dLdq{i}", f"dLd{name}"))
-        table.add(f"g{i}", None, "g", (f"g{i}", f"G{i}", f"phi{i}", f"Phi{i}"))
-        if spoken[q.name] != str(i) and f"tau{spoken[q.name]}" not in table.names:
-            table.add(q.force, None, "tau", (f"tau{spoken[q.name]}", f"f{spoken[q.name]}"))

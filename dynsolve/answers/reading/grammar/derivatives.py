@@ -7,9 +7,9 @@ from dynsolve.answers.reading.grammar.rates import rate, total_rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.vocabulary import key
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Reference, Symbol
+from dynsolve.quantities.spelling import key
 
 
 class UnknownVariable(ReadError):

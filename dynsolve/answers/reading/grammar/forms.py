@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from dynsolve.answers.reading.lexer import Token
-from dynsolve.answers.reading.vocabulary import key
+from dynsolve.quantities.spelling import key
 
 
 @dataclass(slots=True)

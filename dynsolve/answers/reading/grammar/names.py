@@ -90,7 +90,7 @@ def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
         return Meaning(angle, f"{form.text} is read as a sum of coordinates")
     if "inertia" in reader.options and (meaning := vocabulary.inertia(name)):
         return meaning
-    if name in vocabulary.quantities and len(name) > 1:
+    if vocabulary.named(name) and len(name) > 1:
         return None
     if vocabulary.is_vector(name) or is_running(form.index or form.base_index):
         return None

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dynsolve.answers.reading.grammar.forms import Form
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Grid, Value
-from dynsolve.answers.reading.vocabulary import Vocabulary, key
+from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.notation.tree import (
     Reference,
     Symbol,
 )
+from dynsolve.quantities.spelling import key
 
 _OWN_ON_THE_RIGHT = frozenset({"h", "c"})
 """Letters that name an answer on the left alone: on the right they are the student's own."""
@@ -18,14 +19,14 @@ _OWN_ON_THE_RIGHT = frozenset({"h", "c"})
 def quantity(reader: Reader, form: Form, name: str) -> Value | None:
     """The answer that a name stands for, as placeholders; None where it is none."""
     vocabulary = reader.vocabulary
-    names = vocabulary.quantities.get(name, ())
+    names = vocabulary.named(name)
     if name in _OWN_ON_THE_RIGHT and not reader.naming:
         return None
     if form.script and name.startswith("I"):
         names = tuple(n for n in names if n.startswith("I") and not n.startswith("I_body"))
     if form.dots:
         if name.startswith("rc") and form.dots == 1:
-            names = vocabulary.quantities.get("v" + name[2:], ())
+            names = vocabulary.named("v" + name[2:])
         else:
             return None
     names, framed = _framed(form, names)
@@ -66,7 +67,7 @@ def _framed(form: Form, names: tuple[str, ...]) -> tuple[tuple[str, ...], bool]:
 
 def placeholder(vocabulary: Vocabulary, name: str) -> Value:
     """What stands for an answer: a reference to it, or the matrix of those to its entries."""
-    shape = vocabulary.shapes.get(name)
+    shape = vocabulary.shape(name)
     if shape is None:
         return Reference(name)
     rows, columns = shape

@@ -6,7 +6,7 @@ from dynsolve.answers.reading.grammar.forms import Form
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.references import only_coordinates
 from dynsolve.answers.reading.grids import Value
-from dynsolve.answers.reading.vocabulary import Vocabulary, key
+from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import (
     Function,
@@ -15,6 +15,7 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
+from dynsolve.quantities.spelling import key
 from dynsolve.robot.model import JointType
 
 
