@@ -1,13 +1,29 @@
 """The manipulator as textbooks draw it, from its Denavit-Hartenberg table.
 
-numbers   how long every symbol is drawn
-skeleton  where frames, legs and mass centres are at a pose
-pose      the pose and the view in which nothing hides anything
-parts     where cylinders, boxes and links stand along the chain
-solids    those as paths, from back to front
-annotate  axes of frames, joint variables, lengths, mass centres, gravity
-labels    where labels stand
-scene     all of it; `svg`, `latex` and `convert` write it down
+From the table to a pose:
+
+    numbers       how long every symbol is drawn
+    orientation   which way is up, and whether the robot moves in a plane
+    skeleton      where frames and links are for given values of the coordinates
+    mass_centers  where the mass centres are
+    view          how space is laid on paper
+    pose          a pose seen from somewhere, and how good that is
+    pose_search   the pose and the view in which nothing hides anything
+
+What is drawn of it:
+
+    parts         where cylinders, boxes and links stand along the chain
+    solids        those as paths, from back to front; `links` the tubes between them
+    annotate      axes of frames, joint variables, mass centres, gravity
+    lengths       lengths with their heads
+    labels        where labels stand; `typography` how wide they are
+    scene         all of it together
+
+How it is written down: `svg`, `latex`, and `convert` for PDF and PNG.  What all of it is
+made of: `vectors` (geometry), `paths` (lines and areas with their colours), `space` (which
+places on paper are taken).
+
+Nothing but the reports and the command `draw` imports this package.
 """
 
 from __future__ import annotations

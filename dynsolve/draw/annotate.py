@@ -14,7 +14,7 @@ from dynsolve.draw import paths
 from dynsolve.draw.labels import Wanted
 from dynsolve.draw.parts import RADIUS, TUBE, JointBody
 from dynsolve.draw.paths import Path
-from dynsolve.draw.pose import AXIS, Pose, point_to_segment
+from dynsolve.draw.pose import AXIS, Pose
 from dynsolve.draw.space import Taken
 from dynsolve.draw.typography import typeset
 from dynsolve.draw.vectors import (
@@ -24,6 +24,7 @@ from dynsolve.draw.vectors import (
     dot,
     length,
     moved,
+    point_to_segment,
     scale,
     scaled,
     subtract,
@@ -135,7 +136,7 @@ def _end_on(origin: Point, toward: bool, radius: float, notes: Notes) -> None:
 # -- joint variables -------------------------------------------------------------------------------
 
 
-def turns(pose: Pose, written: Sequence[Node], notes: Notes) -> None:
+def joint_angles(pose: Pose, written: Sequence[Node], notes: Notes) -> None:
     """The angles of revolute joints: arcs in a flat view, arrows around the axis in space."""
     for part in pose.parts.joints:
         if part.type is JointType.REVOLUTE:

@@ -23,7 +23,7 @@ _UNIT = 0.6
 _OPERATORS = {"M": "m", "L": "l", "C": "c", "Z": "h"}
 _SIZES = ((0.57, r"\normalsize"), (0.5, r"\small"), (0.43, r"\footnotesize"), (0.0, r"\scriptsize"))
 
-_INK = r"""\ifx\dynsolveink\undefined
+_LITERAL = r"""\ifx\dynsolveink\undefined
 \def\dynsolveink#1{\special{pdf:content #1}}
 \ifx\pdfextension\undefined\else\def\dynsolveink#1{\pdfextension literal{#1}}\fi
 \ifx\pdfliteral\undefined\else\ifnum\pdfoutput>0 \def\dynsolveink#1{\pdfliteral{#1}}\fi\fi
@@ -39,7 +39,7 @@ def to_latex_picture(scene: Scene) -> str:
     size = next(command for least, command in _SIZES if unit >= least)
     lines = [
         "{" + size,
-        _INK,
+        _LITERAL,
         rf"\setlength{{\unitlength}}{{{unit:.3f}bp}}%",
         rf"\begin{{picture}}({number(wide)},{number(high)})%",
         rf"\put(0,0){{\dynsolveink{{q {unit:.3f} 0 0 {unit:.3f} 0 0 cm 1 j 1 J",

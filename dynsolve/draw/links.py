@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 from dynsolve.draw import paths
 from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, TUBE, Parts
-from dynsolve.draw.paths import Path, flattened
-from dynsolve.draw.space import Box
+from dynsolve.draw.paths import Path
+from dynsolve.draw.space import Box, bounds
 from dynsolve.draw.vectors import Point, Vector, between, distance, dot, length, scale, subtract
 from dynsolve.draw.view import View
 from dynsolve.robot.model import JointType
@@ -36,9 +36,7 @@ class Solid:
     @property
     def box(self) -> Box:
         """What it takes of the paper."""
-        points = [point for path in self.paths for piece in flattened(path.commands) for point in piece]
-        xs, ys = [x for x, _ in points], [y for _, y in points]
-        return Box(min(xs), min(ys), max(xs), max(ys))
+        return bounds(self.paths)
 
 
 def link_pieces(parts: Parts, view: View) -> Iterator[Solid]:

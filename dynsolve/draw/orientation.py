@@ -1,4 +1,4 @@
-"""What a robot is like as a whole: which way is up, and whether it moves in a plane."""
+"""How a robot stands in the world: which way is up, and whether it moves in a plane."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _PROBES = (0.3, 1.1, -0.7)
 
 
 @dataclass(frozen=True, slots=True)
-class Setting:
+class Orientation:
     """Which way is up, and what the robot moves in.
 
     `gravity` is a unit vector, None without gravity; `ahead` a level direction of the
@@ -27,16 +27,16 @@ class Setting:
     normal: Vector | None
 
 
-def setting(robot: Robot, numbers: RobotNumbers) -> Setting:
-    """How a robot stands in the world."""
+def orientation(robot: Robot, numbers: RobotNumbers) -> Orientation:
+    """Which way is up for a robot, and the plane that it moves in."""
     base = base_frame(numbers)
     gravity = _gravity(robot, numbers)
     normal = _normal(robot, numbers, base)
     if normal is not None:
-        return Setting(_up_in_plane(normal, base, gravity), base.x, gravity, normal)
+        return Orientation(_up_in_plane(normal, base, gravity), base.x, gravity, normal)
     up = scale(gravity, -1.0) if gravity else base.z
     ahead = base.x if abs(dot(base.x, up)) < 0.9 else base.z
-    return Setting(up, ahead, gravity, None)
+    return Orientation(up, ahead, gravity, None)
 
 
 def _gravity(robot: Robot, numbers: RobotNumbers) -> Vector | None:

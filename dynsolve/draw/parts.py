@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from dynsolve.draw.skeleton import NEAR, Leg, Skeleton
-from dynsolve.draw.vectors import Vector, along, distance, dot, scale, subtract, unit
+from dynsolve.draw.skeleton import Leg, Skeleton
+from dynsolve.draw.vectors import NEAR, Vector, along, distance, dot, scale, subtract, unit
 from dynsolve.draw.view import View
 from dynsolve.robot.model import JointType
 

@@ -10,13 +10,13 @@ from dynsolve.draw import annotate, paths
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimension, row_lengths
 from dynsolve.draw.numbers import numbers
-from dynsolve.draw.orientation import Setting, setting
-from dynsolve.draw.paths import Path, flattened
-from dynsolve.draw.pose import Pose, best_pose
-from dynsolve.draw.skeleton import NEAR
+from dynsolve.draw.orientation import Orientation, orientation
+from dynsolve.draw.paths import Path
+from dynsolve.draw.pose import Pose
+from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.solids import solids
-from dynsolve.draw.space import Box, Taken
-from dynsolve.draw.vectors import Point, dot
+from dynsolve.draw.space import Box, Taken, bounds
+from dynsolve.draw.vectors import NEAR, Point, dot
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
 from dynsolve.problem.model import Problem
@@ -44,13 +44,13 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     """The picture of a problem's robot, drawn from its table at a pose where it shows best."""
     robot = problem.robot
     values = numbers(problem)
-    world = setting(robot, values)
+    world = orientation(robot, values)
     pose = best_pose(robot, values, world)
     body = solids(pose.parts, pose.view, world.up)
     notes = annotate.Notes(_STAR if star else _PLAIN, Taken())
     notes.taken.add(body)
     annotate.frames(pose, notes)
-    annotate.turns(pose, [joint.written[0] for joint in robot.joints], notes)
+    annotate.joint_angles(pose, [joint.written[0] for joint in robot.joints], notes)
     annotate.masses(pose, notes)
     for length in (*row_lengths(robot, pose), *_center_lengths(pose)):
         dimension(length, pose, notes)
@@ -86,11 +86,11 @@ def _part(symbol: Symbol, rate: Fraction) -> Node:
     return times if rate.denominator == 1 else Quotient(times, Number(rate.denominator))
 
 
-def _gravity(world: Setting, pose: Pose, body: Iterable[Path], notes: annotate.Notes) -> None:
+def _gravity(world: Orientation, pose: Pose, body: Iterable[Path], notes: annotate.Notes) -> None:
     """The arrow of gravity, at the side where there is most room."""
     if world.gravity is None:
         return
-    box = _bounds([*body, *notes.paths])
+    box = bounds([*body, *notes.paths])
     end_on = pose.view.flat and abs(dot(world.gravity, pose.view.toward)) > 0.9
     direction = None if end_on else _unit(pose.view.direction(world.gravity))
     places = [
@@ -119,7 +119,7 @@ def _leads(labels: Iterable[Label]) -> Iterable[Path]:
 
 def _frame(paths: Iterable[Path], labels: Iterable[Label]) -> Box:
     """The box around everything, with a margin."""
-    box = _bounds(paths)
+    box = bounds(paths)
     boxes = [box, *(label.box for label in labels)]
     return Box(
         round(min(b.left for b in boxes) - MARGIN, 0),
@@ -127,12 +127,6 @@ def _frame(paths: Iterable[Path], labels: Iterable[Label]) -> Box:
         round(max(b.right for b in boxes) + MARGIN, 0),
         round(max(b.bottom for b in boxes) + MARGIN, 0),
     )
-
-
-def _bounds(paths: Iterable[Path]) -> Box:
-    points = [point for path in paths for piece in flattened(path.commands) for point in piece]
-    xs, ys = [x for x, _ in points], [y for _, y in points]
-    return Box(min(xs), min(ys), max(xs), max(ys))
 
 
 def _description(problem: Problem) -> str:

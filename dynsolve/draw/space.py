@@ -62,6 +62,13 @@ class Box:
         return min(max(point[0], self.left), self.right), min(max(point[1], self.top), self.bottom)
 
 
+def bounds(paths: Iterable[Path]) -> Box:
+    """The box around paths."""
+    points = [point for path in paths for piece in flattened(path.commands) for point in piece]
+    xs, ys = [x for x, _ in points], [y for _, y in points]
+    return Box(min(xs), min(ys), max(xs), max(ys))
+
+
 class Taken:
     """The cells that lines and areas cover."""
 

@@ -9,6 +9,9 @@ Point = tuple[float, float]
 Rotation = tuple[Vector, Vector, Vector]
 """The columns of a 3×3 matrix: the axes x, y and z of a frame."""
 
+NEAR = 1e-6
+"""The distance below which two points are one."""
+
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 IDENTITY: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
@@ -101,3 +104,36 @@ def scaled(a: Point, factor: float) -> Point:
 def moved(point: Point, direction: Point, amount: float) -> Point:
     """point + amount·direction, on paper."""
     return point[0] + direction[0] * amount, point[1] + direction[1] * amount
+
+
+# -- distances on paper ----------------------------------------------------------------------------
+
+
+def point_to_segment(p: Point, a: Point, b: Point) -> float:
+    """How far a point is from a segment."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    square = dx * dx + dy * dy
+    t = 0.0 if square < NEAR else ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square
+    t = min(1.0, max(0.0, t))
+    return math.hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy)
+
+
+def segment_distance(first: tuple[Point, Point], second: tuple[Point, Point]) -> float:
+    """How far two segments are apart; 0 where they cross.
+
+    >>> segment_distance(((0.0, 0.0), (2.0, 0.0)), ((1.0, -1.0), (1.0, 1.0)))
+    0.0
+    """
+    (a, b), (c, d) = first, second
+    if _side(a, b, c) * _side(a, b, d) < 0 and _side(c, d, a) * _side(c, d, b) < 0:
+        return 0.0
+    return min(
+        point_to_segment(a, c, d),
+        point_to_segment(b, c, d),
+        point_to_segment(c, a, b),
+        point_to_segment(d, a, b),
+    )
+
+
+def _side(a: Point, b: Point, p: Point) -> float:
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])

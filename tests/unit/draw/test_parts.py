@@ -130,12 +130,12 @@ def test_the_latex_has_balanced_groups() -> None:
 
 @pytest.mark.slow
 def test_parts_of_a_robot_keep_apart() -> None:
-    from dynsolve.draw.orientation import setting
-    from dynsolve.draw.pose import best_pose
+    from dynsolve.draw.orientation import orientation
+    from dynsolve.draw.pose_search import best_pose
 
     for path in LIBRARY:
         robot, values = load(path).robot, numbers(load(path))
-        pose = best_pose(robot, values, setting(robot, values))
+        pose = best_pose(robot, values, orientation(robot, values))
         centers = [part.center for part in pose.parts.joints]
         gaps = [distance(a, b) * pose.view.size for k, a in enumerate(centers) for b in centers[k + 1 :]]
         assert min(gaps, default=99.0) > 30.0, path.stem

@@ -88,19 +88,19 @@ def test_a_planar_arm_is_drawn_flat() -> None:
     """Seen from straight in front, z axes are points and x axes have their full length."""
     problem = load(next(path for path in LIBRARY if path.stem == "planar-2r"))
     from dynsolve.draw.numbers import numbers
-    from dynsolve.draw.orientation import setting
+    from dynsolve.draw.orientation import orientation
 
-    world = setting(problem.robot, numbers(problem))
+    world = orientation(problem.robot, numbers(problem))
     assert world.normal == pytest.approx((0.0, 0.0, 1.0)) and world.up == pytest.approx((0.0, 1.0, 0.0))
 
 
 @pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r", "scara-rrpr", "crustcrawler-2r"])
 def test_an_arm_that_leaves_its_plane_is_drawn_in_space(name: str) -> None:
     from dynsolve.draw.numbers import numbers
-    from dynsolve.draw.orientation import setting
+    from dynsolve.draw.orientation import orientation
 
     problem = load(next(path for path in LIBRARY if path.stem == name))
-    assert setting(problem.robot, numbers(problem)).normal is None
+    assert orientation(problem.robot, numbers(problem)).normal is None
 
 
 def test_a_part_of_a_symbol_is_labelled_as_that_part() -> None:

@@ -1,0 +1,140 @@
+"""Where the mass centres of a robot are at a pose.
+
+One that is given by a symbol which the table does not have lies near the middle of its link.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from dynsolve.draw.numbers import RobotNumbers, evaluate
+from dynsolve.draw.skeleton import MassCenter, Skeleton, near_and_far
+from dynsolve.draw.vectors import (
+    NEAR,
+    Vector,
+    add,
+    applied,
+    between,
+    distance,
+    into,
+    length,
+    scale,
+    subtract,
+)
+from dynsolve.notation.walk import names_in
+from dynsolve.robot.model import Body, Robot
+
+_SHARES = (1.0, 0.7, 1.3)
+"""What part of the way to the middle of a link a free symbol stands for, best first."""
+
+_APART = 0.12
+_OFF_AXIS = 0.2
+"""How far a mass centre lies off its frame where the table gives its link no length."""
+
+
+def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton) -> Skeleton:
+    """The skeleton with its mass centres."""
+    masses: list[MassCenter] = []
+    for body in robot.bodies:
+        free = free_symbols(robot, body)
+        tried = (_mass(robot, numbers, bare, body, free, share) for share in _SHARES)
+        apart = (mass for mass in tried if _is_apart(mass, masses))
+        masses.append(next(apart, None) or _mass(robot, numbers, bare, body, free, _SHARES[0]))
+    return replace(bare, masses=tuple(masses))
+
+
+def _is_apart(mass: MassCenter, others: Sequence[MassCenter]) -> bool:
+    return all(distance(mass.center, other.center) > _APART for other in others)
+
+
+def _mass(
+    robot: Robot, numbers: RobotNumbers, bare: Skeleton, body: Body, free: Sequence[str], share: float
+) -> MassCenter:
+    frame = bare.frames[body.link]
+    near, far = near_and_far(robot, bare, body.link)
+    written = body.center_written
+    exact = {"tip": far, "origin": frame.origin, "midpoint": between(near, far, 0.5)}
+    if written in exact:
+        return MassCenter(body.name, exact[written], body.is_point, body.link)
+    ends = (into(frame.axes, subtract(end, frame.origin)) for end in (near, far))
+    center, from_, rate = _local_center(robot, numbers, body, free, share, *ends)
+    place = add(frame.origin, applied(frame.axes, center))
+    start = None if from_ is None else add(frame.origin, applied(frame.axes, from_))
+    return MassCenter(body.name, place, body.is_point, body.link, start, free[0] if start else "", rate)
+
+
+def _local_center(
+    robot: Robot,
+    numbers: RobotNumbers,
+    body: Body,
+    free: Sequence[str],
+    share: float,
+    near: Vector,
+    far: Vector,
+) -> tuple[Vector, Vector | None, float]:
+    """The centre in its frame; where its only free symbol is measured from, and the rate of that."""
+    values = dict(numbers.values) | dict.fromkeys(free, 0.0)
+    rate = 0.0
+
+    def center(**changed: float) -> Vector:
+        state = values | changed
+        x, y, z = (evaluate(robot, entry, state) / numbers.unit for entry in body.center.entries)
+        return x, y, z
+
+    middle = between(near, far, 0.5)
+    try:
+        start = center()
+        for name in free:
+            step = subtract(center(**{name: 1.0}), start)
+            twice = subtract(center(**{name: 2.0}), start)
+            straight = distance(twice, scale(step, 2.0)) < NEAR
+            rate = length(step) * numbers.unit if straight else 0.0
+            values[name] = share * _best(step, subtract(middle, start), distance(near, far), len(free))
+        found = center()
+    except (ValueError, ZeroDivisionError, OverflowError):
+        return middle, None, 0.0
+    measured = len(free) == 1 and rate > NEAR and distance(start, found) > NEAR
+    return found, start if measured else None, rate
+
+
+def _best(direction: Vector, wanted: Vector, size: float, symbols: int) -> float:
+    """How much of a direction leads nearest to what is wanted, and not to nothing."""
+    square = length(direction) ** 2
+    if square < NEAR:
+        return 0.5
+    amount = sum(a * b for a, b in zip(direction, wanted, strict=True)) / square
+    if abs(amount) * length(direction) > _OFF_AXIS / 2:
+        return amount
+    if symbols > 1:
+        return (_OFF_AXIS if size < NEAR else _OFF_AXIS / 2) / length(direction)
+    return (0.3 if size < NEAR else _OFF_AXIS) / length(direction)
+
+
+def free_symbols(robot: Robot, body: Body) -> list[str]:
+    """The parameters of a mass centre that the table does not have."""
+    fixed = names_in(*(node for joint in robot.joints for node in joint.written))
+    return [name for name in _symbols_of(robot, body) if name not in fixed]
+
+
+def _symbols_of(robot: Robot, body: Body) -> list[str]:
+    """The parameters that move a mass centre."""
+    ring = robot.ring
+    ones = dict.fromkeys((q.name for q in robot.coordinates), 0.0)
+    values = {name: 1.0 + place / 7 for place, name in enumerate(ring.parameters)} | ones
+    values["pi"] = 3.0
+
+    def center() -> tuple[float, ...]:
+        try:
+            return tuple(ring.evaluate(entry, values) for entry in body.center.entries)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            return ()
+
+    found = []
+    usual = center()
+    for name in ring.parameters:
+        kept, values[name] = values[name], values[name] + 0.5
+        if center() != usual:
+            found.append(name)
+        values[name] = kept
+    return found

@@ -1,0 +1,96 @@
+"""The pose and the view in which a robot shows best.
+
+Candidates come from a fixed sequence, and those that cost least (`dynsolve.draw.pose`)
+are improved a coordinate at a time, so the same robot always gets the same pose.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from random import Random
+
+from dynsolve.draw.mass_centers import with_masses
+from dynsolve.draw.numbers import RobotNumbers
+from dynsolve.draw.orientation import Orientation
+from dynsolve.draw.parts import arrange
+from dynsolve.draw.pose import Choice, Pose, cost_of, taste
+from dynsolve.draw.skeleton import skeleton
+from dynsolve.draw.vectors import NEAR, Point
+from dynsolve.draw.view import facing, oblique
+from dynsolve.robot.model import JointType, Robot
+
+WIDTH, HEIGHT = 500.0, 390.0
+"""The room that the chain of joints may take, in picture units."""
+
+LARGEST = 150.0
+"""The most picture units that a length of 1 takes."""
+
+_MANY, _MORE = 4, 1.35
+"""A robot with more rows than that is drawn larger, for there is more to write beside it."""
+
+_TURNS = tuple(math.radians(15 * k) for k in range(-11, 13))
+_SLIDES = (0.6, 0.75, 0.9, 1.05)
+_AZIMUTHS = tuple(math.radians(10 * k + 5) for k in range(-9, 9))
+_ELEVATIONS = tuple(math.radians(angle) for angle in (18, 24, 30))
+_SAMPLES, _IMPROVED, _ROUNDS = 260, 3, 3
+_SEED = 1955
+
+
+def best_pose(robot: Robot, numbers: RobotNumbers, orientation: Orientation) -> Pose:
+    """The pose and view with the least cost among those tried."""
+    options = _options(robot, orientation)
+    random = Random(_SEED)  # noqa: S311 - the same poses every time are wanted
+    remembered: dict[Choice, float] = {}
+
+    def cost(choice: Choice) -> float:
+        if choice not in remembered:
+            pose = _pose(robot, numbers, orientation, choice)
+            remembered[choice] = round(cost_of(pose, orientation) + taste(robot, pose, choice), 6)
+        return remembered[choice]
+
+    tried = [tuple(_pick(random, values) for values in options) for _ in range(_SAMPLES)]
+    starts = sorted(set(tried), key=lambda choice: (cost(choice), choice))[:_IMPROVED]
+    best = min((_improved(start, options, cost) for start in starts), key=lambda c: (cost(c), c))
+    pose = _pose(robot, numbers, orientation, best)
+    return replace(pose, skeleton=with_masses(robot, numbers, pose.skeleton))
+
+
+def _pick(random: Random, values: Sequence[float]) -> float:
+    return values[int(random.random() * len(values))]
+
+
+def _options(robot: Robot, orientation: Orientation) -> list[tuple[float, ...]]:
+    """The values that each coordinate, and the view, may take."""
+    joints = [_TURNS if q.type is JointType.REVOLUTE else _SLIDES for q in robot.coordinates]
+    return joints if orientation.normal else [*joints, _AZIMUTHS, _ELEVATIONS]
+
+
+def _improved(choice: Choice, options: Sequence[Sequence[float]], cost: Callable[[Choice], float]) -> Choice:
+    """The choice after each of its parts has in turn been set to its best value."""
+    for _ in range(_ROUNDS):
+        before = choice
+        for k, values in enumerate(options):
+            others = [(*choice[:k], value, *choice[k + 1 :]) for value in values]
+            choice = min([choice, *others], key=lambda c: (cost(c), c))
+        if choice == before:
+            break
+    return choice
+
+
+def _pose(robot: Robot, numbers: RobotNumbers, orientation: Orientation, choice: Choice) -> Pose:
+    body = skeleton(robot, numbers, choice[: robot.n])
+    if orientation.normal:
+        view = facing(orientation.normal, orientation.up)
+    else:
+        view = oblique(orientation.up, orientation.ahead, choice[-2], choice[-1])
+    room = _MORE if len(robot.joints) > _MANY else 1.0
+    view = view.sized(room * _size([view.point(point) for point in body.path]))
+    return Pose(body, arrange(body, view, orientation.up), view)
+
+
+def _size(points: Sequence[Point]) -> float:
+    wide = max(x for x, _ in points) - min(x for x, _ in points)
+    high = max(y for _, y in points) - min(y for _, y in points)
+    return min(LARGEST, WIDTH / max(wide, NEAR), HEIGHT / max(high, NEAR))
