@@ -14,7 +14,7 @@ def schema(
     from json import dumps
 
     if of_set:
-        from dynsolve.grading.set_schema import set_schema as chosen
+        from dynsolve.grading.set_keys import set_schema as chosen
     else:
         from dynsolve.problem.schema import schema as chosen
 

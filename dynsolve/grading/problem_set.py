@@ -18,6 +18,7 @@ from pathlib import Path
 from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.grading.policy import Policy
+from dynsolve.grading.set_keys import CAPS, POLICY, SET
 from dynsolve.problem.cells import read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, free_text, items, mapping, whole_number
 from dynsolve.problem.library import find
@@ -26,11 +27,8 @@ from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.source import Faults, as_source
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode, read_nodes
 from dynsolve.quantities.index import Quantities
-from dynsolve.quantities.stages import Stage
 
 SET_FILE = "set.yaml"
-KEYS = ("title", "problems", "marks", "policy")
-POLICY_KEYS = ("follow", "caps", "rounding", "late", "hints")
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,17 +107,17 @@ def _folder(folder: Path) -> ProblemSet:
 def _fields(faults: Faults) -> Fields | None:
     root = read_nodes(faults)
     if isinstance(root, MappingNode):
-        return Fields(faults, root, KEYS, "a set.yaml")
+        return Fields(faults, root, SET.names, "a set.yaml")
     if root is not None:
         message = f"the file is {describe(root)}, not keys with values"
-        faults.error(root.span, message, f"known are {', '.join(KEYS)}")
+        faults.error(root.span, message, f"known are {', '.join(SET.names)}")
     return None
 
 
 def _paths(faults: Faults, folder: Path, node: YamlNode | None) -> list[Path]:
     """The files of the problems in their order; without a list all of the folder."""
     found: dict[str, Path] = {}
-    for item in items(faults, node, "problems", "write problems: [a.yaml, b.yaml]"):
+    for item in items(faults, node, "problems", SET["problems"].help):
         name = item.decoded if isinstance(item, ScalarNode) else ""
         path = folder / name
         if not path.suffix:
@@ -148,7 +146,7 @@ def _files(folder: Path) -> list[Path]:
 def _marks(
     faults: Faults, node: YamlNode | None, readings: Mapping[str, tuple[Reading, str]]
 ) -> dict[str, dict[str, Fraction]]:
-    fields = mapping(faults, node, tuple(readings), "marks", "write marks: {in3140-rp: {P: 2, K: 4}}")
+    fields = mapping(faults, node, tuple(readings), "marks", SET["marks"].help)
     found: dict[str, dict[str, Fraction]] = {}
     for stem in fields or ():
         assert fields is not None
@@ -172,11 +170,11 @@ def _marks(
 
 
 def _policy(faults: Faults, node: YamlNode | None) -> Policy:
-    fields = mapping(faults, node, POLICY_KEYS, "policy", "write policy: {follow: 1/2, hints: 2}")
+    fields = mapping(faults, node, POLICY.names, "policy", SET["policy"].help)
     if fields is None:
         return Policy()
     plain = Policy()
-    hints = whole_number(faults, fields.get("hints"), "hints", "write 1 (where), 2 (what kind) or 3 (how)")
+    hints = whole_number(faults, fields.get("hints"), "hints", POLICY["hints"].help)
     if hints is not None and not 1 <= hints <= 3:
         message = "hints are 1, 2 or 3"
         faults.error(fields.span_of("hints"), message, "1 says where, 2 what kind of slip, 3 how")
@@ -185,7 +183,7 @@ def _policy(faults: Faults, node: YamlNode | None) -> Policy:
     step = _number(faults, fields.get("rounding"), "rounding") if "rounding" in fields else None
     if step == 0:
         faults.error(fields.span_of("rounding"), "marks cannot be rounded to steps of 0", "write 0.5 or 0.01")
-    caps = mapping(faults, fields.get("caps"), tuple(Stage), "caps", "write caps: {energy: 5}")
+    caps = mapping(faults, fields.get("caps"), CAPS.names, "caps", POLICY["caps"].help)
     return Policy(
         plain.follow if follow is None else follow,
         {

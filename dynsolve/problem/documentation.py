@@ -23,7 +23,7 @@ from dynsolve.robot.shapes import KINDS
 
 _WIDTH = 110
 _SENTENCE_END = re.compile(r"(?<=[.]) (?=[A-Za-z])")
-_DEFAULT = re.compile(r" Default:? [^.]*\.$")
+_DEFAULT = re.compile(r" Default.*$")
 _FIXED_BLANK = "\N{NO-BREAK SPACE}"
 
 
@@ -72,10 +72,11 @@ def _wrapped(head: str, text: str) -> list[str]:
 
 def tables() -> tuple[str, ...]:
     """The keys of a file, the columns of a row, the keys of a body, the shapes."""
-    return (*map(_keys, (PROBLEM, ROW, BODY)), _shapes())
+    return (*map(table_of_keys, (PROBLEM, ROW, BODY)), _shapes())
 
 
-def _keys(record: Keyed) -> str:
+def table_of_keys(record: Keyed) -> str:
+    """The keys of a mapping, a row each."""
     return _table(("key", "value", "default", "meaning"), map(_row, record.keys))
 
 

@@ -22,14 +22,15 @@ def schema() -> Schema:
     >>> sorted(schema()["required"])
     ['dh']
     """
+    description = "One robot: its Denavit-Hartenberg table, its bodies, what the exercise asks for."
+    return schema_of_file(PROBLEM, "dynsolve problem", description)
+
+
+def schema_of_file(keys: Keyed, title: str, description: str) -> Schema:
+    """The schema of a file with these keys."""
     shared: dict[str, Schema] = {}
-    return {
-        "$schema": _DRAFT,
-        "title": "dynsolve problem",
-        "description": "One robot: its Denavit-Hartenberg table, its bodies, what the exercise asks for.",
-        **_schema_of(PROBLEM, shared),
-        "$defs": shared,
-    }
+    head = {"$schema": _DRAFT, "title": title, "description": description}
+    return {**head, **_schema_of(keys, shared), **_given({"$defs": shared or None})}
 
 
 def _schema_of(kind: ValueKind, shared: dict[str, Schema]) -> Schema:

@@ -79,13 +79,12 @@ def test_faults_are_told_in_the_order_of_the_file(tmp_path: Path) -> None:
 def test_the_schema_knows_every_key_and_takes_what_the_reader_takes() -> None:
     import jsonschema
 
-    from dynsolve.grading.problem_set import KEYS, POLICY_KEYS
-    from dynsolve.grading.set_schema import set_schema
+    from dynsolve.grading.set_keys import POLICY, SET, set_schema
 
     schema = set_schema()
     jsonschema.Draft202012Validator.check_schema(schema)
-    assert tuple(schema["properties"]) == KEYS
-    assert tuple(schema["properties"]["policy"]["properties"]) == POLICY_KEYS
+    assert tuple(schema["properties"]) == SET.names
+    assert tuple(schema["properties"]["policy"]["properties"]) == POLICY.names
     given = {"title": "A", "problems": ["a.yaml"], "marks": {"a": {"P": 2, "K": "1/2"}}}
     jsonschema.validate({**given, "policy": {"follow": "1/2", "caps": {"energy": 5}, "hints": 2}}, schema)
     with pytest.raises(jsonschema.ValidationError):
