@@ -83,11 +83,11 @@ def _body(robot: Robot, body: Body) -> Iterator[Rule]:
         return jacobian.angular_jacobian(robot, frames, link)
 
     yield Rule(f"rc{b}", (H,), lambda H: kinematics.point(H, body.center))
+    yield Rule(f"R{b}", (H,), partial(inertia.body_rotation, robot, body))
     yield Rule(f"Jv{b}", from_frames_and_center, linear)
     yield Rule(f"Jw{b}", from_frames_and_center, angular)
     yield Rule(f"v{b}", (f"Jv{b}",), partial(energy.velocity, robot))
     yield Rule(f"w{b}", (f"Jw{b}",), partial(energy.velocity, robot))
-    yield Rule(f"R{b}", (H,), partial(inertia.body_rotation, robot, body))
     yield Rule(f"I_body{b}", (H,), partial(inertia.central_inertia, robot, body))
     yield Rule(f"I{b}", (f"R{b}", f"I_body{b}"), inertia.base_inertia)
     yield Rule(f"P{b}", (f"rc{b}",), partial(energy.potential_energy, robot, body.mass))
