@@ -1,6 +1,7 @@
 """Many hand-ins: from what the learning platform hands out to what it takes back.
 
-    problem_set, policy     what is graded, and how it is marked (`set.yaml`)
+    set_keys, set_file      `set.yaml`: its keys and its schema, reading it
+    problem_set, policy     what is graded, and how it is marked
     uploads -> hand_ins     files, safely read -> who handed in what for which problem
     run, fingerprints       what has to be computed; what has not is in the record
     rows                    what the record is told of a hand-in, judged or not
@@ -14,6 +15,6 @@
     public                  `dynsolve.grade` and `dynsolve.override`
 
 Nothing of a verdict is decided here; `dynsolve.answers` does that.  How to add a learning
-platform stands in `platforms`; a policy is a field of `policy.Policy`, read in
-`problem_set` and applied in `marking`.
+platform stands in `platforms`; a rule of marking is a field of `policy.Policy`,
+described in `set_keys`, read in `set_file` and applied in `marking`.
 """

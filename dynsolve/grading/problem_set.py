@@ -1,34 +1,17 @@
-"""What is graded: a problem, or a folder of problems with a `set.yaml`.
-
-    title: Assignment 2
-    problems: [in3140-rp.yaml, planar-2r.yaml]     # the order; default: every file, by name
-    marks: {in3140-rp: {P: 2, K: 4, tau: 6}}       # wins over the problem files' own `marks`
-    policy: {follow: 1/2, caps: {energy: 5}, rounding: 0.5, late: 0.8, hints: 2}
-
-Every fault of the file is reported at its place, as in problem files.
-"""
+"""What is graded: problems with their marks and a policy, and how the record keeps them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from pathlib import Path
+from pathlib import PurePath
 
-from dynsolve.algebra.ring_plan import rational_value
-from dynsolve.errors import Finding, ProblemError
-from dynsolve.grading.policy import Policy
-from dynsolve.grading.set_keys import CAPS, POLICY, SET
-from dynsolve.problem.cells import read_cell
-from dynsolve.problem.fields import Fields, describe, did_you_mean, free_text, items, mapping, whole_number
-from dynsolve.problem.library import find
+from dynsolve.errors import UsageError
+from dynsolve.grading.policy import Policy, from_data, to_data
+from dynsolve.grading.record import Record
 from dynsolve.problem.model import Problem
-from dynsolve.problem.reader import Reading, read_file, read_whole
-from dynsolve.problem.source import Faults, as_source
-from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode, read_nodes
-from dynsolve.quantities.index import Quantities
-
-SET_FILE = "set.yaml"
+from dynsolve.problem.reader import read_problem
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,164 +45,37 @@ class ProblemSet:
         return next(item for item in self.items if item.stem == stem)
 
 
-def load_set(name: str) -> ProblemSet:
-    """The problem set of a folder, of a `set.yaml`, or of one problem (a path or a bundled stem).
+# -- in the record -----------------------------------------------------------------------------------
 
-    Raises ProblemError with every fault of the files.
-    """
-    path = Path(name)
-    if path.is_dir():
-        return _folder(path)
-    if path.name == SET_FILE:
-        return _folder(path.parent)
-    reading, text = _read(find(name))
-    problem = reading.problem
-    return ProblemSet(problem.title, (Item(_marked(problem, {}), text),))
+_NAME = "set"
 
 
-def _read(path: Path) -> tuple[Reading, str]:
-    content = read_file(path)
-    reading = read_whole(content, str(path))
-    return reading, as_source(content, str(path)).text
-
-
-def _folder(folder: Path) -> ProblemSet:
-    file = folder / SET_FILE
-    faults = Faults(as_source(read_file(file) if file.exists() else b"", str(file)))
-    fields = _fields(faults) if file.exists() else None
-    paths = _paths(faults, folder, fields.get("problems") if fields else None)
-    readings: dict[str, tuple[Reading, str]] = {}
-    findings: list[Finding] = []
-    for path in paths:
-        try:
-            readings[path.stem] = _read(path)
-        except ProblemError as error:
-            findings += error.findings
-    marks = _marks(faults, fields.get("marks") if fields else None, readings)
-    policy = _policy(faults, fields.get("policy") if fields else None)
-    if faults.errors or findings:
-        raise ProblemError([*faults.found(), *findings])
-    title = (free_text(faults, fields.get("title"), "title") if fields else "") or folder.resolve().name
-    chosen = tuple(Item(_marked(r.problem, marks.get(s, {})), text) for s, (r, text) in readings.items())
-    return ProblemSet(title, chosen, policy)
-
-
-def _fields(faults: Faults) -> Fields | None:
-    root = read_nodes(faults)
-    if isinstance(root, MappingNode):
-        return Fields(faults, root, SET.names, "a set.yaml")
-    if root is not None:
-        message = f"the file is {describe(root)}, not keys with values"
-        faults.error(root.span, message, f"known are {', '.join(SET.names)}")
-    return None
-
-
-def _paths(faults: Faults, folder: Path, node: YamlNode | None) -> list[Path]:
-    """The files of the problems in their order; without a list all of the folder."""
-    found: dict[str, Path] = {}
-    for item in items(faults, node, "problems", SET["problems"].help):
-        name = item.decoded if isinstance(item, ScalarNode) else ""
-        path = folder / name
-        if not path.suffix:
-            path = path.with_suffix(".yaml")
-        if not name or Path(name).is_absolute() or ".." in Path(name).parts or not path.is_file():
-            known = [p.name for p in _files(folder)]
-            help = did_you_mean(name, known) or f"the folder holds {', '.join(known[:10]) or 'none'}"
-            faults.error(item.span, f"there is no problem file `{name[:80]}` in the folder", help)
-        elif path.stem in found:
-            faults.error(item.span, f"`{name[:80]}` is listed twice", "keep one of them")
-        else:
-            found[path.stem] = path
-    if node is None:
-        found = {path.stem: path for path in _files(folder)}
-        if not found:
-            message = "the folder holds no problem file"
-            raise ProblemError([Finding(message, "put the .yaml files of the problems there", str(folder))])
-    return list(found.values())
-
-
-def _files(folder: Path) -> list[Path]:
-    both = (*folder.glob("*.yaml"), *folder.glob("*.yml"))
-    return sorted(path for path in both if path.name != SET_FILE)
-
-
-def _marks(
-    faults: Faults, node: YamlNode | None, readings: Mapping[str, tuple[Reading, str]]
-) -> dict[str, dict[str, Fraction]]:
-    fields = mapping(faults, node, tuple(readings), "marks", SET["marks"].help)
-    found: dict[str, dict[str, Fraction]] = {}
-    for stem in fields or ():
-        assert fields is not None
-        value, names = fields.get(stem), Quantities(readings[stem][0].parsed.owners)
-        if not isinstance(value, MappingNode):
-            faults.error(fields.span_of(stem), f"the marks of {stem} are a mapping", "write {P: 2, K: 4}")
-            continue
-        found[stem] = {}
-        for key, points in value.entries:
-            name = names.canonical(key.text)
-            if name is None:
-                help = (
-                    did_you_mean(key.text, names.examples()) or "answers are tau, D, C, g, P, K, L, K1, ..."
-                )
-                faults.error(key.span, f"`{key.text[:40]}` is no answer of {stem}", help)
-            elif name in found[stem]:
-                faults.error(key.span, f"{name} has marks already", "keep one of them")
-            else:
-                found[stem][name] = _number(faults, points, f"the marks for {name}") or Fraction(0)
-    return found
-
-
-def _policy(faults: Faults, node: YamlNode | None) -> Policy:
-    fields = mapping(faults, node, POLICY.names, "policy", SET["policy"].help)
-    if fields is None:
-        return Policy()
-    plain = Policy()
-    hints = whole_number(faults, fields.get("hints"), "hints", POLICY["hints"].help)
-    if hints is not None and not 1 <= hints <= 3:
-        message = "hints are 1, 2 or 3"
-        faults.error(fields.span_of("hints"), message, "1 says where, 2 what kind of slip, 3 how")
-    follow = _share(faults, fields, "follow")
-    late = _share(faults, fields, "late")
-    step = _number(faults, fields.get("rounding"), "rounding") if "rounding" in fields else None
-    if step == 0:
-        faults.error(fields.span_of("rounding"), "marks cannot be rounded to steps of 0", "write 0.5 or 0.01")
-    caps = mapping(faults, fields.get("caps"), CAPS.names, "caps", POLICY["caps"].help)
-    return Policy(
-        plain.follow if follow is None else follow,
+def store_set(record: Record, problems: ProblemSet) -> None:
+    """Keep a problem set, without where its files lie."""
+    items = [
         {
-            stage: _number(faults, caps.get(stage), f"the cap of {stage}") or Fraction(0)
-            for stage in caps or ()
+            "file": PurePath(item.problem.file).name,
+            "text": item.text,
+            "marks": {name: str(of) for name, of in item.problem.marks.items()},
         }
-        if caps
-        else {},
-        step or plain.rounding,
-        plain.late if late is None else late,
-        hints or plain.hints,
-    )
+        for item in problems.items
+    ]
+    data = {"title": problems.title, "items": items, "policy": to_data(problems.policy)}
+    record.set_run(_NAME, json.dumps(data, ensure_ascii=False))
 
 
-def _share(faults: Faults, fields: Fields, key: str) -> Fraction | None:
-    value = _number(faults, fields.get(key), key) if key in fields else None
-    if value is not None and value > 1:
-        faults.error(fields.span_of(key), f"`{key}` is a share, at most 1", "write 1/2 or 0.8")
-    return value
+def stored_set(record: Record) -> ProblemSet:
+    """The problem set that the record was made with.
 
-
-def _number(faults: Faults, node: YamlNode | None, what: str) -> Fraction | None:
-    """A number from 0 on, None (reported) for what is none."""
-    if isinstance(node, FaultyNode):
-        return None
-    cell = read_cell(faults, node, what)
-    if cell is None:
-        return None
-    value = rational_value(cell.tree)
-    if value is None:
-        faults.error(cell.span, f"{what}: `{cell.text[:40]}` is not a number", "write a number: 4, 0.5, 1/2")
-    elif value < 0:
-        faults.error(cell.span, f"{what} cannot be negative", "write 0 or more")
-    return value
-
-
-def _marked(problem: Problem, marks: Mapping[str, Fraction]) -> Problem:
-    """The problem with the marks that count: the set's, else its own, else one for each answer asked for."""
-    return replace(problem, marks=dict(marks or problem.marks or dict.fromkeys(problem.find, Fraction(1))))
+    Raises UsageError where there is none yet.
+    """
+    text = record.run(_NAME)
+    if not text:
+        raise UsageError("there are no grades in that folder yet: `dynsolve grade` makes them")
+    data = json.loads(text)
+    items = []
+    for entry in data["items"]:
+        marks = {name: Fraction(of) for name, of in entry["marks"].items()}
+        problem = replace(read_problem(entry["text"], entry["file"]), marks=marks)
+        items.append(Item(problem, entry["text"]))
+    return ProblemSet(data["title"], tuple(items), from_data(data["policy"]))

@@ -17,10 +17,10 @@ from dynsolve.grading.outputs import write_outputs
 from dynsolve.grading.platforms.registry import PLATFORMS, chosen_roster, export, keep_platform, late
 from dynsolve.grading.policy import shown
 from dynsolve.grading.pool import Bounds, LocalPool
-from dynsolve.grading.problem_set import load_set
+from dynsolve.grading.problem_set import store_set, stored_set
 from dynsolve.grading.record import FILE, Record, Waiting
 from dynsolve.grading.run import Pool, grade_all
-from dynsolve.grading.stored import store_set, stored_set
+from dynsolve.grading.set_file import load_set
 from dynsolve.grading.uploads import Refused, Uploads
 from dynsolve.problem.fields import did_you_mean
 

@@ -1,6 +1,6 @@
 """Every key of a `set.yaml`, said once: for its reader, its JSON Schema and the documentation.
 
-To add one, write its record here and give it a meaning in `problem_set.py`.
+To add one, write its record here and read it in `set_file.py`.
 """
 
 from __future__ import annotations

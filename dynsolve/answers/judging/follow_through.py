@@ -57,7 +57,7 @@ class FollowThrough:
     """The candidates of every node, given what a student handed in."""
 
     graph: AnswerGraph
-    own: Mapping[str, StudentValue]
+    students: Mapping[str, StudentValue]
     work: int = 0
     _touched: dict[str, bool] = field(default_factory=dict)
     _choices: dict[str, tuple[PossibleValue, ...]] = field(default_factory=dict)
@@ -74,21 +74,21 @@ class FollowThrough:
         return self._touched[node]
 
     def _wrong(self, node: str) -> bool:
-        own = self.own.get(node)
-        return own is not None and not own.correct
+        value = self.students.get(node)
+        return value is not None and not value.correct
 
     def choices(self, node: str) -> tuple[PossibleValue, ...]:
         """What may stand for a node where it is an input: the student's own answer first."""
         if node not in self._choices:
             found: list[PossibleValue] = []
-            own = self.own.get(node)
-            if own is not None:
-                found.append(PossibleValue(own.value, 0, frozenset(own.names)))
+            value = self.students.get(node)
+            if value is not None:
+                found.append(PossibleValue(value.value, 0, frozenset(value.names)))
             if self.touched(node):
                 for one in self.derived(node):
                     _keep(found, PossibleValue(one.value, one.derived + 1, one.used))
-            elif own is None or not own.correct:
-                untouched = 1 if own is not None else 0
+            elif value is None or not value.correct:
+                untouched = 1 if value is not None else 0
                 _keep(found, PossibleValue(self.graph.key(node), untouched))
             found.sort(key=lambda c: c.derived)
             self._choices[node] = tuple(found[:MOST_CANDIDATES])
@@ -109,7 +109,7 @@ class FollowThrough:
     def nearest_of_each_route(self, node: str) -> Iterator[PossibleValue]:
         """The nearest value of each route to a node on which an answer of the student's lies."""
         for route in self.graph.routes(node):
-            if any(name in self.own or self.touched(name) for name in route.inputs):
+            if any(name in self.students or self.touched(name) for name in route.inputs):
                 yield from islice(self._combinations(route), 1)
 
     def _combinations(self, route: Route) -> Iterator[PossibleValue]:

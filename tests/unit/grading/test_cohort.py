@@ -6,8 +6,8 @@ from pathlib import Path
 
 import dynsolve
 from dynsolve.grading.cohort import counted
-from dynsolve.grading.problem_set import load_set
 from dynsolve.grading.record import Record
+from dynsolve.grading.set_file import load_set
 from dynsolve.problem.library import find
 
 HALF_K2 = """answers:

@@ -12,7 +12,8 @@ import pytest
 from dynsolve.grading.hand_ins import Intake, take_in
 from dynsolve.grading.platforms.gradescope import read_metadata
 from dynsolve.grading.platforms.owners import Owners
-from dynsolve.grading.problem_set import ProblemSet, load_set
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.set_file import load_set
 from dynsolve.grading.uploads import Uploads
 
 ANSWER = "answers:\n  K: m1*g\n"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import ProblemError
-from dynsolve.grading.problem_set import load_set
+from dynsolve.grading.set_file import load_set
 from dynsolve.problem.library import find
 
 
