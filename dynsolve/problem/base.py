@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dynsolve.notation.tree import Node as Tree
-from dynsolve.problem.cells import Cell, constant_value, forbid, made_cell, read_vector
+from dynsolve.algebra.ring_plan import rational_value
+from dynsolve.problem.cells import Cell, forbid, made_cell, read_vector
 from dynsolve.problem.fields import Fields, describe
 from dynsolve.problem.rotations import ParsedRotation, read_rotation
 from dynsolve.problem.source import Faults
@@ -64,11 +64,8 @@ def _components(*texts: str) -> tuple[Cell, ...]:
 def _points_up(cells: tuple[Cell, ...]) -> bool:
     """Whether it is [0, 0, g] or [0, 0, 9.81]: upwards along z for every reader."""
     x, y, z = cells
-    return _is_zero(x.tree) and _is_zero(y.tree) and not _is_zero(z.tree) and not _begins_with_minus(z)
-
-
-def _is_zero(tree: Tree) -> bool:
-    return constant_value(tree) == 0
+    zero = [rational_value(component.tree) == 0 for component in (x, y, z)]
+    return zero == [True, True, False] and not _begins_with_minus(z)
 
 
 def _begins_with_minus(cell: Cell) -> bool:

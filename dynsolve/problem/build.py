@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.problem.bodies import ParsedAxes, ParsedBody, ParsedCenter, ParsedShape, ParsedTensor
+from dynsolve.problem.bodies import ParsedBody, ParsedCenter, ParsedShape, ParsedTensor
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.source import Faults
 from dynsolve.problem.table import COLUMNS, DHRow
@@ -252,16 +252,12 @@ class BodyBuilder:
 
     def _axes(self, parsed: ParsedBody) -> Axes | None:
         axes = parsed.axes
-        if axes is None or axes.rotation is None:
-            return Axes(
-                axes.kind if axes else AxesKind.LINK, Matrix.identity(self.ring, 3), self._axes_written(axes)
-            )
+        if axes is None:
+            return Axes(AxesKind.LINK, Matrix.identity(self.ring, 3))
+        if axes.rotation is None:
+            return Axes(axes.kind, Matrix.identity(self.ring, 3), axes.written)
         rotation = self.values.rotation(axes.rotation, f"the axes of body {parsed.index}")
         return Axes(axes.kind, rotation, axes.written) if rotation else None
-
-    @staticmethod
-    def _axes_written(axes: ParsedAxes | None) -> str:
-        return axes.written if axes else ""
 
     def _axes_in_link(self, axes: Axes, link: int) -> Matrix:
         """The body-attached axes seen from the link's frame at q = 0, 3×3."""

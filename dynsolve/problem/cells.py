@@ -4,21 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from math import pi
 
 from dynsolve.algebra.angles import Angle, angle_from_tree
-from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.errors import AlgebraError, ReadError
 from dynsolve.notation.text import Name, read
 from dynsolve.notation.tokens import rational, tokens
-from dynsolve.notation.tree import (
-    Function,
-    Negative,
-    Node,
-    Power,
-    Quotient,
-)
+from dynsolve.notation.tree import Function, Negative, Node, Power, Quotient
 from dynsolve.notation.walk import walk
 from dynsolve.problem.fields import describe
 from dynsolve.problem.source import Faults
@@ -159,16 +151,11 @@ def _bare_numbers(cell: Cell) -> Iterator[tuple[int, int, str]]:
 
 
 def _in_degrees(text: str) -> str:
+    """What a bare number was probably meant to be: degrees, or radians of a multiple of 15 degrees."""
     degrees = float(text) * 180 / pi
     whole = round(degrees / 15) * 15
-    if whole and abs(degrees - whole) < 0.05:
-        return f"did you mean {whole}deg? Angles are written in degrees (90deg) or with pi (pi/2)"
-    return f"did you mean {text}deg? Angles are written in degrees (90deg) or with pi (pi/2)"
-
-
-def constant_value(node: Node) -> Fraction | None:
-    """The value of an expression made of numbers alone, else None."""
-    return rational_value(node)
+    meant = whole if whole and abs(degrees - whole) < 0.05 else text
+    return f"did you mean {meant}deg? Angles are written in degrees (90deg) or with pi (pi/2)"
 
 
 def denominators(node: Node) -> Iterator[Node]:

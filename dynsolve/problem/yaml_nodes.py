@@ -7,8 +7,8 @@ a boolean, `010` for 8 and `1:30` for 90).  A scalar is its source text.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 from dynsolve.problem.source import Faults
@@ -69,7 +69,7 @@ def read_nodes(faults: Faults) -> YamlNode | None:
     text = faults.source.text
     tree = _Tree(faults)
     try:
-        for event, _ in zip(_events(yaml, text, loader), range(MAX_EVENTS), strict=False):
+        for event in islice(yaml.parse(text, Loader=loader), MAX_EVENTS):
             if not tree.take(event):
                 return tree.root
     except yaml.MarkedYAMLError as error:
@@ -79,11 +79,6 @@ def read_nodes(faults: Faults) -> YamlNode | None:
         (len(text), len(text)), f"the file has more than {MAX_EVENTS} parts", "give the problem file itself"
     )
     return None
-
-
-def _events(yaml: Any, text: str, loader: Any) -> Iterator[Any]:
-    events: Iterator[Any] = yaml.parse(text, Loader=loader)
-    return events
 
 
 class _Open:
