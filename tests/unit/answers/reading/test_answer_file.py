@@ -1,35 +1,10 @@
-"""The answer file: values from the source text, the student's own names, one bad line at a time."""
+"""The answer file: values from the source text, one bad line at a time."""
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
 
-from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.submission import Answer, Submission
-from dynsolve.notation.unicode import to_unicode
-from dynsolve.problem import Problem, load
-from dynsolve.problem.library import find
-
-
-@cache
-def problem(stem: str) -> Problem:
-    return load(find(stem))
-
-
-def hand_in(text: str, stem: str = "planar-2r") -> Submission:
-    return read_submission(problem(stem), text, "answer.yaml")
-
-
-def last(found: Submission, name: str) -> Answer:
-    return [answer for answer in found.answers if answer.name == name][-1]
-
-
-def shown(found: Submission, name: str) -> str:
-    node = last(found, name).node
-    assert node is not None, last(found, name).fault
-    return to_unicode(node)
+from tests.unit.answers.reading.submissions import hand_in, last, shown_last
 
 
 def test_the_head_is_read() -> None:
@@ -62,7 +37,7 @@ VALUES = [
 
 @pytest.mark.parametrize(("value", "expected"), VALUES)
 def test_a_value_is_what_stands_in_the_source(value: str, expected: str) -> None:
-    assert shown(hand_in(f"answers:\n  K: {value}\n  P: m2\n"), "K") == expected
+    assert shown_last(hand_in(f"answers:\n  K: {value}\n  P: m2\n"), "K") == expected
 
 
 @pytest.mark.parametrize(
@@ -79,8 +54,8 @@ def test_a_value_is_what_stands_in_the_source(value: str, expected: str) -> None
 )
 def test_an_answer_file_in_every_layout(text: str) -> None:
     found = hand_in(text)
-    assert shown(found, "K") == "m₁ g"
-    assert shown(found, "P") == "m₂"
+    assert shown_last(found, "K") == "m₁ g"
+    assert shown_last(found, "P") == "m₂"
 
 
 @pytest.mark.parametrize(
@@ -89,7 +64,7 @@ def test_an_answer_file_in_every_layout(text: str) -> None:
 )
 def test_a_bad_line_spoils_one_answer(bad: str) -> None:
     found = hand_in(f"answers:\n  K: {bad}\n  P: m2\n")
-    assert shown(found, "P") == "m₂"
+    assert shown_last(found, "P") == "m₂"
     answer = last(found, "K")
     assert answer.node is None
     assert answer.fault
@@ -121,39 +96,6 @@ def test_names_of_answers_inside_a_value_are_references() -> None:
     assert last(found, "L").references == ("K", "P")
     assert last(found, "L").read_as == "K - P"
     assert last(found, "P").references == ("P1", "P2")
-
-
-def test_abbreviations_and_own_symbols() -> None:
-    head = "symbols: {q1: theta1, d2: L2, qd1: theta1_dot}\nlet: {h: -m2*L2*sin(q1)}\n"
-    found = hand_in(head + "answers:\n  tau1: h*qd1 + \\ddot q_1 + \\dot{d}_2 + dd2\n", "in3140-rp")
-    assert shown(found, "tau1") == "-(m₂ L₂ sin(θ₁)) θ̇₁ + θ̈₁ + L̇₂ + L̇₂"
-
-
-OWN = [
-    ("q1: theta1 - 90deg", "sin(q1)*dq1", "sin(θ₁ - 90°) θ̇₁"),
-    ("q1: 90deg - theta1", "s1*q1'", "sin(90° - θ₁) (-θ̇₁)"),
-    ("phi: theta1", r"\dot\phi^2 \cos\phi", "θ̇₁² cos(θ₁)"),
-    ("x: L2 - L1", r"\dot{x}", "L̇₂"),
-    ("M: m1", "M*g", "m₁ g"),
-    (r"\varphi_1: \theta_1", r"\ddot\varphi_1", "θ̈₁"),
-    ("w: theta1_dot", "w^2", "θ̇₁²"),
-    ("I: I1zz", r"\frac12 I \dot\theta_1^2", "1/2 I_1zz θ̇₁²"),
-]
-
-
-@pytest.mark.parametrize(("symbols", "value", "expected"), OWN)
-def test_a_symbol_of_the_students_own(symbols: str, value: str, expected: str) -> None:
-    found = hand_in(f"symbols:\n  {symbols}\nanswers:\n  tau1: {value}\n", "in3140-rp")
-    assert found.faults == ()
-    assert shown(found, "tau1").replace("½", "1/2") == expected
-
-
-def test_a_definition_that_cannot_be_read_is_a_fault_of_its_own() -> None:
-    found = hand_in("let: {h: sin(}\nanswers:\n  K: h\n  P: m1\n")
-    assert len(found.faults) == 1
-    assert last(found, "K").node is None
-    assert "definition" in last(found, "K").expected
-    assert shown(found, "P") == "m₁"
 
 
 def test_an_empty_file_has_a_fault() -> None:

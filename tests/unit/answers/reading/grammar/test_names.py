@@ -2,24 +2,9 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
 
-from dynsolve.answers.reading.files import read_submission
-from dynsolve.answers.submission import Submission
-from dynsolve.problem import Problem, load
-from dynsolve.problem.library import find
-
-
-@cache
-def problem(stem: str) -> Problem:
-    return load(find(stem))
-
-
-def report(text: str, stem: str = "planar-2r") -> Submission:
-    return read_submission(problem(stem), text, "report.md")
-
+from tests.unit.answers.reading.submissions import report
 
 FRAME = r"\begin{bmatrix} 1&0&0&0\\0&1&0&0\\0&0&1&0\\0&0&0&1 \end{bmatrix}"
 TENSOR = r"\begin{bmatrix} 0&0&0\\0&0&0\\0&0&I_1 \end{bmatrix}"
