@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-
 from dynsolve.answers.reading.size import size
+
 from dynsolve.errors import ReadError
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node, Number, Power, Product, Sum, Symbol
