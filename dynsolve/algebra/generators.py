@@ -16,8 +16,9 @@ class Generator:
     """One variable of the polynomial ring.
 
     kind is one of `sin`, `cos` (with `angle`), `symbol` (with `name`, `dots`),
-    `root` (√ of `node`), `inverse` (1 / a polynomial, set when first needed) or
-    `constant` (cos of a constant `angle` of some degrees).
+    `root` (√ of `node`), `inverse` (1 / a polynomial, set when first needed),
+    `constant` (cos of a constant `angle` of some degrees) or `function` (`node`, a
+    function whose argument has no exact meaning here).
     """
 
     kind: str
@@ -64,6 +65,8 @@ def lay_out(plan: RingPlan) -> tuple[Generator, ...]:
     for name in plan.symbols:
         if name not in plan.coordinates:
             add("symbol", name=name)
+    for function in plan.functions:
+        add("function", node=function)
     return tuple(laid)
 
 

@@ -1,13 +1,18 @@
-"""Rational numbers: Python's `Fraction` and FLINT's `fmpq`, and the greatest common divisor of several."""
+"""Rational numbers: Python's `Fraction`, FLINT's `fmpq`, trees made of numbers, the divisor of several."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
 
 from flint import fmpq
+
+from dynsolve.notation.tree import Negative, Node, Number, Parenthesized, Power, Product, Quotient, Sum
+
+LARGEST_POWER = 20
+"""The largest exponent in a tree that counts as a number."""
 
 
 def rational(value: int | Fraction) -> fmpq:
@@ -28,3 +33,38 @@ def rational_gcd(values: Sequence[Fraction]) -> Fraction:
     """
     scale = lcm(*(v.denominator for v in values))
     return Fraction(gcd(*(int(v * scale) for v in values)), scale)
+
+
+def rational_value(node: Node) -> Fraction | None:
+    """The value of a tree made of numbers alone, else None; large powers count as None."""
+    match node:
+        case Number(p, q):
+            return Fraction(p, q)
+        case Negative(argument):
+            value = rational_value(argument)
+            return None if value is None else -value
+        case Parenthesized(argument):
+            return rational_value(argument)
+        case Sum(terms):
+            return _folded(terms, lambda a, b: a + b, Fraction(0))
+        case Product(factors):
+            return _folded(factors, lambda a, b: a * b, Fraction(1))
+        case Quotient(numerator, denominator):
+            top, bottom = rational_value(numerator), rational_value(denominator)
+            return None if top is None or not bottom else top / bottom
+        case Power(base, Number(p, 1)) if p <= LARGEST_POWER:
+            value = rational_value(base)
+            return None if value is None else value**p
+    return None
+
+
+def _folded(
+    parts: tuple[Node, ...], operation: Callable[[Fraction, Fraction], Fraction], start: Fraction
+) -> Fraction | None:
+    total = start
+    for part in parts:
+        value = rational_value(part)
+        if value is None:
+            return None
+        total = operation(total, value)
+    return total

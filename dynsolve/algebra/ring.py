@@ -36,7 +36,7 @@ from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.relations import Relations
 from dynsolve.algebra.ring_plan import RingPlan
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.tree import Node, Number
+from dynsolve.notation.tree import Function, Node, Number
 
 MOST_TURNS = 64
 """The largest multiple of a basic angle that is expanded."""
@@ -111,6 +111,13 @@ class Ring:
         if index is None:
             raise AlgebraError(f"{dotted(name, dots)} is not a symbol of this problem")
         return Expr(self, self._gens[index])
+
+    def function(self, node: Function) -> Expr:
+        """A function that is a generator of its own."""
+        for g in self.generators:
+            if g.kind == "function" and g.node == node:
+                return self.generator(g.index)
+        raise AlgebraError(f"this {node.name} does not occur in the problem")
 
     def has_symbol(self, name: str, dots: int = 0) -> bool:
         """Whether `symbol` knows it."""

@@ -2,28 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from dynsolve.algebra.angles import Angle, Atom, angle_from_tree, names_of
+from dynsolve.algebra.angles import Angle, Atom
 from dynsolve.algebra.constants import ConstantPlan, plan_constants
+from dynsolve.algebra.contents import Contents, ContentsCollector
 from dynsolve.algebra.integer_basis import Vector, coordinates_in, integer_basis
 from dynsolve.algebra.rationals import rational_gcd
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.tree import (
-    Degrees,
-    Function,
-    Negative,
-    Node,
-    Number,
-    Parenthesized,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    Symbol,
-)
+from dynsolve.notation.tree import Function, Node, Number
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +21,9 @@ class RingPlan:
 
     `turning` are the basic angles that turn with coordinates, each as its vector of
     rates and its offset: θ₁ + 30° is one angle, and cos(θ₁ + 30°) one generator.
+    `fixed` are the atoms of the other angles with the rate that is basic; `inverses` so
+    many generators are set aside for 1 / a denominator; `functions` are those that are
+    generators of their own.
     """
 
     coordinates: tuple[str, ...]
@@ -42,6 +34,7 @@ class RingPlan:
     fixed: tuple[tuple[Atom, Fraction], ...]
     constants: ConstantPlan
     inverses: int
+    functions: tuple[Function, ...] = ()
 
     @property
     def basic_angles(self) -> tuple[Angle, ...]:
@@ -75,6 +68,31 @@ class RingPlan:
         """What is left of an angle at q = 0."""
         return Angle(tuple(sorted(_split(angle, self.coordinates)[1].items())), angle.degrees)
 
+    def extended(self, more: Contents, most_denominators: int) -> RingPlan:
+        """The plan that holds more as well; where θ₁/2 is new, it takes the place of θ₁.
+
+        Generators are set aside for the inverses of the denominators, up to that many.
+        """
+        offsets, constants = dict(self.turning), self.constants
+        split = [_split(angle, self.coordinates) for angle in more.angles]
+        vectors = integer_basis([*offsets, *(vector for vector, _ in split)])
+        degrees = [*(angle.degrees for angle in more.angles), *constants.pairs]
+        if constants.generator_degrees is not None:
+            degrees.append(constants.generator_degrees)
+        if any(d % 90 for d in degrees) or more.radicands:
+            constants = plan_constants(degrees, [*map(Fraction, constants.primes), *more.radicands])
+        old_roots = self.roots[len(self.constants.primes) :]
+        return replace(
+            self,
+            symbols=tuple(dict.fromkeys((*self.symbols, *more.symbols))),
+            roots=(*map(Number, constants.primes), *dict.fromkeys((*old_roots, *more.roots))),
+            turning=tuple((vector, offsets.get(vector, Angle())) for vector in vectors),
+            fixed=_finest((*self.fixed, *(term for _, others in split for term in others.items()))),
+            constants=constants,
+            inverses=self.inverses + 2 * min(len(more.denominators), most_denominators),
+            functions=tuple(dict.fromkeys((*self.functions, *more.functions))),
+        )
+
     def with_more_inverses(self) -> RingPlan:
         """The same plan with room for more denominators."""
         return replace(self, inverses=2 * self.inverses + 1)
@@ -103,92 +121,40 @@ def _without_turning(
     return multiples, Angle(tuple(sorted(_split(angle, coordinates)[1].items())), angle.degrees)
 
 
-class _Collector:
-    """Walks trees and notes what they hold, in order of first appearance."""
-
-    def __init__(self) -> None:
-        self.symbols: dict[str, None] = {}
-        self.angles: dict[Angle, None] = {}
-        self.roots: dict[Node, None] = {}
-        self.radicands: list[Fraction] = []
-        self.denominators: dict[Node, None] = {}
-
-    def walk(self, node: Node) -> None:
-        match node:
-            case Symbol(name, 0):
-                self.symbols.setdefault(name)
-            case Degrees():
-                self.symbols.setdefault("pi")
-            case Negative(argument) | Parenthesized(argument):
-                self.walk(argument)
-            case Sum(parts) | Product(parts):
-                for part in parts:
-                    self.walk(part)
-            case Quotient(numerator, denominator):
-                self.walk(numerator)
-                self.divide_by(denominator)
-            case Power(base, exponent):
-                if isinstance(exponent, Negative):
-                    self.divide_by(base)
-                else:
-                    self.walk(base)
-            case Function("sqrt", argument):
-                self.root(argument)
-            case Function(name, argument):
-                self.angle(angle_from_tree(argument))
-                if name == "tan":
-                    self.denominators.setdefault(Function("cos", argument))
-
-    def divide_by(self, node: Node) -> None:
-        self.walk(node)
-        if rational_value(node) is None:
-            self.denominators.setdefault(node)
-
-    def root(self, argument: Node) -> None:
-        value = rational_value(argument)
-        if value is None:
-            self.walk(argument)
-            self.roots.setdefault(argument)
-        elif value < 0:
-            raise AlgebraError("the root of a negative number", "lengths and masses are real")
-        else:
-            self.radicands.append(value)
-
-    def angle(self, angle: Angle) -> None:
-        self.angles.setdefault(angle)
-        for name in names_of(angle):
-            self.symbols.setdefault(name)
-
-
 def plan_ring(
     coordinates: Sequence[str], trees: Iterable[Node], preferred: Sequence[Angle], angles: Sequence[Angle]
 ) -> RingPlan:
     """The plan for these formulas and angles; see `RingPlan`."""
-    collector = _Collector()
-    for tree in trees:
-        collector.walk(tree)
+    collector = ContentsCollector()
+    collector.collect(trees)
     for angle in (*preferred, *angles):
         collector.angle(angle)
-    every = [*preferred, *collector.angles]
+    held = collector.contents
+    every = [*preferred, *held.angles]
     offsets = _offsets(every, coordinates)
     vectors = integer_basis([_split(angle, coordinates)[0] for angle in every])
     turning = tuple((vector, offsets.get(vector, Angle())) for vector in vectors)
     constant = [_without_turning(angle, turning, coordinates)[1] for angle in every]
     constant += [offset for _, offset in turning]
-    rates: dict[Atom, list[Fraction]] = {}
-    for atom, rate in (term for angle in constant for term in angle.terms):
-        rates.setdefault(atom, []).append(rate)
-    constants = plan_constants((angle.degrees for angle in constant), collector.radicands)
+    constants = plan_constants((angle.degrees for angle in constant), held.radicands)
     return RingPlan(
         coordinates=tuple(coordinates),
-        symbols=tuple(collector.symbols),
-        roots=(*(Number(p) for p in constants.primes), *collector.roots),
-        denominators=tuple(collector.denominators),
+        symbols=held.symbols,
+        roots=(*(Number(p) for p in constants.primes), *held.roots),
+        denominators=held.denominators,
         turning=turning,
-        fixed=tuple((atom, rational_gcd(found)) for atom, found in rates.items()),
+        fixed=_finest(term for angle in constant for term in angle.terms),
         constants=constants,
-        inverses=2 * len(collector.denominators),
+        inverses=2 * len(held.denominators),
     )
+
+
+def _finest(terms: Iterable[tuple[Atom, Fraction]]) -> tuple[tuple[Atom, Fraction], ...]:
+    """For each atom of these terms the largest rate of which all its rates are integer multiples."""
+    rates: dict[Atom, list[Fraction]] = {}
+    for atom, rate in terms:
+        rates.setdefault(atom, []).append(rate)
+    return tuple((atom, rational_gcd(found)) for atom, found in rates.items())
 
 
 def _offsets(angles: Sequence[Angle], coordinates: Sequence[str]) -> dict[Vector, Angle]:
@@ -199,41 +165,3 @@ def _offsets(angles: Sequence[Angle], coordinates: Sequence[str]) -> dict[Vector
         degrees = angle.degrees if angle.degrees % 90 else Fraction(0)
         offsets.setdefault(vector, Angle(tuple(sorted(others.items())), degrees))
     return offsets
-
-
-def rational_value(node: Node) -> Fraction | None:
-    """The value of a tree made of numbers alone, else None; large powers count as None."""
-    match node:
-        case Number(p, q):
-            return Fraction(p, q)
-        case Negative(argument):
-            value = rational_value(argument)
-            return None if value is None else -value
-        case Parenthesized(argument):
-            return rational_value(argument)
-        case Sum(terms):
-            return _folded(terms, lambda a, b: a + b, Fraction(0))
-        case Product(factors):
-            return _folded(factors, lambda a, b: a * b, Fraction(1))
-        case Quotient(numerator, denominator):
-            top, bottom = rational_value(numerator), rational_value(denominator)
-            return None if top is None or not bottom else top / bottom
-        case Power(base, Number(p, 1)) if p <= _LARGEST_POWER:
-            value = rational_value(base)
-            return None if value is None else value**p
-    return None
-
-
-_LARGEST_POWER = 20
-
-
-def _folded(
-    parts: tuple[Node, ...], operation: Callable[[Fraction, Fraction], Fraction], start: Fraction
-) -> Fraction | None:
-    total = start
-    for part in parts:
-        value = rational_value(part)
-        if value is None:
-            return None
-        total = operation(total, value)
-    return total

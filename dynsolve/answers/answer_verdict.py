@@ -64,7 +64,7 @@ class AnswerJudge:
         if value.rows is None:
             return replace(base, fault=value.fault, expected=value.expected)
         base = _placed_in_chain(base, chains[-1])
-        if compared.target.node not in self.hand_in.field.rules:
+        if compared.target.node not in self.hand_in.answer_ring.rules:
             return replace(base, fault=f"{name} is no quantity of this problem")
         return with_marks(self.compared(base, compared))
 
@@ -97,7 +97,7 @@ class AnswerJudge:
 
     def _is_christoffel(self, value: AnswerValue) -> bool:
         assert value.rows is not None
-        key = self.hand_in.field.key("C")
+        key = self.hand_in.answer_ring.key("C")
         return same(value.rows, tuple(tuple(RationalExpr(entry) for entry in row) for row in key.rows))
 
     # -- follows, or wrong -------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from functools import cached_property
 from dynsolve.answers.answer_verdict import AnswerJudge
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
-from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.explanation import Explanations
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.hand_in import ComparedHandIn
@@ -39,7 +39,7 @@ class Checker:
     def __init__(self, problem: Problem, key: Derivation | None = None) -> None:
         self.problem = problem
         self.key = key if key is not None else derive(problem.robot)
-        self.field = Field(problem.robot, self.key)
+        self.answer_ring = AnswerRing(problem.robot, self.key)
 
     @cached_property
     def reader(self) -> FileReader:
@@ -49,7 +49,7 @@ class Checker:
     @cached_property
     def derivation_slips(self) -> DerivationSlips:
         """The derivations with a rule changed, in the problem's own ring."""
-        return DerivationSlips(AnswerGraph(self.field))
+        return DerivationSlips(AnswerGraph(self.answer_ring))
 
     def __call__(self, submission: Submission) -> Report:
         """Judge a hand-in."""
@@ -68,7 +68,7 @@ class Judge:
         self.checker = checker
         self.problem = checker.problem
         self.submission = submission
-        self.hand_in = ComparedHandIn(checker.field, checker.problem.values, submission.answers)
+        self.hand_in = ComparedHandIn(checker.answer_ring, checker.problem.values, submission.answers)
         self.graph = self.hand_in.graph
 
     @cached_property
@@ -78,7 +78,7 @@ class Judge:
 
     @cached_property
     def _diagnoser(self) -> Diagnoser:
-        is_shared = self.hand_in.field.same and self.graph.zero_potential is None
+        is_shared = self.hand_in.answer_ring.same and self.graph.zero_potential is None
         changed = self.checker.derivation_slips if is_shared else DerivationSlips(self.graph)
         return Diagnoser(self.problem, self.graph, self.explanations.values, changed)
 
@@ -106,7 +106,7 @@ class Judge:
         if assembled is not None:
             answers |= dict(coriolis_entries(judge, assembled, answers))
         for name in self.problem.marks or self.problem.find:
-            if name not in answers and self.hand_in.compare.target(name).node in self.hand_in.field.rules:
+            if name not in answers and self.hand_in.compare.target(name).node in self.hand_in.answer_ring.rules:
                 of = Fraction(self.problem.marks.get(name, 0))
                 answers[name] = unwritten(self.graph, name, of, answers)
         return answers

@@ -15,7 +15,7 @@ from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from dynsolve.algebra.ring_plan import rational_value
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.grading.policy import Policy
 from dynsolve.grading.problem_set import Item, ProblemSet

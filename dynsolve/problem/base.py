@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dynsolve.algebra.ring_plan import rational_value
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.problem.cells import Cell, forbid, made_cell, read_vector
 from dynsolve.problem.fields import Fields, describe
 from dynsolve.problem.rotations import ParsedRotation, read_rotation

@@ -9,7 +9,7 @@ from fractions import Fraction
 from math import radians
 
 from dynsolve.algebra.angles import angle_from_tree
-from dynsolve.algebra.ring_plan import rational_value
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, ReadError
 from dynsolve.notation.evaluate import evaluate
 from dynsolve.notation.names import normalize

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from dynsolve.algebra.ring_plan import rational_value
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.notation.text import Name
 from dynsolve.notation.tree import Function, Negative, Node, Parenthesized, Product, Quotient, Sum, Symbol
 from dynsolve.notation.walk import walk

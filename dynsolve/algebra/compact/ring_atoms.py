@@ -52,10 +52,9 @@ class RingAtoms:
 
     def _number_symbols(self) -> None:
         """Masses first, then g, other parameters, coordinates, accelerations, velocities."""
-        printed = [g for g in self.ring.generators if g.kind in ("symbol", "root")]
+        printed = [g for g in self.ring.generators if g.kind in ("symbol", "root", "function")]
         for g in sorted(printed, key=self._place):
-            node = Symbol(g.name, g.dots) if g.node is None else Function("sqrt", g.node)
-            self._symbols[g.index] = self.table.number(node, self._rank(g)), 1
+            self._symbols[g.index] = self.table.number(_node(g), self._rank(g)), 1
 
     def _place(self, g: Generator) -> tuple[object, ...]:
         order = self._order.get(g.name, 0)
@@ -125,3 +124,9 @@ class RingAtoms:
         moving = moving or [rate for _, rate in angle.terms]
         negative = sum(rate < 0 for rate in moving)
         return 2 * negative > len(moving) or (2 * negative == len(moving) and bool(moving) and moving[-1] < 0)
+
+
+def _node(g: Generator) -> Node:
+    if g.node is None:
+        return Symbol(g.name, g.dots)
+    return Function("sqrt", g.node) if g.kind == "root" else g.node

@@ -68,13 +68,13 @@ class Diagnoser:
         self.problem = problem
         self.graph = graph
         self.follow_through = follow_through
-        self.dimensions = graph.field.dimensions
-        self.ring = graph.field.ring
+        self.dimensions = graph.answer_ring.dimensions
+        self.ring = graph.answer_ring.ring
 
     @cached_property
     def words(self) -> TermWriter:
         """Writes terms in messages."""
-        words = TermWriter(self.graph.field)
+        words = TermWriter(self.graph.answer_ring)
         words.problem_symbols({*self.problem.robot.ring.parameters, *self.ring.names, "pi"})
         return words
 

@@ -14,7 +14,6 @@ from dynsolve.algebra.ring import Ring
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.ring_extension import is_opaque
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.notation.tree import Node
 from dynsolve.notation.walk import walk
@@ -147,7 +146,7 @@ def _symbols(graph: AnswerGraph, words: TermWriter, values: _Pair) -> Iterator[D
     ring, mine, expected = values.ring, values.mine, values.expected
     parameters = [
         g for g in ring.generators
-        if g.kind == "symbol" and not g.dots and g.name not in ring.names and g.name != "pi"
+        if g.kind in ("symbol", "function") and not g.dots and g.name not in ring.names and g.name != "pi"
     ]  # fmt: skip
     have, wanted = set(_used(mine)), set(_used(expected))
     changed = (mine - expected).poly.monoms()
@@ -171,7 +170,7 @@ def _symbol(
             continue
         x, y = ring.generator(a.index), ring.generator(b.index)
         if a.index not in have and b.index in have and values.becomes({a.index: y.poly}):
-            if is_opaque(b.name):
+            if b.kind == "function":
                 yield slip("odd_argument", yours=words.of(mine))
             elif words.is_unknown(b):
                 yield slip("unknown_symbol", part=words.generator(b))

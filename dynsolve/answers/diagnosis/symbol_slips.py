@@ -16,7 +16,6 @@ from dynsolve.answers.diagnosis.fourier import (
     Part,
 )
 from dynsolve.answers.diagnosis.term_slips import PartWriter, TermSlip, Told, found_slip, ratio_of
-from dynsolve.answers.judging.ring_extension import is_opaque
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.units import INERTIA, MASS
 
@@ -97,8 +96,8 @@ class SymbolSlips:
                 part = self.words.power(written, present)
                 other = self.writer.monomial([(wanted.index, p), (written.index, present - q)])
             yield found_slip(1, code, yours=yours, part=part, other=other)
-        elif p == q and wanted.kind == written.kind == "symbol":
-            if is_opaque(written.name):
+        elif p == q and wanted.kind == "symbol" and written.kind in ("symbol", "function"):
+            if written.kind == "function":
                 yield found_slip(2, "odd_argument", yours=yours)
                 return
             if self.words.is_unknown(written):

@@ -20,7 +20,6 @@ from dynsolve.answers.diagnosis.fourier import (
 )
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
-from dynsolve.answers.judging.ring_extension import is_opaque
 from dynsolve.answers.verdict import Diagnosis
 
 LIGHT = 4
@@ -101,9 +100,9 @@ class PartWriter:
         """A part that was written and is not expected."""
         unknown = [
             g for i, _ in part.monomial
-            if (g := self.ring.generators[i]).kind == "symbol" and self.words.is_unknown(g)
+            if self.words.is_unknown(g := self.ring.generators[i])
         ]  # fmt: skip
-        if any(is_opaque(g.name) for g in unknown):
+        if any(g.kind == "function" for g in unknown):
             return found_slip(3, "odd_argument", yours=self.part(part))
         if unknown:
             return found_slip(4, "unknown_symbol", part=self.words.generator(unknown[0]))

@@ -7,24 +7,22 @@ from fractions import Fraction
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
-from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.explain.forms import leading_names
 from dynsolve.explain.style import style_of
 from dynsolve.notation.build import power
 from dynsolve.notation.tree import Node, Symbol, number
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.notation.walk import mapped
 
 LONGEST = 160
 
 
 class TermWriter:
-    """Writes expressions of one field as a person reads them."""
+    """Writes expressions of one ring as a person reads them."""
 
-    def __init__(self, field: Field) -> None:
-        ring, robot = field.ring, field.robot
+    def __init__(self, answer_ring: AnswerRing) -> None:
+        ring, robot = answer_ring.ring, answer_ring.robot
         self.ring = ring
-        self._opaque = field.opaque
         self._problem: set[str] = set()
         self.compactor = Compactor(ring, leading_names(robot))
         self._printer = UnicodePrinter(style_of(robot))
@@ -35,12 +33,7 @@ class TermWriter:
 
     def form(self, expr: Expr) -> Node:
         """The compact tree."""
-        made = self.compactor.form(expr)
-        return self._restored(made) if self._opaque else made
-
-    def _restored(self, node: Node) -> Node:
-        """The tree with the functions of unexpected arguments as they were written."""
-        return mapped(node, lambda p: self._opaque.get(p.name, p) if isinstance(p, Symbol) else p)
+        return self.compactor.form(expr)
 
     def of(self, expr: Expr) -> str:
         """An expression in one line."""
@@ -57,10 +50,9 @@ class TermWriter:
 
     def power(self, g: Generator, exponent: int) -> str:
         """A symbol's power."""
-        plain = g.kind == "symbol" and g.name not in self._opaque
-        node = Symbol(g.name, g.dots) if plain else self.form(self.ring.generator(g.index))
+        node = Symbol(g.name, g.dots) if g.kind == "symbol" else self.form(self.ring.generator(g.index))
         return self._printer.text(power(node, exponent))
 
     def is_unknown(self, g: Generator) -> bool:
-        """Whether a symbol is none of the problem's."""
-        return g.kind == "symbol" and bool(self._problem) and g.name not in self._problem
+        """Whether a symbol, or a function of an unexpected argument, is none of the problem's."""
+        return g.kind in ("symbol", "function") and bool(self._problem) and g.name not in self._problem

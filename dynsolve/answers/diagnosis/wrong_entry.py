@@ -58,8 +58,8 @@ class DimensionCheck:
 
     def __init__(self, graph: AnswerGraph, words: TermWriter, has_numbers: bool) -> None:
         self.graph = graph
-        self.ring = graph.field.ring
-        self.dimensions = graph.field.dimensions
+        self.ring = graph.answer_ring.ring
+        self.dimensions = graph.answer_ring.dimensions
         self.words = words
         self.has_numbers = has_numbers
 

@@ -1,9 +1,10 @@
 """The ring that a hand-in is judged in: the problem's, refined by what the answers bring.
 
 An answer may hold angles that the problem's ring does not know (θ/2, 2θ₁ - θ₂ on
-another lattice), roots, denominators, names of its own, or arguments that nobody
-expects (sin(θ₂ θ₃)).  A `Plan` collects these from trees, within bounds; a `Field`
-is the ring that holds them, with the robot and its key carried over.
+another basis of angles), roots, denominators, names of its own, or arguments that nobody
+expects (sin θ̇₂).  An `AnswerRingPlan` holds what was collected of these from trees
+(`ring_extension`), within bounds; an `AnswerRing` is the ring that holds them, with the
+robot and its key carried over.
 
 Contexts are FLINT's for a number of generators and never for names, and the number
 of generators that answers may bring is bounded: nothing a hand-in says can make the
@@ -12,137 +13,80 @@ process grow without end.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 from math import prod
-from typing import Any, TypeVar
+from typing import Any
 
-from dynsolve.algebra.angles import Angle, Atom
+from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import ring_of
-from dynsolve.algebra.constants import plan_constants
+from dynsolve.algebra.contents import Contents
 from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.integer_basis import Vector, integer_basis
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.rationals import rational_gcd
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import RingPlan
 from dynsolve.answers.judging.evaluate import Values
-from dynsolve.answers.judging.ring_extension import Known, Needs, needs_of
+from dynsolve.answers.judging.ring_extension import Known, extension_of
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.tree import Node, Number
+from dynsolve.notation.tree import Node
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Robot
 
 MOST_NEW = 48
 """The most generators that the answers of one hand-in may bring."""
 
+MOST_DENOMINATORS = 12
+"""Generators are set aside for the denominators of answers up to this number."""
+
 FINEST = 8
 """The largest multiple of a refined angle that an angle of the problem may become."""
 
-_T = TypeVar("_T")
-
 
 @dataclass(frozen=True)
-class Plan:
-    """The plan of a field: the problem's ring and what answers bring, put together step by step."""
+class AnswerRingPlan:
+    """The plan of the answers' ring: the problem's ring and what answers bring, put together step by step."""
 
     base: Ring
-    symbols: tuple[str, ...] = ()
-    angles: tuple[Angle, ...] = ()
-    radicands: tuple[Fraction, ...] = ()
-    roots: tuple[Node, ...] = ()
-    denominators: int = 0
-    opaque: tuple[tuple[str, Node], ...] = ()
+    brought: Contents = field(default_factory=Contents)
 
-    def with_needs(self, needs: Needs) -> Plan:
-        """The plan that holds one more tree; itself where the problem's ring holds the tree as it is.
+    def extended(self, more: Contents) -> AnswerRingPlan:
+        """The plan that holds more; itself where there is no more.
 
         Raises AlgebraError where that would refine the ring beyond its bounds.
         """
-        if not needs:
+        if not more:
             return self
-        plan = replace(
-            self,
-            symbols=_joined(self.symbols, needs.symbols),
-            angles=_joined(self.angles, needs.angles),
-            radicands=_joined(self.radicands, needs.radicands),
-            roots=_joined(self.roots, needs.roots),
-            denominators=min(self.denominators + needs.denominators, 12),
-            opaque=_joined(self.opaque, needs.opaque),
-        )
+        plan = AnswerRingPlan(self.base, self.brought.joined(more))
         plan.check()
         return plan
 
     def check(self) -> None:
-        """Hold the plan against its bounds."""
-        if len(self.symbols) + 2 * len(self.roots) > MOST_NEW:
+        """Compare the plan with its bounds."""
+        brought, plan = self.brought, self.plan
+        if len(brought.symbols) + len(brought.functions) + 2 * len(brought.roots) > MOST_NEW:
             raise AlgebraError("the answer brings too many names that the problem does not have")
-        survey = self.survey
-        if len(survey.basic_angles) > len(self.base.pairs) + MOST_NEW // 4:
+        if len(plan.basic_angles) > len(self.base.pairs) + MOST_NEW // 4:
             raise AlgebraError("the answer brings too many angles that the problem does not have")
         for pair in self.base.pairs:
-            if prod(abs(m) + 1 for m in survey.multiples(pair.angle)[0]) > 4 * FINEST:
+            if prod(abs(m) + 1 for m in plan.multiples(pair.angle)[0]) > 4 * FINEST:
                 raise AlgebraError("the answer divides an angle too finely")
 
     @cached_property
-    def survey(self) -> RingPlan:
-        """The plan as a ring is laid out by."""
-        plan = self.base.plan
-        vectors, rates = _split_all(self.angles, plan)
-        offsets = dict(plan.turning)
-        known = dict(plan.fixed)
-        for atom, found in rates.items():
-            known[atom] = rational_gcd([*found, *([known[atom]] if atom in known else [])])
-        constant = plan.constants
-        degrees = [a.degrees for a in self.angles] + list(constant.pairs)
-        if constant.generator_degrees is not None:
-            degrees.append(constant.generator_degrees)
-        constants = constant
-        if any(d % 90 for d in degrees) or self.radicands:
-            constants = plan_constants(degrees, [*map(Fraction, constant.primes), *self.radicands])
-        old = plan.roots[len(constant.primes) :]
-        roots = (*(Number(p) for p in constants.primes), *_joined(old, self.roots))
-        return RingPlan(
-            coordinates=plan.coordinates,
-            symbols=_joined(plan.symbols, self.symbols),
-            roots=roots,
-            denominators=plan.denominators,
-            turning=tuple((v, offsets.get(v, Angle())) for v in integer_basis([*offsets, *vectors])),
-            fixed=tuple(known.items()),
-            constants=constants,
-            inverses=plan.inverses + 2 * self.denominators,
-        )
+    def plan(self) -> RingPlan:
+        """The plan by which the ring is laid out."""
+        return self.base.plan.extended(self.brought, MOST_DENOMINATORS)
 
     @property
     def is_the_problems(self) -> bool:
         """Whether the problem's ring holds everything as it is."""
-        return self.survey == self.base.plan
+        return self.plan == self.base.plan
 
 
-def _joined(first: tuple[_T, ...], second: Iterable[_T]) -> tuple[_T, ...]:
-    return tuple(dict.fromkeys((*first, *second)))
-
-
-def _split_all(angles: Iterable[Angle], plan: RingPlan) -> tuple[list[Vector], dict[Atom, list[Fraction]]]:
-    """The coordinate parts of angles as vectors, and the rates of their other atoms."""
-    vectors: list[Vector] = []
-    others: dict[Atom, list[Fraction]] = {}
-    for angle in angles:
-        rates = dict(angle.terms)
-        vector = tuple(rates.pop(((name, 1),), Fraction(0)) for name in plan.coordinates)
-        if any(vector):
-            vectors.append(vector)
-        for atom, rate in rates.items():
-            others.setdefault(atom, []).append(rate)
-    return vectors, others
-
-
-class Field:
+class AnswerRing:
     """A ring that holds the problem and its answers, with the robot and the key in it.
 
     `key` is the derivation of the problem carried over, `robot` the robot; `rules`
@@ -150,20 +94,19 @@ class Field:
     Without a plan it is the problem's own.
     """
 
-    def __init__(self, robot: Robot, key: Derivation, plan: Plan | None = None) -> None:
+    def __init__(self, robot: Robot, key: Derivation, plan: AnswerRingPlan | None = None) -> None:
         self._key = key
         self._robot = robot
         self.base = robot.ring
-        self.plan = plan = Plan(robot.ring) if plan is None else plan
+        self.plan = plan = AnswerRingPlan(robot.ring) if plan is None else plan
         self.same = plan.is_the_problems
-        self.opaque = dict(plan.opaque)
-        self.ring: Ring = robot.ring if self.same else ring_of(robot.ring.coordinates, plan.survey)
+        self.ring: Ring = robot.ring if self.same else ring_of(robot.ring.coordinates, plan.plan)
         self._moved: dict[str, Any] = {}
         self.values = Values()
 
-    def refined(self, plan: Plan) -> Field:
-        """The field of another plan: this one where it holds everything."""
-        return self if plan is self.plan else Field(self._robot, self._key, plan)
+    def refined(self, plan: AnswerRingPlan) -> AnswerRing:
+        """The ring of another plan: this one where it holds everything."""
+        return self if plan is self.plan else AnswerRing(self._robot, self._key, plan)
 
     @cached_property
     def known(self) -> Known:
@@ -258,22 +201,22 @@ class Field:
 
 
 @dataclass
-class FieldBuilder:
+class AnswerRingBuilder:
     """Takes trees one by one; what goes over a bound is refused and leaves the others alone.
 
-    `base` is the field of the problem alone, `plan` what was admitted so far.
+    `base` is the ring of the problem alone, `plan` what was admitted so far.
     """
 
-    base: Field
-    plan: Plan = field(init=False)
+    base: AnswerRing
+    plan: AnswerRingPlan = field(init=False)
 
     def __post_init__(self) -> None:
         self.plan = self.base.plan
 
     def admit(self, node: Node) -> None:
         """Make room for a tree; raises AlgebraError where there is none."""
-        self.plan = self.plan.with_needs(needs_of(node, self.base.known))
+        self.plan = self.plan.extended(extension_of(node, self.base.known))
 
-    def field(self) -> Field:
-        """The field for all trees that were admitted."""
+    def build(self) -> AnswerRing:
+        """The ring for all trees that were admitted."""
         return self.base.refined(self.plan)

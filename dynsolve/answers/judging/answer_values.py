@@ -1,6 +1,6 @@
-"""The answers of a hand-in with their values, in one field.
+"""The answers of a hand-in with their values, in one answer_ring.
 
-Every answer is admitted to the field by itself: one that cannot be held is
+Every answer is admitted to the ring by itself: one that cannot be held is
 unreadable and leaves the others as they are.  Names that occur inside a value stand
 for the student's own answers, and for the key's where there is none.
 """
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr, equal
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.answer_ring import Field, FieldBuilder
+from dynsolve.answers.judging.answer_ring import AnswerRing, AnswerRingBuilder
 from dynsolve.answers.judging.evaluate import Evaluator
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.submission import Answer
@@ -49,10 +49,10 @@ class AnswerValue:
 
 
 class AnswerValues:
-    """All answers of one hand-in, valued in a field that refines `base`, the problem's."""
+    """All answers of one hand-in, valued in a ring that refines `base`, the problem's."""
 
-    def __init__(self, base: Field, answers: Sequence[Answer]) -> None:
-        builder = FieldBuilder(base)
+    def __init__(self, base: AnswerRing, answers: Sequence[Answer]) -> None:
+        builder = AnswerRingBuilder(base)
         self._faults: dict[int, tuple[str, str]] = {}
         for place, answer in enumerate(answers):
             if answer.node is None:
@@ -62,13 +62,13 @@ class AnswerValues:
                 builder.admit(answer.node)
             except AlgebraError as error:
                 self._faults[place] = error.message, error.help
-        self.field: Field = builder.field()
-        self.graph = AnswerGraph(self.field)
+        self.answer_ring: AnswerRing = builder.build()
+        self.graph = AnswerGraph(self.answer_ring)
         self.answers = tuple(answers)
         self._last = {a.name: place for place, a in enumerate(answers) if place not in self._faults}
         self._values: dict[int, AnswerValue] = {}
         self._busy: set[int] = set()
-        self.evaluator = Evaluator(self.field.ring, self.lookup, self.field.values)
+        self.evaluator = Evaluator(self.answer_ring.ring, self.lookup, self.answer_ring.values)
         self.all: tuple[AnswerValue, ...] = tuple(self._value(place) for place in range(len(answers)))
 
     def _value(self, place: int) -> AnswerValue:
@@ -120,9 +120,9 @@ class AnswerValues:
 
     def _from_key(self, name: str, row: int | None, column: int | None) -> RationalExpr:
         quantity = self.graph.quantities.get(name)
-        if quantity is None or quantity.rule not in self.field.rules:
+        if quantity is None or quantity.rule not in self.answer_ring.rules:
             raise AlgebraError(f"{name} is not a quantity of this problem")
-        value = self.field.key(quantity.rule)
+        value = self.answer_ring.key(quantity.rule)
         if quantity.is_read_off:
             return RationalExpr(value[quantity.entry])
         if isinstance(value, Matrix):

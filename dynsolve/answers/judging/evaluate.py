@@ -17,10 +17,10 @@ from typing import Any, NamedTuple
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, simplified
-from dynsolve.algebra.rationals import rational
+from dynsolve.algebra.generators import dotted
+from dynsolve.algebra.rationals import rational, rational_value
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.ring_plan import rational_value
-from dynsolve.answers.judging.ring_extension import dotted, expected_angle, opaque, plain_radicand
+from dynsolve.answers.judging.ring_extension import expected_angle, plain_radicand
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.bounded import keep
 from dynsolve.notation.tree import (
@@ -308,7 +308,8 @@ class Evaluator:
         """The value of a function of an angle, or (generator, ±1) where it is one."""
         angle = expected_angle(node, self.ring.names)
         if angle is None:
-            return self._unknown(opaque(node)), 1
+            value = self.ring.function(node)
+            return self._generator(value) or RationalExpr(value)
         if node.name == "tan":
             c, s = self._turned("cos", angle), self._turned("sin", angle)
             return self._product(RationalExpr(s), self._inverse(RationalExpr(c)))
@@ -347,7 +348,7 @@ class Evaluator:
             root = self.ring.constant(0) if not value else self.ring.root(node, self.ring.constant(value))
             return RationalExpr(root)
         if not plain_radicand(node.argument, self.ring.names):
-            return RationalExpr(self.ring.generator(self._unknown(opaque(node))))
+            return RationalExpr(self.ring.function(node))
         inner = self._value(node.argument)
         if inner.divisor is None:
             exact = _exact_root(inner.numerator)

@@ -70,7 +70,7 @@ class Explanations:
 
     def lead_elsewhere(self, compared: KeyComparison) -> bool:
         """Whether an answer is the key's although the student's own wrong answers lead to other values."""
-        node, robot = compared.target.node, self.hand_in.field.robot
+        node, robot = compared.target.node, self.hand_in.answer_ring.robot
         if node in ("Cqd", "C", "christoffel") and not robot.bodies:
             return False
         if not self.values.touched(node):

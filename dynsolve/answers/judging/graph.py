@@ -1,7 +1,7 @@
 """The derivation as a grader sees it: which answers lead to which.
 
 A quantity has one route or several to it (D from τ or from K, g from τ or from P).
-The formulas are the textbook's rules on the field's robot; here stands only what
+The formulas are the textbook's rules on the robot in the answers' ring; here stands only what
 they are fed with.  Many matrices C give the same C q̇, so this
 vector is what the Coriolis term is compared by.
 """
@@ -15,7 +15,7 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.derivation import vectorized
 from dynsolve.derivation.energy import velocities
 from dynsolve.quantities import families
@@ -51,9 +51,9 @@ class AnswerGraph:
     where the student has chosen another zero.
     """
 
-    def __init__(self, field: Field, zero_potential: Expr | None = None) -> None:
-        self.field = field
-        self.robot: Robot = field.robot
+    def __init__(self, answer_ring: AnswerRing, zero_potential: Expr | None = None) -> None:
+        self.answer_ring = answer_ring
+        self.robot: Robot = answer_ring.robot
         self.zero_potential = zero_potential
 
     # -- names -------------------------------------------------------------------------------------
@@ -77,7 +77,7 @@ class AnswerGraph:
 
     def key(self, node: str) -> Any:
         """The key's value of a node; at the student's own zero of height."""
-        value = self.field.key(node)
+        value = self.answer_ring.key(node)
         if self.zero_potential is None:
             return value
         if node == "L":
@@ -95,7 +95,7 @@ class AnswerGraph:
 
     @property
     def _mass(self) -> Expr:
-        total = self.field.ring.zero
+        total = self.answer_ring.ring.zero
         for body in self.robot.bodies:
             total = total + body.mass
         return total
@@ -103,9 +103,9 @@ class AnswerGraph:
     def routes(self, node: str) -> Sequence[Route]:
         """The routes to a node; none for what the table gives."""
         quantity = self.quantities.of_rule(node)
-        if node not in self.field.rules or quantity is None or quantity.family in _STATED:
+        if node not in self.answer_ring.rules or quantity is None or quantity.family in _STATED:
             return ()
-        rule = self.field.rules[node]
+        rule = self.answer_ring.rules[node]
         match node:
             case "D":
                 return (Route(("tau",), self._inertia), Route(("K",), self._inertia_from_energy))
@@ -129,7 +129,7 @@ class AnswerGraph:
 
     def linear(self, tau: Matrix) -> bool:
         """Whether τ is linear in q̈."""
-        ring = self.field.ring
+        ring = self.answer_ring.ring
         D = vectorized.inertia_from_torque(self.robot, tau)
         return not any(_has_dots(ring, entry, 2) for entry in D.entries)
 
@@ -147,7 +147,7 @@ class AnswerGraph:
 
     def _inertia_from_energy(self, K: Expr) -> Matrix | None:
         D = vectorized.inertia_from_energy(self.robot, K)
-        return None if any(_has_dots(self.field.ring, e, 1) for e in D.entries) else D
+        return None if any(_has_dots(self.answer_ring.ring, e, 1) for e in D.entries) else D
 
     def _symbols(self, D: Matrix) -> Any:
         return vectorized.christoffel_symbols(self.robot, D)

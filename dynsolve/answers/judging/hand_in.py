@@ -16,7 +16,7 @@ from fractions import Fraction
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
-from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -32,27 +32,27 @@ Chain = list[AnswerValue]
 class ComparedHandIn:
     """The answers of one hand-in, compared with the key.
 
-    `field` is the key's ring, extended by what the answers need; `numbers` are those that
+    `answer_ring` is the problem's, extended by what the answers need; `numbers` are those that
     the problem file gives for its symbols.  `chains` has the equations of each quantity,
     `comparisons` the comparison of the answer that counts.
     """
 
-    def __init__(self, field: Field, numbers: Mapping[str, Fraction], answers: Sequence[Answer]) -> None:
-        values = AnswerValues(field, answers)
-        self.field = values.field
+    def __init__(self, answer_ring: AnswerRing, numbers: Mapping[str, Fraction], answers: Sequence[Answer]) -> None:
+        values = AnswerValues(answer_ring, answers)
+        self.answer_ring = values.answer_ring
         self.compare_entry = EntryComparer(numbers)
         at_keys_height = KeyComparer(values.graph, self.compare_entry, values.changed)
         self.chains = _by_quantity(values.all, at_keys_height)
         energies = dict(self._energies())
-        potential = potential_at_zero_height(self.field, energies, self.field.dimensions)
-        self.graph = AnswerGraph(self.field, potential)
+        potential = potential_at_zero_height(self.answer_ring, energies, self.answer_ring.dimensions)
+        self.graph = AnswerGraph(self.answer_ring, potential)
         self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
         self.comparisons = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
         self.assembled_coriolis = self._assembled_coriolis()
 
     def _energies(self) -> Iterator[tuple[str, Expr]]:
         """The student's P_i, P and L, where they are expressions of the ring."""
-        bodies = self.field.robot.bodies
+        bodies = self.answer_ring.robot.bodies
         names = {"P", "L"} | {f"P{body.name}" for body in bodies}
         for name in names & self.chains.keys() if bodies else ():
             value = last(self.chains[name])
@@ -66,7 +66,7 @@ class ComparedHandIn:
 
         Many matrices C give the same C q̇: the entries are right or wrong a row at a time.
         """
-        n = self.field.robot.n
+        n = self.answer_ring.robot.n
         if "C" in self.comparisons or not n:
             return None
         rows: list[Chain] = []

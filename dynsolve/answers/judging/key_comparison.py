@@ -68,7 +68,7 @@ class KeyComparer:
     ) -> None:
         self.graph = graph
         self.robot = graph.robot
-        self.field = graph.field
+        self.answer_ring = graph.answer_ring
         self.compare = compare
         self.changed = changed
 
@@ -93,13 +93,13 @@ class KeyComparer:
 
     def _compared(self, name: str, value: AnswerValue) -> KeyComparison:
         target = self.target(name)
-        if value.rows is None or target.node not in self.field.rules:
+        if value.rows is None or target.node not in self.answer_ring.rules:
             return KeyComparison(value, target)
         key = self.key(target)
         rows, obstacles = self._coriolis(value) if name == "C" else self._rows(value, key)
         if not rows:
             return KeyComparison(value, target, obstacles=obstacles)
-        matrix = key if isinstance(key, Matrix) else Matrix(self.field.ring, ((key,),))
+        matrix = key if isinstance(key, Matrix) else Matrix(self.answer_ring.ring, ((key,),))
         right = tuple(
             tuple(map(self.compare, expected, written))
             for expected, written in zip(matrix.rows, rows, strict=True)
@@ -130,10 +130,10 @@ class KeyComparer:
     def _coriolis(self, value: AnswerValue) -> tuple[Rows, tuple[Obstacle, ...]]:
         """C as its C q̇, n×1; a C with accelerations in it is none."""
         assert value.rows is not None
-        n, ring = self.robot.n, self.field.ring
+        n, ring = self.robot.n, self.answer_ring.ring
         zero = len(value.entries) == 1 and value.entries[0].is_zero
         if not zero and (len(value.rows) != n or len(value.rows[0]) != n):
-            return (), (self._misfit(value, self.field.key("C")),)
+            return (), (self._misfit(value, self.answer_ring.key("C")),)
         rows = []
         for row in value.nodes if not zero else ((value.nodes[0][0],) * n,) * n:
             factors = zip(row, ring.names, strict=True)
@@ -143,7 +143,7 @@ class KeyComparer:
 
     def _unfit(self, value: AnswerValue) -> Iterator[Obstacle]:
         """What no C may hold: accelerations, or joint variables in a denominator."""
-        ring = self.field.ring
+        ring = self.answer_ring.ring
         accelerations = [ring.symbol(name, 2).poly.degrees() for name in ring.names]
         indices = [list(degrees).index(1) for degrees in accelerations]
         for entry in value.entries:

@@ -1,51 +1,25 @@
-"""What an answer brings that the problem's ring does not hold: names, angles, roots, denominators."""
+"""What an answer brings that the problem's ring does not hold: names, angles, roots, denominators.
+
+A function of an argument that nobody expects, sin(θ̇₁) or sin(90), is a generator of its
+own, so that the answer has a value and can be diagnosed.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable
-from dataclasses import dataclass
-from fractions import Fraction
-from hashlib import sha256
+from collections.abc import Container, Iterable, Sequence
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, names_of
+from dynsolve.algebra.contents import Contents, ContentsCollector
+from dynsolve.algebra.generators import dotted
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.ring_plan import rational_value
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.bounded import keep
-from dynsolve.notation.tree import Degrees, Function, Node, Number, Symbol
-from dynsolve.notation.walk import children
+from dynsolve.notation.tree import Function, Node, Product, Symbol
+from dynsolve.notation.walk import walk
 
-
-@dataclass(frozen=True, slots=True)
-class Needs:
-    """What one tree brings beside the symbols of the problem."""
-
-    symbols: tuple[str, ...] = ()
-    angles: tuple[Angle, ...] = ()
-    radicands: tuple[Fraction, ...] = ()
-    roots: tuple[Node, ...] = ()
-    denominators: int = 0
-    opaque: tuple[tuple[str, Node], ...] = ()
-
-    def __bool__(self) -> bool:
-        """Whether the tree brings anything."""
-        return bool(
-            self.symbols or self.angles or self.radicands or self.roots or self.denominators or self.opaque
-        )
-
-
-def opaque(node: Node) -> str:
-    """The name of the generator that stands for a function of an argument nobody expects."""
-    return f"({sha256(repr(node).encode()).hexdigest()})"
-
-
-def is_opaque(name: str) -> bool:
-    """Whether a symbol stands for such a function."""
-    return name.startswith("(")
-
-
-MOST_PLAIN = 4096
+MOST_KNOWN = 4096
 """So many functions are remembered that bring nothing."""
 
 
@@ -59,15 +33,15 @@ class Known:
     def __init__(self, ring: Ring, terms: Container[Node] = ()) -> None:
         self.ring = ring
         self.terms = terms
-        self._plain: dict[Function, None] = {}
+        self._functions: dict[Function, None] = {}
 
     def brings_nothing(self, node: Function) -> bool:
         """Whether this function was met before and is there as it is."""
-        return node in self._plain
+        return node in self._functions
 
     def remember(self, node: Function) -> None:
         """Note that a function brings nothing."""
-        keep(self._plain, node, None, MOST_PLAIN)
+        keep(self._functions, node, None, MOST_KNOWN)
 
     def holds(self, angle: Angle) -> bool:
         """Whether the ring has the sine and cosine of an angle as they are."""
@@ -78,97 +52,64 @@ class Known:
         return degrees % 90 == 0
 
 
-class _Collector:
-    """Walks a tree and notes what a ring must hold for it."""
+class ExtensionCollector(ContentsCollector):
+    """Notes what trees hold beside what is known; what has no exact value becomes a generator of its own."""
 
     def __init__(self, known: Known) -> None:
-        self.known = known.ring
-        self.there = known
-        self.symbols: dict[str, None] = {}
-        self.angles: dict[Angle, None] = {}
-        self.radicands: dict[Fraction, None] = {}
-        self.roots: dict[Node, None] = {}
-        self.denominators = 0
-        self.opaque: dict[str, Node] = {}
-        self.seen: set[Function] = set()
+        super().__init__()
+        self._known = known
+        self._ring = known.ring
+        self._seen: set[Function] = set()
 
-    def walk(self, node: Node) -> None:
-        waiting = [node]
-        while waiting:
-            here = waiting.pop()
-            match here:
-                case tree.Sum(parts):
-                    waiting.extend(parts)
-                case tree.Product(parts):
-                    if here not in self.there.terms:
-                        waiting.extend(parts)
-                case Symbol(name, dots):
-                    if not self.known.has_symbol(name, dots):
-                        self.symbols.setdefault(dotted(name, dots))
-                case Number():
-                    pass
-                case Degrees():
-                    self.symbols.setdefault("pi")
-                case Function():
-                    waiting.extend(self.function(here))
-                case tree.Quotient():
-                    waiting += [here.numerator, here.denominator]
-                    self.denominators += rational_value(here.denominator) is None
-                case tree.Power(base, exponent):
-                    self.denominators += isinstance(exponent, tree.Negative)
-                    waiting.append(base)
-                case _:
-                    waiting.extend(children(here))
+    def note(self, node: Node) -> Sequence[Node]:
+        """Note what a node brings; a product that was evaluated before brings nothing."""
+        if isinstance(node, Product) and node in self._known.terms:
+            return ()
+        return super().note(node)
 
-    def function(self, node: Function) -> list[Node]:
-        """Note a function; the nodes inside it that are still to be walked."""
-        if node in self.seen or self.there.brings_nothing(node):
-            return []
-        self.seen.add(node)
-        if node.name == "sqrt":
-            return self.root(node)
-        angle = expected_angle(node, self.known.names)
+    def symbol(self, name: str, dots: int) -> None:
+        """Note a symbol that the ring does not have; derivatives of it are symbols of their own."""
+        if not self._ring.has_symbol(name, dots):
+            self.symbols.setdefault(dotted(name, dots))
+
+    def function(self, node: Function) -> Sequence[Node]:
+        """Note a function, unless it was met before."""
+        if node in self._seen or self._known.brings_nothing(node):
+            return ()
+        self._seen.add(node)
+        angle = expected_angle(node, self._ring.names)
         if angle is None:
-            return self.unexpected(node)
-        new = [name for name in names_of(angle) if not self.known.has_symbol(name)]
-        if not new and self.there.holds(angle):
-            self.there.remember(node)
-            return []
+            self.functions.setdefault(node)
+            return ()
+        new = [name for name in names_of(angle) if not self._ring.has_symbol(name)]
+        if not new and self._known.holds(angle):
+            self._known.remember(node)
+            return ()
         self.angles.setdefault(angle)
         self.symbols.update(dict.fromkeys(new))
-        return []
+        return ()
 
-    def unexpected(self, node: Function) -> list[Node]:
-        name = opaque(node)
-        self.symbols.setdefault(name)
-        self.opaque[name] = node
-        return []
-
-    def root(self, node: Function) -> list[Node]:
-        value = rational_value(node.argument)
-        if value is not None:
-            if value >= 0:
-                self.radicands.setdefault(value)
-            return []
-        if not plain_radicand(node.argument, self.known.names):
-            return self.unexpected(node)
-        self.roots.setdefault(node.argument)
-        return [node.argument]
-
-    def needs(self) -> Needs:
-        return Needs(
-            tuple(self.symbols),
-            tuple(self.angles),
-            tuple(self.radicands),
-            tuple(self.roots),
-            self.denominators,
-            tuple(self.opaque.items()),
-        )
+    def root(self, node: Function, argument: Node) -> None:
+        """Note a root; that of a negative number is refused where it is evaluated."""
+        value = rational_value(argument)
+        if value is not None and value < 0:
+            return
+        if value is None and not plain_radicand(argument, self._ring.names):
+            self.functions.setdefault(node)
+        else:
+            super().root(node, argument)
 
 
-def dotted(name: str, dots: int) -> str:
-    """The plain name of a derivative."""
-    return name + ("_" + "d" * dots + "ot" if dots else "")
+def extension_of(node: Node, known: Known) -> Contents:
+    """What a ring must hold for a tree, beside what is known."""
+    collector = ExtensionCollector(known)
+    collector.collect([node])
+    return collector.contents
+
+
+LARGEST_EXPONENT = 8
+MOST_TERMS = 12
+LARGEST_DIVISOR = 24
 
 
 def expected_angle(node: Function, coordinates: Iterable[str]) -> Angle | None:
@@ -181,20 +122,18 @@ def expected_angle(node: Function, coordinates: Iterable[str]) -> Angle | None:
     for atom, _ in angle.terms:
         if len(atom) != 1 and any(e < 0 for name, e in atom if name in moving):
             return None
-        if any(abs(e) > 8 for _, e in atom):
+        if any(abs(e) > LARGEST_EXPONENT for _, e in atom):
             return None
-    if len(angle.terms) > 12 or any(r.denominator > 24 for _, r in angle.terms):
+    if len(angle.terms) > MOST_TERMS or any(rate.denominator > LARGEST_DIVISOR for _, rate in angle.terms):
         return None
     return angle
 
 
 def plain_radicand(node: Node, coordinates: Iterable[str]) -> bool:
-    """Whether what stands under a root is free of coordinates and functions."""
+    """Whether what stands under a root is free of coordinates, functions and denominators."""
     names = set(coordinates)
-    waiting = [node]
-    while waiting:
-        here = waiting.pop()
-        match here:
+    for part in walk(node):
+        match part:
             case Symbol(name, dots) if dots or name in names:
                 return False
             case Function(name) if name != "sqrt":
@@ -205,12 +144,4 @@ def plain_radicand(node: Node, coordinates: Iterable[str]) -> bool:
                 return False
             case tree.Power(_, tree.Negative()):
                 return False
-        waiting.extend(children(here))
     return True
-
-
-def needs_of(node: Node, known: Known) -> Needs:
-    """What a ring must hold for a tree, beside what is known."""
-    collector = _Collector(known)
-    collector.walk(node)
-    return collector.needs()

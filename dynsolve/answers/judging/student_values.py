@@ -17,7 +17,7 @@ def student_values(graph: AnswerGraph, compared: Mapping[str, KeyComparison]) ->
     """The values of the nodes that a student handed in; D and g also where they were given by entries."""
     found = {}
     for name, one in compared.items():
-        is_known = one.answer_value.rows is not None and one.target.node in graph.field.rules
+        is_known = one.answer_value.rows is not None and one.target.node in graph.answer_ring.rules
         is_second = name == "Cqd" and "C" in compared
         if not one.target.entry and is_known and not is_second:
             found[one.target.node] = _value(graph, name, one)
@@ -56,4 +56,4 @@ def _assembled(graph: AnswerGraph, compared: Mapping[str, KeyComparison], whole:
             entries[-1].append(value)
             if not one.correct:
                 wrong[name] = None
-    return StudentValue(Matrix.of(graph.field.ring, entries), tuple(wrong))
+    return StudentValue(Matrix.of(graph.answer_ring.ring, entries), tuple(wrong))

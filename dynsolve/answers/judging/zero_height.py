@@ -11,18 +11,18 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.units import LENGTH
 
 
-def potential_at_zero_height(field: Field, values: Mapping[str, Expr], dimensions: Dimensions) -> Expr | None:
+def potential_at_zero_height(answer_ring: AnswerRing, values: Mapping[str, Expr], dimensions: Dimensions) -> Expr | None:
     """φ as most of P_i and P have it, or as L has it where there is no P; None for the key's own zero.
 
     `values` are the student's values of P_i, P and L.
     """
     energies = {name: value for name, value in values.items() if name != "L"}
-    levels = list(_levels(field, energies or values, dimensions))
+    levels = list(_levels(answer_ring, energies or values, dimensions))
     if not levels:
         return None
     counts = Counter(level for level in levels)
@@ -32,25 +32,25 @@ def potential_at_zero_height(field: Field, values: Mapping[str, Expr], dimension
     return None if best.is_zero else best
 
 
-def _levels(field: Field, values: Mapping[str, Expr], dimensions: Dimensions) -> Iterable[Expr]:
-    robot = field.robot
-    total = field.ring.zero
+def _levels(answer_ring: AnswerRing, values: Mapping[str, Expr], dimensions: Dimensions) -> Iterable[Expr]:
+    robot = answer_ring.robot
+    total = answer_ring.ring.zero
     for body in robot.bodies:
         total = total + body.mass
     masses = {"P": total, "L": -total, **{f"P{body.name}": body.mass for body in robot.bodies}}
     for name, value in values.items():
-        difference = value - field.key(name)
+        difference = value - answer_ring.key(name)
         if difference.is_zero:
             yield difference
             continue
         level = _quotient(difference, masses[name])
-        if level is not None and is_zero_height(field, level, dimensions):
+        if level is not None and is_zero_height(answer_ring, level, dimensions):
             yield level
 
 
-def is_zero_height(field: Field, level: Expr, dimensions: Dimensions) -> bool:
+def is_zero_height(answer_ring: AnswerRing, level: Expr, dimensions: Dimensions) -> bool:
     """Whether a potential is |g| times a height that may be chosen."""
-    ring, robot = field.ring, field.robot
+    ring, robot = answer_ring.ring, answer_ring.robot
     if ring.depends_on_coordinates(level):
         return False
     strength = None

@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from dynsolve.algebra.angles import angle_from_tree
-from dynsolve.algebra.ring_plan import rational_value
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, Finding, InputError, ReadError
 from dynsolve.notation.names import normalize
 from dynsolve.notation.text import read

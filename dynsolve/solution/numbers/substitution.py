@@ -16,7 +16,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
-from dynsolve.algebra.ring_plan import rational_value
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.notation.tree import (
     Degrees,
     Function,

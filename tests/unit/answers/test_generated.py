@@ -12,7 +12,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.changed_rules import ChangedDerivation
 from dynsolve.answers.diagnosis.fourier import part_expr, parts
 from dynsolve.answers.judge import check
-from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.submission import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
@@ -25,14 +25,14 @@ START = ("rc", "v", "Kv", "Kw", "K", "P", "L", "dLdqd", "ddt", "dLdq", "tau")
 @lru_cache
 def graph(stem: str) -> AnswerGraph:
     robot = problem(stem).robot
-    return AnswerGraph(Field(robot, key(stem)))
+    return AnswerGraph(AnswerRing(robot, key(stem)))
 
 
 @lru_cache
 def nodes(stem: str) -> tuple[str, ...]:
     """What a complete hand-in holds, C as its vector."""
     skipped = ("H0", "christoffel", "g_direct", "C")
-    return tuple(n for n in graph(stem).field.rules if n not in skipped and not n.startswith("R"))
+    return tuple(n for n in graph(stem).answer_ring.rules if n not in skipped and not n.startswith("R"))
 
 
 def spoilt(value: Expr | Matrix, draw: random.Random) -> Expr | Matrix | None:

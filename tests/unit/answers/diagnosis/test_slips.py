@@ -11,7 +11,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
 from dynsolve.answers.diagnosis.slips import SLIPS, Slip
 from dynsolve.answers.diagnosis.steps import variants
-from dynsolve.answers.judging.answer_ring import Field
+from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.submission import Answer, Place, Submission
 from dynsolve.explain.forms import Forms
@@ -33,7 +33,7 @@ def test_the_example_of_a_slip_shows_it(slip: Slip) -> None:
 @lru_cache
 def graph(stem: str) -> AnswerGraph:
     robot = problem(stem).robot
-    return AnswerGraph(Field(robot, key(stem)))
+    return AnswerGraph(AnswerRing(robot, key(stem)))
 
 
 def _equal(a: Expr | Matrix, b: Expr | Matrix) -> bool:
@@ -47,7 +47,7 @@ def test_a_step_that_went_wrong_is_named(stem: str) -> None:
     """Of two slips with the same outcome either may be named."""
     g, forms = graph(stem), Forms(problem(stem).robot, key(stem))
     seen: set[str] = set()
-    for node in g.field.rules:
+    for node in g.answer_ring.rules:
         wrong = [(v, t) for v, t in variants(g.robot, node, g.key) if not _equal(v, g.key(node))]
         for value, told in wrong:
             answer = Answer(g.answer(node), "", forms.of(value), Place(1, 1), "")
@@ -61,7 +61,7 @@ def test_a_step_that_went_wrong_is_named(stem: str) -> None:
 
 
 def test_every_slip_has_an_example_or_a_step() -> None:
-    steps = {told.code for stem in STEMS for node in graph(stem).field.rules
+    steps = {told.code for stem in STEMS for node in graph(stem).answer_ring.rules
              for _, told in variants(graph(stem).robot, node, graph(stem).key)}  # fmt: skip
     told_elsewhere = {"trig_part", "terms_differ"}
     assert set(SLIPS) - {s.code for s in WITH_EXAMPLES} - steps == told_elsewhere

@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 import dynsolve
-from dynsolve.algebra.ring_plan import rational_value
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import InputError
 from dynsolve.notation.tree import Degrees, Number
 from dynsolve.problem import Problem, read_problem
