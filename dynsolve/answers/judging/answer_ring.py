@@ -27,7 +27,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import RingPlan
-from dynsolve.answers.judging.evaluate import Values
+from dynsolve.answers.judging.evaluate import KnownValues
 from dynsolve.answers.judging.ring_extension import Known, extension_of
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules
@@ -90,7 +90,8 @@ class AnswerRing:
     """A ring that holds the problem and its answers, with the robot and the key in it.
 
     `key` is the derivation of the problem carried over, `robot` the robot; `rules`
-    are the textbook's rules on that robot; `values` remembers those of functions and terms.
+    are the textbook's rules on that robot; `known_values` are those of functions and terms
+    that hand-ins have brought before.
     Without a plan it is the problem's own.
     """
 
@@ -102,7 +103,7 @@ class AnswerRing:
         self.same = plan.is_the_problems
         self.ring: Ring = robot.ring if self.same else ring_of(robot.ring.coordinates, plan.plan)
         self._moved: dict[str, Any] = {}
-        self.values = Values()
+        self.known_values = KnownValues()
 
     def refined(self, plan: AnswerRingPlan) -> AnswerRing:
         """The ring of another plan: this one where it holds everything."""
@@ -111,7 +112,7 @@ class AnswerRing:
     @cached_property
     def known(self) -> Known:
         """What an answer need not bring."""
-        return Known(self.ring, self.values.terms)
+        return Known(self.ring, self.known_values.terms)
 
     @cached_property
     def robot(self) -> Robot:

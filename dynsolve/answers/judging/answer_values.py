@@ -14,7 +14,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr, equal
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing, AnswerRingBuilder
-from dynsolve.answers.judging.evaluate import Evaluator
+from dynsolve.answers.judging.evaluate import AnswerEvaluator
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.submission import Answer
 from dynsolve.errors import AlgebraError
@@ -68,7 +68,7 @@ class AnswerValues:
         self._last = {a.name: place for place, a in enumerate(answers) if place not in self._faults}
         self._values: dict[int, AnswerValue] = {}
         self._busy: set[int] = set()
-        self.evaluator = Evaluator(self.answer_ring.ring, self.lookup, self.answer_ring.values)
+        self.evaluator = AnswerEvaluator(self.answer_ring.ring, self.lookup, self.answer_ring.known_values)
         self.all: tuple[AnswerValue, ...] = tuple(self._value(place) for place in range(len(answers)))
 
     def _value(self, place: int) -> AnswerValue:
@@ -91,7 +91,7 @@ class AnswerValues:
             )
         self.evaluator.work = 0
         try:
-            rows = tuple(tuple(self.evaluator.more(node) for node in row) for row in nodes)
+            rows = tuple(tuple(self.evaluator.value(node) for node in row) for row in nodes)
         except AlgebraError as error:
             return AnswerValue(answer, None, nodes, error.message, error.help)
         return AnswerValue(answer, rows, nodes)
@@ -133,6 +133,7 @@ class AnswerValues:
 
     def changed(self, node: Node) -> RationalExpr:
         """The value of a tree that is an answer's but for a decimal."""
+        self.evaluator.work = 0
         return self.evaluator.value(node)
 
 
