@@ -106,7 +106,10 @@ class Judge:
         if assembled is not None:
             answers |= dict(coriolis_entries(judge, assembled, answers))
         for name in self.problem.marks or self.problem.find:
-            if name not in answers and self.hand_in.compare.target(name).node in self.hand_in.answer_ring.rules:
+            if (
+                name not in answers
+                and self.hand_in.compare.target(name).node in self.hand_in.answer_ring.rules
+            ):
                 of = Fraction(self.problem.marks.get(name, 0))
                 answers[name] = unwritten(self.graph, name, of, answers)
         return answers

@@ -37,7 +37,9 @@ class ComparedHandIn:
     `comparisons` the comparison of the answer that counts.
     """
 
-    def __init__(self, answer_ring: AnswerRing, numbers: Mapping[str, Fraction], answers: Sequence[Answer]) -> None:
+    def __init__(
+        self, answer_ring: AnswerRing, numbers: Mapping[str, Fraction], answers: Sequence[Answer]
+    ) -> None:
         values = AnswerValues(answer_ring, answers)
         self.answer_ring = values.answer_ring
         self.compare_entry = EntryComparer(numbers)

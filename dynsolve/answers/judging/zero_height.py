@@ -16,7 +16,9 @@ from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.units import LENGTH
 
 
-def potential_at_zero_height(answer_ring: AnswerRing, values: Mapping[str, Expr], dimensions: Dimensions) -> Expr | None:
+def potential_at_zero_height(
+    answer_ring: AnswerRing, values: Mapping[str, Expr], dimensions: Dimensions
+) -> Expr | None:
     """φ as most of P_i and P have it, or as L has it where there is no P; None for the key's own zero.
 
     `values` are the student's values of P_i, P and L.

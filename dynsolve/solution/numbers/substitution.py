@@ -15,8 +15,8 @@ from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.rationals import rational_value
+from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import (
     Degrees,
     Function,
