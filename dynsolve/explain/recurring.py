@@ -69,6 +69,7 @@ class _Sharing:
         self.decimal = decimal
         self.sums: dict[_Key, Symbol] = {}
         self.terms: dict[Symbol, tuple[Node, ...]] = {}
+        self._order: dict[Symbol, int] = {}
         self._seen: dict[Node, Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
 
@@ -110,6 +111,7 @@ class _Sharing:
         flip = sum(isinstance(t, Negative) for t in terms) * 2 > len(terms)
         name = Symbol(f" {len(self.terms)}")
         self.sums[opposite if flip else key] = name
+        self._order[name] = len(self.terms)
         self.terms[name] = tuple(map(negated, terms)) if flip else tuple(terms)
         return Negative(name) if flip else name
 
@@ -132,7 +134,7 @@ class _Sharing:
                 break
             users = [name for name in holders[part] if self._holds(name, part)]
             if self._gain(part, len(users) + self._is_sum(part)) > 0:
-                self._put(part, sorted(users, key=_number))
+                self._put(part, sorted(users, key=self._order.__getitem__))
                 changed = True
         return changed
 
@@ -254,7 +256,3 @@ def _ordered(part: _Key, terms: Mapping[Symbol, tuple[Node, ...]], users: Sequen
     """The terms of a part in the order of the first sum that holds it."""
     order = [split_sign(t)[1] for t in terms[users[0]]]
     return sorted(part, key=lambda t: order.index(split_sign(t)[1]))
-
-
-def _number(name: Symbol) -> int:
-    return int(name.name)

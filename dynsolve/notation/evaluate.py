@@ -28,6 +28,7 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
+from dynsolve.notation.walk import children
 
 DOTS = ("", "_dot", "_ddot")
 
@@ -94,7 +95,7 @@ def compile_trees(
     trees = tuple(trees)
     compiler = _Compiler(functions)
     for tree in trees:
-        compiler.survey(tree)
+        compiler.collect(tree)
     places = tuple(compiler.place(tree) for tree in trees)
     return Program(tuple(compiler.constants), tuple(compiler.symbols), tuple(compiler.operations), places)
 
@@ -118,7 +119,7 @@ class _Compiler:
         self.seen: dict[int, int] = {}
         self.offset = 0
 
-    def survey(self, tree: Node) -> None:
+    def collect(self, tree: Node) -> None:
         """Give every constant and symbol its place, before any operation."""
         pending, met = [tree], self.seen
         while pending:
@@ -133,8 +134,6 @@ class _Compiler:
                     self.constants.setdefault(math.radians(p / q), len(self.constants))
                 case Symbol():
                     self.symbols.setdefault(plain_name(node), len(self.symbols))
-                case Matrix(rows):
-                    pending.extend(entry for row in rows for entry in row)
                 case _:
                     pending.extend(_operands(node))
 
@@ -189,16 +188,10 @@ class _Compiler:
 
 
 def _operands(node: Node) -> tuple[Node, ...]:
-    match node:
-        case Sum(parts) | Product(parts):
-            return parts
-        case Quotient(numerator, denominator):
-            return (numerator, denominator)
-        case Power(base, exponent):
-            return (base,) if _whole(exponent) is not None else (base, exponent)
-        case Negative(argument) | Parenthesized(argument) | Function(_, argument):
-            return (argument,)
-    return ()
+    """The parts whose values are needed; a whole exponent is part of the operation."""
+    if isinstance(node, Power) and _whole(node.exponent) is not None:
+        return (node.base,)
+    return children(node)
 
 
 def _whole(exponent: Node) -> int | None:
