@@ -17,7 +17,7 @@ from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Graded, Record, RecordedHandIn
 from dynsolve.grading.teacher import teachers_page
 from dynsolve.render.markdown import escaped
-from dynsolve.render.words import visible
+from dynsolve.render.prose import visible
 
 _Explained = list[tuple[str, str, str]]
 """Of each answer its name, its marks and why."""

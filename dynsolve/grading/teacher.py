@@ -16,7 +16,7 @@ from dynsolve.grading.files import decimal, folder_name
 from dynsolve.grading.policy import shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
-from dynsolve.render.words import visible
+from dynsolve.render.prose import visible
 
 BINS = 10
 MOST_SLIPS = 40

@@ -28,13 +28,13 @@ from dynsolve.document import (
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Matrix, Node, Number, Relation, Row
-from dynsolve.render.boxes import holds_matrix
-from dynsolve.render.flow import Flow, Notation, together
+from dynsolve.notation.tree import Matrix, Node, Relation, Row, equation
+from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
+from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 from dynsolve.render.page import MarkupPage
+from dynsolve.render.prose import visible
 from dynsolve.render.references import numbered, with_results
-from dynsolve.render.typesetting import entry_name, listed
-from dynsolve.render.words import visible
+from dynsolve.render.typesetting import listed
 
 PHONE = 16.5
 """What fits a phone, in em."""
@@ -121,7 +121,7 @@ class _Page(MarkupPage):
         printer = MathMLPrinter(style)
         super().__init__(printer, labels)
         self.ruler = Ruler(style)
-        self.flow = Flow(html_notation(printer), self.ruler, _FINE)
+        self.splitter = FormulaSplitter(html_notation(printer), self.ruler, _FINE)
         self.entries: list[_Entry] = []
         self.widths: set[int] = set()
 
@@ -198,7 +198,7 @@ class _Page(MarkupPage):
         """A formula in a sentence; a long one may be broken."""
         if self.ruler.width(node) <= PHONE / 2:
             return self.whole(node)
-        return "<wbr>".join(math(piece.text) for piece in self.flow.pieces(node))
+        return "<wbr>".join(math(piece.text) for piece in self.splitter.pieces(node))
 
     def whole(self, node: Node) -> str:
         """A formula that is not broken."""
@@ -224,7 +224,7 @@ class _Page(MarkupPage):
             yield f'<div class="line">{math(self.printer.text(node), display=True)}</div>'
             return
         matrix = _lone_matrix(node)
-        widest = max(piece.width for piece in self.flow.pieces(node))
+        widest = max(piece.width for piece in self.splitter.pieces(node))
         if widest > PHONE and isinstance(node, Row) and not formula.optional:
             for part in listed(node):
                 yield from self.lines(part, formula)
@@ -242,7 +242,7 @@ class _Page(MarkupPage):
             yield "</div>"
 
     def broken(self, node: Node) -> str:
-        parts = together(self.flow.pieces(node), _WHOLE, "".join)
+        parts = together(self.splitter.pieces(node), _WHOLE, "".join)
         pieces = "<wbr>".join(math(part.text, display=True) for part in parts)
         return f'<div class="line">{pieces}</div>'
 
@@ -256,13 +256,9 @@ class _Page(MarkupPage):
         left = node.parts[0] if isinstance(node, Relation) else None
         if isinstance(node, Relation) and len(node.parts) > 2 and not any(map(holds_matrix, node.parts[:-1])):
             yield self.broken(Relation(node.parts[:-1], node.signs[:-1]))
-        chains: dict[Node, list[Node]] = {}
-        for i, entries in enumerate(matrix.rows):
-            for j, entry in enumerate(entries):
-                chains.setdefault(entry, []).append(entry_name(i, j, matrix, left, formula))
-        zeros = chains.pop(Number(0), [])
-        for value, names in [*chains.items(), *([(Number(0), zeros)] if zeros else [])]:
-            yield self.broken(Relation((*names, value), ("=",) * len(names)))
+        for value, places in entries_by_value(matrix):
+            names = [entry_name(i, j, matrix, left, formula) for i, j in places]
+            yield self.broken(equation(*names, value))
 
     def has_levels(self) -> bool:
         """Whether there are steps of different levels of detail to choose between."""

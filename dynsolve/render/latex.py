@@ -20,8 +20,8 @@ from dynsolve.document import (
 from dynsolve.notation.latex import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Words
-from dynsolve.render.flow import Notation
 from dynsolve.render.latex_text import latex_text
+from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import TypesetPage
 from dynsolve.render.references import numbered, slug
 from dynsolve.render.typesetting import Line
@@ -164,7 +164,7 @@ class _Page(TypesetPage):
         """Displays: formulas of one line together, one that is broken alone."""
         rows: list[tuple[Line, str]] = []
         for formula in formulas:
-            lines = self.setter(formula).set(formula)
+            lines = self.typesetter(formula).set(formula)
             is_numbered = formula.label in self.labels
             label = f"\\label{{{self.prefix}:{formula.label}}}" if is_numbered else ""
             if len(lines) == 1:

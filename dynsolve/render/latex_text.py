@@ -5,7 +5,7 @@ from __future__ import annotations
 import unicodedata
 
 from dynsolve.notation.characters import GREEK
-from dynsolve.render.words import visible
+from dynsolve.render.prose import visible
 
 _ESCAPES = {
     "\\": r"\textbackslash{}",

@@ -25,9 +25,9 @@ from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Words
 from dynsolve.render.latex import latex_notation
 from dynsolve.render.page import TypesetPage
+from dynsolve.render.prose import visible
 from dynsolve.render.references import numbered
 from dynsolve.render.typesetting import Line
-from dynsolve.render.words import visible
 
 PAGE = 40.0
 """The width of a page on GitHub, in em."""
@@ -70,7 +70,7 @@ class _Page(TypesetPage):
 
     def formula(self, formula: Formula) -> Iterator[str]:
         number = self.labels.get(formula.label)
-        yield from _display(self.setter(formula).set(formula), rf" \tag{{{number}}}" if number else "")
+        yield from _display(self.typesetter(formula).set(formula), rf" \tag{{{number}}}" if number else "")
 
     def equations(self, nodes: Sequence[Node]) -> Iterator[str]:
         yield from _display(self.unnumbered.equations(nodes))

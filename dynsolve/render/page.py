@@ -31,10 +31,10 @@ from dynsolve.document import (
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.tree import Node
-from dynsolve.render.flow import Notation
+from dynsolve.render.line_breaking import Notation
+from dynsolve.render.prose import ProseWriter
 from dynsolve.render.references import with_sources
-from dynsolve.render.typesetting import Setter
-from dynsolve.render.words import Speech
+from dynsolve.render.typesetting import Typesetter
 
 _Piece = TypeVar("_Piece")
 
@@ -153,11 +153,11 @@ class MarkupPage(Page[str]):
     def __init__(self, printer: FormulaPrinter, labels: Mapping[str, int]) -> None:
         self.printer = printer
         self.labels = labels
-        self.words_with_formulas = Speech(self.escaped, self.inline)
+        self._prose_writer = ProseWriter(self.escaped, self.inline)
 
     def words(self, text: str) -> str:
         """Words of a sentence, the mathematics among them as formulas."""
-        return self.words_with_formulas(text)
+        return self._prose_writer(text)
 
     @abstractmethod
     def escaped(self, text: str) -> str:
@@ -177,10 +177,10 @@ class TypesetPage(MarkupPage):
     ) -> None:
         super().__init__(printer, labels)
         ruler = Ruler(printer.style)
-        self.unnumbered = Setter(notation, ruler, width)
-        self.numbered = Setter(notation, ruler, width - number)
+        self.unnumbered = Typesetter(notation, ruler, width)
+        self.numbered = Typesetter(notation, ruler, width - number)
 
-    def setter(self, formula: Formula) -> Setter:
+    def typesetter(self, formula: Formula) -> Typesetter:
         """What sets a formula, beside whose number there is less room."""
         return self.numbered if formula.label in self.labels else self.unnumbered
 

@@ -22,9 +22,9 @@ from dynsolve.document import (
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import UnicodePrinter, printable, width
-from dynsolve.render.breaking import HARD_SPACE, wrap
-from dynsolve.render.formulas import set_formula
 from dynsolve.render.page import Page
+from dynsolve.render.terminal_breaking import HARD_SPACE, wrap
+from dynsolve.render.terminal_formulas import set_formula
 
 WIDTH = 100
 """The width where none is known, in a pipe."""

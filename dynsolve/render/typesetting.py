@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 from dynsolve.document import Formula
 from dynsolve.notation.extent import RELATION, Ruler
-from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation, Row, Words
-from dynsolve.render.boxes import holds_matrix
-from dynsolve.render.flow import RELATION_BREAK, Flow, Notation, Piece, lines
+from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
+from dynsolve.render.line_breaking import RELATION_BREAK, FormulaSplitter, Notation, Piece, lines
+from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 
 INDENT = 2.0
 """How far a line is moved in that goes on with a member, in em."""
@@ -39,14 +39,14 @@ class Line:
         return f"{self.left} & {indent if self.indented else ''}{self.right}"
 
 
-class Setter:
+class Typesetter:
     """Sets formulas in `room` em."""
 
     def __init__(self, notation: Notation, ruler: Ruler, room: float) -> None:
         self.notation = notation
         self.ruler = ruler
         self.room = room
-        self.flow = Flow(notation, ruler)
+        self.splitter = FormulaSplitter(notation, ruler)
 
     def set(self, formula: Formula) -> list[Line]:
         """The lines of a formula; none where it is optional and its matrices do not fit."""
@@ -59,7 +59,7 @@ class Setter:
     def _is_too_wide(self, node: Node) -> bool:
         """Whether a part that cannot be broken is wider than the page."""
         return holds_matrix(node) and any(
-            piece.width > self.room - INDENT for piece in self.flow.pieces(node)
+            piece.width > self.room - INDENT for piece in self.splitter.pieces(node)
         )
 
     def _parts(self, node: Node, formula: Formula) -> Iterator[Line]:
@@ -72,14 +72,14 @@ class Setter:
         elif isinstance(node, Matrix) and self.ruler.width(node) > self.room:
             yield from self._entries(node, None, formula)
         else:
-            yield from self._broken(self.flow.pieces(node), self.room, self.room - INDENT)
+            yield from self._broken(self.splitter.pieces(node), self.room, self.room - INDENT)
 
     def _chain(self, node: Relation, formula: Formula) -> Iterator[Line]:
         left, *members = node.parts
         width = self.ruler.width(left)
         beside = width <= _LONGEST_LEFT * self.room
         if not beside:
-            yield from self._broken(self.flow.pieces(left), self.room, self.room - INDENT)
+            yield from self._broken(self.splitter.pieces(left), self.room, self.room - INDENT)
         room = self.room - (width if beside else INDENT)
         name = self.notation.text(left) if beside else ""
         waiting: list[Piece] = []
@@ -89,7 +89,7 @@ class Setter:
                 name, waiting = "" if waiting else name, []
                 yield from self._entries(member, left, formula)
             else:
-                waiting += self.flow.pieces(member, sign)
+                waiting += self.splitter.pieces(member, sign)
         yield from self._members(name, waiting, room, beside)
 
     def _members(self, name: str, pieces: Sequence[Piece], room: float, beside: bool) -> Iterator[Line]:
@@ -108,12 +108,8 @@ class Setter:
 
     def _entries(self, matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[Line]:
         """`d_12 = ...` for each entry; equal ones in one chain, those that are 0 last."""
-        chains: dict[Node, list[Node]] = {}
-        for i, row in enumerate(matrix.rows):
-            for j, entry in enumerate(row):
-                chains.setdefault(entry, []).append(entry_name(i, j, matrix, left, formula))
-        zeros = chains.pop(Number(0), [])
-        for value, names in [*chains.items(), *([(Number(0), zeros)] if zeros else [])]:
+        for value, places in entries_by_value(matrix):
+            names = [entry_name(i, j, matrix, left, formula) for i, j in places]
             yield from self._level([*names, value])
 
     def equations(self, nodes: Sequence[Node]) -> list[Line]:
@@ -128,7 +124,7 @@ class Setter:
         """The lines of a = b = ..., level after a."""
         name, *rest = members
         room = self.room - self.ruler.width(name)
-        for i, line in enumerate(lines(self.flow.chain(rest), room, room - INDENT)):
+        for i, line in enumerate(lines(self.splitter.chain(rest), room, room - INDENT)):
             yield Line("" if i else self.notation.text(name), self._text(line), i > 0)
 
 
@@ -143,18 +139,3 @@ def listed(row: Row) -> Iterator[Node]:
             part.append(node)
     if part:
         yield part[0] if len(part) == 1 else Row(tuple(part))
-
-
-def entry_name(i: int, j: int, matrix: Matrix, left: Node | None, formula: Formula) -> Node:
-    """The name of an entry: given, or the letter on the left with the entry's place."""
-    if len(formula.entries) == len(matrix.rows) and len(formula.entries[i]) == len(matrix.rows[i]):
-        return formula.entries[i][j]
-    place: list[Node] = [Number(i + 1), Number(j + 1)]
-    if len(matrix.rows[0]) == 1 or len(matrix.rows) == 1:
-        place = [Number(max(i, j) + 1)]
-    if isinstance(left, Letter):
-        index = [left.sub, Words(","), *place] if left.sub else place
-        return Letter(left.base, Row(tuple(index)), left.sup, dots=left.dots)
-    if left is None:
-        return Row((Words("["), *place, Words("]")))
-    return Row((Words("("), left, Words(")"), Letter("", Row(tuple(place)))))

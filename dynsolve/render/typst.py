@@ -17,11 +17,11 @@ from dynsolve.errors import UsageError
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
-from dynsolve.render.flow import Notation
+from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import TypesetPage
+from dynsolve.render.prose import visible
 from dynsolve.render.references import numbered
 from dynsolve.render.typesetting import Line
-from dynsolve.render.words import visible
 
 PAGE = 45.0
 """The width of the page, in em."""
@@ -110,7 +110,7 @@ class _Page(TypesetPage):
         yield f"{self.prose(text.parts)}{source}\n"
 
     def formula(self, formula: Formula) -> Iterator[str]:
-        lines = self.setter(formula).set(formula)
+        lines = self.typesetter(formula).set(formula)
         if not lines:
             return
         display = f"$ {_rows(lines)} $"

@@ -12,8 +12,8 @@ from dynsolve.explain.step import Detail
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Node, Number, Product, Transpose, equation
 from dynsolve.notation.unicode import width
-from dynsolve.render.breaking import break_sum
 from dynsolve.render.terminal import render
+from dynsolve.render.terminal_breaking import break_sum
 from dynsolve.solution.documents import solution_document
 
 LIBRARY = ["in3140-rp", "planar-2r", "rp-vertical", "numeric-2r", "puma560-first3"]

@@ -10,19 +10,19 @@ from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Number, Symbol, equation
-from dynsolve.render.flow import Flow, Piece, lines, together
 from dynsolve.render.latex import latex_notation
-from dynsolve.render.typesetting import INDENT, Setter
+from dynsolve.render.line_breaking import FormulaSplitter, Piece, lines, together
+from dynsolve.render.typesetting import INDENT, Typesetter
 
 LONG = "m1*(a1 + b1 + c1*(d1 + e1 + f1 + g1 + h1 + i1 + j1 + k1) + l1)*q1 + m2*(a2 + b2)/2 + (a3 + b3)^2"
 
 
-def flow() -> Flow:
-    return Flow(latex_notation(LatexPrinter()), Ruler())
+def splitter() -> FormulaSplitter:
+    return FormulaSplitter(latex_notation(LatexPrinter()), Ruler())
 
 
-def setter(room: float) -> Setter:
-    return Setter(latex_notation(LatexPrinter()), Ruler(), room)
+def setter(room: float) -> Typesetter:
+    return Typesetter(latex_notation(LatexPrinter()), Ruler(), room)
 
 
 pieces = st.lists(
@@ -48,7 +48,7 @@ def test_joined_pieces_are_the_same_formula(parts: list[Piece]) -> None:
 
 def test_pieces_are_the_formula() -> None:
     node = read(LONG).tree
-    text = " ".join(piece.text for piece in flow().pieces(node))
+    text = " ".join(piece.text for piece in splitter().pieces(node))
     plain = LatexPrinter().text(node)
     assert text.replace("{} ", "").replace(" ", "").replace(r"\Bigl", "").replace(r"\Bigr", "") == (
         plain.replace(" ", "").replace(r"\left", "").replace(r"\right", "")

@@ -1,4 +1,4 @@
-"""Formulas laid out in characters: boxes of lines that stand side by side on one baseline."""
+"""Formulas laid out in the characters of a terminal: boxes of lines that stand side by side on one baseline."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from dynsolve.notation.tree import (
     Transpose,
 )
 from dynsolve.notation.unicode import UnicodePrinter, width
-from dynsolve.notation.walk import children
+from dynsolve.render.matrices import holds_matrix
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,18 +85,6 @@ def _enclosed(box: TextBox, left: str, right: str) -> TextBox:
     height = len(box.lines)
     sides = zip(bracket(left, height), box.lines, bracket(right, height), strict=True)
     return TextBox(tuple(a + line + b for a, line, b in sides), box.width + 2, box.baseline)
-
-
-_SHALLOW = 4
-
-
-def holds_matrix(node: Node, depth: int = _SHALLOW) -> bool:
-    """Whether a matrix stands in a formula, near enough to its top to be laid out."""
-    if isinstance(node, Matrix):
-        return True
-    if depth == 0:
-        return False
-    return any(holds_matrix(part, depth - 1) for part in children(node))
 
 
 def pieces(node: Node, printer: UnicodePrinter) -> Iterator[TextBox | Matrix]:

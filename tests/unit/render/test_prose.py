@@ -8,12 +8,12 @@ from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.tree import Node
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.markdown import escaped
-from dynsolve.render.words import spoken, visible
+from dynsolve.render.prose import visible, with_formulas
 
 
 def shown(text: str) -> list[str]:
     printer = LatexPrinter()
-    return [f"${printer.text(p)}$" if isinstance(p, Node) else p for p in spoken(text)]
+    return [f"${printer.text(p)}$" if isinstance(p, Node) else p for p in with_formulas(text)]
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from dynsolve.notation.tree import (
     Row,
     Sum,
 )
-from dynsolve.render.boxes import holds_matrix
+from dynsolve.render.matrices import holds_matrix
 
 RELATION_BREAK, SUM_BREAK, FACTOR_BREAK = 0, 1, 3
 """How deep a place to break lies, within one level of parentheses."""
@@ -86,7 +86,7 @@ class _Builder:
                 yield Piece(self.joined(texts), width, depth)
 
 
-class Flow:
+class FormulaSplitter:
     """Takes formulas apart into pieces."""
 
     def __init__(self, notation: Notation, ruler: Ruler, fine: float = _FINE) -> None:

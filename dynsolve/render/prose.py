@@ -29,7 +29,7 @@ _FORMULA = re.compile(
     rf"(?P<sub>[{''.join(_SUBSCRIPTS)}]*)"
     rf"(?P<sup>[{''.join(_SUPERSCRIPTS)}]*)"
 )
-_SPOKEN = re.compile(r"(?<![^\W_])" + _FORMULA.pattern + r"(?![^\W_])")
+_AMONG_WORDS = re.compile(r"(?<![^\W_])" + _FORMULA.pattern + r"(?![^\W_])")
 
 
 def visible(text: str) -> str:
@@ -54,10 +54,10 @@ def _seen(character: str) -> str:
     return " " if kind[0] in "ZC" and kind not in ("Cs", "Cn", "Co") else "\ufffd"
 
 
-def spoken(text: str) -> Iterator[str | Node]:
+def with_formulas(text: str) -> Iterator[str | Node]:
     """Words of an explanation, the mathematics in them as formulas: A₁, θ, q̇.
 
-    >>> list(spoken("Row 1: A₁"))
+    >>> list(with_formulas("Row 1: A₁"))
     ['Row 1: ', Letter(base='A', sub=Number(...), sup=None, style='italic', dots=0)]
     """
     if text.isascii():  # every formula in a text has a dot, an index or a Greek letter
@@ -65,7 +65,7 @@ def spoken(text: str) -> Iterator[str | Node]:
             yield text
         return
     place = 0
-    for found in _SPOKEN.finditer(text):
+    for found in _AMONG_WORDS.finditer(text):
         if found["base"].isascii() and not (found["dots"] or found["sub"] or found["sup"]):
             continue
         if place < found.start():
@@ -76,7 +76,7 @@ def spoken(text: str) -> Iterator[str | Node]:
         yield text[place:]
 
 
-class Speech:
+class ProseWriter:
     """Writes words in one notation: `plain` writes text, `formula` the mathematics among it.
 
     A letter is written once, however often it occurs.
@@ -102,8 +102,8 @@ class Speech:
 
 @lru_cache(maxsize=512)
 def _parts(text: str) -> tuple[str | Node, ...]:
-    """What is spoken, for one text is often written in several formats."""
-    return tuple(spoken(text))
+    """`with_formulas` of a text, remembered: one text is often written in several formats."""
+    return tuple(with_formulas(text))
 
 
 @lru_cache(maxsize=2048)

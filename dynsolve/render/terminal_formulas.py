@@ -1,14 +1,15 @@
-"""Displayed formulas set to a width: on one line, or a line a member, or entry by entry."""
+"""Displayed formulas in a terminal, set to its width: on one line, or a line a member, or entry by entry."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
 from dynsolve.document import Formula
-from dynsolve.notation.tree import Letter, Matrix, Node, Number, Relation
+from dynsolve.notation.tree import Letter, Matrix, Node, Relation
 from dynsolve.notation.unicode import UnicodePrinter, lowered, width
-from dynsolve.render.boxes import TextBox, beside, matrix_box, matrix_width, pieces
-from dynsolve.render.breaking import break_sum
+from dynsolve.render.matrices import entries_by_value, given_name
+from dynsolve.render.terminal_boxes import TextBox, beside, matrix_box, matrix_width, pieces
+from dynsolve.render.terminal_breaking import break_sum
 
 _HANG = 4
 _LONGEST_HANG = 12
@@ -115,23 +116,19 @@ def _flushed(row: TextBox) -> list[str]:
 
 def _entry_by_entry(matrix: Matrix, formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
     """`d₁₂ = ...` a line for each entry; equal ones in one chain, those that are 0 last."""
-    chains: dict[str, list[str]] = {}
-    for i, row in enumerate(matrix.rows):
-        for j, entry in enumerate(row):
-            text = "0" if entry == Number(0) else printer.text(entry)
-            chains.setdefault(text, []).append(_name(i, j, matrix, formula, printer))
-    zeros = chains.pop("0", [])
     lines: list[str] = []
-    for text, names in [*chains.items(), *([("0", zeros)] if zeros else [])]:
-        first, *others = break_sum(f"{' = '.join(names)} = {text}", room - 2, room - _HANG - 2)
+    for value, places in entries_by_value(matrix):
+        names = [_name(i, j, matrix, formula, printer) for i, j in places]
+        text = " = ".join((*names, printer.text(value)))
+        first, *others = break_sum(text, room - 2, room - _HANG - 2)
         lines += ["  " + first, *("  " + " " * _HANG + other for other in others)]
     return lines
 
 
 def _name(i: int, j: int, matrix: Matrix, formula: Formula, printer: UnicodePrinter) -> str:
     """The name of an entry: given, or the letter on the left with the entry's place."""
-    if len(formula.entries) == len(matrix.rows) and len(formula.entries[i]) == len(matrix.rows[i]):
-        return printer.text(formula.entries[i][j])
+    if (given := given_name(i, j, matrix, formula)) is not None:
+        return printer.text(given)
     place = str(i + 1) if len(matrix.rows[0]) == 1 else f"{i + 1}{j + 1}"
     left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
     if isinstance(left, Letter):

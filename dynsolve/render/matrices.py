@@ -1,0 +1,53 @@
+"""Matrices in displayed formulas: where they stand, and how one that is too wide is given entry by entry."""
+
+from __future__ import annotations
+
+from dynsolve.document import Formula
+from dynsolve.notation.tree import ZERO, Letter, Matrix, Node, Number, Row, Words
+from dynsolve.notation.walk import children
+
+_SHALLOW = 4
+
+
+def holds_matrix(node: Node, depth: int = _SHALLOW) -> bool:
+    """Whether a matrix stands in a formula, near enough to its top to be laid out."""
+    if isinstance(node, Matrix):
+        return True
+    return depth > 0 and any(holds_matrix(part, depth - 1) for part in children(node))
+
+
+def entries_by_value(matrix: Matrix) -> list[tuple[Node, list[tuple[int, int]]]]:
+    """The different entries of a matrix, each with all of its places (from 0); those that are 0 last.
+
+    >>> from dynsolve.notation.tree import ONE
+    >>> [places for _, places in entries_by_value(Matrix(((ZERO, ONE), (ONE, ZERO))))]
+    [[(0, 1), (1, 0)], [(0, 0), (1, 1)]]
+    """
+    places: dict[Node, list[tuple[int, int]]] = {}
+    for i, row in enumerate(matrix.rows):
+        for j, entry in enumerate(row):
+            places.setdefault(entry, []).append((i, j))
+    zeros = places.pop(ZERO, None)
+    return [*places.items(), *([(ZERO, zeros)] if zeros else [])]
+
+
+def given_name(i: int, j: int, matrix: Matrix, formula: Formula) -> Node | None:
+    """The name that a formula gives to an entry of its matrix, if it does."""
+    if len(formula.entries) == len(matrix.rows) and len(formula.entries[i]) == len(matrix.rows[i]):
+        return formula.entries[i][j]
+    return None
+
+
+def entry_name(i: int, j: int, matrix: Matrix, left: Node | None, formula: Formula) -> Node:
+    """The name of an entry: given, or the letter on the left with the entry's place."""
+    if (given := given_name(i, j, matrix, formula)) is not None:
+        return given
+    place: list[Node] = [Number(i + 1), Number(j + 1)]
+    if len(matrix.rows[0]) == 1 or len(matrix.rows) == 1:
+        place = [Number(max(i, j) + 1)]
+    if isinstance(left, Letter):
+        index = [left.sub, Words(","), *place] if left.sub else place
+        return Letter(left.base, Row(tuple(index)), left.sup, dots=left.dots)
+    if left is None:
+        return Row((Words("["), *place, Words("]")))
+    return Row((Words("("), left, Words(")"), Letter("", Row(tuple(place)))))
