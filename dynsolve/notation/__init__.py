@@ -1,1 +1,13 @@
-"""Formulas as they are written: the tree, its readers and its printers."""
+"""Formulas as they are written: the tree, its readers and its printers.
+
+`tree`: the classes of nodes.  `walk`: visiting a tree and rebuilding it.  `build`: sums and
+products as they are written, and how many operations a formula has.
+
+Read: `text` reads plain text, `tokens` cuts it, `mistakes` says what is wrong with it;
+`characters` and `names` say what names are made of and how they are set.  `size` measures a
+tree before it is multiplied out, `limits` bounds it for problem files.
+
+Printed: `printing` is what all printers share, `formulas` what those of whole formulas share;
+`unicode`, `latex`, `mathml`, `typst` and `python` are one notation each.  `extent` measures
+how wide a formula is when it is set.  `evaluate` puts numbers into trees.
+"""

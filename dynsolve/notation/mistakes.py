@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dynsolve.errors import ReadError
-from dynsolve.notation.bounds import MAX_EXPONENT, MAX_NESTING
 from dynsolve.notation.characters import GREEK
+from dynsolve.notation.limits import MAX_EXPONENT, MAX_NESTING
 from dynsolve.notation.tokens import FUNCTIONS, FormulaToken
 
 _FUNCTIONS = ", ".join(FUNCTIONS[:-1]) + f" and {FUNCTIONS[-1]}"

@@ -3,7 +3,7 @@
 A text of fifteen characters, (a+b+c+d)^20^20, can ask for more work than a machine has, and
 ten lines of `a = b b` name a tree of a thousand leaves.  So a tree is measured before it is
 evaluated; parts that stand in several places are measured once.  How much is too much, and
-what is said about it, is up to the reader: `notation.bounds` for the formulas of problem
+what is said about it, is up to the reader: `notation.limits` for the formulas of problem
 files, `answers.reading.limits` for those of hand-ins.
 """
 

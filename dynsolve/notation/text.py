@@ -16,8 +16,8 @@ from fractions import Fraction
 
 from dynsolve.errors import ReadError
 from dynsolve.notation import mistakes
-from dynsolve.notation.bounds import MAX_EXPONENT, MAX_LENGTH, MAX_NESTING, check_size
 from dynsolve.notation.characters import SUPERSCRIPT_DIGITS
+from dynsolve.notation.limits import MAX_EXPONENT, MAX_LENGTH, MAX_NESTING, check_size
 from dynsolve.notation.names import normalize
 from dynsolve.notation.tokens import FUNCTIONS, FormulaToken, rational, tokens
 from dynsolve.notation.tree import (

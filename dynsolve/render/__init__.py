@@ -1,1 +1,11 @@
-"""Documents -> what a person sees.  A renderer lays out and computes nothing."""
+"""Documents -> what a person sees.  A format lays out and computes nothing.
+
+`page` is what all formats share; `terminal`, `latex`, `html`, `markdown` and `typst` (which
+makes the PDF) are one format each, listed with their suffixes in `formats`.
+
+Words: `prose` finds the mathematics among them, `latex_text` writes any text for LaTeX.
+Formulas: `line_breaking` cuts them into pieces and these into lines, `typesetting` sets a
+displayed formula to a width, `matrices` gives one that is too wide entry by entry,
+`references` numbers them.  A terminal has cells in place of a font: `terminal_boxes`,
+`terminal_formulas`, `terminal_breaking`.  `files` writes a file whole or not at all.
+"""

@@ -1,4 +1,4 @@
-"""Formulas laid out in the characters of a terminal: boxes of lines that stand side by side on one baseline."""
+"""Formulas laid out in the characters of a terminal: boxes of lines side by side on one baseline."""
 
 from __future__ import annotations
 

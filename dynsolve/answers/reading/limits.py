@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dynsolve.errors import ReadError
-from dynsolve.notation.bounds import MAX_DEPTH
+from dynsolve.notation.limits import MAX_DEPTH
 from dynsolve.notation.size import Size, TooLargeError, size
 from dynsolve.notation.tree import Node
 
