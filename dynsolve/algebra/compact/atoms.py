@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from dynsolve.notation.tree import Negative, Node, Power, Product, Quotient, Sum
+from dynsolve.notation.tree import Function, Node
+from dynsolve.notation.walk import children
 
 
 class Rank(IntEnum):
@@ -60,11 +61,5 @@ class AtomTable:
         found = self._numbers.get(node)
         if found is not None:
             return self.ranks[found][0]
-        match node:
-            case Sum(parts) | Product(parts):
-                return max(map(self._highest, parts))
-            case Negative(part) | Power(part):
-                return self._highest(part)
-            case Quotient(numerator, denominator):
-                return max(self._highest(numerator), self._highest(denominator))
-        return Rank.ROOT
+        parts = () if isinstance(node, Function) else children(node)
+        return max(map(self._highest, parts), default=Rank.ROOT)

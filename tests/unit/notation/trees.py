@@ -10,6 +10,7 @@ from operator import add, mul
 
 from hypothesis import strategies as st
 
+from dynsolve.notation import tree
 from dynsolve.notation.tree import (
     Degrees,
     Function,
@@ -23,6 +24,35 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
+
+A, B, C, TWO = Symbol("a"), Symbol("b"), Symbol("c"), Number(2)
+
+ONE_OF_EACH: list[tuple[Node, tuple[Node, ...]]] = [
+    (Number(1, 2), ()),
+    (tree.Degrees(90), ()),
+    (A, ()),
+    (tree.Reference("I1", 1, 3), ()),
+    (Sum((A, B, TWO)), (A, B, TWO)),
+    (Product((A, B)), (A, B)),
+    (tree.Quotient(A, B), (A, B)),
+    (Power(A, TWO), (A, TWO)),
+    (tree.Negative(A), (A,)),
+    (tree.Function("sin", A), (A,)),
+    (tree.Matrix(((A, B), (C, TWO))), (A, B, C, TWO)),
+    (tree.Letter("J", A, B, "bold"), (A, B)),
+    (tree.Letter("J", None, B), (B,)),
+    (tree.Letter("D"), ()),
+    (tree.Row((A, B)), (A, B)),
+    (tree.Words("and"), ()),
+    (tree.Transpose(A), (A,)),
+    (tree.Cross(A, B), (A, B)),
+    (tree.Derivative(A, B), (A, B)),
+    (tree.Derivative(None, B, total=True), (B,)),
+    (tree.BigSum(A, B, TWO, C), (A, B, TWO, C)),
+    (tree.Parenthesized(A), (A,)),
+    (tree.Relation((A, B, C), ("=", "≈")), (A, B, C)),
+]
+"""A node of each class, and its parts."""
 
 NAMES = ["a", "m1", "theta1", "lc2", "I1zz", "lambda", "None", "load", "q_1", "E"]
 FUNCTIONS = ["sin", "cos", "tan", "sqrt"]
