@@ -24,7 +24,7 @@ _own = threading.local()
 
 
 class ClusterPool:
-    """The workers of a Dask scheduler; a cluster that is lost on the way raises UsageError."""
+    """The workers of a Dask scheduler; raises UsageError where the connection to it is lost."""
 
     def __init__(self, address: str, bounds: Bounds) -> None:
         try:
@@ -44,7 +44,7 @@ class ClusterPool:
 
     @property
     def jobs(self) -> int:
-        """The threads of all workers there are now, at least one."""
+        """How many threads all workers have now, at least one."""
         return max(1, self._threads())
 
     def _threads(self) -> int:
@@ -75,7 +75,7 @@ class ClusterPool:
         return future
 
     def _pass_on(self, done: Future[Data], future: Future[Data]) -> None:
-        """What has come of a hand-in, or why nothing has."""
+        """Set the future's result, or the exception that ends the run."""
         try:
             said = done.result()
         except CancelledError:
@@ -103,7 +103,7 @@ class ClusterPool:
 
 
 def _quiet() -> None:
-    """What is wrong with a cluster is said here, not by Dask's threads in pages of their own."""
+    """Silence Dask's own logging: faults of a cluster are reported as one line by this module."""
     for name in [name for name in logging.root.manager.loggerDict if name.startswith("distributed")]:
         logging.getLogger(name).setLevel(logging.CRITICAL)
     for name in ("asyncio", "tornado.application"):
@@ -111,7 +111,7 @@ def _quiet() -> None:
 
 
 def _is_ours(record: logging.LogRecord) -> bool:
-    """Whether a record is not about a connection of Dask's that was lost."""
+    """Whether a log record is about something else than a lost connection of Dask."""
     kind = record.exc_info[0] if record.exc_info else None
     return kind is None or kind.__name__ != "CommClosedError"
 

@@ -12,7 +12,7 @@ from dynsolve.answers.unwritten import BY_PARTS
 from dynsolve.grading.marking import maximum
 from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.record import Graded, Record
+from dynsolve.grading.record import Record, RecordedAnswer
 from dynsolve.quantities.index import quantities
 
 
@@ -60,7 +60,7 @@ Slip = tuple[str, str, str]
 
 @dataclass(frozen=True, slots=True)
 class SlipExample:
-    """Somebody's answer: how it was read, and what is said of it."""
+    """An example of a slip: the student, and the message or the text of the answer."""
 
     student: str
     text: str
@@ -94,12 +94,12 @@ class Cohort:
     examples: dict[Slip, SlipExample] = field(default_factory=dict)
     alike: dict[Slip, Alike] = field(default_factory=dict)
     queue: list[ForAHuman] = field(default_factory=list)
-    by_hand: list[Graded] = field(default_factory=list)
+    by_hand: list[RecordedAnswer] = field(default_factory=list)
     pages: set[tuple[str, str]] = field(default_factory=set)
 
 
 def counted(problems: ProblemSet, record: Record) -> Cohort:
-    """Everything that the teacher's page tells."""
+    """Everything that the teacher's page shows."""
     cohort = Cohort()
     for item in problems.items:
         for name in item.problem.marks:
@@ -127,7 +127,7 @@ def counted(problems: ProblemSet, record: Record) -> Cohort:
     return cohort
 
 
-def _count(cohort: Cohort, a: Graded, unjudged: str) -> None:
+def _count(cohort: Cohort, a: RecordedAnswer, unjudged: str) -> None:
     """One answer; `unjudged` is why none of its hand-in could be judged, which is told once."""
     cohort.verdicts.setdefault((a.problem, a.answer), Counter())[a.verdict] += 1
     if a.verdict == "wrong":
@@ -148,8 +148,11 @@ def _count(cohort: Cohort, a: Graded, unjudged: str) -> None:
         cohort.queue.append(ForAHuman(a.student, a.problem, f"{a.answer} {a.label}".strip(), reason))
 
 
-def _for_a_human(a: Graded) -> str:
-    """Why an answer waits; a loss that costs no marks does not, nor a whole whose parts tell its slip."""
+def _for_a_human(a: RecordedAnswer) -> str:
+    """Why an answer should be looked at by a human, or an empty text.
+
+    A loss that costs no marks is none, nor is a wrong whole whose parts have a diagnosis.
+    """
     if a.verdict == "unreadable":
         return a.fault or "it could not be read"
     if a.loss and a.of != "0":

@@ -19,7 +19,7 @@ from dynsolve.render.files import temporary_of, write_changed
 
 
 def write(path: Path, text: str, *, durable: bool = True) -> None:
-    """A text whole or not at all, and only where something changes."""
+    """Write a text atomically, and only where it differs from what is there."""
     write_changed(path, text.encode("utf-8", errors="replace"), durable=durable)
 
 
@@ -37,7 +37,7 @@ def folder_name(student: str) -> str:
 
 
 def remove_others(folder: Path, kept: set[Path], endings: tuple[str, ...]) -> None:
-    """Remove what earlier runs wrote for students who are there no more, and what a killed one left."""
+    """Remove the files of students who are no longer there, and temporary files of a killed run."""
     own = (*endings, temporary_of(folder).suffix)
     for path in sorted(folder.glob("*/*")):
         if path not in kept and path.suffix in own:

@@ -70,7 +70,7 @@ def causes(problems: ProblemSet, hand_in: HandIn, bounds: Bounds | None = None) 
 
 
 def of_policy(policy: Policy) -> str:
-    """The policy as a cause; the hints are one of their own."""
+    """The policy as a cause, without its hints, which are a cause by themselves."""
     return short({name: value for name, value in to_data(policy).items() if name != "hints"})
 
 
@@ -80,7 +80,7 @@ def of_marks(item: Item) -> str:
 
 
 def fingerprint(found: dict[str, str]) -> str:
-    """One word for all causes: the fingerprint of a result."""
+    """One hash of all causes: the fingerprint of a result."""
     return short(found)
 
 
@@ -91,7 +91,7 @@ def fingerprints(problems: ProblemSet, hand_in: HandIn, bounds: Bounds) -> tuple
 
 
 def short(data: Any) -> str:
-    """A word for data that JSON can carry."""
+    """A short hash of data that JSON can represent."""
     return sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16]
 
 

@@ -19,8 +19,8 @@ from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import InputError
 from dynsolve.grading.platforms.gradescope import METADATA, Submitters, exports, read_metadata
-from dynsolve.grading.platforms.owner import Owner
-from dynsolve.grading.platforms.owners import Owners
+from dynsolve.grading.platforms.owner import FileOwner
+from dynsolve.grading.platforms.owners import FileOwners
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Waiting
 from dynsolve.grading.uploads import Upload, Uploads, digest, printable
@@ -86,19 +86,19 @@ class Intake:
 class _Piece:
     """A file with its owner and the problem it is for."""
 
-    owner: Owner
+    owner: FileOwner
     student: str
     problem: str
     file: File
 
     @property
     def copy(self) -> tuple[bool, str]:
-        """What it was handed in with."""
+        """What identifies the delivery that the file came with."""
         return self.owner.late, self.owner.delivery
 
     @property
     def age(self) -> tuple[int, tuple[int, ...], str]:
-        """The newest has the greatest."""
+        """A sort key that is greatest for the newest file."""
         return self.owner.order, self.file.upload.order, str(self.file.upload.path)
 
 
@@ -106,7 +106,7 @@ def take_in(problems: ProblemSet, uploads: Uploads, late: Collection[str] = ()) 
     """Sort what was handed in by student and problem; `late` are the platform's ids of who was late."""
     paths = [upload.path for upload in uploads.files]
     lists = {root / METADATA for root in (PurePosixPath(*parts) for parts in exports(paths))}
-    owners = Owners(paths, _metadata(uploads, lists), late, lambda stem: bool(_folded(stem, problems)))
+    owners = FileOwners(paths, _metadata(uploads, lists), late, lambda stem: bool(_folded(stem, problems)))
     students: dict[str, str] = {}
     waiting: set[Waiting] = set()
     pieces: dict[tuple[str, str], list[_Piece]] = {}
@@ -132,7 +132,7 @@ def take_in(problems: ProblemSet, uploads: Uploads, late: Collection[str] = ()) 
 
 
 def _metadata(uploads: Uploads, lists: Collection[PurePosixPath]) -> Submitters:
-    """What Gradescope says of whose the submissions are; a list that cannot be read says nothing."""
+    """Who handed in each submission, by Gradescope's lists; a list that cannot be read is left out."""
     found: Submitters = {}
     for upload in uploads.files:
         if upload.path in lists:
@@ -141,7 +141,7 @@ def _metadata(uploads: Uploads, lists: Collection[PurePosixPath]) -> Submitters:
     return found
 
 
-def _owners_of_refused(owners: Owners, path: PurePosixPath) -> list[tuple[str, str]]:
+def _owners_of_refused(owners: FileOwners, path: PurePosixPath) -> list[tuple[str, str]]:
     """The students that a refused file belongs to, where its name says so without a doubt, with their ids."""
     if (
         not path.parts
@@ -156,9 +156,9 @@ def _owners_of_refused(owners: Owners, path: PurePosixPath) -> list[tuple[str, s
 
 @dataclass(frozen=True, slots=True)
 class _Left:
-    """A file that nobody judges here."""
+    """A file that waits for a human, with the reason."""
 
-    owner: Owner
+    owner: FileOwner
     student: str
     problem: str
     file: str
@@ -166,7 +166,7 @@ class _Left:
 
 
 def _sorted(
-    problems: ProblemSet, uploads: Uploads, owners: Owners, upload: Upload
+    problems: ProblemSet, uploads: Uploads, owners: FileOwners, upload: Upload
 ) -> Iterator[_Piece | _Left]:
     """A file for each of its owners."""
     for owner in owners.of(upload.path):

@@ -12,7 +12,7 @@ from dynsolve.answers.verdict import Report, Verdict
 
 
 def losses(judge: Judge, report: Report) -> dict[str, str]:
-    """What each answer that follows, or has entries that do, has lost beside the key.
+    """What is lost, compared with the key, in each answer that follows or has entries that do.
 
     What is not written has lost what the matrix has that it is an entry of, or its parts.
     """

@@ -60,7 +60,7 @@ def _one(answer: JudgedAnswer, policy: Policy, loss: str, parts: tuple[JudgedAns
 
 
 def _rounded(exact: Fraction, of: Fraction, policy: Policy) -> Fraction:
-    """Marks in steps; none is more than there is, and all of them are all."""
+    """Marks rounded to the policy's steps, never above `of`; full marks stay full."""
     return exact if exact == of else min(rounded(exact, policy.rounding), of)
 
 
@@ -110,7 +110,7 @@ def _late(marked: Marked, policy: Policy) -> Marked:
 
 
 def _capped(found: Iterable[Marked], quantities: Quantities, policy: Policy) -> Iterator[Marked]:
-    """No stage earns more than its cap, the first answers first; nor is it out of more.
+    """Cap the marks of each stage, in the order of the answers; what they are out of is capped too.
 
     What is left of the cap beside the marks that are earned goes to what could be earned,
     in order, so that no answer has more marks than it is out of.
@@ -154,7 +154,7 @@ def maximum(marks: Iterable[tuple[str, Fraction]], quantities: Quantities, polic
 
 
 class Kept(NamedTuple):
-    """What the record has of an answer that its marks are made from; `basis` is what `basis` wrote."""
+    """What the record keeps of an answer for marking it again; `basis` is the text that `basis` made."""
 
     name: str
     verdict: str
@@ -163,7 +163,7 @@ class Kept(NamedTuple):
 
 
 def basis(answer: JudgedAnswer, parts: tuple[JudgedAnswer, ...]) -> str:
-    """What the marks of an answer are made from beside its verdict, as the record keeps it.
+    """What the marks of an answer depend on besides its verdict, as text for the record.
 
     >>> basis(JudgedAnswer("K", Verdict.FOLLOWS, follows_from=("K1",)), ())
     '[["K1"], [], []]'

@@ -14,7 +14,7 @@ from dynsolve.grading.files import decimal, folder_name, remove_others, table, w
 from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
 from dynsolve.grading.policy import points, shown
 from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.record import Graded, Record, RecordedHandIn
+from dynsolve.grading.record import Record, RecordedAnswer, RecordedHandIn
 from dynsolve.grading.teacher import teachers_page
 from dynsolve.render.markdown import escaped
 from dynsolve.render.prose import visible
@@ -60,7 +60,7 @@ def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
     answers = groupby(record.answers(), key=lambda a: (a.student, a.problem))
     waiting = next(answers, None)
     for row in record.rows():
-        own: list[Graded] = []
+        own: list[RecordedAnswer] = []
         if waiting is not None and waiting[0] == (row.student, row.problem):
             own = list(waiting[1])
             waiting = next(answers, None)
@@ -82,7 +82,7 @@ def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
     remove_others(folder, written, (".html", ".md"))
 
 
-def _total(answers: list[Graded]) -> str:
+def _total(answers: list[RecordedAnswer]) -> str:
     marks, of = points(*(a.marks for a in answers)), points(*(a.of for a in answers))
     return f"Marks: {shown(marks)} of {shown(of)}"
 
@@ -96,7 +96,7 @@ def _told(row: RecordedHandIn) -> Iterator[str]:
         yield f"The newest copy counts; left aside: {', '.join(row.left)}."
 
 
-def _explained(row: RecordedHandIn, answers: list[Graded]) -> _Explained:
+def _explained(row: RecordedHandIn, answers: list[RecordedAnswer]) -> _Explained:
     """Each answer with its marks and why; nothing of a hand-in that was not judged but a teacher's words."""
     return [
         (f"{a.answer} {a.label}".strip(), f"{shown(points(a.marks))} of {shown(points(a.of))}", a.why)
@@ -129,7 +129,7 @@ def _markdown(row: RecordedHandIn, total: str, explained: _Explained, page: str)
 
 
 def _put(page: str, place: str, text: str) -> str:
-    """The page with a text at the first place that fits, which stands before all that a student wrote."""
+    """The page with a text put in at the first match, which is before anything a student wrote."""
     found = re.search(place, page)
     return page if found is None else page[: found.start()] + text + page[found.end() :]
 

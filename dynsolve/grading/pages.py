@@ -23,7 +23,7 @@ STYLES_HERE = "/* The styles stand here */"
 
 
 def pack(text: str) -> str:
-    """A page as it travels and is kept."""
+    """A page compressed, for the way from the worker and for the record."""
     text = text.replace(stylesheet(), STYLES_HERE)
     return base64.b64encode(zlib.compress(text.encode("utf-8", errors="replace"), 6)).decode()
 

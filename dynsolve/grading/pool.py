@@ -71,7 +71,7 @@ class Worker:
         return self._tried({**payload, "answer_by_answer": True})
 
     def _tried(self, payload: Data) -> Data:
-        """The answer to a payload; a worker that something else has killed is none."""
+        """The answer to a payload, tried again where something else than its limits killed the worker."""
         said = self._ask(payload)
         for _ in range(TRIES):
             if not said.get("killed") or self.closed:
@@ -81,7 +81,7 @@ class Worker:
         return said
 
     def _ask(self, payload: Data) -> Data:
-        """What the worker answers, or why it does not."""
+        """What the worker answers, or the reason why there is no answer."""
         if self.process is None:
             self.start()
         process = self.process

@@ -23,7 +23,7 @@ class Item:
 
     @property
     def stem(self) -> str:
-        """What hand-ins call it."""
+        """The name by which hand-ins refer to it."""
         return self.problem.stem
 
 
@@ -51,7 +51,7 @@ _NAME = "set"
 
 
 def store_set(record: Record, problems: ProblemSet) -> None:
-    """Keep a problem set, without where its files lie."""
+    """Keep a problem set in the record, without the paths of its files."""
     items = [
         {
             "file": PurePath(item.problem.file).name,

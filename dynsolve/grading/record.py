@@ -64,8 +64,8 @@ class Waiting:
     reason: str
 
 
-class Graded(NamedTuple):
-    """One answer as it stands in the record, the teacher's word put in where there is one.
+class RecordedAnswer(NamedTuple):
+    """One answer as it stands in the record, with the teacher's marks where there are any.
 
     `message` has what is said of each slip of `diagnosis`, `basis` what the marks are made
     from; `said` is why the teacher has set the marks, empty where nobody has.
@@ -106,7 +106,7 @@ class RecordedHandIn:
 
 
 class Record:
-    """The record in a folder; raises UsageError where another run holds it, or it is none."""
+    """The record in a folder; raises UsageError where another run uses it, or it cannot be read."""
 
     def __init__(self, folder: Path) -> None:
         self.path = folder / FILE
@@ -199,7 +199,7 @@ class Record:
             self.db.executemany("INSERT OR IGNORE INTO waiting VALUES (?, ?, ?, ?)", rows)
 
     def keep_only(self, keys: set[tuple[str, str]]) -> None:
-        """Forget hand-ins that are there no more."""
+        """Remove the hand-ins that are not among these."""
         gone = [key for key in self.fingerprints() if key not in keys]
         with self.db:
             self.db.execute("BEGIN")
@@ -208,12 +208,12 @@ class Record:
                 self.db.executemany(statement, gone)
 
     def override(self, student: str, problem: str, answer: str, marks: str, why: str) -> None:
-        """Keep a teacher's word on an answer."""
+        """Keep the marks that a teacher gave for an answer, and why."""
         row = (student, problem, answer, marks, why)
         self.db.execute("INSERT OR REPLACE INTO overrides VALUES (?, ?, ?, ?, ?)", row)
 
     def finish(self) -> None:
-        """Keep what stands as what the next run is compared with."""
+        """Keep the current marks, which the next run is compared with."""
         with self.db:
             self.db.execute("BEGIN")
             for key, causes, answers in self.standing():
@@ -246,7 +246,7 @@ class Record:
         return tuple(Waiting(*row) for row in self.db.execute(order))
 
     def overrides(self) -> dict[tuple[str, str, str], tuple[str, str]]:
-        """The teacher's words: marks and why."""
+        """The marks that a teacher gave, and why."""
         found = self.db.execute("SELECT * FROM overrides")
         return {(s, p, a): (marks, why) for s, p, a, marks, why in found}
 
@@ -258,8 +258,8 @@ class Record:
             names, others = (tuple(json.loads(text)) for text in (files, left))
             yield RecordedHandIn(s, p, names, others, bool(late), reason, html, markdown)
 
-    def answers(self, student: str | None = None) -> Iterator[Graded]:
-        """The answers with their marks, the teacher's word put in; of one student, or of all."""
+    def answers(self, student: str | None = None) -> Iterator[RecordedAnswer]:
+        """The answers with their marks, the teacher's where given; of one student, or of all."""
         overrides = self.overrides()
         where, values = ("WHERE student = ?", (student,)) if student is not None else ("", ())
         order = f"SELECT * FROM answers {where} ORDER BY student, problem, place"  # noqa: S608
@@ -268,7 +268,7 @@ class Record:
         ):
             diagnosis = tuple(filter(None, codes.split(";"))) if codes else ()
             told = tuple(message.split("\n")) if codes else ()
-            graded = Graded(s, p, name, label, verdict, marks, of, why, line, diagnosis, told, *rest)
+            graded = RecordedAnswer(s, p, name, label, verdict, marks, of, why, line, diagnosis, told, *rest)
             said = overrides.get((s, p, name)) if overrides else None
             if said is not None:
                 by_hand = f"set by the teacher: {said[1]} (the program: {why})"
@@ -276,7 +276,7 @@ class Record:
             yield graded
 
     def marks(self) -> Iterator[tuple[Key, tuple[str, ...]]]:
-        """The marks of every hand-in's answers, the teacher's word put in."""
+        """The marks of every hand-in's answers, the teacher's where given."""
         overrides = self.overrides()
         order = "SELECT student, problem, answer, marks FROM answers ORDER BY student, problem, place"
         for key, found in groupby(self.db.execute(order), key=itemgetter(0, 1)):
@@ -290,7 +290,7 @@ class Record:
             yield key, causes[key], [[a.answer, a.verdict, a.marks, a.why] for a in found]
 
     def finished(self, key: Key) -> tuple[dict[str, str], dict[str, list[str]]]:
-        """What stood of a hand-in when the last run was finished: causes and answers, or nothing."""
+        """The causes and answers of a hand-in when the last run finished, or nothing."""
         found = self._finished(key)
         if found is None:
             return {}, {}

@@ -48,7 +48,7 @@ def row_of_result(problems: ProblemSet, hand_in: HandIn, said: Data, bounds: Bou
 
 
 def _empty(row: Data) -> str:
-    """Why a hand-in is for a human to look at in which no answer was found; nothing where there is one."""
+    """Why a hand-in without any answer needs a human; an empty text where there is an answer."""
     if any(answer["verdict"] != "missing" for answer in row["answers"]):
         return ""
     lost = [f"not recognized: {text}" for text in row["not_recognized"][:MOST_LOST]]

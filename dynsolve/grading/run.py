@@ -145,7 +145,7 @@ def _submitted(pool: Pool, problems: ProblemSet, uploads: Uploads, hand_in: Hand
 
 
 def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
-    """What a worker needs, and nothing of this machine."""
+    """What a worker needs, independent of this machine."""
     item = problems.item(hand_in.problem)
     return {
         "problem": {"file": Path(item.problem.file).name, "text": item.text},
@@ -161,7 +161,7 @@ def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
 
 
 def _same(uploads: Uploads, file: File) -> bytes:
-    """The bytes of a file; raises InputError where they are others than when it was listed."""
+    """The bytes of a file; raises InputError where it has changed since it was listed."""
     content = uploads.read(file.upload)
     if digest(content) != file.digest:
         message = "it was changed while it was graded: grade again"

@@ -176,7 +176,7 @@ def _share(faults: Faults, fields: Fields, key: str) -> Fraction | None:
 
 
 def _number(faults: Faults, node: YamlNode | None, what: str) -> Fraction | None:
-    """A number from 0 on, None (reported) for what is none."""
+    """A number that is not negative, None (reported) for anything else."""
     if isinstance(node, FaultyNode):
         return None
     cell = read_cell(faults, node, what)

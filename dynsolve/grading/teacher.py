@@ -64,7 +64,7 @@ def _anchor(name: str) -> str:
 
 
 def _text(text: object) -> str:
-    """What may be a student's, as text that steers nothing."""
+    """Text that a student may have written, escaped."""
     return escape(visible(str(text)))
 
 

@@ -63,7 +63,7 @@ class Refused:
 
 
 def printable(name: str) -> str:
-    r"""A name with what cannot be seen made visible.
+    r"""A name with invisible characters written as escapes.
 
     >>> printable("a\nb")
     'a\\x0ab'

@@ -156,7 +156,7 @@ def _notes(answer: JudgedAnswer) -> Iterator[str]:
 
 
 def _form(judge: Judge, answer: JudgedAnswer) -> str:
-    """What is the same for wrong answers of the same value, however they are written."""
+    """A hash that is the same for wrong answers of the same value, however they are written."""
     compared = judge.hand_in.comparisons.get(answer.name)
     if answer.verdict is not Verdict.WRONG or compared is None or not compared.rows:
         return ""

@@ -42,7 +42,7 @@ def main(seconds: float, memory: int) -> None:
 
 
 def bound_memory(memory: int) -> None:
-    """No more than so many bytes for this process, where the system can hold it to that."""
+    """Limit the memory of this process, where the system can."""
     try:
         import resource
     except ImportError:
@@ -80,7 +80,7 @@ def _answered(payload: dict[str, Any], seconds: float) -> dict[str, Any]:
 
 
 def _bound_time(seconds: float) -> None:
-    """From now on so many seconds of the processor, where the system counts them; 0 for no bound."""
+    """Limit the processor time from now on, where the system can; 0 for no limit."""
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_PROF, seconds)
         signal.alarm(int(patience(seconds)) + SLACK if seconds else 0)

@@ -16,7 +16,7 @@ from itertools import product
 
 from dynsolve.notation.tree import Node, Product, Symbol
 from dynsolve.quantities import letters
-from dynsolve.quantities.family import Family, Letter, Owner
+from dynsolve.quantities.family import Family, LetterMaker, Owner
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Coordinate
 from dynsolve.robot.units import ENERGY, INERTIA, LENGTH, NONE, dimension, times
@@ -26,16 +26,16 @@ VELOCITY = times(LENGTH, PER_SECOND)
 MOMENTUM = times(INERTIA, PER_SECOND)
 
 
-def _set(letter: Node) -> Letter:
+def _set(letter: Node) -> LetterMaker:
     """The letter of what the robot has one of."""
     return lambda robot: letter
 
 
-def _of_body(letter: Callable[[Body], Node]) -> Letter:
+def _of_body(letter: Callable[[Body], Node]) -> LetterMaker:
     return lambda robot, b: letter(robot.bodies[b - 1])
 
 
-def _of_coordinate(letter: Callable[[Coordinate], Node]) -> Letter:
+def _of_coordinate(letter: Callable[[Coordinate], Node]) -> LetterMaker:
     return lambda robot, i: letter(robot.coordinates[i - 1])
 
 

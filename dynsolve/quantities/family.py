@@ -39,7 +39,7 @@ class Owner(Enum):
 Size = int | Literal["n"]
 """Rows or columns; n is the number of coordinates."""
 
-Letter = Callable[..., Node]
+LetterMaker = Callable[..., Node]
 """letter(robot, *index): what a quantity is set with; the printers make every notation of it."""
 
 
@@ -77,7 +77,7 @@ class Family:
     rule: str = ""
     shape: tuple[Size, Size] | None = None
     capped_in: Stage | None = None
-    letter: Letter = _no_letter
+    letter: LetterMaker = _no_letter
     json: str = ""
     dimension: Dimension | None = None
     per: tuple[Literal["row", "column", "owner"], ...] = ()

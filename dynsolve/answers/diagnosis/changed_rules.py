@@ -65,7 +65,7 @@ class DerivationSlips:
                     continue
 
     def made(self) -> list[tuple[str, ChangedDerivation, Diagnosis]]:
-        """(node that goes wrong first, derivation, slip); what was left out before what was mistaken."""
+        """(the node that goes wrong first, the derivation, the slip), slips that omit something first."""
         if self._made is None:
             self._made = sorted(self._make(), key=lambda made: not made[2].code.endswith("_missing"))
         return self._made

@@ -120,7 +120,7 @@ class Diagnoser:
     # -- one explanation after the other, see _IN_ORDER --------------------------------------------
 
     def _step_otherwise(self, case: _Case) -> Iterator[Diagnosis]:
-        """The step itself done otherwise: a Jacobian at the frame's origin, a rule of d/dt left out."""
+        """This step was done wrongly: a Jacobian at the frame's origin, a rule of d/dt left out."""
         found = self._first_of(self._variants(case.wrong, case.wrong.target.node), case.wrong, case.mine)
         if found is not None:
             yield self._refined(found, case.wrong)
@@ -142,7 +142,7 @@ class Diagnoser:
             yield case.term_slips[0].diagnosis
 
     def _earlier_step_otherwise(self, case: _Case) -> Iterator[Diagnosis]:
-        """A step long before done otherwise, and everything after it as it should be."""
+        """An earlier step was done wrongly, and every step after it correctly."""
         found = self._first_of(self._derived(case.wrong, case.mine), case.wrong, case.mine)
         if found is not None:
             yield found
@@ -154,7 +154,7 @@ class Diagnoser:
     def _first_of(
         self, values: Iterator[tuple[Any, Diagnosis]], wrong: WrongEntry, mine: Expr
     ) -> Diagnosis | None:
-        """The first slip that gives what was written; one entry alone shows no slip of its matrix."""
+        """The first slip that gives what was written, without those that only a whole matrix can show."""
         return next(
             (
                 diagnosis
@@ -165,7 +165,7 @@ class Diagnoser:
         )
 
     def _derived(self, wrong: WrongEntry, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
-        """What an earlier step done otherwise makes of a node; 0 is explained by what is left out alone."""
+        """The values of a node under slips of earlier steps; for an answer 0, those that omit something."""
         is_zero = all(value.is_zero for value in mine)
         for value, diagnosis in self.derivation_slips.values(wrong.target.node):
             if not is_zero or diagnosis.code.endswith("_missing"):
@@ -190,7 +190,7 @@ class Diagnoser:
     # -- the step, the derivation ------------------------------------------------------------------
 
     def nearest(self, node: str) -> Any:
-        """A node's value from the student's own nearest answers: their own where there is one."""
+        """The student's own value of a node, or the value that their nearest answers lead to."""
         choices = self.follow_through.choices(node)
         value = choices[0].value if choices else None
         return self.graph.key(node) if value is None else value

@@ -47,7 +47,7 @@ class Part:
 
 
 def is_small(expr: Expr) -> bool:
-    """Whether an expression is small enough to be taken apart, which answers of people are."""
+    """Whether an expression is small enough to be taken apart; answers written by hand are."""
     if len(expr) > MOST_TERMS:
         return False
     if not expr.poly or not expr.ring.pairs:

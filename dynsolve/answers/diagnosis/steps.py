@@ -32,7 +32,7 @@ InputValue = Callable[[str], Any]
 
 
 def variants(robot: Robot, node: str, value: InputValue) -> Iterator[Variant]:
-    """What a step may give when it goes wrong; `value` gives its inputs."""
+    """The values that a step gives when it is done wrongly, with the slip; `value` gives its inputs."""
     quantity = quantities(robot).of_rule(node)
     if quantity is None:
         return

@@ -40,7 +40,7 @@ def found_slip(weight: int, code: str, **what: Told) -> TermSlip:
 
 @dataclass(frozen=True, slots=True)
 class TermSlip:
-    """A slip between two parts: how far-fetched it is, and what is said."""
+    """A slip between two parts: `weight` tells how unlikely it is, `what` has the pieces of its message."""
 
     weight: int
     code: str
@@ -48,7 +48,7 @@ class TermSlip:
 
     @property
     def diagnosis(self) -> Diagnosis:
-        """The slip as it is told; its words are made here, since most pairs are never told."""
+        """The slip as a message; its words are made only here, since most pairs are discarded."""
         return slip(self.code, **{key: self.word(key) for key in self.what})
 
     def word(self, key: str) -> str:
@@ -58,7 +58,7 @@ class TermSlip:
 
 
 class PartWriter:
-    """Writes parts of an expression in words, and tells of one that has no partner."""
+    """Writes parts of an expression in words, and makes the slip of a part that has no counterpart."""
 
     def __init__(self, ring: Ring, words: TermWriter) -> None:
         self.ring = ring
@@ -82,7 +82,7 @@ class PartWriter:
         return text.startswith("-"), text.removeprefix("-")
 
     def instead(self, mine: tuple[TrigFunction, Fraction], expected: tuple[TrigFunction, Fraction]) -> Told:
-        """What belongs where a function stands: with a sign where the sign is another, too."""
+        """The function that was expected, with its sign where that differs too."""
 
         def told() -> str:
             turned, _ = self._signed(mine[0])
@@ -118,9 +118,10 @@ def ratio_of(mine: Part, expected: Part) -> Fraction | None:
 
 
 def tell(found: Sequence[TermSlip], right: int) -> Iterator[Diagnosis]:
-    """The slips where they are few; of many, which terms are written that should not be.
+    """The slips, each named where they are few; of many, the terms that should not be there.
 
-    Missing terms are named only beside as many right ones: who writes 0 is not told the answer.
+    Missing terms are named only beside at least as many right ones, so that an answer 0 does not reveal
+    the solution.
     """
     found = sorted(found, key=lambda f: f.weight)
     missing = sum(f.code == "missing_term" for f in found)

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from dynsolve.grading.cohort import Standing, most, standings
 from dynsolve.grading.files import decimal
-from dynsolve.grading.platforms.owner import Owner
+from dynsolve.grading.platforms.owner import FileOwner
 from dynsolve.grading.platforms.roster import Cells, Roster, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
@@ -37,7 +37,7 @@ _NAMES = ("SIS User ID", "SIS Login ID", "Integration ID")
 _POINTS = "Points Possible"
 
 
-def owner(parts: tuple[str, ...]) -> Owner | None:
+def owner(parts: tuple[str, ...]) -> FileOwner | None:
     """`<lastfirst>[_LATE]_<user id>_<attachment id>_<name>`, `..._text.html`, `[LATE_]anon_<id>_...`.
 
     Canvas takes `_<digits>_` out of names, so that the first such number is the user's.
@@ -54,7 +54,7 @@ def owner(parts: tuple[str, ...]) -> Owner | None:
     late = bool(found["late"])
     name = found["name"] or _PAGES[found["page"]]
     order = int((found["file"] or "0")[:18])
-    return Owner(f"{who}_{found['user']}", found["user"], "late" if late else "", name, late, order)
+    return FileOwner(f"{who}_{found['user']}", found["user"], "late" if late else "", name, late, order)
 
 
 def check(problems: ProblemSet, roster: Roster) -> int | None:

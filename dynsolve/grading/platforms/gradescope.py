@@ -12,7 +12,7 @@ from typing import Any
 
 from dynsolve.grading.cohort import Standing, standings
 from dynsolve.grading.files import folder_name, remove_others
-from dynsolve.grading.platforms.owner import Owner
+from dynsolve.grading.platforms.owner import FileOwner
 from dynsolve.grading.platforms.roster import Roster
 from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
@@ -33,7 +33,7 @@ _EXPORT, _SUBMISSION = re.compile(r"assignment_\d+_export"), re.compile(r"submis
 _ID, _LATENESS = "Submission ID", "Lateness (H:M:S)"
 
 
-def owners(export: tuple[str, ...], path: PurePosixPath, submitters: Submitters) -> tuple[Owner, ...]:
+def owners(export: tuple[str, ...], path: PurePosixPath, submitters: Submitters) -> tuple[FileOwner, ...]:
     """Who handed in a file of an export: the members of a group each; nobody for its other files."""
     rest = path.parts[len(export) :]
     if path.parts[: len(export)] != export or not rest:
@@ -43,13 +43,13 @@ def owners(export: tuple[str, ...], path: PurePosixPath, submitters: Submitters)
     return _of_submission(rest[0], rest[0], submitters) if rest[0] in submitters else ()
 
 
-def _of_submission(submission: str, name: str, submitters: Submitters) -> tuple[Owner, ...]:
+def _of_submission(submission: str, name: str, submitters: Submitters) -> tuple[FileOwner, ...]:
     id = PurePosixPath(submission).stem
     number = id.removeprefix("submission_")
     order = int(number[:18]) if number.isdigit() else 0
     students = (_submitter(one, id) for one in submitters.get(submission, ()))
-    return tuple(Owner(s, id, id, name, order=order) for s in students if s) or (
-        Owner(id, id, id, name, order=order),
+    return tuple(FileOwner(s, id, id, name, order=order) for s in students if s) or (
+        FileOwner(id, id, id, name, order=order),
     )
 
 

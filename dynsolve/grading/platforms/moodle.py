@@ -15,7 +15,7 @@ from pathlib import Path
 
 from dynsolve.grading.cohort import Standing, most, standings
 from dynsolve.grading.files import decimal, folder_name
-from dynsolve.grading.platforms.owner import Owner
+from dynsolve.grading.platforms.owner import FileOwner
 from dynsolve.grading.platforms.roster import Roster, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
@@ -30,13 +30,13 @@ _LATE = re.compile(r"(?:^| - )\d[^-]* late(?= - |$)")
 _TIME = re.compile(r"\d{1,2}[:.]\d{2}")
 
 
-def owner(parts: tuple[str, ...]) -> Owner | None:
+def owner(parts: tuple[str, ...]) -> FileOwner | None:
     """`<Full name>_<participant id>_assignsubmission_file[_]/<path>`, or the same without folders."""
     found = _NAMED.fullmatch(parts[0])
     if found is None:
         return None
     rest = [piece for piece in (found["name"], *parts[1:]) if piece]
-    return Owner(f"{found['who']}_{found['id']}", found["id"], "", "/".join(rest) or "onlinetext.html")
+    return FileOwner(f"{found['who']}_{found['id']}", found["id"], "", "/".join(rest) or "onlinetext.html")
 
 
 def check(problems: ProblemSet, roster: Roster) -> int:

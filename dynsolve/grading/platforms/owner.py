@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Owner:
+class FileOwner:
     """Whose file it is: `student` names the row, `id` is the platform's own, empty where there is none.
 
     `delivery` is what was handed in at once: its files belong together, another delivery

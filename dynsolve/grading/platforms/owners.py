@@ -14,16 +14,16 @@ from unicodedata import normalize
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.grading.platforms import canvas, gradescope, moodle
 from dynsolve.grading.platforms.gradescope import Submitters
-from dynsolve.grading.platforms.owner import Owner
+from dynsolve.grading.platforms.owner import FileOwner
 
 _MOST_AROUND = 4
 
 
-_NAMED_BY: tuple[Callable[[tuple[str, ...]], Owner | None], ...] = (moodle.owner, canvas.owner)
+_NAMED_BY: tuple[Callable[[tuple[str, ...]], FileOwner | None], ...] = (moodle.owner, canvas.owner)
 """Moodle first: a name of Moodle's may hold two numbers, as those of Canvas do."""
 
 
-class Owners:
+class FileOwners:
     """Tells whose file each one is; `files` are all that were handed in.
 
     `metadata` is Gradescope's, `late` are the platform's ids of those who were late, as
@@ -44,7 +44,7 @@ class Owners:
         self.submitters = metadata or {}
         self.late = late
 
-    def of(self, path: PurePosixPath) -> tuple[Owner, ...]:
+    def of(self, path: PurePosixPath) -> tuple[FileOwner, ...]:
         """The owners of a file: one, or the members of a group."""
         return tuple(
             replace(
@@ -55,7 +55,7 @@ class Owners:
             for owner in self._of(path)
         )
 
-    def _of(self, path: PurePosixPath) -> tuple[Owner, ...]:
+    def _of(self, path: PurePosixPath) -> tuple[FileOwner, ...]:
         for export in self.exports:
             owners = gradescope.owners(export, path, self.submitters)
             if owners:
@@ -66,9 +66,9 @@ class Owners:
             if owner is not None:
                 return (owner,)
         if len(parts) > 1:
-            return (Owner(parts[0], "", parts[0], "/".join(parts[1:])),)
+            return (FileOwner(parts[0], "", parts[0], "/".join(parts[1:])),)
         stem = PurePosixPath(parts[0]).stem
-        return (Owner(stem, "", stem, parts[0], certain=False),)
+        return (FileOwner(stem, "", stem, parts[0], certain=False),)
 
 
 def _wrapping(files: list[PurePosixPath], is_problem: Callable[[str], bool]) -> int:

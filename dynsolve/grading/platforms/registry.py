@@ -15,7 +15,7 @@ from dynsolve.grading.record import Record
 
 @dataclass(frozen=True, slots=True)
 class Platform:
-    """How a platform's files are written; `check` tells, before anything is graded, a faulty roster.
+    """How a platform's files are written; `check` raises for a faulty roster before anything is graded.
 
     A platform without a check needs no roster.  `late` tells the platform's ids of those
     who were late, where the roster says so; Canvas says it in the names of files.
@@ -67,7 +67,7 @@ def late(record: Record) -> frozenset[str]:
 
 
 def export(folder: Path, problems: ProblemSet, record: Record) -> tuple[str, ...]:
-    """Write the files of the platform that is kept, if one is; gives what deserves a look."""
+    """Write the files of the platform that is kept, if one is; returns warnings."""
     platform = record.run(_PLATFORM)
     if not platform:
         return ()

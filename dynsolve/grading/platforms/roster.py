@@ -119,7 +119,7 @@ def number(text: str) -> Fraction | None:
 
 
 def unmatched(standings: Iterable[Standing], seen: set[str], without: list[str], roster: Roster) -> list[str]:
-    """Who is in the hand-ins or in the roster alone."""
+    """Warnings on who is only in the hand-ins, or only in the roster."""
     lost = [standing.student for standing in standings if standing.student not in seen]
     found = []
     if lost:

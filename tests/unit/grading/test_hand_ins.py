@@ -11,7 +11,7 @@ import pytest
 
 from dynsolve.grading.hand_ins import Intake, take_in
 from dynsolve.grading.platforms.gradescope import read_metadata
-from dynsolve.grading.platforms.owners import Owners
+from dynsolve.grading.platforms.owners import FileOwners
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.set_file import load_set
 from dynsolve.grading.uploads import Uploads
@@ -73,7 +73,7 @@ def _intake(problems: ProblemSet, folder: Path, files: dict[str, str]) -> Intake
 )
 def test_names_of_the_platforms(name: str, student: str, id: str, late: bool) -> None:
     others = [PurePosixPath("x.csv"), PurePosixPath("y/z.yaml")]
-    (owner,) = Owners([PurePosixPath(name), *others]).of(PurePosixPath(name))
+    (owner,) = FileOwners([PurePosixPath(name), *others]).of(PurePosixPath(name))
     assert (owner.student, owner.id, owner.late) == (student, id, late)
 
 
