@@ -19,6 +19,8 @@ from dynsolve.derivation.graph import Derivation
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, times, total
 from dynsolve.notation.tree import ZERO, Node, Symbol
+from dynsolve.quantities import families
+from dynsolve.quantities.index import quantities
 from dynsolve.robot.model import Convention, Robot
 from dynsolve.robot.parallel import Turn, parallel_groups
 
@@ -92,24 +94,29 @@ class Forms:
     # -- long values from their parts --------------------------------------------------------------
 
     def _from_parts(self, name: str) -> Node | None:
-        for stem, way in (
-            ("dLdqd", self._momentum),
-            ("ddt", self._momentum_rate),
-            ("dLdq", self._slope),
-            ("tau", self._force),
-        ):
-            rest = name.removeprefix(stem)
-            if rest != name and rest.isdigit():
-                return way(int(rest) - 1)
-        whole = {"C": self._coriolis, "Cqd": self._coriolis_forces, "K": self._kinetic_energy}
-        if name in whole:
-            return whole[name]()
-        for body in self.robot.bodies:
-            if name == f"I{body.name}":
-                return self._base_inertia(body.name)
-            if name == f"K{body.name}":
-                return total([self(f"Kv{body.name}"), self(f"Kw{body.name}")])
-        return None
+        quantity = quantities(self.robot).of_rule(name)
+        if quantity is None:
+            return None
+        match quantity.family:
+            case families.K:
+                return self._kinetic_energy()
+            case families.C:
+                return self._coriolis()
+            case families.CQD:
+                return self._coriolis_forces()
+            case families.I:
+                return self._base_inertia(self.robot.bodies[quantity.index[0] - 1].name)
+            case families.K_BODY:
+                body = self.robot.bodies[quantity.index[0] - 1].name
+                return total([self(f"Kv{body}"), self(f"Kw{body}")])
+        of_coordinate = {
+            families.DLDQD: self._momentum,
+            families.DDT: self._momentum_rate,
+            families.DLDQ: self._slope,
+            families.FORCE: self._force,
+        }
+        way = of_coordinate.get(quantity.family)
+        return None if way is None else way(quantity.index[0] - 1)
 
     def _d(self, i: int, j: int) -> Node:
         D = self("D")

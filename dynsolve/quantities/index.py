@@ -195,6 +195,10 @@ class Quantities(Mapping[str, Quantity]):
     def _by_rule(self) -> dict[str, Quantity]:
         return {quantity.rule: quantity for quantity in self.values() if not quantity.is_read_off}
 
+    def result(self, name: str) -> Quantity | None:
+        """What a result is called by: its name, or that of its rule."""
+        return self.get(name) or self.of_rule(name)
+
     def of_family(self, family: Family) -> tuple[Quantity, ...]:
         """The members of a family, in their order."""
         return tuple(quantity for quantity in self.values() if quantity.family is family)

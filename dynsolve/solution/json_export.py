@@ -8,7 +8,7 @@ decimals of 15 digits, or as many as were asked for.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.document import Inline, Prose, Verbatim
@@ -17,9 +17,12 @@ from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.robot.model import Body, Robot
+from dynsolve.quantities.families import FAMILIES
+from dynsolve.quantities.family import Family, Owner
+from dynsolve.quantities.index import Quantity, quantities
+from dynsolve.robot.model import Robot
 from dynsolve.solution.dynamics import Dynamics
-from dynsolve.solution.numbers import quantities
+from dynsolve.solution.numbers import measures
 from dynsolve.solution.numbers.given import Given
 from dynsolve.solution.numbers.results import Numbers, State, Valued
 from dynsolve.solution.numbers.rounding import DIGITS
@@ -81,58 +84,33 @@ class _Exporter:
         self.latex = LatexPrinter(solution.style)
         self.unicode = UnicodePrinter(solution.style)
 
-    def scalar(self, name: str) -> str:
-        return self.python.text(self.forms(name))
-
-    def matrix(self, name: str) -> list[list[str]]:
-        form = self.forms(name)
-        assert isinstance(form, Matrix)
-        return [[self.python.text(entry) for entry in row] for row in form.rows]
-
-    def vector(self, name: str) -> list[str]:
-        return [entry for (entry,) in self.matrix(name)]
-
     def results(self) -> dict[str, Any]:
-        """`results`; of a robot without masses it ends with the Jacobian."""
+        """`results`, by the keys of the families; of a robot without masses it ends with the Jacobian."""
         robot = self.solution.robot
-        results: dict[str, Any] = {
-            "A": [self.matrix(f"A{joint.index}") for joint in robot.joints],
-            "H": [self.matrix(f"H{joint.index}") for joint in robot.joints],
-            "Jv": self.matrix("Jv"),
-            "Jw": self.matrix("Jw"),
-            "bodies": [self.body(body) for body in robot.bodies],
-        }
-        if not robot.bodies:
-            return results
-        return {
-            **results,
-            "P": self.scalar("P"),
-            "K": self.scalar("K"),
-            "L": self.scalar("L"),
-            "euler_lagrange": [self.equation(q.index) for q in robot.coordinates],
-            "tau": self.vector("tau"),
-            "D": self.matrix("D"),
-            "C": self.matrix("C"),
-            "g": self.vector("g"),
-        }
+        bodies: list[dict[str, Any]] = [{"name": body.name} for body in robot.bodies]
+        equations: list[dict[str, Any]] = [{} for _ in robot.coordinates]
+        results: dict[str, Any] = {}
+        for family in _exported(robot):
+            values = [self.value(quantity) for quantity in quantities(robot).of_family(family)]
+            match family.owner:
+                case Owner.ROBOT:
+                    (results[family.json],) = values
+                case Owner.ROW:
+                    results[family.json] = values
+                case Owner.BODY:
+                    _fill(results.setdefault("bodies", bodies), family.json, values)
+                case Owner.COORDINATE:
+                    _fill(results.setdefault("euler_lagrange", equations), family.json, values)
+        results.setdefault("bodies", bodies)
+        return results
 
-    def body(self, body: Body) -> dict[str, Any]:
-        b = body.name
-        return {
-            "name": b,
-            "r_c": self.vector(f"rc{b}"),
-            "R": self.matrix(f"R{b}"),
-            "Jv": self.matrix(f"Jv{b}"),
-            "Jw": self.matrix(f"Jw{b}"),
-            "v": self.vector(f"v{b}"),
-            "w": self.vector(f"w{b}"),
-            "I_body": self.matrix(f"I_body{b}"),
-            "I_base": self.matrix(f"I{b}"),
-            "P": self.scalar(f"P{b}"),
-            "Kv": self.scalar(f"Kv{b}"),
-            "Kw": self.scalar(f"Kw{b}"),
-            "K": self.scalar(f"K{b}"),
-        }
+    def value(self, quantity: Quantity) -> Any:
+        """A scalar as text, a matrix as its rows, a vector as its entries."""
+        form = self.forms(quantity.rule)
+        if not isinstance(form, Matrix):
+            return self.python.text(form)
+        rows = [[self.python.text(entry) for entry in row] for row in form.rows]
+        return [entry for (entry,) in rows] if quantity.family.is_vector else rows
 
     def abbreviated(self, short: Abbreviated) -> dict[str, Any]:
         """`abbreviated`; a definition uses those before it alone, and c_ijk is given for i ≤ j."""
@@ -153,15 +131,6 @@ class _Exporter:
                 {"i": i + 1, "j": j + 1, "k": k + 1, "value": self.python.text(value)}
                 for (i, j, k), value in short.christoffel.items()
             ],
-        }
-
-    def equation(self, k: int) -> dict[str, str]:
-        """The Euler-Lagrange equation of a coordinate."""
-        return {
-            "dL_dqdot": self.scalar(f"dLdqd{k}"),
-            "ddt": self.scalar(f"ddt{k}"),
-            "dL_dq": self.scalar(f"dLdq{k}"),
-            "force": self.scalar(f"tau{k}"),
         }
 
     def step(self, step: Step) -> dict[str, Any]:
@@ -187,6 +156,18 @@ class _Exporter:
             case Verbatim(text):
                 return text
         return self.unicode.text(part)
+
+
+def _exported(robot: Robot) -> Iterator[Family]:
+    """The families that `results` has, in their order."""
+    for family in FAMILIES:
+        if family.json and (robot.bodies or not family.stage.needs_masses):
+            yield family
+
+
+def _fill(rows: list[dict[str, Any]], key: str, values: list[Any]) -> None:
+    for row, value in zip(rows, values, strict=True):
+        row[key] = value
 
 
 # -- numbers ---------------------------------------------------------------------------------------
@@ -219,12 +200,14 @@ def _given(given: Given) -> dict[str, dict[str, str]]:
     }
 
 
-def _units(robot: Robot) -> list[tuple[str, str | quantities.Units]]:
-    names = ["P", "K", "L", "tau", "D", "C", "g"] if robot.bodies else []
-    return [(name, quantities.of_result(robot, name)) for name in names]
+def _units(robot: Robot) -> Iterator[tuple[str, str | measures.Units]]:
+    """The units of what the robot has one of, but for the Jacobian."""
+    for family in _exported(robot):
+        if family.owner is Owner.ROBOT and family.stage.needs_masses:
+            yield family.json, measures.of_result(robot, family.name)
 
 
-def _plain(unit: str | quantities.Units) -> Any:
+def _plain(unit: str | measures.Units) -> Any:
     if isinstance(unit, str):
         return unit
     rows = [list(row) for row in unit]

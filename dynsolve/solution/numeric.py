@@ -15,6 +15,7 @@ from dynsolve.notation.evaluate import DOTS, Program, compile_trees
 from dynsolve.notation.python import python_name
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem
+from dynsolve.quantities.index import quantities
 
 _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt}
 
@@ -48,7 +49,9 @@ class NumericFunction:
         states = {q + dots for q in coordinates for dots in DOTS}
         parameters = tuple(name for name in program.symbols if name not in states and name != "pi")
         defaults = {name: float(value) for name, value in problem.values.items()}
-        return NumericFunction(name, coordinates, parameters, defaults, program, _is_vector(name))
+        quantity = quantities(problem.robot).result(name)
+        is_vector = quantity is not None and quantity.family.is_vector
+        return NumericFunction(name, coordinates, parameters, defaults, program, is_vector)
 
     def __call__(
         self,
@@ -84,11 +87,6 @@ class NumericFunction:
                 f"{what} has {len(entries)} entries, the robot {len(self.coordinates)} coordinates"
             )
         return {name + dots: entry for name, entry in zip(self.coordinates, entries, strict=True)}
-
-
-def _is_vector(name: str) -> bool:
-    """Whether a quantity is a column vector by its nature, and not a matrix with one column."""
-    return name in ("tau", "g", "g_direct", "Cqd") or name.startswith(("rc", "v", "w"))
 
 
 def _flat(result: Any) -> list[Any]:

@@ -14,10 +14,10 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.model import Robot
-from dynsolve.solution.numbers import quantities
+from dynsolve.solution.numbers import measures
 from dynsolve.solution.numbers.given import GivenValue
-from dynsolve.solution.numbers.names import Shown, all_results, main_results
 from dynsolve.solution.numbers.results import Numbers, State, needed
+from dynsolve.solution.numbers.selection import Shown, all_results, main_results
 
 _WIDEST = 50
 """A matrix that is wider, in characters, has its unit by itself."""
@@ -114,7 +114,7 @@ def _shown(robot: Robot, name: str, letter: Node, result: Node) -> Iterator[Bloc
 
     A matrix that may be too wide for the page has its unit before it.
     """
-    unit = _unit(quantities.of_result(robot, name), letter)
+    unit = _unit(measures.of_result(robot, name), letter)
     formula = equation(letter, result)
     if unit is None:
         yield Formula(formula, entries=_entries(robot, name))
@@ -127,7 +127,7 @@ def _shown(robot: Robot, name: str, letter: Node, result: Node) -> Iterator[Bloc
         yield Formula(equation(letter, Row((result, Words(lead), unit))))
 
 
-def _unit(unit: str | quantities.Units, letter: Node) -> Node | None:
+def _unit(unit: str | measures.Units, letter: Node) -> Node | None:
     """The unit of a result, a matrix of units where entries differ; None where nothing is to be said."""
     if isinstance(unit, str):
         return units.node(unit) if unit else None

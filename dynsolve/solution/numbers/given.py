@@ -22,7 +22,7 @@ from dynsolve.notation.tree import Degrees, Negative, Node, Number, Product, num
 from dynsolve.problem import Problem
 from dynsolve.robot import units
 from dynsolve.robot.model import JointType, Robot
-from dynsolve.solution.numbers import quantities
+from dynsolve.solution.numbers import measures
 from dynsolve.solution.numbers.assignments import Assignment
 from dynsolve.solution.numbers.substitution import Replacements
 
@@ -127,7 +127,7 @@ def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
         reader.report(Finding(message, f"a state gives every coordinate: add {example}", option))
     whole = {
         (q.name, dots): entries.get(
-            (q.name, dots), GivenValue(Number(0), "0", quantities.of_coordinate(q, dots))
+            (q.name, dots), GivenValue(Number(0), "0", measures.of_coordinate(q, dots))
         )
         for dots in (0, 1, 2)
         for q in robot.coordinates
@@ -180,7 +180,7 @@ class _Reader:
         self.problem, self.robot = problem, problem.robot
         self.findings: list[Finding] = []
         self.warnings: list[Finding] = []
-        self.dimensions = quantities.of_parameters(self.robot)
+        self.dimensions = measures.of_parameters(self.robot)
         self.angles = _angle_names(self.robot)
 
     def report(self, finding: Finding) -> None:
@@ -292,7 +292,7 @@ class _Reader:
             return given
         for q in self.robot.coordinates:
             if q.name == name:
-                return quantities.of_coordinate(q, dots) if dots or name not in self.angles else ""
+                return measures.of_coordinate(q, dots) if dots or name not in self.angles else ""
         return units.si(self.dimensions[name]) if name in self.dimensions else ""
 
     def measured(self, key: Key, entry: GivenValue) -> GivenValue:
