@@ -1,7 +1,7 @@
 """A report as a document: what a student reads, or a teacher.
 
 The first slip comes first; what rests on it is said to rest on it.  A student is
-told as much as the rung of the ladder allows (1 where, 2 what kind, 3 how), and
+told as much as the level of hints allows (1 where, 2 what kind, 3 how), and
 never the solution; a teacher sees the differences too.
 """
 
@@ -64,7 +64,7 @@ _MOST = 2000
 
 @dataclass(frozen=True, slots=True)
 class FeedbackView:
-    """How much is shown: the rung of the ladder, whether differences are, whether every reading is."""
+    """How much is shown: the level of hints, a teacher's differences, how correct answers were read."""
 
     level: int = 3
     teacher: bool = False

@@ -11,7 +11,7 @@ FORMAT = "dynsolve-check/1"
 
 
 def to_json(report: Report, *, level: int = 3, teacher: bool = False) -> dict[str, Any]:
-    """The report as JSON; `level` is the rung of the ladder of hints that diagnoses are told to."""
+    """The report as JSON; `level` is the level of hints, see `told`."""
     return {
         "format": FORMAT,
         "problem": report.problem,
@@ -70,7 +70,7 @@ def _entry(entry: EntryVerdict, level: int, teacher: bool) -> dict[str, Any]:
 
 
 def told(diagnosis: Diagnosis, level: int) -> dict[str, str]:
-    """A diagnosis as far as a rung of the ladder tells it: 1 where, 2 what kind, 3 how."""
+    """A diagnosis at a level of hints: 1 says where, 2 what kind of slip, 3 how."""
     if level >= 3:
         return {"code": diagnosis.code, "message": diagnosis.message}
     if level == 2:

@@ -1,10 +1,10 @@
-"""The net beneath the bounds: hand-ins are read and judged in a process with limits.
+"""Hand-ins are read and judged in a child process with limits of time and memory.
 
-Bounds on work are counted before anything is formed; still, a library in C cannot
-be interrupted, and ends its process where memory ends.  So a hand-in is worked on
-in a child with a limit on processor time, never on the clock, so that no verdict
-depends on how busy the machine is, and one on memory.  Where a child is stopped,
-the answers are tried one by one, and what stops its child is unreadable.
+The reader and the ring bound their work before it is done; still, a library in C cannot
+be interrupted, and aborts its process where memory ends.  The limit of time is on the
+processor, not on the clock, so that no verdict depends on how busy the machine is.
+Where a child is stopped, the answers are tried one by one, and what stops its child is
+unreadable.
 """
 
 from __future__ import annotations
