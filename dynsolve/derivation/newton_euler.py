@@ -153,11 +153,11 @@ def inverse_dynamics(arm: Arm, qd: Sequence[float], qdd: Sequence[float], gravit
                 f, m = _wrench(mass, frames[link])
                 force, moment = plus(force, f), plus(moment, m)
         for axis in reversed(axes[link - 1]):
-            held = moment if axis.motion.turns else force
+            load = moment if axis.motion.turns else force
             if axis.motion.turns:
-                held = minus(moment, cross(axis.point, force))
+                load = minus(moment, cross(axis.point, force))
             for k, rate in axis.motion.rates:
-                tau[k] += rate * dot(axis.direction, held)
+                tau[k] += rate * dot(axis.direction, load)
     return tau
 
 

@@ -1,7 +1,8 @@
-"""The results against an independent computation: recursive Newton-Euler at random states.
+"""The results compared with an independent computation: recursive Newton-Euler at random states.
 
-What is printed is evaluated, tree by tree, and held against `dynsolve.derivation.newton_euler`,
-which shares no formula with `dynsolve.derivation`.
+The trees that are printed are evaluated and compared with `dynsolve.derivation.newton_euler`, which
+shares no formula with the rest of the derivation.  First the robot is put in numbers (an `Arm`),
+then each result is compared: H and J of the last frame, D, C q̇, g, τ, K and P.
 """
 
 from __future__ import annotations
@@ -63,7 +64,7 @@ class Verification:
 
 
 def verify(robot: Robot, results: Mapping[str, Node], states: int = 5) -> Verification:
-    """Hold printed forms against recursive Newton-Euler at random states.
+    """Compare printed forms with recursive Newton-Euler at random states.
 
     `results` are trees by name: `tau`, `D`, `C`, `g`, `K`, `P`, or, of a robot
     without masses, the last `H` and `J`; those that are absent are passed over.
@@ -105,7 +106,7 @@ def _draw(robot: Robot, random: Random) -> tuple[dict[str, float], Arm]:
 
 def _arm(robot: Robot, values: Mapping[str, float]) -> Arm:
     at_rest = {**values, **dict.fromkeys((q.name for q in robot.coordinates), 0.0)}
-    numbers = _Numbers(robot, at_rest)
+    numbers = _RobotNumbers(robot, at_rest)
     q = [values[c.name] for c in robot.coordinates]
     rows = tuple(numbers.row(joint, q) for joint in robot.joints)
     home = tuple(numbers.row(joint, [0.0] * robot.n) for joint in robot.joints)
@@ -121,8 +122,8 @@ def _arm(robot: Robot, values: Mapping[str, float]) -> Arm:
 
 
 @dataclass(frozen=True, slots=True)
-class _Numbers:
-    """What the robot's formulas are worth at q = 0."""
+class _RobotNumbers:
+    """The values of the robot's formulas at q = 0."""
 
     robot: Robot
     values: Mapping[str, float]
@@ -204,7 +205,7 @@ def _errors(arm: Arm, ours: Mapping[str, list[list[float]]]) -> Iterator[tuple[s
         "g": [[x] for x in inverse_dynamics(arm, still, still, arm.gravity)],
         "tau": [[x] for x in inverse_dynamics(arm, arm.qd, arm.qdd, arm.gravity)],
     }
-    size = max(_floor(arm), *(_size(matrix) for matrix in theirs.values())) or 1.0
+    size = max(_negligible(arm), *(_size(matrix) for matrix in theirs.values())) or 1.0
     mine = {**ours, "Cqd": [[sum(c * x for c, x in zip(row, arm.qd, strict=True))] for row in ours["C"]]}
     for name, matrix in theirs.items():
         if name in mine:
@@ -214,7 +215,7 @@ def _errors(arm: Arm, ours: Mapping[str, list[list[float]]]) -> Iterator[tuple[s
             yield name, _distance([[ours[name]]], [[value]]) / max(size, abs(value))  # type: ignore[list-item]
 
 
-def _floor(arm: Arm) -> float:
+def _negligible(arm: Arm) -> float:
     """The size below which results count as 0: a body that no joint can move leaves only rounding."""
     frames, axes = outwards(arm, arm.qd, arm.qdd, ZERO)
     slides = any(not axis.motion.turns for row in axes for axis in row)

@@ -26,8 +26,8 @@ SKEW = Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C)))
 
 def agreement_step(context: Context) -> Step:
     """Whether D, C q̇ and g, read off from the forces, are those assembled directly."""
-    held = context.agreement or agreement(context.robot, context.values)
-    verdicts = {"D": held.inertia, "C q̇": held.coriolis, "g": held.gravity}
+    agreed = context.agreement or agreement(context.robot, context.values)
+    verdicts = {"D": agreed.inertia, "C q̇": agreed.coriolis, "g": agreed.gravity}
     same = [name for name, holds in verdicts.items() if holds]
     wrong = [name for name, holds in verdicts.items() if not holds]
     why = ""

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from dynsolve.solution.numbers.results import Numbers
 
 CHECKED = ("J", "D", "C", "g", "tau", "K", "P")
-"""The results that are held against the independent computation, besides the last H."""
+"""The results that are compared with the independent computation, besides the last H."""
 
 Progress = Callable[[int, int], None]
 """progress(done, of)"""
@@ -102,7 +102,7 @@ class Dynamics:
         return steps if short is None else in_names(steps, context, short)
 
     def abbreviated(self, abbreviate: Abbreviate | str = "always") -> Abbreviated | None:
-        """D, C and g with constants and recurring terms named; held against the independent computation.
+        """D, C and g with constants and recurring terms named; compared with the independent computation.
 
         With `auto` None where they are short enough to be read, with `never` always None.
 

@@ -52,7 +52,7 @@ def solve(
 
     `problem` is a `Problem`, a path, the stem of a bundled problem, or the text of
     a problem file (with line breaks).  `states` is the number of random states at
-    which the result is held against recursive Newton-Euler; `progress(done, of)` is
+    which the result is compared with recursive Newton-Euler; `progress(done, of)` is
     told how far the work is.
 
     Raises ProblemError for a faulty problem, VerificationError where the result
