@@ -1,1 +1,14 @@
-"""What the derivation names."""
+"""What the derivation names: A_1, J_v2, K_v1, ∂L/∂q̇_1, τ, D, c_121, C q̇, ..., one record a family.
+
+    stages      the stages of the derivation, with their headings
+    family      what a record says: owner, shape, dimension, letter, spellings, parts
+    families    the records, in the order of the derivation
+    index       the quantities of one robot by name: which there are, what is part of what
+    letters     what they are set with; the printers make every notation of it
+    spelling    how students spell names
+
+To add a quantity, write its record in `families` (at its place in the derivation), its
+formula and its rule in `dynsolve.derivation`, and its step in `dynsolve.explain`.  A
+quantity of something that robots did not have so far also needs an owner in `family`, and
+`Owners` in `index` to say which ones a robot has.
+"""
