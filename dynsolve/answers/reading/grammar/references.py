@@ -10,6 +10,9 @@ from dynsolve.notation.tree import (
     Reference,
     Symbol,
 )
+from dynsolve.quantities import families
+from dynsolve.quantities.family import Owner
+from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.spelling import key
 
 _OWN_ON_THE_RIGHT = frozenset({"h", "c"})
@@ -23,13 +26,13 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
     if name in _OWN_ON_THE_RIGHT and not reader.naming:
         return None
     if form.script and name.startswith("I"):
-        names = tuple(n for n in names if n.startswith("I") and not n.startswith("I_body"))
+        names = tuple(n for n in names if vocabulary.quantities[n].family is families.I)
     if form.dots:
         if name.startswith("rc") and form.dots == 1:
             names = vocabulary.named("v" + name[2:])
         else:
             return None
-    names, framed = _framed(form, names)
+    names, framed = _framed(vocabulary.quantities, form, names)
     if not names:
         return None
     skip_arguments(reader)
@@ -43,24 +46,24 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
     return reader.with_scripts(value, scripts, form.start)
 
 
-def _framed(form: Form, names: tuple[str, ...]) -> tuple[tuple[str, ...], bool]:
+def _framed(quantities: Quantities, form: Form, names: tuple[str, ...]) -> tuple[tuple[str, ...], bool]:
     """The quantity in view of the frame that stands as its exponent: H_1^0, H_2^1."""
     powers = form.scripts.powers
     if not powers or not names:
         return names, False
-    first, frame = names[0], powers[0]
-    if first[0] in "HA" and first[1:].isdigit() and frame.denominator == 1 and frame >= 0:
-        i = int(first[1:])
-        if frame == 0 and (first[0] == "H" or i == 1):
+    first, frame = quantities[names[0]], powers[0]
+    if first.family.owner is Owner.ROW and frame.denominator == 1 and frame >= 0:
+        i = first.index[0]
+        if frame == 0 and (first.family is families.H or i == 1):
             return names, True
         if frame == i - 1:
             return (f"A{i}",), True
         return (f"H{i}",) if frame == 0 else (), True
     if frame == 0:
-        if first.startswith("I_body"):
-            return tuple(n for n in names if not n.startswith("I_body")) or names, True
+        if first.family is families.I_BODY:
+            return tuple(n for n in names if quantities[n].family is not families.I_BODY) or names, True
         return names, True
-    if first.startswith("I") and frame == 1 and "I_body" in first:
+    if first.family is families.I_BODY and frame == 1:
         return names[:1], True
     return names, False
 
