@@ -99,7 +99,7 @@ def grade_all(
     record.write_all(rows_of_absent(problems, intake, known))
     results = _results(pool, due, partial(_submitted, pool, problems, uploads))
     for done, (hand_in, said) in enumerate(results, 1):
-        record.write_all([row_of_result(problems, hand_in, said, bounds)])
+        record.write(*row_of_result(problems, hand_in, said, bounds))
         if advance is not None:
             advance(done, len(due))
     return Done(len(intake.hand_ins), len(due), len(changed) - len(due))
