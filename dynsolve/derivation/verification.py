@@ -106,7 +106,7 @@ def _draw(robot: Robot, random: Random) -> tuple[dict[str, float], Arm]:
 
 def _arm(robot: Robot, values: Mapping[str, float]) -> Arm:
     at_rest = {**values, **dict.fromkeys((q.name for q in robot.coordinates), 0.0)}
-    numbers = _RobotNumbers(robot, at_rest)
+    numbers = _RobotValues(robot, at_rest)
     q = [values[c.name] for c in robot.coordinates]
     rows = tuple(numbers.row(joint, q) for joint in robot.joints)
     home = tuple(numbers.row(joint, [0.0] * robot.n) for joint in robot.joints)
@@ -122,7 +122,7 @@ def _arm(robot: Robot, values: Mapping[str, float]) -> Arm:
 
 
 @dataclass(frozen=True, slots=True)
-class _RobotNumbers:
+class _RobotValues:
     """The values of the robot's formulas at q = 0."""
 
     robot: Robot
