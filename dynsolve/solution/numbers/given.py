@@ -15,6 +15,7 @@ from typing import Protocol
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, Finding, InputError, ReadError
+from dynsolve.explain.writing import and_joined
 from dynsolve.notation.names import normalize
 from dynsolve.notation.text import read
 from dynsolve.notation.tokens import tokens
@@ -123,7 +124,7 @@ def state(problem: Problem, assignments: Iterable[Assignment]) -> Given:
             f"{q.name}={'30deg' if q.type is JointType.REVOLUTE else '0.2'}"
             for q in robot.coordinates if q.name in lacking
         )  # fmt: skip
-        message = f"the state lacks {_listed(lacking)}"
+        message = f"the state lacks {and_joined(lacking)}"
         reader.report(Finding(message, f"a state gives every coordinate: add {example}", option))
     whole = {
         (q.name, dots): entries.get(
@@ -343,7 +344,3 @@ def _angle_names(robot: Robot) -> frozenset[str]:
     alone = {atom[0][0] for angle in angles for atom, _ in angle.terms if len(atom) == 1 and atom[0][1] == 1}
     turning = {q.name for q in robot.coordinates if q.type is JointType.REVOLUTE}
     return frozenset((alone | turning) - {q.name for q in robot.coordinates if q.name not in turning})
-
-
-def _listed(names: list[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
