@@ -119,14 +119,9 @@ def _force(vocabulary: Vocabulary, value: Value) -> str:
 
 def _whole(vocabulary: Vocabulary, value: Grid) -> tuple[str, ...]:
     """The matrix whose entries are all names: [tau_1; f_2] is tau."""
-    n = len(vocabulary.coordinates)
-    forces = [q.force for q in vocabulary.coordinates]
-    numbers = range(1, n + 1)
-    wholes: dict[str, list[list[str]]] = {
-        "tau": [[force] for force in forces],
-        "g": [[f"g{i}"] for i in numbers],
-        "D": [[f"d{i}{j}" for j in numbers] for i in numbers],
-        "C": [[f"C{i}{j}" for j in numbers] for i in numbers],
-    }
-    written = [[str(entry) if isinstance(entry, Reference) else "" for entry in row] for row in value.rows]
-    return next(((name,) for name, rows in wholes.items() if rows == written), ())
+    quantities = vocabulary.quantities
+    written = [str(entry) if isinstance(entry, Reference) else "" for row in value.rows for entry in row]
+    whole = quantities.get(quantities.entry_of(written[0])[0]) if written else None
+    if whole is None or whole.shape != value.shape or quantities.parts(whole.name) != tuple(written):
+        return ()
+    return (whole.name,)
