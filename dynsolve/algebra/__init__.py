@@ -1,1 +1,14 @@
-"""Exact expressions: the trigonometric polynomial ring and its compact form."""
+"""Exact expressions: the ring of polynomials in sines, cosines and symbols, and their compact form.
+
+Arrows run one way, from the first of these files to the last:
+
+- `rationals`, `angles`, `integer_basis`, `constants`: numbers, linear forms of angles, a
+  basis of which every angle is an integer combination, cosines of constant angles;
+- `contents`, `ring_plan`, `generators`: what formulas hold, what a ring must hold for
+  them, and the variables of its polynomials in order;
+- `relations`, `expr`, `ring`: s² + c² = 1 and the normal form, the elements, the ring with
+  its derivatives; `floats`: values in floating point;
+- `fraction`, `evaluate`, `build`, `matrix`: fractions, the value of a formula, making a
+  ring, matrices;
+- `fourier`, `compact`: the Fourier form, and what a textbook would print.
+"""

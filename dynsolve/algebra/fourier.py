@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from functools import lru_cache
 
 Multiples = tuple[int, ...]
 """An angle as integer multiples n of the basic angles."""
@@ -29,9 +28,6 @@ FourierForm = dict[Multiples, tuple[Fraction, Fraction]]
 
 _Exponentials = dict[Multiples, tuple[int, int]]
 """Σ (x + iy) e^{i n·α}: {n: (x, y)}"""
-
-KNOWN_PRODUCTS = 4096
-"""So many products of powers are remembered: the same few occur in every coefficient of one robot."""
 
 
 def fourier_form(polynomial: Mapping[Powers, int | Fraction]) -> FourierForm:
@@ -69,7 +65,6 @@ def positive(n: Multiples) -> tuple[int, Multiples]:
     return (1, n) if last > 0 else (-1, tuple(-x for x in n))
 
 
-@lru_cache(maxsize=KNOWN_PRODUCTS)
 def _exponentials(exponents: Powers) -> _Exponentials:
     """2^Σexponents Π sin^a cos^b in exponentials, those at `positive` n alone."""
     product: _Exponentials = {(0,) * (len(exponents) // 2): (1, 0)}

@@ -41,7 +41,10 @@ SMALL_WHOLE = 9
 
 
 class Collector:
-    """Writes polynomials in plain symbols as trees, each once."""
+    """Writes polynomials in plain symbols as trees.
+
+    A sum is written once and remembered: PUMA 560 would take half as long again without.
+    """
 
     def __init__(self, atoms: AtomTable, *, decimal: bool = False) -> None:
         self.atoms = atoms

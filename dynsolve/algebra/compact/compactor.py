@@ -73,6 +73,7 @@ class Compactor:
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
         self.collector = Collector(self._atoms.table, decimal=decimal)
         self._angles_outside = angles_outside
+        # The entries of D and C come again in the steps and in τ; a 7R arm would take a sixth longer without.
         self._forms: dict[str, Node] = {}
         self._coefficients: dict[tuple[TermLayout, frozenset[tuple[Exponents, Rational]]], Node] = {}
 

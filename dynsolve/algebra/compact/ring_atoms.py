@@ -21,7 +21,8 @@ class RingAtoms:
 
     `kinds` says of every generator whether it is `leading` (named in `leading`), another
     `parameter`, a `rate` (velocity or acceleration) or an `angle`; `groups` are the ring's
-    angles; `form` writes the denominator that an inverse stands for.
+    angles; `form` writes the denominator that an inverse stands for.  The atom of a sine or
+    cosine is made once: PUMA 560 would take a fifth longer without.
     """
 
     def __init__(
