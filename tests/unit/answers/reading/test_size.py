@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from dynsolve.answers.reading.size import size
 
+from dynsolve.answers.reading.limits import check_size
 from dynsolve.errors import ReadError
+from dynsolve.notation.size import Size, size
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Node, Number, Power, Product, Sum, Symbol
 
@@ -22,7 +23,7 @@ SIZES = [
 
 @pytest.mark.parametrize(("text", "terms_and_degree"), SIZES)
 def test_terms_and_degree_of_a_value(text: str, terms_and_degree: tuple[int, int]) -> None:
-    assert size(read(text).tree)[2:] == terms_and_degree
+    assert size(read(text).tree, Size(100, 100, 100, 100))[2:] == terms_and_degree
 
 
 def _nested(levels: int) -> Node:
@@ -46,7 +47,7 @@ TERMS = Power(Sum(tuple(Symbol(letter) for letter in "abcdefgh")), Number(20))
 def test_a_value_over_the_bounds_is_refused(make: Callable[[], Node]) -> None:
     node = make()
     try:
-        size(node)
+        check_size(node)
     except ReadError:
         return
     pytest.fail("nothing was refused")
