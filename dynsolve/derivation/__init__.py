@@ -22,8 +22,9 @@ And the independent check, which shares no formula with any of these:
     verification    what is printed, evaluated at random states, against that
 
 A rule takes exact values and returns an exact value, and does nothing else: what a
-person reads of it is made in `dynsolve.explain`.  To add a quantity, write its formula
-in the file of its section and its rule in `rules`.  Values put into a `Derivation`
+person reads of it is made in `dynsolve.explain`.  To add a quantity, write its record
+in `dynsolve.quantities.families`, its formula in the file of its section and its rule in
+`rules`.  Values put into a `Derivation`
 stand for their rules, and what depends on them follows: so an answer that follows from
 an earlier slip is recognized, and a slip is the graph with one rule replaced.
 """
