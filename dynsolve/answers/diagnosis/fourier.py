@@ -111,7 +111,13 @@ def monomials(expr: Expr) -> list[Monomial]:
 
 
 def _fourier_terms(terms: Mapping[tuple[int, ...], Fraction]) -> tuple[tuple[TrigFunction, Fraction], ...]:
-    return tuple(sorted(terms_of(fourier_form(terms))))
+    """The terms of a Fourier form, sorted; here the first multiple that is not 0 is positive."""
+    found = []
+    for (name, n), factor in terms_of(fourier_form(terms)):
+        if next((x for x in n if x), 0) < 0:
+            n, factor = tuple(-x for x in n), (-factor if name == "sin" else factor)
+        found.append(((name, n), factor))
+    return tuple(sorted(found))
 
 
 def angle_of(ring: Ring, function: TrigFunction) -> Angle:
