@@ -91,6 +91,11 @@ class ParsedBody:
     faulty: bool
 
     @property
+    def is_point(self) -> bool:
+        """Whether it has no inertia about its mass centre: no tensor, and no shape with an extent."""
+        return self.tensor is None and (self.shape is None or self.shape.kind == "point")
+
+    @property
     def values(self) -> list[Cell]:
         """Every expression in it whose value is constant in the link: all but angles."""
         cells = [self.mass, *(self.center.cells if self.center else ())]

@@ -60,12 +60,20 @@ def _read_find(faults: Faults, node: YamlNode | None, names: Quantities | None) 
     )
     found: dict[str, None] = {}
     for item in listed:
-        name = _answer(faults, item, names)
-        if name in found:
-            faults.error(item.span, f"{name} is asked for twice", "keep one of them")
-        elif name:
+        for name in _answers(faults, item, names):
+            if name in found:
+                faults.error(item.span, f"{name} is asked for twice", "keep one of them")
             found[name] = None
     return tuple(found)
+
+
+def _answers(faults: Faults, node: YamlNode, names: Quantities | None) -> tuple[str, ...]:
+    """What an item of `find` asks for: one answer, or all of a family."""
+    family = names.members(node.text) if names is not None and isinstance(node, ScalarNode) else ()
+    if family:
+        return family
+    name = _answer(faults, node, names)
+    return (name,) if name else ()
 
 
 def _answer(faults: Faults, node: YamlNode, names: Quantities | None) -> str | None:

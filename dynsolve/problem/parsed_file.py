@@ -36,7 +36,9 @@ class ParsedFile:
     @property
     def owners(self) -> Owners:
         """What the answers to this problem can belong to."""
-        return Owners(len(self.table.rows), self.coordinates, tuple(body.name for body in self.bodies))
+        names = tuple(body.name for body in self.bodies)
+        points = frozenset(body.name for body in self.bodies if body.is_point)
+        return Owners(len(self.table.rows), self.coordinates, names, points)
 
     @property
     def rotations(self) -> Iterator[ParsedRotation]:

@@ -147,6 +147,29 @@ class Quantities(Mapping[str, Quantity]):
         found = self._by_name.get(self._aliases.get(text, text))
         return found.name if found is not None and found.family.is_answer else None
 
+    def members(self, text: str) -> tuple[str, ...]:
+        """The answers that `find` calls so: one, or all of a family (`rc`, `Kv`, `c`); none for what is none.
+
+        Symbols that are equal by their nature (c_121 and c_211) are asked for once.
+        """
+        found = {
+            (quantity.whole, quantity.entry) if quantity.entry else quantity.name: quantity.name
+            for quantity in reversed(self._families.get(text.strip(), ()))
+            if quantity.family.is_answer and self.is_real(quantity)
+        }
+        name = None if found else self.canonical(text)
+        return (name,) if name else tuple(sorted(found.values(), key=self.place))
+
+    @cached_property
+    def _families(self) -> dict[str, list[Quantity]]:
+        """The quantities of each family that has a name of its own, which no single answer has."""
+        found: dict[str, list[Quantity]] = {}
+        for quantity in self.values():
+            stem = quantity.family.name.partition("{")[0]
+            if quantity.index and stem not in self._by_name:
+                found.setdefault(stem, []).append(quantity)
+        return found
+
     @cached_property
     def _aliases(self) -> dict[str, str]:
         found: dict[str, str] = {}

@@ -211,12 +211,40 @@ def test_exact_lists_of_axes() -> None:
 
 def test_the_exercise() -> None:
     text = "values: {l1: 0.4, θ: 30deg}\nunits: {l1: m}\nmarks: {M: 2.5, f2: 3, K1: 4}\n"
-    problem = read_problem(text + "find: [phi1, f1, c, M, m12]\n" + PLANAR + "masses: [{mass: m, link: 1}]")
+    problem = read_problem(text + "find: [phi1, f1, Cqd, M, m12]\n" + PLANAR + "masses: [{mass: m, link: 1}]")
     assert problem.values["l1"] == Fraction(2, 5)
     assert float(problem.values["theta"]) == pytest.approx(0.5235987755982988, abs=1e-15)
     assert problem.units == {"l1": "m"}
     assert problem.marks == {"D": Fraction(5, 2), "tau2": 3, "K1": 4}
     assert problem.find == ("g1", "tau1", "Cqd", "D", "d12")
+
+
+FAMILIES = {
+    "A": "A1 A2",
+    "H": "H1 H2",
+    "rc": "rc1 rcp",
+    "v": "v1 vp",
+    "w": "w1 wp",
+    "Kv": "Kv1 Kvp",
+    "Kw": "Kwp",  # a point mass has none
+    "dLdqd": "dLdqd1 dLdqd2",
+    "ddt": "ddt1 ddt2",
+    "dLdq": "dLdq1 dLdq2",
+    "c": "c111 c112 c121 c122 c221 c222",  # c_211 is c_121
+    "K": "K",
+    "g": "g",
+    "Jv": "Jv",
+    "tau": "tau",
+}
+
+
+@pytest.mark.parametrize(("asked", "found"), FAMILIES.items())
+def test_a_family_stands_for_all_its_members(asked: str, found: str) -> None:
+    rod = "{name: p, mass: m2, link: 2, shape: {rod: {length: l}}, center: tip}"
+    bodies = f"masses: [{{mass: m1, link: 1}}, {rod}]\n"
+    table = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l}]\n"
+    assert read_problem(f"{table}{bodies}find: [{asked}]\n").find == tuple(found.split())
+    assert read_problem(f"{table}{bodies}find: {asked}\n").find == tuple(found.split())
 
 
 def test_parts_of_a_file_have_places() -> None:
