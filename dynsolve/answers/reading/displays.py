@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from dynsolve.answers.reading.lexer import SEPARATORS, Token
+from dynsolve.answers.reading.limits import MAX_LENGTH
 from dynsolve.answers.submission import Place
 
 Locate = Callable[[int, int], Place]
@@ -20,6 +22,42 @@ class Display:
     label: str
     locate: Locate
     plain: bool = False
+
+
+_GOES_ON = re.compile(r"[\s&]*(?:\\(?:quad|qquad|,|;|!|\s))*\s*(?:[-+=*/]|\\(?:cdot|times)(?![A-Za-z]))")
+_IS_OPEN = re.compile(r"(?:[-+=*/(\[]|\\(?:cdot|times|left[(\[]))[\s&]*(?:\\\\)?\s*\Z")
+"""How a display begins that goes on with the one before, and how one ends that has not ended."""
+
+
+def continued(displays: Sequence[tuple[int, Display]]) -> list[tuple[int, Display]]:
+    """The displays, those that are one equation put together: `P = a` and, below it, `+ b`."""
+    found: list[tuple[int, Display]] = []
+    for offset, display in displays:
+        before = found[-1][1] if found else None
+        if before is not None and not before.plain and not display.plain and _is_one(before.text, display.text):
+            found[-1] = (found[-1][0], _joined(before, display))
+        else:
+            found.append((offset, display))
+    return found
+
+
+def _is_one(before: str, text: str) -> bool:
+    if "=" not in before or len(before) + len(text) > MAX_LENGTH:
+        return False
+    begins = _GOES_ON.match(text)
+    if begins is not None:
+        return begins.group().strip(" &\n").endswith("=") or "=" not in text
+    return _IS_OPEN.search(before) is not None and "=" not in text
+
+
+def _joined(first: Display, second: Display) -> Display:
+    border = len(first.text) + 1
+
+    def locate(offset: int, length: int) -> Place:
+        return first.locate(offset, length) if offset < border else second.locate(offset - border, length)
+
+    label = " ".join(filter(None, (first.label, second.label)))
+    return Display(f"{first.text} {second.text}", label, locate)
 
 
 @dataclass(slots=True)
@@ -49,10 +87,13 @@ def equations(tokens: list[Token]) -> list[Equation]:
 def _unwrapped(tokens: list[Token]) -> list[Token]:
     r"""The rows of a system in `\left\{ \begin{array} ... \end{array} \right.`; others as they are."""
     inside = [t for t in tokens if t.kind not in ("end", "tag")]
+    one_sided = _is_one_sided(inside)
     if inside and inside[0].text in ("\\{", "\\lbrace"):
         inside = inside[1:]
-        if inside and inside[-1].text in ("\\}", "\\rbrace"):
-            inside = inside[:-1]
+    if inside and inside[-1].text in ("\\}", "\\rbrace"):
+        inside = inside[:-1]
+    if one_sided:
+        tokens = [*inside, *(t for t in tokens if t.kind in ("tag", "end"))]
     if len(inside) < 3 or inside[0].kind != "begin" or inside[-1].kind != "close":
         return tokens
     level, holds = 0, False
@@ -62,6 +103,14 @@ def _unwrapped(tokens: list[Token]) -> list[Token]:
             return tokens
         holds = holds or (level == 1 and token.kind == "=")
     return [*inside[1:-1], *(t for t in tokens if t.kind in ("tag", "end"))] if holds else tokens
+
+
+def _is_one_sided(tokens: list[Token]) -> bool:
+    r"""Whether a brace beside a system of equations, `\left\{ ... \right.`, has no other one."""
+    level = sum(_OPENS.get(t.kind, 0) for t in tokens if t.kind in ("(", ")"))
+    if not tokens or abs(level) != 1:
+        return False
+    return tokens[0 if level == 1 else -1].text in (("\\{", "\\lbrace") if level == 1 else ("\\}", "\\rbrace"))
 
 
 def is_label(tokens: list[Token]) -> str:
@@ -153,7 +202,7 @@ def _pieces(row: list[Token]) -> list[list[Token]]:
     r"""The equations that stand beside one another in a row: `P_1 = 0, \quad P_2 = 0`."""
     merged: list[list[Token]] = []
     for boundary, piece in _cut(row):
-        if _is_words(piece):
+        if _is_words(piece) or (merged and _is_remark(piece)):
             continue
         if not merged:
             merged.append(piece)
@@ -191,6 +240,14 @@ def _cut(row: list[Token]) -> list[tuple[Token | None, list[Token]]]:
 
 def _is_words(piece: list[Token]) -> bool:
     return not piece or all(t.kind in _ENDINGS or t.kind == "text" for t in piece)
+
+
+def _is_remark(piece: list[Token]) -> bool:
+    r"""Whether what stands beside an equation says something else of it: `c \in \mathbb{R}^2`, `m > 0`."""
+    return not _is_equation(piece) and any(t.text in _RELATIONS for t in piece)
+
+
+_RELATIONS = frozenset("in ni notin subset forall exists neq ne geq ge leq le gt lt to mapsto < >".split())
 
 
 def _is_equation(piece: list[Token]) -> bool:

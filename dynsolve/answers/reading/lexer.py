@@ -8,6 +8,7 @@ means the same as another (`\cdot`, `·`) is one more row in a table here.
 from __future__ import annotations
 
 import re
+import unicodedata
 from typing import NamedTuple
 
 from dynsolve.answers.reading.limits import MAX_IDENTIFIER, MAX_LENGTH, MAX_TOKENS
@@ -33,6 +34,8 @@ class Token(NamedTuple):
 
 
 _DOTTED = {"\u0307": 1, "\u0308": 2}
+_PRECOMPOSED = "ȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏżḦḧẍẅÿ"
+"""Letters that Unicode has with their dots, in one code point."""
 _GREEK = "".join(SPELLED)
 _LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳ"
 _INDEX = f"0-9{SUBSCRIPT_DIGITS}"
@@ -43,11 +46,12 @@ _TOKEN = re.compile(
       (?P<name>[{_LETTER}](?![\u0307\u0308])(?:{_NAME_PART})*)
     | (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200a\u202f~]|%(?!pi\b)[^\n]*(?:\n|$)
           |\\(?:[,;:!\ >]|\n)|\\(?:left|right)[ ]?\.)+)
+    | (?P<comma>[0-9]+\{{,\}}[0-9]+)
     | (?P<number>(?:[0-9]+(?:\.[0-9]+|\.(?![A-Za-z.*/^\\']))?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?![A-Za-z_]))?)
     | (?P<command>\\(?:[A-Za-z]+\*?|[\\{{}}()\[\]|&\#%$_]))
-    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|==|[-+*/^_=(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″]|[ẋẏżḋṗ])
+    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|==|[-+*/^_=<>(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″])
     | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
-    | (?P<dotted>[{_LETTER}][\u0307\u0308]{{1,2}}(?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*)
+    | (?P<dotted>(?:[{_LETTER}][\u0307\u0308]{{1,2}}|[{_PRECOMPOSED}])(?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*)
     | (?P<percent>%pi)
     | (?P<fraction>[½⅓⅔¼¾⅙⅚⅛⅜⅝⅞])
     )""",
@@ -77,7 +81,6 @@ _SIGNS = {
 }
 _ASCII = str.maketrans(SPELLED | {digit: str(value) for value, digit in enumerate(SUBSCRIPT_DIGITS)})
 _FRACTIONS = dict(zip("½⅓⅔¼¾⅙⅚⅛⅜⅝⅞", "1/2 1/3 2/3 1/4 3/4 1/6 5/6 1/8 3/8 5/8 7/8".split(), strict=True))
-_DOTTED_LETTERS = {"ẋ": "x", "ẏ": "y", "ż": "z", "ḋ": "d", "ṗ": "p"}
 
 # Commands that only set type, the sizes of brackets among them: they yield no token.
 _LAYOUT = frozenset(
@@ -85,19 +88,25 @@ _LAYOUT = frozenset(
     "displaystyle textstyle "
     "scriptstyle limits nolimits nonumber notag quad qquad enspace thinspace medspace thickspace "
     "negthinspace hfill hfil noindent centering small normalsize large Large it rm cal sf tt scriptsize "
-    "footnotesize allowbreak newline hline protect relax smallskip medskip bigskip par".split()
+    "footnotesize allowbreak newline hline protect relax smallskip medskip bigskip par bfseries itshape "
+    "upshape mathstrut strut null displaybreak nobreak IEEEnonumber IEEEyesnumber empheqlbrace empheqlbrack "
+    "toprule midrule bottomrule xspace unskip ignorespaces boldmath unboldmath".split()
 )
 SEPARATORS = frozenset(
     "quad qquad implies Rightarrow Leftrightarrow Longrightarrow iff therefore because".split()
 )
 """Commands that stand between two equations of one display."""
 
-# Commands whose argument is no formula; those in `_KEPT` leave a token of their own.
-_WORDS = frozenset(
-    "text textrm textit textbf textnormal textsf texttt mbox hbox intertext shortintertext label tag "
-    "hspace vspace color ref eqref cite class cssId begin end textcolor notag hskip fontsize".split()
-)
-_KEPT = {"tag": "tag", "begin": "begin", "end": "close", "intertext": "separator"}
+# Commands that vanish with their argument, and those whose argument is no formula but leaves a token.
+_VANISHING = dict.fromkeys(
+    "label vspace color ref eqref cite class cssId textcolor notag phantom hphantom vphantom footnote index "
+    "marginpar colorbox pagecolor raisebox hskip vskip mskip mkern kern cline href".split(), 1
+) | {"fontsize": 2, "fcolorbox": 2, "rule": 2, "setlength": 2, "addtolength": 2, "definecolor": 3}
+_TEXTS = {
+    name: "text" for name in "text textrm textit textbf textnormal textsf texttt textup mbox hbox emph".split()
+} | {"tag": "tag", "begin": "begin", "end": "close", "intertext": "separator", "shortintertext": "separator"}
+_WIDE = frozenset({"hspace"})
+"""Wide blanks by their length, which part equations as `\\quad` does."""
 _SIGN_COMMANDS = {
     "cdot": "cdot",
     "times": "times",
@@ -141,7 +150,9 @@ _GREEK_COMMANDS = {
     "varkappa": "kappa",
     "varsigma": "sigma",
 } | {name: name for name in SPELLED.values()}
-_DIMENSION = re.compile(r"\s*\[\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm|in|mu)\s*\]")
+_LENGTH = re.compile(r"\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm|in|mu)(?![A-Za-z])")
+_OPTION = re.compile(r"\*?\s*\[[^\[\]{}]{0,60}\](?=\s*\{)")
+_LINE_BREAK_END = re.compile(r"\*?(?:\s*\[\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm|in|mu|\\baselineskip|\\jot)\s*\])?")
 
 
 def tokenize(text: str) -> list[Token]:
@@ -203,9 +214,13 @@ _FREQUENT = (
 def _rare_token(text: str, piece: Token) -> tuple[Token | None, int]:
     """The token that a piece of the text is, None where it only sets type; and where the text goes on."""
     token, end = _token(piece), piece.end
-    if token is not None and token.kind == "command" and token.text in _WORDS:
+    if token is None:
+        return token, end
+    if token.kind == "command" and (
+        token.text in _TEXTS or token.text in _VANISHING or token.text in _WIDE
+    ):
         return _words(text, token)
-    if token is not None and token.kind == "\\\\" and (skipped := _DIMENSION.match(text, end)):
+    if token.kind == "\\\\" and (skipped := _LINE_BREAK_END.match(text, end)):
         end = skipped.end()
     return token, end
 
@@ -213,8 +228,6 @@ def _rare_token(text: str, piece: Token) -> tuple[Token | None, int]:
 def _token(piece: Token) -> Token | None:
     kind, text = piece.kind, piece.text
     if kind == "sign":
-        if text in _DOTTED_LETTERS:
-            return piece._replace(kind="name", text=_DOTTED_LETTERS[text], dots=1)
         if text == "″":
             return piece._replace(kind="''")
         if text == "∂":
@@ -224,6 +237,8 @@ def _token(piece: Token) -> Token | None:
         return _name(piece)
     if kind == "command":
         return _command(piece)
+    if kind == "comma":
+        return piece._replace(kind="number", text=text.replace("{,}", "."))
     if kind == "percent":
         return piece._replace(kind="name", text="pi")
     if kind == "fraction":
@@ -231,17 +246,24 @@ def _token(piece: Token) -> Token | None:
     return piece
 
 
-def _words(text: str, command: Token) -> tuple[Token, int]:
-    """A command with the argument that is no formula."""
-    at = command.end
-    while at < len(text) and text[at] in " *":
-        at += 1
-    if text[at : at + 1] != "{":
-        return command._replace(kind="text", text=""), command.end
-    end = closing_brace(text, at)
-    content = text[at + 1 : end - 1]
-    kind = _KEPT.get(command.text, "text")
-    return command._replace(kind=kind, text=content.strip() if len(content) < 200 else "", end=end), end
+def _words(text: str, command: Token) -> tuple[Token | None, int]:
+    """A command with the argument that is no formula; no token where it vanishes."""
+    end, content = command.end, ""
+    if option := _OPTION.match(text, end):
+        end = option.end()
+    for _ in range(_VANISHING.get(command.text, 1)):
+        at = end
+        while at < len(text) and text[at] in " *":
+            at += 1
+        if text[at : at + 1] == "{":
+            end = closing_brace(text, at)
+            content = text[at + 1 : end - 1].strip() if end - at < 200 else ""
+    if command.text in _VANISHING:
+        length = _LENGTH.match(text, end) if end == command.end else None
+        return None, length.end() if length else end
+    if command.text in _WIDE:
+        return command._replace(text="quad", end=end), end
+    return command._replace(kind=_TEXTS[command.text], text=content, end=end), end
 
 
 def closing_brace(text: str, opening: int, longest: int = MAX_LENGTH) -> int:
@@ -263,6 +285,8 @@ def _name(piece: Token) -> Token:
         message = f"a name of {len(text)} characters; at most {MAX_IDENTIFIER} are read"
         raise ReadError(message, piece.start, 1, "a name is a letter with an index: m1, theta1")
     if not text.isascii():
+        if text[0] in _PRECOMPOSED:
+            text = unicodedata.normalize("NFD", text[0]) + text[1:]
         dots = sum(_DOTTED.get(character, 0) for character in text[1:3])
         text = _plain(text)
     return piece._replace(kind="name", text=text, dots=dots)
@@ -270,8 +294,6 @@ def _name(piece: Token) -> Token:
 
 def _plain(piece: str) -> str:
     """Letters of every face as ASCII, Greek ones spelled out."""
-    import unicodedata
-
     piece = "".join(character for character in piece if character not in _DOTTED)
     piece = piece.translate(_ASCII)
     return piece if piece.isascii() else unicodedata.normalize("NFKC", piece).translate(_ASCII)

@@ -20,6 +20,10 @@ def split_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = Fals
     out: list[Token] = []
     script = 0
     for position, token in enumerate(tokens):
+        if token.kind == "text":
+            if not _is_name(token, tokens[position + 1 : position + 2], vocabulary):
+                continue
+            token = token._replace(kind="name")
         if token.kind == "{" and out and out[-1].kind in ("_",):
             script += 1
         elif token.kind == "}" and script:
@@ -34,7 +38,7 @@ def split_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = Fals
             out.append(token)
             continue
         open_end = tokens[position + 1].kind == "_" if position + 1 < len(tokens) else False
-        called = position + 1 < len(tokens) and tokens[position + 1].kind == "("
+        called = position + 1 < len(tokens) and tokens[position + 1].kind in _ARGUMENTS
         pieces = _pieces(token.text, vocabulary, open_end, called, naming)
         if len(pieces) == 1:
             out.append(token)
@@ -46,6 +50,18 @@ def split_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = Fals
             out.append(Token("name", piece, start, end, dots, token.spaced and number == 0))
             start = end if end != token.end else start
     return out
+
+
+_ARGUMENTS = frozenset({"(", "{", "name", "letter", "number", "fraction", "^", "raised"})
+"""What may follow the name of a function: its argument, or its power."""
+
+
+def _is_name(text: Token, after: list[Token], vocabulary: Vocabulary) -> bool:
+    r"""Whether a `\text{...}` is a name set upright, and no word beside the formula."""
+    if after and after[0].kind in ("_", "^", "'") or len(text.text) == 1 or text.text[-1].isdigit():
+        return True
+    name = key(text.text)
+    return vocabulary.symbol(name) is not None or bool(vocabulary.named(name))
 
 
 def _pieces(text: str, vocabulary: Vocabulary, open_end: bool, called: bool, naming: bool) -> list[str]:

@@ -7,24 +7,42 @@ tokens.  Nothing here depends on the problem; runs of letters are cut into its n
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from dynsolve.answers.reading.lexer import Token, tokenize
+from dynsolve.answers.reading.lexer import SEPARATORS, Token, tokenize
 from dynsolve.answers.reading.limits import MAX_TOKENS
 from dynsolve.errors import ReadError
 
 _FONTS = frozenset(
     "mathbf boldsymbol bm mathrm mathit mathsf mathtt mathbb mathnormal pmb bf rm vec underline "
-    "overrightarrow operatorname ensuremath boxed mathop mathord mathrel mathbin smash bold".split()
+    "overrightarrow operatorname ensuremath boxed fbox framebox mathop mathord mathrel mathbin smash bold "
+    "underbar uline uuline undertilde utilde symbf symbfit symrm mathbfit qty quantity bigstrut".split()
 )
 _SCRIPT = frozenset("mathcal mathscr mathfrak cal script".split())
 _ENVIRONMENTS = frozenset(
-    "cases equation align aligned split gather gathered multline eqnarray alignat alignedat flalign "
-    "displaymath math subequations dmath IEEEeqnarray".split()
+    "cases dcases rcases drcases equation align aligned split gather gathered multline multlined eqnarray "
+    "alignat alignedat flalign xalignat displaymath math subequations dmath dgroup darray empheq "
+    "IEEEeqnarray IEEEeqnarraybox lgathered rgathered".split()
 )
-_SINGLE = frozenset({"name", "letter", "number"})
+"""Environments that only align."""
+
+_WITH_COLUMNS = ("array", "alignat", "alignedat", "xalignat", "IEEEeqnarray", "empheq")
+"""Environments whose name is followed by an argument that is no formula."""
+
+_MATRICES = {"pmatrix": "pmatrix", "bmatrix": "bmatrix", "matrix": "matrix", "mqty": "matrix"} | {
+    "pmqty": "pmatrix", "bmqty": "bmatrix", "Pmqty": "pmatrix", "smqty": "matrix"
+}  # fmt: skip
+"""Commands whose argument is a matrix: `\\pmatrix{a\\cr b}`, as Maxima and plain TeX write it."""
+
+_DERIVATIVES = {"dv": "d", "odv": "d", "derivative": "d", "pdv": "partial", "partialderivative": "partial"}
+_STACKED = frozenset({"overset", "underset", "stackrel"})
+_SINGLE = frozenset({"name", "letter", "number", "text"})
+_FRACTIONS = frozenset("frac dfrac tfrac cfrac nicefrac sfrac flatfrac xfrac".split())
+_SIGNS = frozenset({"+", "-", "="})
+_WORD_AS_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_\{?[A-Za-z0-9,]+\}?)?")
 _WORDS = frozenset("and og where hvor der with med so such or eller for då da".split())
 _FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
 
@@ -98,17 +116,17 @@ def _filled(macro: Macro, argument: list[Token], call: Token) -> list[Token]:
 def simplified(tokens: list[Token]) -> list[Token]:
     """Tokens without fonts, environments that only align, and groups around one token."""
     out: list[Token] = []
-    groups: list[int] = []  # where in `out` each open `{` stands; -1 for one that is left out
+    groups: list[_Group] = []
     position, last = 0, len(tokens) - 1
     while position <= last:
         token = tokens[position]
         position += 1
         kind = token.kind
         if kind == "{":
-            groups.append(len(out))
+            groups.append(_Group(len(out)))
             out.append(token)
         elif kind == "}" and groups:
-            _close_group(token, groups.pop(), out)
+            _close_group(token, groups.pop(), out, tokens[position].kind)
         elif kind == "command":
             position = _simplify_command(token, tokens, position, groups, out)
         elif kind == "begin" or kind == "close":
@@ -117,46 +135,153 @@ def simplified(tokens: list[Token]) -> list[Token]:
             word = _word(token, out)
             if word is not None:
                 out.append(word)
+        elif kind == "_" and out and (power := _power_before(out)):
+            position = _index(tokens, position, token, power, out)
         else:
             out.append(token)
     return out
 
 
-def _close_group(closing: Token, start: int, out: list[Token]) -> None:
-    """A group around one token is that token, an empty one is nothing."""
-    if start < 0:
-        return
+@dataclass(slots=True)
+class _Group:
+    """A `{` that is open: where it stands among the tokens so far, and what its end becomes."""
+
+    start: int
+    closes_matrix: bool = False
+
+
+def _close_group(closing: Token, group: _Group, out: list[Token], following: str) -> None:
+    """A group around one token is that token, an empty one is nothing, one that only sets type is left out."""
+    start = group.start
     inside = len(out) - start - 1
-    if inside == 0:
+    if group.closes_matrix:
+        out.append(closing._replace(kind="close", text="matrix"))
+    elif inside == 0:
         del out[start:]
     elif inside == 1 and out[-1].kind in _SINGLE:
         out[start:] = [out[-1]._replace(spaced=out[start].spaced)]
+    elif (bar := _bar(out, start)) > 0:
+        _written_as_fraction(out, start, bar, closing)
+    elif following not in ("^", "_", "raised", "'") and _only_sets_type(out, start):
+        del out[start]
     else:
         out.append(closing)
 
 
+def _level_of(token: Token) -> int:
+    return (token.kind in ("{", "(", "[", "begin")) - (token.kind in ("}", ")", "]", "close"))
+
+
+def _only_sets_type(out: list[Token], start: int) -> bool:
+    r"""Whether the group that opens there is no argument, and holds an equation or a signed term.
+
+    `{\color{red} K = a}` is `K = a`, and `a {\color{red} - b}` is `a - b`, as they look in print.
+    """
+    first = out[start + 1].kind
+    level, holds = 0, first in _SIGNS or out[-1].kind in _SIGNS
+    for token in out[start + 1 :]:
+        level += _level_of(token)
+        holds = holds or (level == 0 and token.kind in ("=", "&", "\\\\"))
+    return holds and not _is_argument(out, start)
+
+
+def _is_argument(out: list[Token], start: int) -> bool:
+    """Whether the group that opens there belongs to a script or a command."""
+    before = start - 1
+    if before < 0:
+        return False
+    if out[before].kind in ("_", "^") or (out[before].kind == "command" and out[before].text not in SEPARATORS):
+        return True
+    level = 0
+    while before >= 0:  # the second argument of a fraction
+        level -= _level_of(out[before])
+        before -= 1
+        if level <= 0:
+            break
+    return before >= 0 and out[before].kind == "command" and out[before].text in ("frac", "binom")
+
+
+def _bar(out: list[Token], start: int) -> int:
+    r"""Where the `\over` of a group stands, 0 where there is none."""
+    level = 0
+    for position in range(start + 1, len(out)):
+        level += _level_of(out[position])
+        if level == 0 and out[position].kind == "over":
+            return position
+    return 0
+
+
+def _written_as_fraction(out: list[Token], start: int, bar: int, closing: Token) -> None:
+    r"""`{a \over b}` as `\frac{a}{b}`."""
+    opening, above, below = out[start], out[start + 1 : bar], out[bar + 1 :]
+    end = closing._replace(kind="}", text="}")
+    command = opening._replace(kind="command", text="frac")
+    out[start:] = [command, opening, *above, end, opening, *below, end]
+
+
+def _power_before(out: list[Token]) -> int:
+    """Where the power begins that stands between a name and its index: the `^` of m^2_1; 0 for none."""
+    last = len(out) - 1
+    if out[last].kind == "}":
+        level = 0
+        while last > 0:
+            level -= _level_of(out[last])
+            if level == 0:
+                break
+            last -= 1
+    caret = last - 1
+    if caret < 1 or out[caret].kind != "^":
+        return 0
+    return caret if out[caret - 1].kind in ("name", "letter", "}", "text") else 0
+
+
+def _index(tokens: list[Token], position: int, sign: Token, power: int, out: list[Token]) -> int:
+    """Put the index that follows before the power; gives where to go on."""
+    index = [sign, tokens[position]]
+    position += 1
+    if index[1].kind == "{":
+        level = 1
+        while level and tokens[position].kind != "end":
+            index.append(tokens[position])
+            level += _level_of(tokens[position])
+            position += 1
+    elif index[1].kind == "end":
+        index.pop()
+        position -= 1
+    out[power:power] = simplified([*index, Token("end", "", sign.end, sign.end)])[:-1]
+    return position
+
+
 def _simplify_command(
-    token: Token, tokens: list[Token], position: int, groups: list[int], out: list[Token]
+    token: Token, tokens: list[Token], position: int, groups: list[_Group], out: list[Token]
 ) -> int:
     """A command with one spelling, or left out if it is a font; gives where to go on."""
     if token.text in _FONTS:
-        if token.text == "boxed" and tokens[position].kind == "{":
-            groups.append(-1)
-            return position + 1
         return position
-    if token.text in ("frac", "dfrac", "tfrac", "cfrac"):
+    if token.text in _FRACTIONS:
         return _split_digits(tokens, position, token._replace(text="frac"), out)
+    if token.text in _MATRICES and tokens[position].kind == "{":
+        groups.append(_Group(len(out), True))
+        out.append(token._replace(kind="begin", text=_MATRICES[token.text]))
+        return position + 1
+    if token.text in _DERIVATIVES:
+        return _write_derivative(tokens, position, token, out)
+    if token.text in _STACKED:
+        over, position = _taken_group(tokens, position)
+        dots = sum(len(t.text) if t.kind == "." else t.kind == "cdot" for t in over)
+        if dots and dots == len(over) and dots < 3:
+            out.append(token._replace(text="dot" if dots == 1 else "ddot"))
+        return position
     out.append(token._replace(text="script") if token.text in _SCRIPT else token)
     return position
 
 
 def _simplify_environment(token: Token, tokens: list[Token], position: int, out: list[Token]) -> int:
     r"""`\begin` or `\end`, left out where the environment only aligns; gives where to go on."""
-    name = token.text
-    if name.rstrip("*") in _ENVIRONMENTS:
-        return _skip_columns(tokens, position) if name.startswith(("aligned", "alignat")) else position
-    out.append(token)
-    return _skip_group(tokens, position) if token.kind == "begin" and name.startswith("array") else position
+    name = token.text.rstrip("*")
+    if name not in _ENVIRONMENTS:
+        out.append(token)
+    return _skip_arguments(tokens, position, name) if token.kind == "begin" else position
 
 
 def _split_digits(tokens: list[Token], position: int, command: Token, out: list[Token]) -> int:
@@ -173,20 +298,55 @@ def _split_digits(tokens: list[Token], position: int, command: Token, out: list[
     return position
 
 
-def _skip_columns(tokens: list[Token], position: int) -> int:
-    r"""The `{2}` of `\begin{alignat}{2}`."""
-    if [t.kind for t in tokens[position : position + 3]] == ["{", "number", "}"]:
-        return position + 3
+def _skip_arguments(tokens: list[Token], position: int, environment: str) -> int:
+    r"""Behind the `[t]` of `\begin{aligned}[t]` and the `{cc}` of `\begin{array}{cc}`."""
+    option = tokens[position : position + 3]
+    if [t.kind for t in option] == ["[", "name", "]"] and option[1].text in ("t", "b", "c"):
+        position += 3
+    elif option[0].kind == "[" and environment == "empheq":
+        while tokens[position].kind not in ("]", "end"):
+            position += 1
+        position += tokens[position].kind == "]"
+    if environment.startswith(_WITH_COLUMNS) and tokens[position].kind == "{":
+        _, position = _taken_group(tokens, position)
     return position
 
 
-def _skip_group(tokens: list[Token], position: int) -> int:
-    r"""The `{cc}` of `\begin{array}{cc}`."""
+def _taken_group(tokens: list[Token], position: int) -> tuple[list[Token], int]:
+    """The tokens of the argument there, without its braces, and where it has ended."""
     if tokens[position].kind != "{":
-        return position
-    while position < len(tokens) - 1 and tokens[position].kind != "}":
+        single = tokens[position].kind != "end"
+        return tokens[position : position + single], position + single
+    start, level = position + 1, 0
+    while tokens[position].kind != "end":
+        level += {"{": 1, "}": -1}.get(tokens[position].kind, 0)
         position += 1
-    return min(position + 1, len(tokens) - 1)
+        if level == 0:
+            return tokens[start : position - 1], position
+    return tokens[start:position], position
+
+
+def _write_derivative(tokens: list[Token], position: int, command: Token, out: list[Token]) -> int:
+    r"""`\dv{x}{t}` as `\frac{d x}{d t}`, `\dv{t}` as `\frac{d}{d t}`; gives where to go on."""
+    d = command._replace(kind="name", text="d")
+    if _DERIVATIVES[command.text] == "partial":
+        d = command._replace(text="partial")
+    order: list[Token] = []
+    if tokens[position].kind == "[" and tokens[position + 2].kind == "]":
+        order = [command._replace(kind="^", text="^"), tokens[position + 1]]
+        position += 3
+    opening, closing = command._replace(kind="{", text="{"), command._replace(kind="}", text="}")
+    of, position = _taken_group(tokens, position)
+    by: list[Token] = of
+    if tokens[position].kind == "{":
+        by, position = _taken_group(tokens, position)
+    else:
+        of = []
+    end = Token("end", "", command.end, command.end)
+    above, below = simplified([*of, end])[:-1], simplified([*by, end])[:-1]
+    out.append(command._replace(text="frac"))
+    out += [opening, d, *order, *above, closing, opening, d, *below, *order, closing]
+    return position
 
 
 def _word(token: Token, out: list[Token]) -> Token | None:
@@ -198,6 +358,8 @@ def _word(token: Token, out: list[Token]) -> Token | None:
         )
     if word in _FUNCTIONS:
         return token._replace(kind="name")
+    if _WORD_AS_NAME.fullmatch(word) and word.lower() not in _WORDS:
+        return token
     if any(part.strip(",.:;").lower() in _WORDS for part in word.split()):
         return token._replace(kind="separator")
     return None

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
 
-from dynsolve.answers.reading.displays import Display, is_label
+from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.lexer import Token, closing_brace, tokenize
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
@@ -17,11 +17,12 @@ from dynsolve.answers.submission import Place
 from dynsolve.errors import ReadError
 
 _ENVIRONMENT = (
-    "equation|align|gather|multline|eqnarray|alignat|flalign|displaymath|math|dmath|IEEEeqnarray"
-    "|subequations|split"
+    "equation|align|gather|multline|eqnarray|alignat|flalign|xalignat|displaymath|math|dmath|IEEEeqnarray"
+    "|subequations|split|empheq"
 )
 _OPENING = re.compile(
-    rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|(?P<double>\\\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}(?:\{{[0-9]{{1,2}}\}})?"
+    rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|(?P<double>\\\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}"
+    r"(?:(?:\[[^\[\]\n]{{0,60}}\])?\{{(?:[0-9]{{1,2}}|[rclsCRLS?.'\" ]{{1,20}}|(?:{_ENVIRONMENT})\*?)\}})?"
     r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$])|(?<!\\)\\\()",
     re.MULTILINE,
 )
@@ -58,7 +59,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     displays = _labelled(list(islice(_displays(text, source), 2 * MAX_EQUATIONS)))
     if not displays:
         displays = list(islice(_plain_lines(text, source, 0, len(text), True), MAX_EQUATIONS))
-    for offset, display in displays[:MAX_EQUATIONS]:
+    for offset, display in continued(displays[:MAX_EQUATIONS]):
         while waiting and waiting[-1].offset <= offset:
             found = waiting.pop()
             reader.macros[found.name] = found.macro

@@ -252,6 +252,7 @@ class FormulaReader(Reader):
             form = self.form() if self.begins_with_name() else None
             if form is not None and self.token.kind == "}":
                 self.take()
+                self.beside(form)
                 self.nesting -= 1
                 return names.value_of(self, form)
             found = self.sum(form)
