@@ -34,7 +34,12 @@ def continued(displays: Sequence[tuple[int, Display]]) -> list[tuple[int, Displa
     found: list[tuple[int, Display]] = []
     for offset, display in displays:
         before = found[-1][1] if found else None
-        if before is not None and not before.plain and not display.plain and _is_one(before.text, display.text):
+        if (
+            before is not None
+            and not before.plain
+            and not display.plain
+            and _is_one(before.text, display.text)
+        ):
             found[-1] = (found[-1][0], _joined(before, display))
         else:
             found.append((offset, display))
@@ -110,7 +115,9 @@ def _is_one_sided(tokens: list[Token]) -> bool:
     level = sum(_OPENS.get(t.kind, 0) for t in tokens if t.kind in ("(", ")"))
     if not tokens or abs(level) != 1:
         return False
-    return tokens[0 if level == 1 else -1].text in (("\\{", "\\lbrace") if level == 1 else ("\\}", "\\rbrace"))
+    return tokens[0 if level == 1 else -1].text in (
+        ("\\{", "\\lbrace") if level == 1 else ("\\}", "\\rbrace")
+    )
 
 
 def is_label(tokens: list[Token]) -> str:

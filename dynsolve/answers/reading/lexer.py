@@ -51,7 +51,8 @@ _TOKEN = re.compile(
     | (?P<command>\\(?:[A-Za-z]+\*?|[\\{{}}()\[\]|&\#%$_]))
     | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|==|[-+*/^_=<>(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″])
     | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
-    | (?P<dotted>(?:[{_LETTER}][\u0307\u0308]{{1,2}}|[{_PRECOMPOSED}])(?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*)
+    | (?P<dotted>(?:[{_LETTER}][\u0307\u0308]{{1,2}}|[{_PRECOMPOSED}])
+          (?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*)
     | (?P<percent>%pi)
     | (?P<fraction>[½⅓⅔¼¾⅙⅚⅛⅜⅝⅞])
     )""",
@@ -100,11 +101,18 @@ SEPARATORS = frozenset(
 # Commands that vanish with their argument, and those whose argument is no formula but leaves a token.
 _VANISHING = dict.fromkeys(
     "label vspace color ref eqref cite class cssId textcolor notag phantom hphantom vphantom footnote index "
-    "marginpar colorbox pagecolor raisebox hskip vskip mskip mkern kern cline href".split(), 1
+    "marginpar colorbox pagecolor raisebox hskip vskip mskip mkern kern cline href".split(),
+    1,
 ) | {"fontsize": 2, "fcolorbox": 2, "rule": 2, "setlength": 2, "addtolength": 2, "definecolor": 3}
-_TEXTS = {
-    name: "text" for name in "text textrm textit textbf textnormal textsf texttt textup mbox hbox emph".split()
-} | {"tag": "tag", "begin": "begin", "end": "close", "intertext": "separator", "shortintertext": "separator"}
+_TEXTS = dict.fromkeys(
+    "text textrm textit textbf textnormal textsf texttt textup mbox hbox emph".split(), "text"
+) | {
+    "tag": "tag",
+    "begin": "begin",
+    "end": "close",
+    "intertext": "separator",
+    "shortintertext": "separator",
+}
 _WIDE = frozenset({"hspace"})
 """Wide blanks by their length, which part equations as `\\quad` does."""
 _SIGN_COMMANDS = {
@@ -152,7 +160,9 @@ _GREEK_COMMANDS = {
 } | {name: name for name in SPELLED.values()}
 _LENGTH = re.compile(r"\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm|in|mu)(?![A-Za-z])")
 _OPTION = re.compile(r"\*?\s*\[[^\[\]{}]{0,60}\](?=\s*\{)")
-_LINE_BREAK_END = re.compile(r"\*?(?:\s*\[\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm|in|mu|\\baselineskip|\\jot)\s*\])?")
+_LINE_BREAK_END = re.compile(
+    r"\*?(?:\s*\[\s*-?[0-9.]+\s*(?:pt|em|ex|mm|cm|in|mu|\\baselineskip|\\jot)\s*\])?"
+)
 
 
 def tokenize(text: str) -> list[Token]:
@@ -216,9 +226,7 @@ def _rare_token(text: str, piece: Token) -> tuple[Token | None, int]:
     token, end = _token(piece), piece.end
     if token is None:
         return token, end
-    if token.kind == "command" and (
-        token.text in _TEXTS or token.text in _VANISHING or token.text in _WIDE
-    ):
+    if token.kind == "command" and (token.text in _TEXTS or token.text in _VANISHING or token.text in _WIDE):
         return _words(text, token)
     if token.kind == "\\\\" and (skipped := _LINE_BREAK_END.match(text, end)):
         end = skipped.end()

@@ -58,7 +58,7 @@ _ARGUMENTS = frozenset({"(", "{", "name", "letter", "number", "fraction", "^", "
 
 def _is_name(text: Token, after: list[Token], vocabulary: Vocabulary) -> bool:
     r"""Whether a `\text{...}` is a name set upright, and no word beside the formula."""
-    if after and after[0].kind in ("_", "^", "'") or len(text.text) == 1 or text.text[-1].isdigit():
+    if (after and after[0].kind in ("_", "^", "'")) or len(text.text) == 1 or text.text[-1].isdigit():
         return True
     name = key(text.text)
     return vocabulary.symbol(name) is not None or bool(vocabulary.named(name))

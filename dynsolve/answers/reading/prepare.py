@@ -151,7 +151,7 @@ class _Group:
 
 
 def _close_group(closing: Token, group: _Group, out: list[Token], following: str) -> None:
-    """A group around one token is that token, an empty one is nothing, one that only sets type is left out."""
+    """A group around one token is that token, an empty one nothing; braces that only set type are left out."""
     start = group.start
     inside = len(out) - start - 1
     if group.closes_matrix:
@@ -190,7 +190,9 @@ def _is_argument(out: list[Token], start: int) -> bool:
     before = start - 1
     if before < 0:
         return False
-    if out[before].kind in ("_", "^") or (out[before].kind == "command" and out[before].text not in SEPARATORS):
+    if out[before].kind in ("_", "^") or (
+        out[before].kind == "command" and out[before].text not in SEPARATORS
+    ):
         return True
     level = 0
     while before >= 0:  # the second argument of a fraction

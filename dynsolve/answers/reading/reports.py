@@ -22,7 +22,7 @@ _ENVIRONMENT = (
 )
 _OPENING = re.compile(
     rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|(?P<double>\\\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}"
-    r"(?:(?:\[[^\[\]\n]{{0,60}}\])?\{{(?:[0-9]{{1,2}}|[rclsCRLS?.'\" ]{{1,20}}|(?:{_ENVIRONMENT})\*?)\}})?"
+    rf"(?:(?:\[[^\[\]\n]{{0,60}}\])?\{{(?:[0-9]{{1,2}}|[rclsCRLS?.'\" ]{{1,20}}|(?:{_ENVIRONMENT})\*?)\}})?"
     r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$])|(?<!\\)\\\()",
     re.MULTILINE,
 )
