@@ -56,8 +56,13 @@ _ARGUMENTS = frozenset({"(", "{", "name", "letter", "number", "fraction", "^", "
 """What may follow the name of a function: its argument, or its power."""
 
 
-def _is_name(text: Token, after: list[Token], vocabulary: Vocabulary) -> bool:
-    r"""Whether a `\text{...}` is a name set upright, and no word beside the formula."""
+_UNITS = frozenset("J N Nm kg m s rad kgm Ws".split())
+
+
+def _is_name(text: Token, after: list[Token], vocabulary: Vocabulary, naming: bool) -> bool:
+    r"""Whether a `\text{...}` is a name set upright, and no word or unit beside the formula."""
+    if not naming and text.text in _UNITS and vocabulary.symbol(text.text) is None:
+        return False
     if (after and after[0].kind in ("_", "^", "'")) or len(text.text) == 1 or text.text[-1].isdigit():
         return True
     name = key(text.text)

@@ -135,11 +135,18 @@ def simplified(tokens: list[Token]) -> list[Token]:
             word = _word(token, out)
             if word is not None:
                 out.append(word)
+        elif kind == "]" and _is_unit(out):
+            del out[-2:]
         elif kind == "_" and out and (power := _power_before(out)):
             position = _index(tokens, position, token, power, out)
         else:
             out.append(token)
     return out
+
+
+def _is_unit(out: list[Token]) -> bool:
+    r"""Whether the bracket that closes here holds a word alone: `[\text{J}]`."""
+    return len(out) > 2 and out[-1].kind == "text" and out[-2].kind == "["
 
 
 @dataclass(slots=True)
@@ -151,7 +158,7 @@ class _Group:
 
 
 def _close_group(closing: Token, group: _Group, out: list[Token], following: str) -> None:
-    """A group around one token is that token, an empty one nothing; braces that only set type are left out."""
+    """A group around one token is that token, an empty one nothing; braces that set type are left out."""
     start = group.start
     inside = len(out) - start - 1
     if group.closes_matrix:
