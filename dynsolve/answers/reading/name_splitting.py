@@ -21,7 +21,7 @@ def split_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = Fals
     script = 0
     for position, token in enumerate(tokens):
         if token.kind == "text":
-            if not _is_name(token, tokens[position + 1 : position + 2], vocabulary):
+            if not _is_name(token, tokens[position + 1 : position + 2], vocabulary, naming):
                 continue
             token = token._replace(kind="name")
         if token.kind == "{" and out and out[-1].kind in ("_",):
