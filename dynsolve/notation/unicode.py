@@ -148,6 +148,9 @@ class UnicodePrinter(FormulaPrinter):
             text += "," + group if text and not (text[-1].isdecimal() and group[0].isalpha()) else group
         return text
 
+    def _shorthand_parts(self, short: tuple[str, str]) -> tuple[str, str]:
+        return short[0], short[1]  # c_{h1,h2} is the cosine of two angles, which c_h1h2 would not show
+
     def _index(self, node: Node) -> str:
         """What stands in a subscript, on one level: v_1 is `v1`."""
         match node:

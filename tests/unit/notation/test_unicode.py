@@ -32,7 +32,9 @@ from dynsolve.notation.unicode import printable, to_unicode, width
 from tests.unit.notation.eye import Eye
 from tests.unit.notation.trees import tree_value, trees
 
-COORDINATES = Style(shorthand={"theta1": "1", "theta2": "2", "theta3": "3", "q10": "10", "L2": "2"})
+COORDINATES = Style(
+    shorthand={"theta1": "1", "theta2": "2", "theta3": "3", "q10": "10", "L2": "2", "th1": "h1", "th2": "h2"}
+)
 
 TEXTS = [
     ("theta1", "θ₁"),
@@ -56,6 +58,7 @@ TEXTS = [
     ("cos(theta1 + theta2 + theta3)", "c₁₂₃"),
     ("sin(theta1)^2", "s₁²"),
     ("sin(theta1 + q10)", "s_{1,10}"),
+    ("cos(th1 + th2)", "c_{h1,h2}"),
     ("sin(theta1 - theta2)", "sin(θ₁ - θ₂)"),
     ("sin(2*theta2 + theta3)", "sin(2θ₂ + θ₃)"),
     ("sin(theta2 + theta2)", "sin(θ₂ + θ₂)"),
