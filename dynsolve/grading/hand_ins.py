@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from html import unescape
 from pathlib import PurePosixPath
 
+from dynsolve.answers.reading.answer_file import parsed
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import InputError
@@ -26,6 +27,7 @@ from dynsolve.grading.record import Waiting
 from dynsolve.grading.uploads import Upload, Uploads, digest, printable
 
 _HEAD = 20_000
+_ANSWER_FILES = (".yaml", ".yml", ".json")
 _FIELD = r"(?m)^[ \t]{{0,3}}[\"']?{}[\"']?[ \t]{{0,9}}:[ \t]{{0,99}}(\S.{{0,300}}?)[ \t]*(?:#.*)?$"
 _STUDENT, _PROBLEM = (re.compile(_FIELD.format(key)) for key in ("student", "problem"))
 _HEADING = re.compile(
@@ -208,7 +210,7 @@ def _beginning(content: bytes, ending: str) -> str:
 
 def _front(text: str, ending: str) -> str:
     """Where a file may say whose it is: an answer file's own keys, a report's front matter."""
-    if ending in (".yaml", ".yml", ".json"):
+    if ending in _ANSWER_FILES:
         return text
     first, *lines = text.lstrip().split("\n")
     last = next((i for i, line in enumerate(lines) if line.strip().startswith(_BACK)), None)
@@ -216,6 +218,9 @@ def _front(text: str, ending: str) -> str:
 
 
 def _said(pattern: re.Pattern[str], text: str, ending: str) -> str:
+    if ending in _ANSWER_FILES and text.lstrip().startswith("{"):
+        file = parsed(text)
+        return printable(file.problem if pattern is _PROBLEM else file.student)
     found = pattern.search(_front(text, ending))
     return printable(found[1].strip("\"', ")[:200]) if found else ""
 

@@ -17,11 +17,15 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 7. `answer_list` makes the record (`answers.submission.Answer`), under the name whose shape
    the value has (`shapes`), and settles at the end what needs the whole file.
 
-`definitions` reads the names that an answer file declares under `symbols:` and `let:`.
+`definitions` reads the names that an answer file declares under `symbols:` and `let:`.  Its values come from
+`yaml_values` (what YAML says) and `yaml_scalars` (what stands between quotes), or, where YAML refuses the
+file, from `answer_lines`; `placed_text` keeps where each character of a value stands.
 Modules import only those of earlier layers: text (`limits`, `sources`, `lexer`, `prepare`,
 `displays`), names (`grids`, `vocabulary`, `name_splitting`), `grammar`, equations
 (`size`, `shapes`, `left_side`, `right_side`, `answer_list`, `equation_reader`,
-`definitions`), formats (`reports`, `answer_file`, `notebooks`, `web`, `files`).
+`definitions`), formats (`placed_text`,
+`yaml_scalars`, `yaml_values`, `answer_lines`, `reports`, `answer_file`, `notebooks`, `web`,
+`files`).
 
 Where a fault is: a wrong place in a message is `sources`; a wrong sign or command `lexer` or
 `prepare`; an equation cut in two, or a lost label `displays`; a name not known, or taken for

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import PurePath
 
 from dynsolve.answers.reading.equation_reader import EquationReader
@@ -15,12 +16,13 @@ from dynsolve.explain.style import style_of
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.problem.model import Problem
 
-ENDINGS = (".yaml", ".yml", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm")
+ENDINGS = (".yaml", ".yml", ".json", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm")
 """The endings of files that are read."""
 
 
 _REPORTS = (".md", ".markdown", ".tex", ".txt")
-_ANSWER_FILES = (".yaml", ".yml")
+_ANSWERS = re.compile(r"""(?m)^[ \t]{0,9}\{?[ \t]{0,9}["']?answers["']?[ \t]*:|\A\s{0,99}\{\s{0,99}["']""")
+_ANSWER_FILES = (".yaml", ".yml", ".json")
 
 MOST_PRINTED = 8_000
 """So many parts of trees a printer remembers before it is begun anew."""
@@ -29,7 +31,7 @@ MOST_PRINTED = 8_000
 def _is_report(text: str) -> bool:
     """Whether a text without a telling name, from standard input say, is a report."""
     has_displays = any(sign in text for sign in ("$$", "\\[", "\\begin{"))
-    return has_displays and not any(line.startswith("answers:") for line in text.splitlines())
+    return has_displays and _ANSWERS.search(text) is None
 
 
 class FileReader:
@@ -55,7 +57,7 @@ class FileReader:
 
 
 def read_submission(problem: Problem, source: bytes | str, file: str) -> Submission:
-    """Read what a student handed in: an answer file (.yaml) or a report (.md, .tex, .txt, .ipynb, .html).
+    """Read what a student handed in: an answer file (.yaml, .json), or a report (.md, .tex, .ipynb, ...).
 
     The ending of `file` says which; nothing that stands in `source` raises.  For many
     files of one problem keep a `FileReader`.
