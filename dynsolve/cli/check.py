@@ -23,7 +23,7 @@ def check(
         str,
         typer.Argument(
             metavar="ANSWER",
-            help="An answer file (.yaml, .json) or a report (.md, .tex, .ipynb, .html); - for standard input.",
+            help="An answer file (.yaml, .json) or report (.md, .tex, .ipynb, .html); - for standard input.",
         ),
     ],
     json: Annotated[bool, typer.Option("--json", help="JSON with everything.")] = False,
