@@ -61,6 +61,7 @@ def _results(solution: package.Solution, stages: list[str]) -> set[str]:
     return {text for text in found if re.search(r"[θqLdmI].*[-+ ].*[₀-₉]", text) and len(text) > 12}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stage", Stage)
 def test_every_stage_says_what_there_is_what_to_do_and_what_to_look_out_for(stage: str) -> None:
     ran = dynsolve("solve", "in3140-rp", "--hint", stage)
@@ -97,6 +98,7 @@ def test_pitfalls_are_those_of_the_robot() -> None:
     assert "point" not in hint("elbow-3r", "energy").partition("Look out:")[2]
 
 
+@pytest.mark.slow
 def test_a_robot_without_masses_has_no_energies() -> None:
     ran = dynsolve("solve", "-", "--hint", "energy", stdin="dh: [{theta: q1*, a: l1}]")
     assert ran.code == 2 and "no body has mass" in ran.err
@@ -107,6 +109,7 @@ def test_an_unknown_stage_is_a_usage_error() -> None:
     assert dynsolve("solve", "in3140-rp", "--hint", "dynamics").code == 2
 
 
+@pytest.mark.slow
 def test_a_hint_goes_where_it_is_sent(tmp_path: Path) -> None:
     page = tmp_path / "hint.html"
     ran = dynsolve("solve", "in3140-rp", "--hint", "torque", "-o", str(page))

@@ -41,6 +41,7 @@ def test_no_label_lies_on_another(path: Path) -> None:
     assert overlapping(drawn(path)) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
 def test_no_line_runs_through_a_label(path: Path) -> None:
     assert struck_through(drawn(path)) == []

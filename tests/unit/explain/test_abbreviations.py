@@ -326,6 +326,7 @@ def displayed(blocks: Sequence[Any]) -> Iterator[Node]:
             yield block.node
 
 
+@pytest.mark.slow
 def test_nothing_fills_pages() -> None:
     style = solved("puma560").style
     for node in displayed(solution_document(solved("puma560")).blocks):

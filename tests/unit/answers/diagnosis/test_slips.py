@@ -42,6 +42,7 @@ def _equal(a: Expr | Matrix, b: Expr | Matrix) -> bool:
     return bool(a == b)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stem", STEMS)
 def test_a_step_that_went_wrong_is_named(stem: str) -> None:
     """Of two slips with the same outcome either may be named."""
@@ -121,6 +122,7 @@ def test_an_entry_of_an_inertia_matrix_is_no_transposed_matrix() -> None:
         assert codes(found) and "transposed" not in codes(found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stem", ["in3140-rp", "planar-2r", "elbow-3r"])
 @pytest.mark.parametrize("node", ["K", "tau", "D", "g"])
 def test_a_slip_long_before_is_named(stem: str, node: str) -> None:

@@ -479,6 +479,7 @@ def set_folder(tmp_path: Path) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_a_moodle_download_goes_back_as_a_worksheet_and_pages(tmp_path: Path, set_folder: Path) -> None:
     names = {41: "Ada Lovelace", 42: "Grace Hopper"}
     files = {f"{name}_{id}_assignsubmission_file/hw.yaml": RIGHT for id, name in names.items()}
@@ -496,6 +497,7 @@ def test_a_moodle_download_goes_back_as_a_worksheet_and_pages(tmp_path: Path, se
     assert "set by the teacher: late idea" in pages["Ada Lovelace_41_assignfeedback_file/feedback.html"]
 
 
+@pytest.mark.slow
 def test_a_gradescope_export_goes_out_as_results(tmp_path: Path, set_folder: Path) -> None:
     people = "submission_7:\n  :submitters:\n  - :name: Ada\n    :sid: s7\n  - :name: Grace\n    :sid: s8\n"
     files = {
