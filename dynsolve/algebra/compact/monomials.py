@@ -54,7 +54,7 @@ def content(factors: Iterable[Rational]) -> Rational:
     """
     factors = list(factors)
     shared = gcd(*(f.numerator for f in factors))
-    if all(type(f) is int for f in factors):
+    if set(map(type, factors)) <= {int}:
         return shared
     denominators = Counter(f.denominator for f in factors)
     largest = max(denominators)
