@@ -4,6 +4,7 @@
     judging       the trees -> values in one ring -> compared with the key, and with what
                   the student's own earlier answers lead to
     diagnosis     what is left is wrong: which slip explains it
+    marking       verdicts -> marks, by the policy of a course
     report,       the `Report` as JSON, and as a document for a student or a teacher
     feedback
 

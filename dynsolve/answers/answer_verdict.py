@@ -66,7 +66,7 @@ class AnswerJudge:
         base = _placed_in_chain(base, chains[-1])
         if compared.target.node not in self.hand_in.answer_ring.rules:
             return replace(base, fault=f"{name} is no quantity of this problem")
-        return with_marks(self.compared(base, compared))
+        return self.compared(base, compared)
 
     def compared(self, base: JudgedAnswer, compared: KeyComparison) -> JudgedAnswer:
         """The verdict of an answer that was compared with the key; `base` is what else is known of it."""
@@ -209,12 +209,6 @@ def _entries(name: str, compared: KeyComparison) -> Iterator[tuple[tuple[int, ..
     for i, row in enumerate(compared.rows):
         for j in range(len(row)):
             yield ((i + 1,) if name == "C" else (i + 1, j + 1)), i, j
-
-
-def with_marks(judged: JudgedAnswer) -> JudgedAnswer:
-    """An answer that is correct or follows earns its marks; a course's policy may say otherwise."""
-    earned = judged.of if judged.verdict in (Verdict.CORRECT, Verdict.FOLLOWS) else Fraction(0)
-    return replace(judged, marks=earned)
 
 
 def in_order(graph: AnswerGraph, names: Iterable[str]) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ comes first.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -21,6 +22,9 @@ from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.explanation import Explanations
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.hand_in import ComparedHandIn
+from dynsolve.answers.marking.marks import mark
+from dynsolve.answers.marking.policy import Policy
+from dynsolve.answers.marking.substance import weighed
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.unwritten import coriolis_entries, unwritten
@@ -85,18 +89,24 @@ class Judge:
     def report(self) -> Report:
         """Everything that is said of the hand-in."""
         answers = self._answers()
-        ordered = sorted(answers.values(), key=lambda answer: self.graph.quantities.place(answer.name))
+        place = self.graph.quantities.place
+        ordered = weighed(self, tuple(sorted(answers.values(), key=lambda answer: place(answer.name))))
         wrong = [answer for answer in ordered if answer.verdict is Verdict.WRONG]
         first = next((answer for answer in wrong if answer.given), wrong[0] if wrong else None)
         return Report(
             self.problem.stem,
             self.submission.student,
             self.submission.file,
-            tuple(ordered),
+            self._marked(ordered),
             self.submission.not_recognized,
             first.name if first is not None else "",
             self.submission.faults,
         )
+
+    def _marked(self, answers: tuple[JudgedAnswer, ...]) -> tuple[JudgedAnswer, ...]:
+        """The answers with the marks that they earn where a course decides nothing else."""
+        marks = mark(answers, self.graph.quantities, Policy())
+        return tuple(replace(a, marks=m.marks) for a, m in zip(answers, marks, strict=True))
 
     def _answers(self) -> dict[str, JudgedAnswer]:
         """The answers that were given, and those that were asked for, by name."""

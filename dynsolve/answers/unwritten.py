@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 
-from dynsolve.answers.answer_verdict import AnswerJudge, in_order, with_marks
+from dynsolve.answers.answer_verdict import AnswerJudge, in_order
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.verdict import JudgedAnswer, Verdict, worst
@@ -29,20 +29,18 @@ def unwritten(graph: AnswerGraph, name: str, of: Fraction, answers: Answers) -> 
     parts = _written_parts(graph, name, answers)
     if parts is None:
         base = JudgedAnswer(name, Verdict.MISSING, of=of, given=False)
-        return with_marks(_within_whole(graph, base, answers) or base)
+        return _within_whole(graph, base, answers) or base
     verdict = worst([part.verdict for part in parts])
     used = [source for part in parts for source in part.follows_from] if verdict is Verdict.FOLLOWS else []
-    return with_marks(
-        JudgedAnswer(
-            name,
-            verdict,
-            parts[0].label,
-            parts[0].place,
-            of=of,
-            given=False,
-            notes=(BY_PARTS,),
-            follows_from=in_order(graph, used),
-        )
+    return JudgedAnswer(
+        name,
+        verdict,
+        parts[0].label,
+        parts[0].place,
+        of=of,
+        given=False,
+        notes=(BY_PARTS,),
+        follows_from=in_order(graph, used),
     )
 
 
@@ -96,13 +94,11 @@ def coriolis_entries(
             both_wrong = row.verdict is Verdict.WRONG and alone.verdict is Verdict.WRONG
             yield (
                 name,
-                with_marks(
-                    replace(
-                        alone,
-                        verdict=row.verdict,
-                        follows_from=row.follows_from,
-                        diagnosis=alone.diagnosis if both_wrong else row.diagnosis,
-                        difference=alone.difference if both_wrong else row.difference,
-                    )
+                replace(
+                    alone,
+                    verdict=row.verdict,
+                    follows_from=row.follows_from,
+                    diagnosis=alone.diagnosis if both_wrong else row.diagnosis,
+                    difference=alone.difference if both_wrong else row.difference,
                 ),
             )

@@ -44,13 +44,19 @@ class Diagnosis:
 
 @dataclass(frozen=True, slots=True)
 class EntryVerdict:
-    """What is said of one entry of a matrix, or of one row of C; `index` counts from 1."""
+    """What is said of one entry of a matrix, or of one row of C; `index` counts from 1.
+
+    `zero` tells that the key is 0 there for every q, `empty` that it earns nothing by itself:
+    it is 0 where the key is not, or follows from what is empty.
+    """
 
     index: tuple[int, ...]
     verdict: Verdict
     diagnosis: tuple[Diagnosis, ...] = ()
     follows_from: tuple[str, ...] = ()
     difference: Node | None = None
+    zero: bool = False
+    empty: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +70,11 @@ class Occurrence:
 
 @dataclass(frozen=True, slots=True)
 class JudgedAnswer:
-    """What is said of one answer; `written` is the tree of what the student wrote."""
+    """What is said of one answer; `written` is the tree of what the student wrote.
+
+    What it is worth beside its verdict (`zero`, `empty`, `loss`, `parts`) is explained in
+    `marking.substance`.
+    """
 
     name: str
     verdict: Verdict
@@ -84,6 +94,10 @@ class JudgedAnswer:
     key: Node | None = None
     given: bool = True
     written: Node | None = None
+    zero: bool = False
+    empty: bool = False
+    loss: str = ""
+    parts: tuple[JudgedAnswer, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

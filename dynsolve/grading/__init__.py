@@ -1,12 +1,13 @@
 """Many hand-ins: from what the learning platform hands out to what it takes back.
 
     set_keys, set_file      `set.yaml`: its keys and its schema, reading it
-    problem_set, policy     what is graded, and how it is marked
+    problem_set             what is graded, and how it is marked
     uploads -> hand_ins     files, safely read -> who handed in what for which problem
     run, fingerprints       what has to be computed; what has not is in the record
     rows                    what the record is told of a hand-in, judged or not
     pool, worker, cluster   bounded processes, on this machine or on a Dask scheduler
-    work, losses, marking   one hand-in there: its verdicts, its marks
+    work                    one hand-in there: its verdicts, its marks
+    marking                 marks anew, from what the record keeps of each answer
     pages                   the student's page
     record                  everything that is known, in SQLite
     outputs, files          grades.csv, answers.csv and the students' pages, from the record
@@ -15,6 +16,7 @@
     public                  `dynsolve.grade` and `dynsolve.override`
 
 Nothing of a verdict is decided here; `dynsolve.answers` does that.  How to add a learning
-platform stands in `platforms`; a rule of marking is a field of `policy.Policy`,
-described in `set_keys`, read in `set_file` and applied in `marking`.
+platform stands in `platforms`; a rule of marking is a field of
+`answers.marking.policy.Policy`, described in `set_keys`, read in `set_file` and applied in
+`answers.marking.marks`.
 """

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import groupby
 
+from dynsolve.answers.marking.marks import maximum
+from dynsolve.answers.marking.policy import points
 from dynsolve.answers.unwritten import BY_PARTS
-from dynsolve.grading.marking import maximum
-from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record, RecordedAnswer
 from dynsolve.quantities.index import quantities

@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any
 
 import dynsolve
+from dynsolve.answers.marking.policy import Policy, shown, to_data
 from dynsolve.grading.hand_ins import HandIn
-from dynsolve.grading.policy import Policy, shown, to_data
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Key, Record

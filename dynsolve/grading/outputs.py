@@ -9,10 +9,10 @@ from html import escape
 from itertools import groupby
 from pathlib import Path
 
+from dynsolve.answers.marking.policy import points, shown
 from dynsolve.grading.cohort import most, standings
 from dynsolve.grading.files import decimal, folder_name, remove_others, table, write
 from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
-from dynsolve.grading.policy import points, shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record, RecordedAnswer, RecordedHandIn
 from dynsolve.grading.teacher import teachers_page

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import PurePath
 
+from dynsolve.answers.marking.policy import Policy, from_data, to_data
 from dynsolve.errors import UsageError
-from dynsolve.grading.policy import Policy, from_data, to_data
 from dynsolve.grading.record import Record
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import read_problem

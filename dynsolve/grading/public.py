@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
+from dynsolve.answers.marking.policy import shown
 from dynsolve.errors import UsageError
 from dynsolve.grading.cohort import standings
 from dynsolve.grading.fingerprints import changes
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.outputs import write_outputs
 from dynsolve.grading.platforms.registry import PLATFORMS, chosen_roster, export, keep_platform, late
-from dynsolve.grading.policy import shown
 from dynsolve.grading.pool import Bounds, LocalPool
 from dynsolve.grading.problem_set import store_set, stored_set
 from dynsolve.grading.record import FILE, Record, Waiting
@@ -80,13 +80,13 @@ def grade(
     >>> temporary = tempfile.TemporaryDirectory()
     >>> folder = Path(temporary.name)
     >>> (folder / "in").mkdir()
-    >>> _ = (folder / "in" / "anna.yaml").write_text("answers:\n  g: [0, 0]\n")
+    >>> _ = (folder / "in" / "anna.yaml").write_text("answers:\n  D: [[I1zz + m2*L2^2, 0], [0, m2]]\n")
     >>> grades = grade("in3140-rp", folder / "in", folder / "out", jobs=1)
     >>> grades.totals, grades.computed
     ({'anna': Fraction(1, 1)}, 1)
     >>> grade("in3140-rp", folder / "in", folder / "out").computed
     0
-    >>> override(folder / "out", "anna", "in3140-rp", "D", marks="1/2", why="correct on paper")
+    >>> override(folder / "out", "anna", "in3140-rp", "tau", marks="1/2", why="correct on paper")
     >>> grade("in3140-rp", folder / "in", folder / "out").totals
     {'anna': Fraction(3, 2)}
     >>> temporary.cleanup()

@@ -17,8 +17,9 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from dynsolve.answers.marking.marks import Marked
 from dynsolve.errors import UsageError
-from dynsolve.grading.marking import Kept, Marked
+from dynsolve.grading.marking import Kept
 
 Key = tuple[str, str]
 """A hand-in: the student and the problem."""

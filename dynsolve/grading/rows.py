@@ -6,10 +6,10 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from dynsolve.answers.marking.marks import mark
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.grading.fingerprints import causes, fingerprint, of_marks, of_policy, program, short
 from dynsolve.grading.hand_ins import HandIn, Intake
-from dynsolve.grading.marking import mark
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.record import Key

@@ -17,6 +17,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol
 
+from dynsolve.answers.marking.policy import to_data
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.fingerprints import (
     causes,
@@ -26,7 +27,6 @@ from dynsolve.grading.fingerprints import (
 )
 from dynsolve.grading.hand_ins import File, HandIn, Intake
 from dynsolve.grading.marking import rescored
-from dynsolve.grading.policy import to_data
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record

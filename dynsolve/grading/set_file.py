@@ -16,8 +16,8 @@ from fractions import Fraction
 from pathlib import Path
 
 from dynsolve.algebra.rationals import rational_value
+from dynsolve.answers.marking.policy import Policy
 from dynsolve.errors import Finding, ProblemError
-from dynsolve.grading.policy import Policy
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.set_keys import CAPS, POLICY, SET
 from dynsolve.problem.cells import read_cell

@@ -11,9 +11,9 @@ from math import floor
 from urllib.parse import quote
 
 from dynsolve.answers.diagnosis.slips import SLIPS
+from dynsolve.answers.marking.policy import shown
 from dynsolve.grading.cohort import VERDICTS, Cohort, counted, most
 from dynsolve.grading.files import decimal, folder_name
-from dynsolve.grading.policy import shown
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.render.prose import visible

@@ -16,13 +16,13 @@ from hashlib import sha256
 from typing import Any
 
 from dynsolve.answers.judge import Checker, Judge
+from dynsolve.answers.marking.marks import Marked, mark
+from dynsolve.answers.marking.policy import from_data
 from dynsolve.answers.sandbox import REMEDY, Stopped, limited
 from dynsolve.answers.submission import Submission
-from dynsolve.answers.verdict import JudgedAnswer, Report, Verdict
-from dynsolve.grading.losses import losses
-from dynsolve.grading.marking import Marked, basis, mark
+from dynsolve.answers.verdict import JudgedAnswer, Verdict
+from dynsolve.grading.marking import basis
 from dynsolve.grading.pages import student_page
-from dynsolve.grading.policy import from_data
 from dynsolve.problem.reader import read_problem
 
 Data = dict[str, Any]
@@ -61,17 +61,15 @@ def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
     problem, policy = checker.problem, from_data(payload["policy"])
     judge = Judge(checker, submission)
     report = judge.report()
-    lost = losses(judge, report)
-    parts = _parts(judge, report)
-    marked = mark(report.answers, judge.graph.quantities, policy, payload["late"], lost, parts)
+    marked = mark(report.answers, judge.graph.quantities, policy, payload["late"])
     html, markdown = student_page(report, problem, payload["student"], policy.hints)
     return {
         "answers": [
             {
                 **_answer(answer, marks),
-                "loss": lost.get(answer.name, ""),
+                "loss": answer.loss,
                 "form": _form(judge, answer),
-                "basis": basis(answer, parts.get(answer.name, ())),
+                "basis": basis(answer),
             }
             for answer, marks in zip(report.answers, marked, strict=True)
         ],
@@ -107,24 +105,6 @@ def _joined(read: list[Submission]) -> Submission:
         tuple(replace(n, place=replace(n.place, file=o.file)) for o in read for n in o.not_recognized),
         tuple(replace(f, message=f"{o.file}: {f.message}") for o in read for f in o.faults),
     )
-
-
-def _parts(judge: Judge, report: Report) -> dict[str, tuple[JudgedAnswer, ...]]:
-    """The parts of the wholes that are not written; of a matrix also where some of them are missing."""
-    given = {answer.name: answer for answer in report.answers if answer.given}
-    quantities = judge.graph.quantities
-    found = {}
-    for answer in report.answers:
-        if answer.given:
-            continue
-        names = quantities.parts(answer.name)
-        pieces = [given.get(name) or given.get(quantities.mirrored(name)) for name in names]
-        written = [piece for piece in pieces if piece is not None]
-        of_matrix = all(quantities[name].entry for name in names)
-        if written and (of_matrix or len(written) == len(pieces)):
-            missing = (JudgedAnswer(name, Verdict.MISSING) for name in names)
-            found[answer.name] = tuple(p or m for p, m in zip(pieces, missing, strict=True))
-    return found
 
 
 def _answer(answer: JudgedAnswer, marked: Marked) -> Data:

@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 
 import dynsolve
+from dynsolve.answers.marking.policy import Policy
 from dynsolve.errors import UsageError
 from dynsolve.grading import pool as pool_module
 from dynsolve.grading.hand_ins import take_in
-from dynsolve.grading.policy import Policy
 from dynsolve.grading.pool import Bounds, Data
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record

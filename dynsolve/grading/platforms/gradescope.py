@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from dynsolve.answers.marking.policy import points
 from dynsolve.grading.cohort import Standing, standings
 from dynsolve.grading.files import folder_name, remove_others
 from dynsolve.grading.platforms.owner import FileOwner
 from dynsolve.grading.platforms.roster import Roster
-from dynsolve.grading.policy import points
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.uploads import printable

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from dynsolve.answers.marking.marks import mark, maximum
+from dynsolve.answers.marking.policy import Policy, rounded, shown
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
-from dynsolve.grading.marking import mark, maximum
-from dynsolve.grading.policy import Policy, rounded, shown
 from dynsolve.quantities.index import Owners, Quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType
@@ -50,16 +50,16 @@ def test_shares() -> None:
 
 
 def test_what_follows_and_has_lost_something_earns_half() -> None:
-    (found,) = mark(
-        [_answer("tau", Verdict.FOLLOWS)], QUANTITIES, Policy(), losses={"tau": "body 2 is lost on the way"}
-    )
+    (found,) = mark([_answer("tau", Verdict.FOLLOWS, loss="body 2 is lost on the way")], QUANTITIES, Policy())
     assert (found.marks, found.why) == (2, "follows, but body 2 is lost on the way, which earns 50 %: 2 of 4")
 
 
 def test_late_and_rounding() -> None:
     policy = Policy(late=F(4, 5), rounding=F(1, 2))
-    (found,) = mark([_answer("K", Verdict.CORRECT, 3)], QUANTITIES, policy, late=True)
-    assert (found.marks, found.why) == (F(5, 2), "correct: 3 of 3; late, 80 % of it: 2.5")
+    (found,) = mark([_answer("K", Verdict.CORRECT, 3)], QUANTITIES, policy, late=1)
+    assert (found.marks, found.why) == (
+        F(5, 2), "correct: 3 of 3; late, 80 % of 3 in all is 2.5: 2.5",
+    )  # fmt: skip
 
 
 def test_a_cap_limits_what_a_stage_earns_and_what_it_is_out_of() -> None:
@@ -70,8 +70,8 @@ def test_a_cap_limits_what_a_stage_earns_and_what_it_is_out_of() -> None:
 
 
 def test_a_whole_by_its_parts() -> None:
-    parts = {"K": (_answer("K1", Verdict.CORRECT), _answer("K2", Verdict.WRONG))}
-    (found,) = mark([_answer("K", Verdict.WRONG)], QUANTITIES, Policy(), parts=parts)
+    parts = (_answer("K1", Verdict.CORRECT), _answer("K2", Verdict.WRONG))
+    (found,) = mark([_answer("K", Verdict.WRONG, parts=parts)], QUANTITIES, Policy())
     assert (found.marks, found.why) == (2, "1 of 2 parts correct: 2 of 4")
 
 
@@ -81,14 +81,15 @@ def test_an_answer_that_follows_in_part_earns_what_is_right_in_full() -> None:
     assert (found.marks, found.why) == (
         F(5, 2), "1 of 4 entries correct, 3 following, which earns 50 %: 2.5 of 4",
     )  # fmt: skip
-    (found,) = mark(answers, QUANTITIES, Policy(), losses={"D": "body 2 is lost on the way"})
+    lost = [replace(answer, loss="body 2 is lost on the way") for answer in answers]
+    (found,) = mark(lost, QUANTITIES, Policy())
     assert found.marks == F(5, 2)
     assert "3 following, but body 2 is lost on the way, which earns 50 %: 2.5 of 4" in found.why
 
 
 def test_a_matrix_that_is_written_in_part_earns_what_is_there() -> None:
-    parts = {"g": (_answer("g1", Verdict.CORRECT), _answer("g2", Verdict.MISSING))}
-    (found,) = mark([_answer("g", Verdict.MISSING)], QUANTITIES, Policy(), parts=parts)
+    parts = (_answer("g1", Verdict.CORRECT), _answer("g2", Verdict.MISSING))
+    (found,) = mark([_answer("g", Verdict.MISSING, parts=parts)], QUANTITIES, Policy())
     assert (found.marks, found.why) == (2, "1 of 2 parts correct, 1 missing: 2 of 4")
 
 
@@ -97,7 +98,7 @@ def test_rounding_takes_nothing_from_all_and_gives_no_more_than_all() -> None:
     answers = [JudgedAnswer("K", Verdict.CORRECT, of=F(1, 3)), _answer("D", Verdict.WRONG, 0, "cccw")]
     answers[1] = replace(answers[1], of=F(1, 3))
     assert [m.marks for m in mark(answers, QUANTITIES, policy)] == [F(1, 3), F(1, 3)]
-    assert [m.marks for m in mark(answers, QUANTITIES, policy, late=True)] == [0, 0]
+    assert [m.marks for m in mark(answers, QUANTITIES, policy, late=1)] == [F(1, 4), F(1, 4)]
 
 
 def test_a_cap_leaves_no_answer_more_than_it_is_out_of() -> None:
@@ -112,6 +113,59 @@ def test_the_cap_of_a_stage_is_that_of_bodies_by_any_name() -> None:
     answers = [_answer(name, Verdict.CORRECT, 3) for name in ("Kp", "Kvm2", "D")]
     found = mark(answers, named, Policy(caps={"energy": F(3)}))
     assert [(m.marks, m.of) for m in found] == [(3, 3), (0, 0), (3, 3)]
+
+
+def _matrix(zeros: str, entries: str, verdict: Verdict = Verdict.WRONG) -> JudgedAnswer:
+    answer = _answer("D", verdict, 12, entries)
+    weighed = (replace(e, zero=zero == "0") for e, zero in zip(answer.entries, zeros, strict=True))
+    return replace(answer, entries=tuple(weighed))
+
+
+@pytest.mark.parametrize(
+    ("zeros", "entries", "marks"),
+    [
+        ("x00x", "cccc", 12),  # all of it
+        ("x00x", "wccw", 0),  # zeros earn nothing
+        ("x00x", "cccw", 6),  # the mark is over the entries that carry something
+        ("x00x", "cwcc", 9),  # a wrong zero costs its part
+        ("x00x", "wwcc", F(9, 2)),
+        ("x00x", "fccc", 9),
+        ("xxxx", "cccw", 9),
+    ],
+)
+def test_zeros_of_a_matrix_earn_with_the_rest(zeros: str, entries: str, marks: Fraction) -> None:
+    verdict = Verdict.WRONG if "w" in entries else Verdict.CORRECT if "f" not in entries else Verdict.FOLLOWS
+    (found,) = mark([_matrix(zeros, entries, verdict)], QUANTITIES, Policy(follow=F(1, 2)))
+    assert found.marks == marks
+
+
+def test_what_follows_from_nothing_earns_nothing() -> None:
+    empty = _answer("tau", Verdict.FOLLOWS, loss="body 2 is lost on the way", empty=True)
+    (found,) = mark([empty], QUANTITIES, Policy())
+    assert (found.marks, found.why) == (
+        0, "follows, but body 2 is lost on the way, which earns nothing by itself: 0 of 4",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("late", "days", "rounding", "marks"),
+    [
+        ("0.9", 1, "1", 3),  # 3.6 is not rounded to what it was
+        ("0.8", 1, "1", 3),
+        ("0.9", 1, "0.01", F(18, 5)),
+        ("0.9 0.8 0.5", 0, "1/2", 4),
+        ("0.9 0.8 0.5", 1, "1/2", F(7, 2)),
+        ("0.9 0.8 0.5", 2, "1/2", 3),
+        ("0.9 0.8 0.5", 9, "1/2", 2),
+    ],
+)
+def test_late_is_taken_once_from_the_total(late: str, days: int, rounding: str, marks: Fraction) -> None:
+    first, *later = map(F, late.split())
+    policy = Policy(late=first, later=tuple(later), rounding=F(rounding))
+    found = mark(
+        [_answer(name, Verdict.CORRECT, 1) for name in ("K", "P", "D", "g")], QUANTITIES, policy, days
+    )
+    assert sum(m.marks for m in found) == marks
 
 
 _POINTS = st.fractions(0, 10, max_denominator=6)
@@ -147,8 +201,9 @@ _POLICIES = st.builds(
 def test_marks_hold_together_whatever_the_policy(
     answers: list[JudgedAnswer], policy: Policy, late: bool, lost: bool
 ) -> None:
-    losses = {answer.name: "body 2 is lost on the way" for answer in answers if lost}
-    found = mark(answers, QUANTITIES, policy, late, losses)
+    if lost:
+        answers = [replace(answer, loss="body 2 is lost on the way") for answer in answers]
+    found = mark(answers, QUANTITIES, policy, int(late))
     assert [m.name for m in found] == [a.name for a in answers]
     for marked, answer in zip(found, answers, strict=True):
         assert 0 <= marked.marks <= marked.of <= answer.of
@@ -163,11 +218,17 @@ def test_marks_hold_together_whatever_the_policy(
             assert marked.marks == answer.of
         if marked.marks not in (answer.of, rounded(marked.marks, policy.rounding)):
             assert policy.caps or late
+    in_time = mark(answers, QUANTITIES, policy)
+    uncapped = mark(answers, QUANTITIES, replace(policy, caps={}))
     for stage, cap in policy.caps.items():
-        here = [m for m in found if QUANTITIES.stage(m.name) == stage]
-        uncapped = mark(answers, QUANTITIES, replace(policy, caps={}), late, losses)
+        here = [m for m in in_time if QUANTITIES.stage(m.name) == stage]
         earned = sum((m.marks for m in uncapped if QUANTITIES.stage(m.name) == stage), F(0))
         assert sum((m.marks for m in here), F(0)) == min(cap, earned)
+    total = sum((m.marks for m in in_time), F(0))
+    if late and policy.late < 1 and total:
+        kept = sum((m.marks for m in found), F(0))
+        assert kept < total and rounded(kept, policy.rounding) == kept
+        assert abs(kept - policy.late * total) <= policy.rounding
     of = sum((m.of for m in found), F(0))
     assert of == maximum(((a.name, a.of) for a in answers), QUANTITIES, policy)
 

@@ -13,6 +13,8 @@ from typing import Any
 class Policy:
     """`follow` is the share that what follows earns, `late` the share that a late hand-in keeps.
 
+    `later` are the shares of the second day and those after it, where a course takes off by the
+    day; the last holds for ever.
     `caps` are the most marks that the answers of a stage earn together, `rounding` is the
     step that the marks of an answer are rounded to (halves up), `hints` how much a student
     is told: 1 where, 2 what kind of slip, 3 how.
@@ -23,6 +25,22 @@ class Policy:
     rounding: Fraction = Fraction(1, 100)
     late: Fraction = Fraction(1)
     hints: int = 3
+    later: tuple[Fraction, ...] = ()
+
+    def kept(self, days: int) -> Fraction:
+        """The share that a hand-in keeps which is so many days late, begun ones counted.
+
+        >>> policy = Policy(late=Fraction(9, 10), later=(Fraction(4, 5),))
+        >>> [str(policy.kept(days)) for days in (0, 1, 2, 7)]
+        ['1', '9/10', '4/5', '4/5']
+        """
+        shares = (Fraction(1), self.late, *self.later)
+        return shares[min(days, len(shares) - 1)]
+
+    @property
+    def minds_late(self) -> bool:
+        """Whether it matters who was late."""
+        return any(share != 1 for share in (self.late, *self.later))
 
 
 def rounded(marks: Fraction, step: Fraction) -> Fraction:
@@ -65,7 +83,7 @@ def to_data(policy: Policy) -> dict[str, Any]:
         "follow": str(policy.follow),
         "caps": {stage: str(cap) for stage, cap in sorted(policy.caps.items())},
         "rounding": str(policy.rounding),
-        "late": str(policy.late),
+        "late": [str(share) for share in (policy.late, *policy.later)],
         "hints": policy.hints,
     }
 
@@ -77,6 +95,7 @@ def from_data(data: Mapping[str, Any]) -> Policy:
     Fraction(4, 5)
     """
     caps = {stage: Fraction(cap) for stage, cap in data["caps"].items()}
+    late, *later = map(Fraction, data["late"])
     return Policy(
-        Fraction(data["follow"]), caps, Fraction(data["rounding"]), Fraction(data["late"]), data["hints"]
+        Fraction(data["follow"]), caps, Fraction(data["rounding"]), late, data["hints"], tuple(later)
     )
