@@ -19,6 +19,7 @@ from dynsolve.answers.answer_verdict import AnswerJudge
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.judging.answer_ring import AnswerRing
+from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.explanation import Explanations
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.hand_in import ComparedHandIn
@@ -44,6 +45,7 @@ class Checker:
         self.problem = problem
         self.key = key if key is not None else derive(problem.robot)
         self.answer_ring = AnswerRing(problem.robot, self.key)
+        self.compare_entry = EntryComparer(problem.values, problem.decimals)
 
     @cached_property
     def reader(self) -> FileReader:
@@ -72,7 +74,7 @@ class Judge:
         self.checker = checker
         self.problem = checker.problem
         self.submission = submission
-        self.hand_in = ComparedHandIn(checker.answer_ring, checker.problem.values, submission.answers)
+        self.hand_in = ComparedHandIn(checker.answer_ring, checker.compare_entry, submission.answers)
         self.graph = self.hand_in.graph
 
     @cached_property

@@ -7,12 +7,16 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import PurePath
+from re import compile as pattern
 
 from dynsolve.errors import Finding
 from dynsolve.robot.model import Convention, Robot
 
 Path = tuple[str | int, ...]
 """The way to a part of a file: ("masses", 0, "axes"), list items from 0."""
+
+_WORDS = (("title",), ("source",))
+"""The parts of a file that are words, whatever numbers stand in them."""
 
 FIND = ("tau", "D", "C", "g")
 """What an exercise asks for unless it says otherwise."""
@@ -26,6 +30,9 @@ class FilePlace:
     column: int
     length: int
     excerpt: str
+
+
+_DECIMAL = pattern(r"(?<![\w.])\d*\.\d+(?![\w.])")
 
 
 @lru_cache(maxsize=256)
@@ -61,6 +68,13 @@ class Problem:
     def stem(self) -> str:
         """The name of its file without folder and ending: what an answer file calls it."""
         return _stem(self.file)
+
+    @property
+    def decimals(self) -> frozenset[Fraction]:
+        """The decimals that stand in the file, which are exact wherever an answer uses them."""
+        lines = {place.excerpt for path, place in self.places.items() if path[:1] not in _WORDS}
+        texts = (text for line in lines for text in _DECIMAL.findall(line.partition(" #")[0]))
+        return frozenset(Fraction(text) for text in texts) | frozenset(self.values.values())
 
     def finding(self, path: Path, message: str, help: str = "", code: str = "") -> Finding:
         """A finding at a part of the file, or at the nearest part around it that has a place."""

@@ -5,14 +5,14 @@ numbers for its symbols or the answer holds decimals, the other two are tried:
 
 - a symbol with a number in the file may stand as either: symbols that the answer
   does not use are replaced by their numbers on both sides;
-- every decimal of the answer stands for all numbers that round to it, and the
-  expected coefficients must lie in what that allows; but twice as much as is
-  right (0.1 for 0.05) is a lost ½ and no rounding.
+- a decimal of at least three significant digits that does not stand in the problem
+  file stands for all numbers that round to it: the answer is right where one choice
+  of these numbers makes it what is expected.  Every other number is exact: 0.5 is ½.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import cos, pi, radians, sqrt
@@ -27,10 +27,20 @@ from dynsolve.notation.walk import walk, with_children
 
 ROUNDED = "rounded"
 
+FEWEST_DIGITS = 3
+"""A decimal with fewer significant digits is exact."""
+
 MOST_DECIMALS = 40
 """An answer with more decimals than this is compared exactly only."""
 
+MOST_SWEEPS = 200
+"""So often all decimals of an answer are adjusted, until they make it what is expected."""
+
 _SLACK = 1 + 1e-6
+_NEAR = 1e-4
+
+Monomial = tuple[int, ...]
+"""The exponents of a term."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,9 +54,13 @@ class WrittenEntry:
 
 @dataclass(frozen=True, slots=True)
 class EntryComparer:
-    """Compares scalars; `values` are the numbers that the problem file gives for symbols."""
+    """Compares scalars; `values` are the numbers that the problem file gives for symbols.
+
+    `exact` are the decimals that stand in the problem file.
+    """
 
     values: Mapping[str, Fraction]
+    exact: frozenset[Fraction] = frozenset()
 
     def __call__(self, expected: Expr, written: WrittenEntry) -> str | None:
         """Empty where they are equal, `rounded` where a decimal rounds, None where they differ."""
@@ -95,7 +109,7 @@ class EntryComparer:
 
     def _steps(self, written: WrittenEntry) -> Iterator[Expr]:
         """How far the answer moves when one of its decimals moves by half a unit of its last place."""
-        for changed in moved_decimals(written.node):
+        for changed in moved_decimals(written.node, self.exact):
             value = simplified(written.evaluate(changed))
             if value.divisor is None and written.value.divisor is None:
                 yield value.numerator - written.value.numerator
@@ -124,25 +138,53 @@ def substituted(expr: Expr, put: Mapping[int, Fraction]) -> Expr:
 
 
 def _rounds(expected: Expr, mine: Expr, steps: Iterator[Expr]) -> bool:
-    allowed: dict[tuple[int, ...], float] = {}
-    for step in steps:
-        for key, value in _floats(step).items():
-            allowed[key] = allowed.get(key, 0.0) + abs(value)
-    if not allowed:
+    """Whether decimals within their intervals make the answer what is expected.
+
+    What is expected must not come out as 0 for it: a term that has to vanish was left out.
+    """
+    moves = [move for move in map(_floats, steps) if move]
+    if not moves:
         return False
     theirs, ours = _floats(expected), _floats(mine)
-    for key in theirs.keys() | ours.keys():
-        right = theirs.get(key, 0.0)
-        off = abs(right - ours.get(key, 0.0))
-        if off > allowed.get(key, 0.0) * _SLACK + 1e-12 or (right and off * _SLACK >= abs(right)):
+    off = {key: theirs.get(key, 0.0) - ours.get(key, 0.0) for key in theirs.keys() | ours.keys()}
+    for key, difference in off.items():
+        allowed = sum(abs(move.get(key, 0.0)) for move in moves)
+        right = abs(theirs.get(key, 0.0))
+        if abs(difference) > _loosely(allowed) or (right and abs(difference) * _SLACK >= right):
             return False
-    return True
+    return _reached(off, moves)
 
 
-def _floats(expr: Expr) -> dict[tuple[int, ...], float]:
+def _loosely(allowed: float) -> float:
+    return allowed * _SLACK + 1e-12
+
+
+def _reached(off: Mapping[Monomial, float], moves: Sequence[Mapping[Monomial, float]]) -> bool:
+    """Whether the moves, each taken between -1 and 1 times, add up to what is off.
+
+    A decimal before a bracket moves several coefficients at once.  The least squares in the box
+    are found coordinate by coordinate.
+    """
+    left = dict(off)
+    taken = [0.0] * len(moves)
+    for _ in range(MOST_SWEEPS):
+        if all(abs(rest) <= _loosely(0) + _NEAR * max(abs(m.get(k, 0.0)) for m in moves)
+               for k, rest in left.items()):  # fmt: skip
+            return True
+        for place, move in enumerate(moves):
+            size = sum(value * value for value in move.values())
+            best = taken[place] + sum(left.get(key, 0.0) * value for key, value in move.items()) / size
+            step = min(max(best, -1.0), 1.0) - taken[place]
+            taken[place] += step
+            for key, value in move.items():
+                left[key] = left.get(key, 0.0) - step * value
+    return False
+
+
+def _floats(expr: Expr) -> dict[Monomial, float]:
     """The coefficients as numbers, with the numeric generators (√3, π, cos 10°) put in."""
     numeric = _numeric(expr.ring)
-    result: dict[tuple[int, ...], float] = {}
+    result: dict[Monomial, float] = {}
     for exponents, value in expr.poly.to_dict().items():
         number = int(value.p) / int(value.q)
         key = tuple(0 if i in numeric else int(e) for i, e in enumerate(exponents))
@@ -166,17 +208,15 @@ def _numeric(ring: Any) -> dict[int, float]:
     return found
 
 
-def moved_decimals(node: Node) -> Iterator[Node]:
-    """The tree once for each of its decimals, that one moved by half a unit of its last place."""
-    count = sum(1 for _ in _decimals(node))
+def moved_decimals(node: Node, exact: Container[Fraction] = ()) -> Iterator[Node]:
+    """The tree once for each decimal that rounds, that one moved by half a unit of its last place."""
+    mover = _Mover(exact)
+    count = sum(1 for part in walk(node) if isinstance(part, Number) and mover.rounds(part))
     if not 0 < count <= MOST_DECIMALS:
         return
     for place in range(count):
-        yield _Mover(place).tree(node)
-
-
-def _decimals(node: Node) -> Iterator[Number]:
-    return (part for part in walk(node) if isinstance(part, Number) and _places(part))
+        mover.left = place
+        yield mover.tree(node)
 
 
 def _places(value: Number) -> int:
@@ -195,10 +235,18 @@ def _places(value: Number) -> int:
 
 
 class _Mover:
-    """Rebuilds a tree with its decimal number `place` moved."""
+    """Rebuilds a tree with the decimal number `left` of those that round moved."""
 
-    def __init__(self, place: int) -> None:
-        self.left = place
+    def __init__(self, exact: Container[Fraction]) -> None:
+        self.exact = exact
+        self.left = 0
+
+    def rounds(self, number: Number) -> bool:
+        """Whether a number stands for those that round to it."""
+        places = _places(number)
+        if not places or Fraction(number.p, number.q) in self.exact:
+            return False
+        return len(str(number.p * 10**places // number.q)) >= FEWEST_DIGITS
 
     def tree(self, node: Node) -> Node:
         match node:
@@ -208,12 +256,11 @@ class _Mover:
                 return node
         return with_children(node, self.tree)
 
-    def number(self, node: Number) -> Node:
-        places = _places(node)
-        if not places:
-            return node
+    def number(self, number: Number) -> Node:
+        if not self.rounds(number):
+            return number
         self.left -= 1
         if self.left != -1:
-            return node
-        moved = Fraction(node.p, node.q) + Fraction(1, 2 * 10**places)
+            return number
+        moved = Fraction(number.p, number.q) + Fraction(1, 2 * 10 ** _places(number))
         return Number(moved.numerator, moved.denominator)

@@ -10,9 +10,8 @@ height is the student's own, see `zero_height`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from fractions import Fraction
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
@@ -32,17 +31,17 @@ Chain = list[AnswerValue]
 class ComparedHandIn:
     """The answers of one hand-in, compared with the key.
 
-    `answer_ring` is the problem's, extended by what the answers need; `numbers` are those that
-    the problem file gives for its symbols.  `chains` has the equations of each quantity,
+    `answer_ring` is the problem's, extended by what the answers need; `compare_entry` compares
+    scalars, by the numbers of the problem file too.  `chains` has the equations of each quantity,
     `comparisons` the comparison of the answer that counts.
     """
 
     def __init__(
-        self, answer_ring: AnswerRing, numbers: Mapping[str, Fraction], answers: Sequence[Answer]
+        self, answer_ring: AnswerRing, compare_entry: EntryComparer, answers: Sequence[Answer]
     ) -> None:
         values = AnswerValues(answer_ring, answers)
         self.answer_ring = values.answer_ring
-        self.compare_entry = EntryComparer(numbers)
+        self.compare_entry = compare_entry
         at_keys_height = KeyComparer(values.graph, self.compare_entry, values.changed)
         self.chains = _by_quantity(values.all, at_keys_height)
         energies = dict(self._energies())
