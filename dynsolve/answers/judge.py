@@ -22,12 +22,12 @@ from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.explanation import Explanations
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.hand_in import ComparedHandIn
+from dynsolve.answers.judging.hand_in import ComparedHandIn, last
 from dynsolve.answers.marking.marks import mark
 from dynsolve.answers.marking.policy import Policy
 from dynsolve.answers.marking.substance import weighed
 from dynsolve.answers.reading.files import FileReader
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.submission import NotRecognized, Submission
 from dynsolve.answers.unwritten import coriolis_entries, unwritten
 from dynsolve.answers.verdict import JudgedAnswer, Report, Verdict
 from dynsolve.derivation.graph import Derivation
@@ -100,7 +100,7 @@ class Judge:
             self.submission.student,
             self.submission.file,
             self._marked(ordered),
-            self.submission.not_recognized,
+            self._not_recognized(),
             first.name if first is not None else "",
             self.submission.faults,
         )
@@ -122,6 +122,25 @@ class Judge:
                 name not in answers
                 and self.hand_in.compare.target(name).node in self.hand_in.answer_ring.rules
             ):
-                of = Fraction(self.problem.marks.get(name, 0))
-                answers[name] = unwritten(self.graph, name, of, answers)
+                answers[name] = self._unwritten(name, answers)
+        for name, chains in self.hand_in.definitions.items():
+            defined = answers[name] if name in answers else self._unwritten(name, answers)
+            if defined.verdict is Verdict.MISSING:
+                value = last(chains)
+                answers[name] = replace(
+                    defined, label=value.answer.label, place=value.answer.place, notes=(value.fault,)
+                )
         return answers
+
+    def _unwritten(self, name: str, answers: dict[str, JudgedAnswer]) -> JudgedAnswer:
+        return unwritten(self.graph, name, Fraction(self.problem.marks.get(name, 0)), answers)
+
+    def _not_recognized(self) -> tuple[NotRecognized, ...]:
+        """What is none of the answers: equations that name nothing known, and definitions."""
+        definitions = (
+            NotRecognized(f"{name} = {value.answer.text}", value.answer.label, value.answer.place)
+            for name, chains in self.hand_in.definitions.items()
+            for chain in chains
+            for value in chain
+        )
+        return (*self.submission.not_recognized, *definitions)

@@ -2,7 +2,7 @@
 
 Every answer is admitted to the ring by itself: one that cannot be held is
 unreadable and leaves the others as they are.  Names that occur inside a value stand
-for the student's own answers, and for the key's where there is none.
+for the student's own answers (`own_names`); one that is given nowhere makes it a definition.
 """
 
 from __future__ import annotations
@@ -16,12 +16,11 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing, AnswerRingBuilder
 from dynsolve.answers.judging.evaluate import AnswerEvaluator
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.own_names import GivenNowhereError, OwnNames, Rows
 from dynsolve.answers.submission import Answer
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Reference
-
-Rows = tuple[tuple[RationalExpr, ...], ...]
 
 MOST_ENTRIES = 144
 """The most entries of a matrix that is judged."""
@@ -29,13 +28,17 @@ MOST_ENTRIES = 144
 
 @dataclass(frozen=True, slots=True)
 class AnswerValue:
-    """One answer with its value: rows of entries, a scalar as 1×1; `fault` where there is none."""
+    """One answer with its value: rows of entries, a scalar as 1×1; `fault` where there is none.
+
+    `is_definition` says that the value needs what is given nowhere, which `fault` names.
+    """
 
     answer: Answer
     rows: Rows | None
     nodes: tuple[tuple[Node, ...], ...] = ()
     fault: str = ""
     expected: str = ""
+    is_definition: bool = False
 
     @property
     def is_matrix(self) -> bool:
@@ -65,10 +68,10 @@ class AnswerValues:
         self.answer_ring: AnswerRing = builder.build()
         self.graph = AnswerGraph(self.answer_ring)
         self.answers = tuple(answers)
-        self._last = {a.name: place for place, a in enumerate(answers) if place not in self._faults}
         self._values: dict[int, AnswerValue] = {}
         self._busy: set[int] = set()
-        self.evaluator = AnswerEvaluator(self.answer_ring.ring, self.lookup, self.answer_ring.known_values)
+        self._names = OwnNames(self.graph, answers, self._rows_at, self._faults)
+        self.evaluator = AnswerEvaluator(self.answer_ring.ring, self._lookup, self.answer_ring.known_values)
         self.all: tuple[AnswerValue, ...] = tuple(self._value(place) for place in range(len(answers)))
 
     def _value(self, place: int) -> AnswerValue:
@@ -92,44 +95,23 @@ class AnswerValues:
         self.evaluator.work = 0
         try:
             rows = tuple(tuple(self.evaluator.value(node) for node in row) for row in nodes)
+        except GivenNowhereError as error:
+            return AnswerValue(answer, None, nodes, error.message, is_definition=True)
         except AlgebraError as error:
             return AnswerValue(answer, None, nodes, error.message, error.help)
         return AnswerValue(answer, rows, nodes)
 
-    def lookup(self, reference: Reference) -> RationalExpr:
-        """The value of an answer that occurs inside another."""
-        name, row, column = reference.quantity, reference.row, reference.column
-        own = self._own(name, row, column)
-        return self._from_key(name, row, column) if own is None else own
-
-    def _own(self, name: str, row: int | None, column: int | None) -> RationalExpr | None:
-        """The student's own value: of the answer itself, or of the matrix that it is an entry of."""
-        place = self._last.get(name)
-        if place is None:
-            name, entry = self.graph.quantities.entry_of(name)
-            if len(entry) != 2:
-                return None
-            row, column = entry[0] + 1, entry[1] + 1
-            place = self._last.get(name)
-        if place is None or place in self._busy:
-            return None
+    def _lookup(self, reference: Reference) -> RationalExpr:
+        """The value of an answer that occurs inside another, whose work is not this one's."""
         work = self.evaluator.work
-        value = self._value(place)
-        self.evaluator.work = work
-        return None if value.rows is None else _entry(value.rows, row, column)
+        try:
+            return self._names(reference)
+        finally:
+            self.evaluator.work = work
 
-    def _from_key(self, name: str, row: int | None, column: int | None) -> RationalExpr:
-        quantity = self.graph.quantities.get(name)
-        if quantity is None or quantity.rule not in self.answer_ring.rules:
-            raise AlgebraError(f"{name} is not a quantity of this problem")
-        value = self.answer_ring.key(quantity.rule)
-        if quantity.is_read_off:
-            return RationalExpr(value[quantity.entry])
-        if isinstance(value, Matrix):
-            if row is None or column is None or row > value.shape[0] or column > value.shape[1]:
-                raise AlgebraError(f"{name} is a matrix and stands where a number should")
-            return RationalExpr(value[row - 1, column - 1])
-        return RationalExpr(value)
+    def _rows_at(self, place: int) -> Rows | None:
+        """The value of the answer at a place; None while it is being worked out itself."""
+        return None if place in self._busy else self._value(place).rows
 
     def changed(self, node: Node) -> RationalExpr:
         """The value of a tree that is an answer's but for a decimal."""
@@ -139,16 +121,6 @@ class AnswerValues:
 
 def _entries(node: Node) -> tuple[tuple[Node, ...], ...]:
     return node.rows if isinstance(node, tree.Matrix) else ((node,),)
-
-
-def _entry(rows: Rows, row: int | None, column: int | None) -> RationalExpr | None:
-    if row is None or column is None:
-        return rows[0][0] if len(rows) == 1 and len(rows[0]) == 1 else None
-    if row <= len(rows) and column <= len(rows[0]):
-        return rows[row - 1][column - 1]
-    if len(rows) == 1 and column == 1 and row <= len(rows[0]):  # a column written as a row
-        return rows[0][row - 1]
-    return None
 
 
 def same(a: Rows, b: Rows) -> bool:

@@ -33,7 +33,8 @@ class ComparedHandIn:
 
     `answer_ring` is the problem's, extended by what the answers need; `compare_entry` compares
     scalars, by the numbers of the problem file too.  `chains` has the equations of each quantity,
-    `comparisons` the comparison of the answer that counts.
+    `comparisons` the comparison of the answer that counts; `definitions` has the equations that
+    need what is given nowhere, which are none of the answers.
     """
 
     def __init__(
@@ -43,7 +44,9 @@ class ComparedHandIn:
         self.answer_ring = values.answer_ring
         self.compare_entry = compare_entry
         at_keys_height = KeyComparer(values.graph, self.compare_entry, values.changed)
-        self.chains = _by_quantity(values.all, at_keys_height)
+        given = [value for value in values.all if not value.is_definition]
+        self.chains = _by_quantity(given, at_keys_height)
+        self.definitions = _by_quantity([v for v in values.all if v.is_definition], at_keys_height)
         energies = dict(self._energies())
         potential = potential_at_zero_height(self.answer_ring, energies, self.answer_ring.dimensions)
         self.graph = AnswerGraph(self.answer_ring, potential)
