@@ -231,7 +231,7 @@ KV = Family(
     json="Kv",
     dimension=ENERGY,
     unit="J",
-    spellings=(*_each(_ENERGY, _V), "K{b}v", *_each("Klin Ktrans Kt KT KL Kl", "{b}")),
+    spellings=(*_each(_ENERGY, _V), *_each("K T E", "{b}", "v"), *_each("Klin Ktrans Kt KT KL Kl", "{b}")),
     part_of="K{b}",
 )
 
@@ -243,7 +243,7 @@ KW = Family(
     json="Kw",
     dimension=ENERGY,
     unit="J",
-    spellings=(*_each(_ENERGY, _W), "K{b}omega", "K{b}w", *_each("Krot Kr KR", "{b}")),
+    spellings=(*_each(_ENERGY, _W), *_each("K T E", "{b}", "omega w"), *_each("Krot Kr KR", "{b}")),
     part_of="K{b}",
     spins=True,
 )
@@ -411,6 +411,7 @@ C = Family(
     dimension=MOMENTUM,
     per=("row", "column"),
     dimension_is_told=False,
+    spellings=("S",),
 )
 
 C_ENTRY = Family(
@@ -456,7 +457,7 @@ CQD = Family(
     dimension=ENERGY,
     per=("row",),
     unit="N m",
-    spellings=("c", "V", "Cqdot", "h", "C"),
+    spellings=("c", "V", "Cqdot", "h", "C", "n", "N"),
     aliases=("c", "V"),
 )
 

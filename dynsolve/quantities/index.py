@@ -285,6 +285,7 @@ class Quantities(Mapping[str, Quantity]):
         """The answers by what students write for them, without `_` and braces; several where that is shared.
 
         I1 may be the tensor along the body's axes and along those of the base, V is P or C q̇.
+        What belongs to the only body may be written without its name: K_v.
         """
         found: dict[str, dict[str, None]] = {}
         for quantity in self.answers():
@@ -295,6 +296,11 @@ class Quantities(Mapping[str, Quantity]):
             if weak and weak[0] not in found:
                 for text in weak:
                     found.setdefault(text, {})[quantity.name] = None
+        if len(self.owners.bodies) == 1:
+            for quantity in self.answers():
+                if quantity.family.owner is Owner.BODY:
+                    for text in (quantity.family.name, *quantity.family.spellings):
+                        found.setdefault(key(text.replace("{b}", "")), {quantity.name: None})
         return {text: tuple(names) for text, names in found.items()}
 
     @cached_property

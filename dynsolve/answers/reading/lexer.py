@@ -37,7 +37,7 @@ _DOTTED = {"\u0307": 1, "\u0308": 2}
 _PRECOMPOSED = "ȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏżḦḧẍẅÿ"
 """Letters that Unicode has with their dots, in one code point."""
 _GREEK = "".join(SPELLED)
-_LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳ"
+_LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳℓ"
 _INDEX = f"0-9{SUBSCRIPT_DIGITS}"
 _BRACED = r"_\{[ ]?[A-Za-z0-9]{1,20}(?:(?:,[ ]?|[ ])[A-Za-z0-9]{1,20}){0,5}[ ]?\}"
 _NAME_PART = rf"[{_LETTER}{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9])|{_BRACED}"
@@ -150,6 +150,7 @@ _SIGN_COMMANDS = {
     "vert": "|",
 }
 _GREEK_COMMANDS = {
+    "ell": "l",
     "vartheta": "theta",
     "varphi": "phi",
     "varepsilon": "epsilon",

@@ -40,6 +40,7 @@ class Vocabulary:
     `quantities` are what an answer may be given for;
     `derived` are derivatives that were defined on their own, `broken` definitions that
     could not be read, `angles` the student's own by subscript.
+    `missed` are names that were looked for before anything defined them.
     `masses` are the masses, the moments of inertia and g; `defined` is what the student defined.
     """
 
@@ -53,6 +54,7 @@ class Vocabulary:
     broken: dict[str, str] = field(default_factory=dict)
     angles: dict[str, Node] = field(default_factory=dict)
     subscripts: dict[str, Coordinate] = field(default_factory=dict)
+    missed: set[str] = field(default_factory=set)
 
     def fresh(self) -> Vocabulary:
         """The names of the problem alone, for another hand-in."""
@@ -130,9 +132,17 @@ class Vocabulary:
         """A parameter that is written in another way: I_{zz1} for I_{1,zz}, l_1 for L_1."""
         for form in (_sorted_key, lambda text: text.lower(), lambda text: _sorted_key(text.lower())):
             same = [symbol for other, symbol in self.symbols.items() if form(other) == form(name)]
-            if len(same) == 1:
+            if len(same) == 1 and sorted(key(same[0].name).lower()) == sorted(name.lower()):
                 return Meaning(same[0], f"{name} is read as {same[0].name}")
         return None
+
+    def only_coordinate(self, name: str) -> Symbol | None:
+        """The one coordinate of a letter, where that is written without its index: theta for theta1."""
+        letter = {"th": "theta", "ell": "l"}.get(name.lower(), name.lower())
+        same = [q for q in self.coordinates if split(q.name)[0].lower() == letter]
+        if not same and letter in ("theta", "phi", "varphi"):
+            same = [q for q in self.coordinates if q.type is JointType.REVOLUTE]
+        return Symbol(same[0].name) if len(same) == 1 else None
 
     def inertia(self, name: str) -> Meaning | None:
         """The one moment of inertia with the index of a bare I_1."""
@@ -224,7 +234,19 @@ def spellings(name: str) -> list[tuple[str, int]]:
     base, _ = split(name)
     index = plain[len(base) :]
     found = [(plain, 0)]
-    for dots, marks in ((1, ("dot", "d")), (2, ("ddot", "dd", "dotdot"))):
+    for dots, marks in _RATES.items():
         for mark in marks:
             found += [(plain + mark, dots), (base + mark + index, dots), (mark + plain, dots)]
+    for dots, marks in _MARKS.items():
+        found += [(plain + mark, dots) for mark in marks]
+        found += [(base + mark + index, dots) for mark in marks if index and mark not in ("t", "tt")]
     return [*found, ("d2" + plain, 2)]
+
+
+_RATES = {1: ("dot", "d"), 2: ("ddot", "dd", "dotdot")}
+"""What marks a derivative before, within or behind a name."""
+_MARKS = {
+    1: ("Dot", "p", "prime", "t", "der"),
+    2: ("DDot", "Ddot", "DotDot", "pp", "primeprime", "dprime", "doubleprime", "tt"),
+}
+"""What marks one within or behind a name, as students of many languages write it."""

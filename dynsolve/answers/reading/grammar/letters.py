@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 
 from dynsolve.answers.reading.grammar.forms import Form
+from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grammar.references import skip_arguments
+from dynsolve.answers.reading.grammar.references import only_coordinates, skip_arguments
 from dynsolve.answers.reading.grids import Abstract, Value
 from dynsolve.answers.reading.vocabulary import is_running
 from dynsolve.notation.tree import (
@@ -14,14 +15,39 @@ from dynsolve.notation.tree import (
 )
 
 _ZERO_LEVELS = frozenset("h0 H0 z0 y0 h href hzero hb P0h zref".split())
+_ANGLES = ("theta", "phi", "varphi", "th")
 _POTENTIAL = re.compile(r"P.*|L")
 _LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*|[xyz],?[qt].*)")
 _HEIGHT = re.compile(r"h[1-9a-z][0-9]*")
 
 
+def _only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
+    r"""The coordinate that `\dot\theta` is where there is only one θ: in a scalar, and not beside its transpose."""
+    if reader.naming or form.scripts.transposed or not (form.dots or form.scripts.mark or name in _ANGLES):
+        return None
+    if reader.vocabulary.shape(reader.owner) is not None or any(
+        t.text in ("T", "top") for t in reader.tokens
+    ):
+        return None
+    symbol = reader.vocabulary.only_coordinate(name)
+    if symbol is None or (reader.token.kind == "(" and only_coordinates(reader, reader.position)):
+        return None
+    value = rate(symbol, reader.vocabulary, form.dots + form.scripts.primes)
+    if value is None:
+        return None
+    form.scripts.primes = 0
+    reader.symbols.setdefault(symbol.name)
+    reader.notes.setdefault(f"{form.text} is read as {symbol.name}")
+    skip_arguments(reader)
+    return reader.with_scripts(value, form.scripts, form.start)
+
+
 def letter(reader: Reader, form: Form, name: str) -> Value | None:
     """The vector of coordinates, a running index, z_0, o_2, R_1, a zero level of height."""
     vocabulary = reader.vocabulary
+    lone = _only_coordinate(reader, form, name)
+    if lone is not None:
+        return lone
     if vocabulary.is_vector(name) and form.dots <= 2:
         skip_arguments(reader)
         reader.names_used += 1
@@ -46,6 +72,8 @@ def letter(reader: Reader, form: Form, name: str) -> Value | None:
         and len(form.base.split("_")[0]) <= 2
     ):
         reader.names_used += 1
+        reader.letters.append(form)
+        vocabulary.missed.add(name)
         return Abstract(f"{form.text} is a letter of the derivation")
     if _HEIGHT.fullmatch(name) and _POTENTIAL.fullmatch(reader.owner):
         reader.names_used += 1

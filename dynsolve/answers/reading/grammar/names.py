@@ -20,6 +20,7 @@ from dynsolve.notation.tree import (
 )
 
 _OWNER_BODY = re.compile(r"[0-9]+$")
+_SEVERAL = re.compile(r"(?:q|theta|phi)([0-9]{2,})")
 _MOMENT = re.compile(r"[IJ][xyz]{1,2}")
 
 
@@ -86,7 +87,7 @@ def _meaning(reader: Reader, form: Form, name: str) -> Meaning | None:
     short = vocabulary.short_angle(name)
     if short is not None:
         return Meaning(short)
-    if form.base in ("q", "theta") and len(form.index) > 1 and (angle := vocabulary.angle_of(form.index)):
+    if (several := _SEVERAL.fullmatch(name)) and (angle := vocabulary.angle_of(several[1])):
         return Meaning(angle, f"{form.text} is read as a sum of coordinates")
     if "inertia" in reader.options and (meaning := vocabulary.inertia(name)):
         return meaning
@@ -157,6 +158,7 @@ def skip_time(reader: Reader) -> None:
 def _unknown(reader: Reader, form: Form, name: str) -> UnknownName:
     """The error about a name, which says what names there are."""
     vocabulary = reader.vocabulary
+    vocabulary.missed.add(name + "'" * form.dots)
     family = vocabulary.family(name)
     known = [symbol.name for symbol in vocabulary.symbols.values()]
     reason = vocabulary.broken.get(name)

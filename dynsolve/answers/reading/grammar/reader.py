@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from dynsolve.answers.reading.grammar.exponents import raise_to
-from dynsolve.answers.reading.grammar.forms import Scripts
+from dynsolve.answers.reading.grammar.forms import Form, Scripts
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.scripts import ScriptCursor
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, times, transposed
@@ -33,12 +33,12 @@ class Reader(ScriptCursor):
     What was found: `references` are the names of answers in the value, `symbols` its symbols,
     `free` those that belong to no problem, `notes` what the student is told about the reading;
     `candidates` are the answers that the last name may mean, and `names_used` counts the names
-    of the derivation.
+    of the derivation, of which `letters` are those that may be the student's own.
     """
 
     __slots__ = (
         "naming", "owner", "options", "rows_by_line",
-        "references", "symbols", "free", "notes", "candidates", "names_used",
+        "references", "symbols", "free", "notes", "candidates", "names_used", "letters",
     )  # fmt: skip
 
     def __init__(
@@ -58,6 +58,7 @@ class Reader(ScriptCursor):
         self.free: dict[str, None] = {}
         self.candidates: tuple[str, ...] = ()
         self.names_used = 0
+        self.letters: list[Form] = []
 
     # The rules of the grammar, each of which takes its tokens and gives their value
 
