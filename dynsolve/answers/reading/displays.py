@@ -16,12 +16,17 @@ Locate = Callable[[int, int], Place]
 
 @dataclass(frozen=True, slots=True)
 class Display:
-    """The text of one displayed equation, or of several below one another."""
+    """The text of one displayed equation, or of several below one another.
+
+    `plain` is one in plain text; `aside` a formula in the midst of a sentence, which answers
+    nothing but may say what a letter means.
+    """
 
     text: str
     label: str
     locate: Locate
     plain: bool = False
+    aside: bool = False
 
 
 _GOES_ON = re.compile(r"[\s&]*(?:\\(?:quad|qquad|,|;|!|\s))*\s*(?:[-+=*/]|\\(?:cdot|times)(?![A-Za-z]))")
@@ -33,14 +38,15 @@ def continued(displays: Sequence[tuple[int, Display]]) -> list[tuple[int, Displa
     """The displays, those that are one equation put together: `P = a` and, below it, `+ b`."""
     found: list[tuple[int, Display]] = []
     for offset, display in displays:
-        before = found[-1][1] if found else None
+        last = next((at for at in range(len(found) - 1, -1, -1) if not found[at][1].aside), -1)
+        before = found[last][1] if last >= 0 and not display.aside else None
         if (
             before is not None
             and not before.plain
             and not display.plain
             and _is_one(before.text, display.text)
         ):
-            found[-1] = (found[-1][0], _joined(before, display))
+            found[last] = (found[last][0], _joined(before, display))
         else:
             found.append((offset, display))
     return found

@@ -12,24 +12,30 @@ from dataclasses import replace
 
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
 from dynsolve.answers.reading.displays import Display, Equation, chain, equations
+from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.left_side import (
     LeftSide,
     NamedAnswers,
     UnknownSide,
+    name_alone,
     read_left_side,
     read_left_sides,
 )
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
+from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.prepare import Macro, prepared
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
-from dynsolve.answers.reading.shapes import fitted, model_parts, shown
+from dynsolve.answers.reading.shapes import fitted, is_gravity_vector, model_parts, shown
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
 from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.spelling import key
+
+_NEVER_DEFINED = frozenset({"t", "i", "j", "k", "n"})
+"""Letters of sentences that are no abbreviation: the time, running indices, the number of joints."""
 
 
 class EquationReader:
@@ -44,13 +50,32 @@ class EquationReader:
         self.macros: dict[str, Macro] = {}
         self.found = AnswerList(vocabulary, printer)
         self.equations = 0
+        self._first: dict[str, Meaning] = {}
+        self._ahead: dict[str, Meaning] = {}
 
     def define(self, name: str, value: RightSide) -> None:
         """Keep a name for what follows."""
         if len(self.vocabulary.defined) >= MAX_DEFINITIONS or name in self.vocabulary.symbols:
             return
         self.vocabulary.define(name, Meaning(value.value))
+        self._first.setdefault(name, Meaning(value.value))
         self.vocabulary.broken.pop(name, None)
+
+    def begins_anew(self) -> bool:
+        """Forget all but what was used before it was defined (`C = h ..., where h = ...`).
+
+        False where there is nothing of that kind that was not known already.  The report is
+        then to be read once more; a definition holds for what stands before the first one too.
+        """
+        late = {name: self._first[name] for name in self._first if name in self.vocabulary.missed}
+        if late.keys() <= self._ahead.keys():
+            return False
+        self._ahead |= late
+        self.vocabulary = self.vocabulary.fresh()
+        self.vocabulary.defined |= self._ahead
+        self.found = AnswerList(self.vocabulary, self.found.printer)
+        self.macros, self._first, self.equations = {}, {}, 0
+        return True
 
     # Equations of a report
 
@@ -62,6 +87,9 @@ class EquationReader:
             self._display_without_tokens(display, error)
             return
         for equation in found:
+            if display.aside:
+                self._aside(equation)
+                continue
             if len(self.found.answers) < MAX_ANSWERS:
                 self._read_equation(equation, self._origin(display, equation.label or display.label))
 
@@ -100,6 +128,7 @@ class EquationReader:
             for index, tokens in enumerate(members)
             if not isinstance(sides[index], (NamedAnswers, UnknownSide))
         ]
+        read = self._defined_by_the_end(read)
         if not names:
             self._without_name(sides[0], members, read, origin)
         elif self._defines_own_letter(members[0], names, read):
@@ -109,6 +138,52 @@ class EquationReader:
             self.found.not_recognized.append(origin.not_recognized(start, end))
         else:
             self._with_names(names, read, origin)
+
+    def _aside(self, equation: Equation) -> None:
+        """Keep what a formula in a sentence says of a letter; of answers it says nothing."""
+        members = equation.members
+        if len(members) > MAX_MEMBERS:
+            return
+        side = read_left_side(self.vocabulary, members[0])
+        own = members[0][0].text if len(members[0]) == 1 else ""
+        is_new = isinstance(side, UnknownSide) and side.is_name_alone and not side.family
+        if isinstance(side, NamedAnswers) and own not in OWN_LETTERS:
+            return
+        value = read_right_side(self.vocabulary, members[-1])
+        if isinstance(value, ReadError):
+            if isinstance(side, UnknownSide):
+                self.vocabulary.broken[side.key] = value.message
+        elif isinstance(value.value, Abstract):
+            return
+        elif is_new and isinstance(side, UnknownSide) and side.key not in _NEVER_DEFINED:
+            self.define(side.key, value)
+        elif isinstance(side, NamedAnswers) and not self._any_fits(side.candidates, [value]):
+            self.define(own, value)
+        elif side is None:
+            self._in_passing(members[0], value)
+
+    def _in_passing(self, first: list[Token], found: RightSide) -> bool:
+        """Keep another meaning of what would be read as a coordinate; whether there was one."""
+        name = name_alone(self.vocabulary, first)
+        if not gives_new_meaning(self.vocabulary, name, found.value):
+            return False
+        keep_symbol(self.vocabulary, name, 0, found.value, in_passing=True)
+        return True
+
+    def _defined_by_the_end(self, read: list[Member]) -> list[Member]:
+        """The members but for an unknown name at the end, `... = c_1 = h`, which stands for the value."""
+        values = _values(read)
+        if len(read) < 2 or not values or not isinstance(read[-1].found, ReadError):
+            return read
+        last = read[-1].tokens
+        side = read_left_side(self.vocabulary, last)
+        if isinstance(side, NamedAnswers) and len(last) == 1 and last[0].text in OWN_LETTERS:
+            self.define(last[0].text, values[-1])
+        elif isinstance(side, UnknownSide) and side.is_name_alone and not side.family:
+            self.define(side.key, values[-1])
+        else:
+            return read
+        return read[:-1]
 
     def _defines_own_letter(
         self, first: list[Token], names: list[tuple[str, ...]], read: list[Member]
@@ -124,11 +199,17 @@ class EquationReader:
     ) -> bool:
         """Whether `g = 9.81 m/s^2` says what a symbol of the problem is, no value fitting the answer."""
         first = members[0]
+        if names == [("g",)] and self._is_gravity(_values(read)):
+            return True
         if len(names) > 1 or len(first) > 1 or key(first[0].text) not in self.vocabulary.symbols:
             return False
         if any(token.kind in ("begin", "[") for member in members for token in member):
             return False
         return bool(read) and not self._any_fits(names[0], _values(read))
+
+    def _is_gravity(self, values: list[RightSide]) -> bool:
+        """Whether a value is the vector of the acceleration of gravity, [0, 0, -g], and not its torques."""
+        return any(is_gravity_vector(found.value, len(self.vocabulary.coordinates)) for found in values)
 
     def _any_fits(self, candidates: tuple[str, ...], values: list[RightSide]) -> bool:
         return any(fitted(self.vocabulary, candidates, found.value) for found in values)
@@ -156,6 +237,9 @@ class EquationReader:
         for member in read:
             if isinstance(member.found, RightSide) and model_parts(self.vocabulary, member.found.value):
                 self.found.answers += self.found.value([("tau",)], member, origin)
+                return
+        for member in read[1:]:
+            if isinstance(member.found, RightSide) and self._in_passing(members[0], member.found):
                 return
         leading = read[0].found if read and read[0].index == 0 else None
         is_definition = isinstance(leading, RightSide) and leading.is_definition

@@ -80,7 +80,22 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
     except ReadError:
         return None
     candidates = _named(vocabulary, value, reader.candidates)
-    return NamedAnswers(candidates) if candidates else None
+    if candidates:
+        return NamedAnswers(candidates)
+    own = name_alone(vocabulary, tokens)
+    return UnknownSide(own, (), True, "") if own and own in vocabulary.defined else None
+
+
+def name_alone(vocabulary: Vocabulary, tokens: list[Token]) -> str:
+    """The key of the name that tokens are, without powers; empty where they are more."""
+    reader = FormulaReader(tokens, vocabulary, naming=True)
+    if len(tokens) > 12 or not reader.begins_with_name():
+        return ""
+    try:
+        form = reader.form()
+    except ReadError:
+        return ""
+    return _defined_key(form) if reader.token.kind == "end" and not form.scripts.any else ""
 
 
 def _is_simple(tokens: list[Token], form: Form) -> bool:

@@ -112,4 +112,6 @@ def _known(piece: str, vocabulary: Vocabulary, naming: bool) -> bool:
         return True
     if vocabulary.named(name) and (naming or len(name) > 1 or len(piece) == 1):
         return True
-    return vocabulary.short_angle(name) is not None
+    if vocabulary.short_angle(name) is not None:
+        return True
+    return len(name) > 1 and not naming and vocabulary.similar(name) is not None

@@ -9,8 +9,11 @@ from dynsolve.notation.names import split
 from dynsolve.notation.tree import Node, Symbol
 
 
-def keep_symbol(vocabulary: Vocabulary, name: str, dots: int, value: Value) -> None:
-    """A name for a coordinate is one for its derivatives, and for its sine and cosine too."""
+def keep_symbol(vocabulary: Vocabulary, name: str, dots: int, value: Value, in_passing: bool = False) -> None:
+    """A name for a coordinate is one for its derivatives, and for its sine and cosine too.
+
+    One that a report defines `in_passing`, in the problem's coordinates, leaves s_2 the sine of theirs.
+    """
     if dots:
         vocabulary.derive(name, dots, value)
         return
@@ -26,11 +29,11 @@ def keep_symbol(vocabulary: Vocabulary, name: str, dots: int, value: Value) -> N
         if order in rates and (not known or spelling in aliases):
             vocabulary.define(spelling, Meaning(rates[order]))
     index = "".join(split(name)[1])
-    if rates and index.isdigit() and isinstance(value, Node):
+    if rates and not in_passing and index.isdigit() and isinstance(value, Node):
         vocabulary.turn(index, value)
 
 
-def renames_coordinate(vocabulary: Vocabulary, name: str, value: Value) -> bool:
+def gives_new_meaning(vocabulary: Vocabulary, name: str, value: Value) -> bool:
     r"""Whether `\theta_2 = q_1 + q_2` gives another meaning to what would be read as a coordinate."""
     usual = vocabulary.others.get(name)
     if usual is None or usual.dots or vocabulary.coordinate(usual) is None or value == usual:

@@ -126,7 +126,11 @@ def simplified(tokens: list[Token]) -> list[Token]:
             groups.append(_Group(len(out)))
             out.append(token)
         elif kind == "}" and groups:
-            _close_group(token, groups.pop(), out, tokens[position].kind)
+            group = groups.pop()
+            if len(out) == group.start + 1 and not group.closes_matrix and _frame_follows(tokens, position):
+                out.append(token)
+            else:
+                _close_group(token, group, out, tokens[position].kind)
         elif kind == "command":
             position = _simplify_command(token, tokens, position, groups, out)
         elif kind == "begin" or kind == "close":
@@ -173,6 +177,14 @@ def _close_group(closing: Token, group: _Group, out: list[Token], following: str
         del out[start]
     else:
         out.append(closing)
+
+
+def _frame_follows(tokens: list[Token], position: int) -> bool:
+    r"""Whether the number of a frame stands there, so that the `{}` before it begins a name: `{}^0T_2`."""
+    if tokens[position].kind not in ("^", "_"):
+        return False
+    ahead = [token.kind for token in tokens[position + 1 : position + 4]]
+    return ahead[:1] == ["number"] or ahead == ["{", "number", "}"]
 
 
 def _level_of(token: Token) -> int:
@@ -222,10 +234,22 @@ def _bar(out: list[Token], start: int) -> int:
 
 def _written_as_fraction(out: list[Token], start: int, bar: int, closing: Token) -> None:
     r"""`{a \over b}` as `\frac{a}{b}`."""
-    opening, above, below = out[start], out[start + 1 : bar], out[bar + 1 :]
+    opening, above, below = out[start], _bare(out[start + 1 : bar]), _bare(out[bar + 1 :])
     end = closing._replace(kind="}", text="}")
     command = opening._replace(kind="command", text="frac")
     out[start:] = [command, opening, *above, end, opening, *below, end]
+
+
+def _bare(tokens: list[Token]) -> list[Token]:
+    """The tokens without the braces around all of them."""
+    if len(tokens) < 3 or tokens[0].kind != "{" or tokens[-1].kind != "}":
+        return tokens
+    level = 0
+    for position, token in enumerate(tokens):
+        level += _level_of(token)
+        if level == 0:
+            return tokens[1:-1] if position == len(tokens) - 1 else tokens
+    return tokens
 
 
 def _power_before(out: list[Token]) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 from dynsolve.answers.reading.displays import Display, continued, is_label
@@ -55,15 +55,19 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     """Read the displayed equations of a report, in order, with the macros that hold for each."""
     text = _COMMENT.sub(lambda found: " " * len(found.group()), source.text) if latex else source.text
     text, macros = _macros(text)
-    waiting = list(reversed(macros))
     displays = _labelled(list(islice(_displays(text, source), 2 * MAX_EQUATIONS)))
-    if not displays:
+    if all(display.aside for _, display in displays):
         displays = list(islice(_plain_lines(text, source, 0, len(text), True), MAX_EQUATIONS))
-    for offset, display in continued(displays[:MAX_EQUATIONS]):
-        while waiting and waiting[-1].offset <= offset:
-            found = waiting.pop()
-            reader.macros[found.name] = found.macro
-        reader.read_display(display)
+    displays = continued(displays[:MAX_EQUATIONS])
+    while True:
+        waiting = list(reversed(macros))
+        for offset, display in displays:
+            while waiting and waiting[-1].offset <= offset:
+                found = waiting.pop()
+                reader.macros[found.name] = found.macro
+            reader.read_display(display)
+        if not reader.begins_anew():
+            break
 
 
 def _macros(text: str) -> tuple[str, list[MacroDefinition]]:
@@ -122,7 +126,10 @@ def _displays(text: str, source: Source) -> Iterator[tuple[int, Display]]:
             if end - start > 5_000 or "\n\n" in text[start:end]:
                 position = start
                 continue
-            if not _stands_alone(text, opening.start(), position) or "=" not in text[start:end]:
+            if "=" not in text[start:end]:
+                continue
+            if not _stands_alone(text, opening.start(), position):
+                yield start, replace(_display(text, source, start, end, ""), aside=True)
                 continue
         label = _LABEL.match(text, position)
         yield start, _display(text, source, start, end, f"({label[1]})" if label else "")
@@ -201,8 +208,7 @@ def _labelled(displays: list[tuple[int, Display]]) -> list[tuple[int, Display]]:
         if not label:
             found.append((offset, display))
         elif found and not found[-1][1].label:
-            before = found[-1][1]
-            found[-1] = (found[-1][0], Display(before.text, label, before.locate, before.plain))
+            found[-1] = (found[-1][0], replace(found[-1][1], label=label))
     return found
 
 

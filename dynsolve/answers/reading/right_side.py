@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from dynsolve.answers.reading.grammar.formula import FormulaReader
+from dynsolve.answers.reading.grammar.names import unknown
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import check_size
@@ -64,6 +65,8 @@ def _read(
     try:
         value = reader.value()
         definition = isinstance(value, Abstract) or _is_names_only(reader, vocabulary)
+        if isinstance(value, Abstract) and reader.letters and _is_worked_out(reader, vocabulary, owners):
+            raise unknown(reader, reader.letters[0], reader.letters[0].key)
         if not definition:
             _check_shape(vocabulary, value, owners)
         if not isinstance(value, Abstract):
@@ -102,6 +105,13 @@ def _is_names_only(reader: FormulaReader, vocabulary: Vocabulary) -> bool:
         return True
     vectors = any(vocabulary.shape(name) for name in reader.references)
     return vectors and set(reader.symbols) <= vocabulary.masses
+
+
+def _is_worked_out(reader: FormulaReader, vocabulary: Vocabulary, owners: tuple[str, ...]) -> bool:
+    """Whether a scalar holds lengths and coordinates, so that no letter in it is one of the derivation."""
+    if not owners or any(vocabulary.shape(owner) is not None for owner in owners):
+        return False
+    return bool(set(reader.symbols) - vocabulary.masses)
 
 
 def _may_help(options: frozenset[str], tokens: list[Token]) -> bool:

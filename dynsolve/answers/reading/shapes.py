@@ -5,10 +5,14 @@ from __future__ import annotations
 from dynsolve.answers.reading.grids import Grid, Value, transposed
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
+from dynsolve.notation.names import split
 from dynsolve.notation.tree import (
     ZERO,
     Matrix,
+    Negative,
     Node,
+    Number,
+    Symbol,
 )
 from dynsolve.notation.unicode import printable
 
@@ -61,6 +65,22 @@ def fitted(vocabulary: Vocabulary, candidates: tuple[str, ...], value: Value) ->
             zeros = Matrix(((ZERO,) * columns,) * rows)
             loose.append((name, zeros, "0 is read as the matrix of zeros"))
     return exact or loose
+
+
+def is_gravity_vector(value: Value, coordinates: int) -> bool:
+    """Whether a value is the acceleration of gravity as a vector: one entry alone, g or -9.81.
+
+    A number is taken for that only where the vector is none of generalized forces by its length.
+    """
+    if not isinstance(value, Grid) or 1 not in value.shape or max(value.shape) not in (2, 3):
+        return False
+    entries = [entry for row in value.rows for entry in row if entry != ZERO]
+    if len(entries) != 1:
+        return False
+    entry = entries[0].argument if isinstance(entries[0], Negative) else entries[0]
+    if isinstance(entry, Number):
+        return max(value.shape) != coordinates and 9 < entry.p / entry.q < 11
+    return isinstance(entry, Symbol) and split(entry.name)[0] == "g"
 
 
 def misfit(

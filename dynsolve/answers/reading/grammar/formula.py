@@ -194,7 +194,7 @@ class FormulaReader(Reader):
             argument = self.atom()
             self.nesting -= 1
             return functions.applied(self, "sqrt", argument, token)
-        if kind == "^":
+        if kind in ("^", "_"):
             return self.framed()
         if kind == "|":
             return self.norm()
@@ -249,6 +249,10 @@ class FormulaReader(Reader):
         self.enter()
         if self.token.kind == "{":
             opening = self.take()
+            if self.token.kind == "}" and self.peek().kind in ("^", "_"):
+                self.take()
+                self.nesting -= 1
+                return self.framed()
             form = self.form() if self.begins_with_name() else None
             if form is not None and self.token.kind == "}":
                 self.take()
@@ -276,18 +280,22 @@ class FormulaReader(Reader):
         )
 
     def framed(self) -> Value:
-        """A name with the frame before it: `{}^0T_2`."""
-        sign = self.take()
-        frame = self.group()
-        if (
-            len(frame) != 1
-            or frame[0].kind != "number"
-            or len(frame[0].text) > 2
-            or self.token.kind not in ("name", "letter")
-        ):
-            raise ReadError("nothing stands before this `^`", sign.start, 1, "a power follows its base")
+        """A name with the frames before it: `{}^0T_2`, `{}^0_2T`."""
+        sign = self.token
+        frames: dict[str, str] = {}
+        while self.token.kind in ("^", "_") and self.token.kind not in frames:
+            kind = self.take().kind
+            frame = self.group()
+            if len(frame) == 1 and frame[0].kind == "number" and len(frame[0].text) < 3:
+                frames[kind] = frame[0].text
+        if "^" not in frames or self.token.kind not in ("name", "letter"):
+            raise ReadError(
+                f"nothing stands before this `{sign.text}`", sign.start, 1, "a script follows its base"
+            )
         form = self.form()
-        form.scripts.powers.insert(0, Fraction(int(frame[0].text)))
+        form.scripts.powers.insert(0, Fraction(int(frames["^"])))
+        if not form.index and "_" not in form.base:
+            form.index = frames.get("_", "")
         return names.value_of(self, form)
 
     def norm(self) -> Value:

@@ -22,7 +22,7 @@ _HEIGHT = re.compile(r"h[1-9a-z][0-9]*")
 
 
 def _only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
-    r"""The coordinate that `\dot\theta` is where there is only one θ: in a scalar, and not beside its transpose."""
+    r"""The coordinate that `\dot\theta` is where there is only one θ: in a scalar, without a transpose."""
     if reader.naming or form.scripts.transposed or not (form.dots or form.scripts.mark or name in _ANGLES):
         return None
     if reader.vocabulary.shape(reader.owner) is not None or any(
@@ -73,7 +73,7 @@ def letter(reader: Reader, form: Form, name: str) -> Value | None:
     ):
         reader.names_used += 1
         reader.letters.append(form)
-        vocabulary.missed.add(name)
+        vocabulary.missed.add(name + "'" * form.dots)
         return Abstract(f"{form.text} is a letter of the derivation")
     if _HEIGHT.fullmatch(name) and _POTENTIAL.fullmatch(reader.owner):
         reader.names_used += 1

@@ -59,7 +59,7 @@ def value_of(reader: Reader, form: Form) -> Value:
             other = letter(reader, form, name)
         if other is not None:
             return other
-        raise _unknown(reader, form, name)
+        raise unknown(reader, form, name)
     if meaning.note:
         reader.notes.setdefault(meaning.note)
     return _scripted(reader, form, meaning)
@@ -108,7 +108,7 @@ def _scripted(reader: Reader, form: Form, meaning: Meaning) -> Value:
     if dots:
         dotted = reader.vocabulary.derived.get((form.key, dots)) or rate(value, reader.vocabulary, dots)
         if dotted is None and reader.naming:
-            raise _unknown(reader, form, form.key)
+            raise unknown(reader, form, form.key)
         if dotted is None and form.key in reader.vocabulary.defined:
             reader.names_used += 1
             return Abstract(f"the derivative of {form.text} is not written out")
@@ -155,10 +155,11 @@ def skip_time(reader: Reader) -> None:
             return
 
 
-def _unknown(reader: Reader, form: Form, name: str) -> UnknownName:
+def unknown(reader: Reader, form: Form, name: str) -> UnknownName:
     """The error about a name, which says what names there are."""
     vocabulary = reader.vocabulary
-    vocabulary.missed.add(name + "'" * form.dots)
+    if not reader.naming:
+        vocabulary.missed.add(name + "'" * form.dots)
     family = vocabulary.family(name)
     known = [symbol.name for symbol in vocabulary.symbols.values()]
     reason = vocabulary.broken.get(name)

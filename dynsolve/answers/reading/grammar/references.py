@@ -15,7 +15,7 @@ from dynsolve.quantities.family import Owner
 from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.spelling import key
 
-_OWN_ON_THE_RIGHT = frozenset({"h", "c"})
+OWN_LETTERS = frozenset({"h", "c"})
 """Letters that name an answer on the left alone: on the right they are the student's own."""
 
 
@@ -23,7 +23,7 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
     """The answer that a name stands for, as placeholders; None where it is none."""
     vocabulary = reader.vocabulary
     names = vocabulary.named(name)
-    if name in _OWN_ON_THE_RIGHT and not reader.naming:
+    if name in OWN_LETTERS and not reader.naming:
         return None
     if form.script and name.startswith("I"):
         names = tuple(n for n in names if vocabulary.quantities[n].family is families.I)

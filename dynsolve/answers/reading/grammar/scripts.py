@@ -20,6 +20,13 @@ ACCENTS: Mapping[str, int] = {"dot": 1, "ddot": 2, "dddot": 3}
 BEGINS = frozenset({"number", "fraction", "name", "letter", "command", "(", "[", "{", "√", "begin", "|"})
 """The tokens that a factor begins with."""
 
+_PARTS = {
+    text: part
+    for part, texts in {"v": "t v lin trans tran linear", "w": "r w omega rot ang angular"}.items()
+    for text in texts.split()
+}
+"""What stands as the superscript of a kinetic energy for its translation, v, and its rotation, w."""
+
 _TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
 
 
@@ -94,12 +101,25 @@ class ScriptCursor(Cursor):
                 form.index += index_text(tokens)
                 if is_angle(tokens):
                     form.angle = tokens
+            elif kind == "^" and (part := self.energy_part(form)):
+                form.index += part
             elif kind == "*" and self.star_is_mark(form):
                 self.take()
                 form.scripts.mark = True
             elif not self.script(form.scripts):
                 break
         form.end = self.tokens[max(self.position - 1, 0)].end
+
+    def energy_part(self, form: Form) -> str:
+        r"""The letter of the part of an energy that its superscript names, which is taken: `K_1^{rot}`."""
+        if form.base.partition("_")[0] not in ("K", "T", "E") or not (form.index or form.base_index):
+            return ""
+        ahead = 2 if self.peek(1).kind == "{" else 1
+        part = _PARTS.get(self.peek(ahead).text, "")
+        if part:
+            self.take()
+            self.group()
+        return part
 
     def star_is_mark(self, form: Form) -> bool:
         """Whether the star here touches a coordinate's name and no factor follows."""

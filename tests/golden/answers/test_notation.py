@@ -1,0 +1,163 @@
+r"""Answers in the notations that students and programs write, right and wrong, each with its verdict.
+
+One case is a report or an answer file; every right one stands beside one with a slip in the same
+notation, which must stay wrong.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pytest
+
+from dynsolve.answers.judge import Checker
+from dynsolve.answers.reading.files import FileReader
+from dynsolve.answers.verdict import Report
+from dynsolve.derivation.rules import derive
+from dynsolve.problem import read_problem
+from dynsolve.solution.solution import load
+
+R, RP = "planar-2r", "in3140-rp"
+PENDULUM = """
+dh: [{theta: theta1*, d: 0, a: l, alpha: 0}]
+gravity: [0, -g, 0]
+masses: [{link: 1, mass: m, center: {along: lc}, inertia: {zz: I}}]
+"""
+P2 = r"m_1 g l_{c1} \sin q_1 + m_2 g(l_1 \sin q_1 + l_{c2}\sin(q_1+q_2))"
+D22 = "m_2 l_{c2}^2 + I_2"
+G1 = "g((m_1 l_{c1} + m_2 l_1)c_1 + m_2 l_{c2} c_{12})"
+G2 = "m_2 g l_{c2} c_{12}"
+G = rf"\begin{{bmatrix}} {G1} \\ {G2} \end{{bmatrix}}"
+C = (
+    r"\begin{bmatrix} -m_2 l_1 l_{c2} s_2 \dot q_2 & -m_2 l_1 l_{c2} s_2 (\dot q_1 + \dot q_2) \\"
+    r" m_2 l_1 l_{c2} s_2 \dot q_1 & 0\end{bmatrix}"
+)
+CQD = (
+    r"\begin{bmatrix} -m_2 l_1 l_{c2} s_2 (2\dot q_1\dot q_2 + \dot q_2^2) \\"
+    r" m_2 l_1 l_{c2} s_2 \dot q_1^2 \end{bmatrix}"
+)
+CH = r"\begin{bmatrix} h\dot q_2 & h(\dot q_1+\dot q_2)\\ -h\dot q_1 & 0\end{bmatrix}"
+H = "h = -m_2 l_1 l_{c2} s_2"
+T01 = r"\begin{bmatrix} c_1 & -s_1 & 0 & l_1 c_1 \\ s_1 & c_1 & 0 & l_1 s_1 \\ 0&0&1&0\\0&0&0&1 \end{bmatrix}"
+K1 = r"\frac12(m_1 l_{c1}^2 + I_1)\dot q_1^2"
+
+RIGHT: list[tuple[str, str, str, str]] = [
+    # problem, form, text, the answers that are right
+    (R, "md", r"$$d_{22} = m_2l_{c2}^2+I_2$$", "d22"),
+    (R, "md", r"$$K_1 = \frac12(m_1L_{c1}^2 + I_1)\dot q_1^2$$", "K1"),
+    (R, "md", r"$$P_1 = m_1gl_{c1}sin q_1$$", "P1"),
+    (R, "yaml", "answers: {P1: m_1 g l_{c1}sin q_1, d22: 'm_2l_{c2}^2 + I_2'}", "P1 d22"),
+    (R, "md", r"$$d_{22} = m_2l^2_{c2} + I_2$$", "d22"),
+    (R, "md", r"$$K_1 = \frac12(m_1 l^2_{c_1} + I_1)\dot{q}^2_1$$", "K1"),
+    (R, "md", r"$$K_1 = \frac12(m_1 l_{c1}^2 + I_1){\dot{q}}_1^2$$", "K1"),
+    (R, "md", r"$$K_1 = \frac12(m_1 {l_{c1}}^2 + I_1)({\dot{q}_1})^2$$", "K1"),
+    *[(R, "yaml", f"answers: {{K1: (m1*lc1^2 + I1)*{rate}^2/2}}", "K1")
+      for rate in ("q1p", "q1prime", "q1Dot", "q1_t", "qp1", "q1dot", "dq1")],
+    *[(R, "yaml", f"answers: {{ddt2: (m2*(lc2^2+l1*lc2*cos(q2))+I2)*{a}1{b} + (m2*lc2^2+I2)*{a}2{b}"
+       " - m2*l1*lc2*sin(q2)*q1p*q2p}", "ddt2") for a, b in (("q", "pp"), ("q", "_tt"), ("qddot", ""))],
+    (R, "tex", r"\[ \text{g}_2 = m_2 \text{g} \text{lc2} \cos(q_1+q_2) \]", "g2"),
+    (R, "tex", r"\[ d_{22} = \text{m2}\,\text{lc2}^2 + \text{I2} \]", "d22"),
+    (R, "tex", rf"\[ \textbf{{g}} = {G} \]", "g"),
+    (R, "tex", rf"\[ \mathbf{{d_{{22}} = {D22}}} \]", "d22"),
+    (R, "tex", rf"\[ \underline{{\underline{{d_{{22}} = {D22}}}}} \]", "d22"),
+    (R, "tex", rf"\[ {{\color{{red}} d_{{22}} = {D22}}} \]", "d22"),
+    (R, "tex", rf"\[ \textcolor[rgb]{{1,0,0}}{{d_{{22}} = {D22}}} \]", "d22"),
+    (R, "tex", rf"\[ \boxed{{d_{{22}} = {D22}}} \]", "d22"),
+    (R, "tex", r"\[ d_{22} = m_2 l_{c2}^2 {\color{red} + I_2} \]", "d22"),
+    (R, "tex", r"\[ d_{22} = m_2 l_{c2}^2 \boxed{+ I_2} \]", "d22"),
+    (R, "tex", r"\begin{align*} P &= m_1 g l_{c1} \sin q_1 \\ &\phantom{=}+ "
+     r"m_2 g(l_1 \sin q_1 + l_{c2}\sin(q_1+q_2)) \end{align*}", "P"),
+    (R, "tex", r"\begin{align*} P &= m_1 g l_{c1} \sin q_1 \\* &\hphantom{P = }{} + "
+     r"m_2 g(l_1 \sin q_1 + l_{c2}\sin(q_1+q_2)) \end{align*}", "P"),
+    (R, "tex", r"\[ P = m_1 g l_{c1} \sin q_1 \] \[ + m_2 g(l_1 \sin q_1 + l_{c2}\sin(q_1+q_2)) \]", "P"),
+    (R, "md", "$$P = m_1 g l_{c1} \\sin q_1 +$$\n\n$$m_2 g(l_1 \\sin q_1 + l_{c2}\\sin(q_1+q_2))$$", "P"),
+    (R, "md", f"$$C =$$ $${C}$$", "C"),
+    *[(R, "tex", rf"{a} g_1 &{e} {G1} \\ g_2 &{e} {G2} {b}", "g1 g2") for a, e, b in (
+        (r"\begin{align}", "=", r"\end{align}"),
+        (r"\[ \left\{\begin{aligned}", "=", r"\end{aligned}\right. \]"),
+        (r"\[ \left.\begin{aligned}", "=", r"\end{aligned}\right\} \]"),
+        (r"\[ \begin{aligned}[t]", "=", r"\end{aligned} \]"),
+        (r"\begin{empheq}[left=\empheqlbrace]{align}", "=", r"\end{empheq}"),
+        (r"\begin{IEEEeqnarray}{rCl}", "=&", r"\end{IEEEeqnarray}"),
+        (r"\begin{alignat}{2}", "=", r"\end{alignat}"),
+    )],
+    (R, "md", f"$$C = {CH}$$ where ${H}$.", "C"),
+    (R, "md", f"$$C = {CH}, \\quad \\text{{where }} {H}$$", "C"),
+    (R, "md", f"With ${H}$ we get $$C = {CH}$$", "C"),
+    (R, "md", f"$$C = {CH}$$ with $h = -m_2 a s_2$ and $a = l_1 l_{{c2}}$.", "C"),
+    (R, "md", rf"\begin{{eqnarray}} c_{{121}} & = & {H[4:]} & = & h \end{{eqnarray}} $$C = {CH}$$", "c121 C"),
+    (R, "md", rf"$$d_{{22}} = {D22} \hspace{{5mm}} d_{{22}} \in \mathbb{{R}}$$", "d22"),
+    (R, "md", rf"$$d_{{22}} = {D22}, \quad d_{{22}} > 0$$", "d22"),
+    (R, "md", f"$$\\vec g = [0, -g, 0]^T$$ $$g(q) = {G}$$", "g"),
+    (R, "md", f"$$g(q) = {G}$$ with $$\\vec g = [0, -g]^T$$", "g"),
+    (R, "md", f"$$S(q,\\dot q) = {C}$$", "C"),
+    (R, "md", f"$$n(q,\\dot q) = {CQD}$$", "Cqd"),
+    (R, "md", f"$$N(\\theta,\\dot\\theta) = {CQD}$$", "Cqd"),
+    (R, "md", f"$$c(q,\\dot q) = {CQD}$$", "Cqd"),
+    (R, "md", f"$$V(\\Theta,\\dot\\Theta) = {CQD}$$", "Cqd"),
+    (R, "md", f"$$C(\\Theta,\\dot\\Theta) = {C}$$ $$G(\\Theta) = {G}$$", "C g"),
+    *[(R, "md", f"$${name} = {T01}$$", "H1") for name in (
+        "T_1^0", "T^0_1", "{}^0T_1", "{}^{0}_{1}T", "{}_1^0 T", "^0_1T", "H_1^0")],
+    (R, "md", r"$$P = m_1 g \ell_{c1} \sin q_1 + m_2 g(\ell_1 \sin q_1 + \ell_{c2}\sin(q_1+q_2))$$", "P"),
+    (R, "md", r"$$P = m_1 g l_{c1} \sin q_1 + m_2 g(l_1 \sin q_1 + l_{c2}\sin q_{12})$$", "P"),
+    (R, "md", "Let $\\theta_1 = q_1$ and $\\theta_2 = q_1 + q_2$. "
+     r"$$P = m_1 g l_{c1} \sin \theta_1 + m_2 g(l_1 \sin \theta_1 + l_{c2}\sin \theta_2)$$", "P"),
+    (RP, "md", r"$$K_{1} = \frac12 I_{1,zz}\dot\theta^2$$", "K1"),
+    (RP, "md", r"$$P = 0{,}5\, m_1 g L_1 + m_2 g L_1$$", "P"),
+    (PENDULUM, "md", r"$$K_v = \frac12 m l_c^2 \dot\theta^2$$", "Kv1"),
+    (R, "md", r"$$K_1^{t} = \frac12 m_1 l_{c1}^2 \dot q_1^2$$"
+     r"$$K_1^{rot} = \frac12 I_1 \dot q_1^2$$", "Kv1 Kw1"),
+    (R, "md", rf"$$K_1 = \nicefrac{{1}}{{2}}{K1[7:]}$$", "K1"),
+    (R, "md", r"$$\dv{t}\pdv{L}{\dot q_2} = (m_2(l_{c2}^2 + l_1 l_{c2}c_2)+I_2)\ddot q_1 "
+     r"+ (m_2l_{c2}^2+I_2)\ddot q_2 - m_2 l_1 l_{c2}s_2\dot q_1\dot q_2$$", "ddt2"),
+    (R, "md", r"$$K_1 = \frac12 (m_1 l_{c1}^2+I_1) \left(\frac{d}{dt}q_1(t)\right)^2$$", "K1"),
+    (R, "md", r"$$K_1 = \frac12 (m_1 l_{c1}^2+I_1) \left(\dv{q_1}{t}\right)^2$$", "K1"),
+    (R, "md", r"$$K_1 = \frac12 (m_1 l_{c1}^2+I_1) \overset{.}{q}_1^2$$", "K1"),
+    (R, "md", r"$$K_1 = {{(m_1 l_{c1}^2+I_1)\,\left({{d}\over{d\,t}}\,q_1\right)^2}\over{2}}$$", "K1"),
+    (R, "md", rf"$$g = \pmatrix{{{G1}\cr {G2}\cr}}$$", "g"),
+    (R, "md", rf"$$g = \bmqty{{{G1}\\ {G2}}}$$", "g"),
+    (RP, "md", "$$f_2 = m_2 \\ddot L_2 - m_2 L_2 θ̇₁²$$", "f2"),
+]  # fmt: skip
+
+SLIPS = (
+    ("I_2", "I_1"), ("c_1 ", "s_1 "), ("c_{12}", "c_2"), ("l_1 l_{c2}", "l_2 l_{c2}"),
+    (r"\sin q_1", r"\cos q_1"), ("+ I_1", "- I_1"), ("I2", "2*I2"), ("I1", "I2"), ("m_2", "m_1"),
+    ("0{,}5", "0{,}6"), (r"\frac12", r"\frac13"), ("l_{c1}", "l_1"), ("L_{c1}", "L_1"),
+    ("I_{1,zz}", "2 I_{1,zz}"),
+)  # fmt: skip
+"""What a slip puts in the place of what: the first that a text holds behind its first `=` or `:`."""
+
+
+@lru_cache(maxsize=8)
+def _tools(stem: str) -> tuple[FileReader, Checker]:
+    problem = read_problem(stem, "own.yaml") if "\n" in stem else load(stem)
+    return FileReader(problem), Checker(problem, derive(problem.robot))
+
+
+def judged(stem: str, ending: str, text: str) -> Report:
+    reader, check = _tools(stem)
+    return check(reader(text, f"a.{ending}"))
+
+
+def verdicts(report: Report) -> dict[str, str]:
+    return {answer.name: str(answer.verdict.value) for answer in report.answers}
+
+
+def with_slip(text: str) -> str:
+    head, sign, rest = text.partition("=" if "=" in text else ":")
+    for old, new in SLIPS:
+        if old in rest:
+            return head + sign + rest.replace(old, new)
+    raise AssertionError(f"no slip for {text}")
+
+
+@pytest.mark.parametrize(("stem", "ending", "text", "names"), RIGHT)
+def test_a_right_answer_is_right(stem: str, ending: str, text: str, names: str) -> None:
+    found = verdicts(judged(stem, ending, text))
+    assert {name: found.get(name) for name in names.split()} == dict.fromkeys(names.split(), "correct")
+
+
+@pytest.mark.parametrize(("stem", "ending", "text", "names"), RIGHT)
+def test_the_same_with_a_slip_is_not_right(stem: str, ending: str, text: str, names: str) -> None:
+    found = verdicts(judged(stem, ending, with_slip(text)))
+    assert any(found.get(name) in ("wrong", "unreadable") for name in names.split())
