@@ -21,7 +21,7 @@ R, RP = "planar-2r", "in3140-rp"
 PENDULUM = """
 dh: [{theta: theta1*, d: 0, a: l, alpha: 0}]
 gravity: [0, -g, 0]
-masses: [{link: 1, mass: m, center: {along: lc}, inertia: {zz: I}}]
+masses: [{link: 1, mass: m, center: {near: [lc, 0, 0]}, inertia: {zz: I}}]
 """
 P2 = r"m_1 g l_{c1} \sin q_1 + m_2 g(l_1 \sin q_1 + l_{c2}\sin(q_1+q_2))"
 D22 = "m_2 l_{c2}^2 + I_2"
