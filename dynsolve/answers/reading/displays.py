@@ -18,8 +18,9 @@ Locate = Callable[[int, int], Place]
 class Display:
     """The text of one displayed equation, or of several below one another.
 
-    `plain` is one in plain text; `aside` a formula in the midst of a sentence, which answers
-    nothing but may say what a letter means.
+    `plain` is one in plain text; `among_prose` one in a line that may be a sentence, which is
+    listed, never unreadable, where it cannot be read; `aside` a formula in the midst of a sentence,
+    which answers nothing but may say what a letter means.
     """
 
     text: str
@@ -27,6 +28,7 @@ class Display:
     locate: Locate
     plain: bool = False
     aside: bool = False
+    among_prose: bool = False
 
 
 _GOES_ON = re.compile(r"[\s&]*(?:\\(?:quad|qquad|,|;|!|\s))*\s*(?:[-+=*/]|\\(?:cdot|times)(?![A-Za-z]))")

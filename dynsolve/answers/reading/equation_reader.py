@@ -105,7 +105,7 @@ class EquationReader:
             name = read_left_side(self.vocabulary, prepared(head, self.macros)[:-1])
         except ReadError:
             name = None
-        if isinstance(name, NamedAnswers):
+        if isinstance(name, NamedAnswers) and not display.among_prose:
             origin = self._origin(display, display.label)
             self.found.answers.append(self.found.unreadable(name.candidates, error, origin, 1))
         else:
@@ -220,6 +220,10 @@ class EquationReader:
         for member in read:
             if _is_value(member.found):
                 self.found.answers += self.found.value(names, member, origin)
+            elif origin.display.among_prose:
+                if isinstance(member.found, ReadError):
+                    whole = origin.not_recognized(0, len(origin.display.text))
+                    self.found.not_recognized.append(whole)
             elif isinstance(member.found, ReadError) and (not values or member.index > values[-1]):
                 self.found.answers += [self.found.answer(candidates, member, origin) for candidates in names]
 

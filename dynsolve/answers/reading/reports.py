@@ -6,12 +6,16 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
+from operator import itemgetter
 
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.lexer import Token, closing_brace, tokenize
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
+from dynsolve.answers.reading.plain_lines import plain_lines
 from dynsolve.answers.reading.prepare import Macro, prepared
+from dynsolve.answers.reading.report_text import visible
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.submission import Place
 from dynsolve.errors import ReadError
@@ -32,14 +36,11 @@ _MACRO = re.compile(
     r"|\\(?P<bare>[A-Za-z]{1,60}))\s{0,20}(?:\[(?P<count>[0-9])\])?\s{0,20}(?=\{)"
     r"|\\def\s{0,20}\\(?P<defined>[A-Za-z]{1,60})(?P<hash>#1)?\s{0,20}(?=\{)"
 )
-_COMMENT = re.compile(r"(?<!\\)%[^\n]*")
+_NOT_LINE_END = re.compile(r"[^\n]")
 _MAYBE_LABEL = re.compile(r"[\s~]*[(\\]")
 _ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
 _MARGIN = 200
 """So far from an equation it is seen whether it stands alone on its line."""
-
-_PLAIN_LINE = re.compile(r"[^\n=]{1,200}=")
-_TRAILING = frozenset("=+-*/,([{&\\")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +54,14 @@ class MacroDefinition:
 
 def read_report(reader: EquationReader, source: Source, latex: bool = False) -> None:
     """Read the displayed equations of a report, in order, with the macros that hold for each."""
-    text = _COMMENT.sub(lambda found: " " * len(found.group()), source.text) if latex else source.text
-    text, macros = _macros(text)
-    displays = _labelled(list(islice(_displays(text, source), 2 * MAX_EQUATIONS)))
-    if all(display.aside for _, display in displays):
-        displays = list(islice(_plain_lines(text, source, 0, len(text), True), MAX_EQUATIONS))
+    text, macros = _macros(visible(source.text, latex))
+    spans = list(islice(_displays(reader, text, source), 2 * MAX_EQUATIONS))
+    displays = _labelled([(start, display) for start, _, display in spans if display is not None])
+    is_plain = all(display.aside for _, display in displays)
+    if is_plain or not latex:
+        rest = _without(text, [(start, end) for start, end, _ in spans])
+        lines = islice(_plain(reader, rest, source, 0, len(text), not is_plain), MAX_EQUATIONS)
+        displays = sorted([*displays, *lines], key=itemgetter(0))
     displays = continued(displays[:MAX_EQUATIONS])
     while True:
         waiting = list(reversed(macros))
@@ -104,8 +108,8 @@ def _body(text: str) -> list[Token]:
     return tokens
 
 
-def _displays(text: str, source: Source) -> Iterator[tuple[int, Display]]:
-    """The displayed equations of a text with their offsets."""
+def _displays(reader: EquationReader, text: str, source: Source) -> Iterator[tuple[int, int, Display | None]]:
+    """The displayed equations of a text with their spans; a span without one is a formula in a sentence."""
     position = 0
     exhausted: set[str] = set()
     while (opening := _OPENING.search(text, position)) is not None:
@@ -119,20 +123,22 @@ def _displays(text: str, source: Source) -> Iterator[tuple[int, Display]]:
             continue
         position = end + len(closing)
         if kind == "fence":
-            position = end + len(closing)
-            yield from _fenced(opening.group(), text, source, start, end)
+            for at, display in _fenced(reader, opening.group(), text, source, start, end):
+                yield at, at + len(display.text), display
+            yield opening.start(), position, None
             continue
         if kind == "inline":
             if end - start > 5_000 or "\n\n" in text[start:end]:
                 position = start
                 continue
             if "=" not in text[start:end]:
+                yield opening.start(), position, None
                 continue
             if not _stands_alone(text, opening.start(), position):
-                yield start, replace(_display(text, source, start, end, ""), aside=True)
+                yield start, end, replace(_display(text, source, start, end, ""), aside=True)
                 continue
         label = _LABEL.match(text, position)
-        yield start, _display(text, source, start, end, f"({label[1]})" if label else "")
+        yield start, end, _display(text, source, start, end, f"({label[1]})" if label else "")
 
 
 def _stands_alone(text: str, start: int, end: int) -> bool:
@@ -164,40 +170,41 @@ def _display(text: str, source: Source, start: int, end: int, label: str, plain:
     return Display(text[start:end], label, locate, plain)
 
 
-def _fenced(opening: str, text: str, source: Source, start: int, end: int) -> Iterator[tuple[int, Display]]:
+def _fenced(
+    reader: EquationReader, opening: str, text: str, source: Source, start: int, end: int
+) -> Iterator[tuple[int, Display]]:
     if "math" in opening or "latex" in opening or "tex" in opening:
         yield start, _display(text, source, start, end, "")
     else:
-        yield from _plain_lines(text, source, start, end, False)
+        yield from _plain(reader, text, source, start, end, False)
 
 
-def _plain_lines(
-    text: str, source: Source, start: int, end: int, prose: bool
+def _without(text: str, spans: list[tuple[int, int]]) -> str:
+    """The text with dollars for its formulas: no line with one is an equation in plain text."""
+    pieces: list[str] = []
+    done = 0
+    for start, end in sorted(spans):
+        if end > done:
+            start = max(start, done)
+            pieces += [text[done:start], _NOT_LINE_END.sub("$", text[start:end])]
+            done = end
+    return "".join([*pieces, text[done:]])
+
+
+def _plain(
+    reader: EquationReader, text: str, source: Source, start: int, end: int, among_others: bool
 ) -> Iterator[tuple[int, Display]]:
-    """Lines that are equations in plain text: `tau1 = ...`, with the lines that go on with them."""
-    position = start
-    while position < end:
-        stop = text.find("\n", position, end)
-        stop = end if stop < 0 else stop
-        if _PLAIN_LINE.match(text, position, stop):
-            stop = _whole(text, position, stop, end)
-            yield position, _display(text, source, position, stop, "", plain=True)
-        position = stop + 1
+    """Equations in plain text; beside displayed ones a line that cannot be read may be a sentence."""
 
+    def names_answer(head: str) -> bool:
+        try:
+            return isinstance(read_left_side(reader.vocabulary, prepared(head)[:-1]), NamedAnswers)
+        except ReadError:
+            return False
 
-def _whole(text: str, start: int, stop: int, end: int) -> int:
-    """Where an equation ends that goes on in the lines below."""
-    level, seen = 0, start
-    for _ in range(100):
-        level += sum((c in "([{") - (c in ")]}") for c in text[seen:stop])
-        below = text.find("\n", stop + 1, end)
-        below = end if below < 0 else below
-        following = text[stop + 1 : below].strip()
-        last = text[seen:stop].rstrip()[-1:]
-        if stop >= end or not following or not (level > 0 or last in _TRAILING or following[0] in "=+-*/)]["):
-            break
-        seen, stop = stop, below
-    return stop
+    for at, formula in plain_lines(text, start, end, names_answer):
+        display = _display(text, source, at, at + len(formula), "", plain=True)
+        yield at, replace(display, text=formula, among_prose=among_others)
 
 
 def _labelled(displays: list[tuple[int, Display]]) -> list[tuple[int, Display]]:

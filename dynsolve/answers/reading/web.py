@@ -9,7 +9,10 @@ from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source
 
-_SILENT = frozenset({"style", "head", "template", "noscript", "title"})
+_SILENT = frozenset({"style", "head", "template", "noscript", "title", "del", "s", "strike"})
+_SCRIPTS = {"sub": "_{", "sup": "^{"}
+"""The tags of indices and powers, as LaTeX opens them."""
+
 _BLOCKS = frozenset(
     "p div br li tr h1 h2 h3 h4 h5 h6 pre table ul ol section article blockquote hr td th".split()
 )
@@ -82,6 +85,8 @@ class _WebPage(HTMLParser):
             self._add("\n")
         if kind == "display":
             self._add("\n$$")
+        if tag in _SCRIPTS and not self._hidden:
+            self._add(_SCRIPTS[tag])
         if tag == "img":
             self._picture(classes, given)
 
@@ -94,6 +99,8 @@ class _WebPage(HTMLParser):
                 return
 
     def handle_endtag(self, tag: str) -> None:
+        if tag in _SCRIPTS and not self._hidden and any(name == tag for name, _ in self.open[-20:]):
+            self._add("}")
         while self.open and any(name == tag for name, _ in self.open[-20:]):
             name, kind = self.open.pop()
             if kind == "display":
@@ -105,11 +112,15 @@ class _WebPage(HTMLParser):
         if tag in _BLOCKS:
             self._add("\n")
 
-    def handle_data(self, data: str) -> None:
+    @property
+    def _hidden(self) -> bool:
+        """Whether what stands here is not shown, or shown from another source."""
         kinds = [kind for _, kind in self.open if kind]
-        if kinds and kinds[-1] in ("silent", "inline"):
-            return
-        self._add(data)
+        return bool(kinds) and kinds[-1] in ("silent", "inline")
+
+    def handle_data(self, data: str) -> None:
+        if not self._hidden:
+            self._add(data)
 
     def _add(self, text: str) -> None:
         line, column = self.getpos()

@@ -1,0 +1,86 @@
+r"""What a reader of a report sees: its text without comments and without what is struck out.
+
+Every change keeps the length of the text, so that every character stays at its place.  One more
+way to hide text is one more pattern here.
+"""
+
+from __future__ import annotations
+
+import re
+
+_NOT_LINE_END = re.compile(r"[^\n]")
+_LATEX_COMMENT = re.compile(r"(?<!\\)(?:\\\\)*(%[^\n]*)")
+_HIDDEN = re.compile(
+    r"\\begin\{comment\}(?s:.*?)(?:\\end\{comment\}|\Z)|\\end\{document\}(?s:.*)|<!--(?s:.*?)(?:-->|\Z)"
+    r"|<(?P<tag>del|s|strike)(?:\s[^>\n]{0,200})?>(?s:.{0,20000}?)</(?P=tag)>"
+)
+_CONDITION = re.compile(r"\\(?:if(?!f(?![A-Za-z]))[A-Za-z@]*|else(?![A-Za-z])|fi(?![A-Za-z]))")
+_STRUCK = re.compile(r"(?<!~)~~(?!~)((?:(?!\n[ \t]*\n)[^~]|(?<!~)~(?!~)){1,20000}?)~~(?!~)")
+_SCRIPT = re.compile(r"<(sub|sup)>([^<>\n]{1,80})</\1>", re.IGNORECASE)
+
+
+def visible(text: str, latex: bool) -> str:
+    """The text with blanks for what is commented out or struck through, `<sub>` and `<sup>` as scripts."""
+    if latex:
+        text = _LATEX_COMMENT.sub(lambda found: _without(found, 1), text)
+    text = _HIDDEN.sub(_blank, text)
+    if "\\iffalse" in text:
+        text = _without_false(text)
+    if not latex:
+        text = _STRUCK.sub(lambda found: found[0] if _cuts_formula(found) else _blank(found), text)
+        text = _SCRIPT.sub(_script, text)
+    return text
+
+
+def _blank(found: re.Match[str]) -> str:
+    return _NOT_LINE_END.sub(" ", found[0])
+
+
+def _without(found: re.Match[str], group: int) -> str:
+    kept = found.start(group) - found.start()
+    return found[0][:kept] + " " * len(found[group])
+
+
+def _cuts_formula(found: re.Match[str]) -> bool:
+    """Whether one of the two signs stands inside a formula, where `~` is a blank."""
+    text = found.string
+    paragraph = text.rfind("\n\n", 0, found.start()) + 1
+    before = text[max(paragraph, found.start() - 20_000) : found.start()]
+    return any(_leaves_open(piece) for piece in (before, found[1]))
+
+
+def _leaves_open(text: str) -> bool:
+    """Whether a formula begins in a text and does not end there."""
+    displays = text.count("$$")
+    pairs = (("\\[", "\\]"), ("\\(", "\\)"))
+    inline = text.count("$") - 2 * displays
+    return bool(displays % 2 or inline % 2) or any(text.count(a) != text.count(b) for a, b in pairs)
+
+
+def _without_false(text: str) -> str:
+    r"""The text without what stands between `\iffalse` and its `\else` or `\fi`."""
+    pieces: list[str] = []
+    done, level, start = 0, 0, -1
+    for found in _CONDITION.finditer(text):
+        word = found[0]
+        if start < 0:
+            if word == "\\iffalse":
+                start, level = found.start(), 0
+            continue
+        if word.startswith("\\if"):
+            level += 1
+        elif level and word == "\\fi":
+            level -= 1
+        elif not level:
+            pieces += [text[done:start], _NOT_LINE_END.sub(" ", text[start : found.end()])]
+            done, start = found.end(), -1
+    if start >= 0:
+        pieces += [text[done:start], _NOT_LINE_END.sub(" ", text[start:])]
+        done = len(text)
+    return "".join([*pieces, text[done:]])
+
+
+def _script(found: re.Match[str]) -> str:
+    """`<sub>1</sub>` as `_{1}`, with blanks that keep every character at its place."""
+    sign = "_" if found[1].lower() == "sub" else "^"
+    return f"   {sign}{{{found[2]}}}     "
