@@ -44,16 +44,18 @@ _NAME_PART = rf"[{_LETTER}{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9])|{_BRACED}
 _TOKEN = re.compile(
     rf"""[ ]*(?:
       (?P<name>[{_LETTER}](?![\u0307\u0308])(?:{_NAME_PART})*)
-    | (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200a\u202f~]|%(?!pi\b)[^\n]*(?:\n|$)
+    | (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200b\u202f\u2061-\u2064~]|%(?!pi\b)[^\n]*(?:\n|$)
           |\\(?:[,;:!\ >]|\n)|\\(?:left|right)[ ]?\.)+)
     | (?P<comma>[0-9]+\{{,\}}[0-9]+)
     | (?P<number>(?:[0-9]+(?:\.[0-9]+|\.(?![A-Za-z.*/^\\']))?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?![A-Za-z_]))?)
+    | (?P<mathematica>\\\[[A-Z][a-z]{{1,12}}\][A-Za-z0-9]{{0,20}})
     | (?P<command>\\(?:[A-Za-z]+\*?|[\\{{}}()\[\]|&\#%$_]))
-    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|==|[-+*/^_=<>(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″])
+    | (?P<sign>\*\*|\.\*|\./|\.\^|\.'|:=|==|[-+*/^_=<>(){{}}\[\],;&'|.:°−–·⋅∙×∗⋆÷∕⁄√∂’′″■@〖〗])
     | (?P<raised>⁻?[{SUPERSCRIPT_DIGITS}]+)
     | (?P<dotted>(?:[{_LETTER}][\u0307\u0308]{{1,2}}|[{_PRECOMPOSED}])
           (?:[{_INDEX}](?![\u0307\u0308])|_(?=[0-9])|_\{{[0-9]+\}})*)
     | (?P<percent>%pi)
+    | (?P<accent>[\u0307\u0308])
     | (?P<fraction>[½⅓⅔¼¾⅙⅚⅛⅜⅝⅞])
     )""",
     re.VERBOSE,
@@ -78,6 +80,9 @@ _SIGNS = {
     "’": "'",
     "′": "'",
     "==": "=",
+    "@": "\\\\",  # Word's rows
+    "〖": "{",
+    "〗": "}",
     ":=": "=",
 }
 _ASCII = str.maketrans(SPELLED | {digit: str(value) for value, digit in enumerate(SUBSCRIPT_DIGITS)})
@@ -246,6 +251,9 @@ def _token(piece: Token) -> Token | None:
         return _name(piece)
     if kind == "command":
         return _command(piece)
+    if kind == "mathematica":  # \[Theta]1
+        letter, _, index = text[2:].partition("]")
+        return piece._replace(kind="name", text=letter.lower() + index)
     if kind == "comma":
         return piece._replace(kind="number", text=text.replace("{,}", "."))
     if kind == "percent":

@@ -141,6 +141,12 @@ def simplified(tokens: list[Token]) -> list[Token]:
                 out.append(word)
         elif kind == "]" and _is_unit(out):
             del out[-2:]
+        elif kind == "accent" and out:
+            _accent(token, out)
+        elif kind == "■" and tokens[position].kind == "(":
+            position = _word_matrix(tokens, position, token, out)
+        elif kind == "name" and token.text in _MODULES and _is_qualified(tokens, position):
+            position += 1
         elif kind == "_" and out and (power := _power_before(out)):
             position = _index(tokens, position, token, power, out)
         else:
@@ -151,6 +157,49 @@ def simplified(tokens: list[Token]) -> list[Token]:
 def _is_unit(out: list[Token]) -> bool:
     r"""Whether the bracket that closes here holds a word alone: `[\text{J}]`."""
     return len(out) > 2 and out[-1].kind == "text" and out[-2].kind == "["
+
+
+_MODULES = frozenset("sp sym sympy smp np numpy math".split())
+_OF_MODULES = frozenset(
+    "sin cos tan sqrt pi Matrix array matrix Rational Derivative diff Integer transpose".split()
+)
+
+
+def _is_qualified(tokens: list[Token], position: int) -> bool:
+    """Whether a function follows the name of its module: `sp.sin(q1)`."""
+    dot, name = tokens[position], tokens[min(position + 1, len(tokens) - 1)]
+    return dot.kind == "." and name.text in _OF_MODULES and dot.end == name.start
+
+
+def _accent(accent: Token, out: list[Token]) -> None:
+    """The dots that Word writes behind what they stand over: `(θ_1 ) ̇`, `q ̇_1`."""
+    dots = 1 if accent.text == "\u0307" else 2
+    last = len(out) - 1
+    if out[last].kind == ")" and last > 1 and out[last - 2].kind == "(":
+        del out[last], out[last - 2]
+        last -= 2
+    if out[last].kind in ("name", "letter"):
+        out[last] = out[last]._replace(kind="name", dots=out[last].dots + dots, end=accent.end)
+    else:
+        raise ReadError("these dots stand over no name", accent.start, 1, "write \\dot{q}_1")
+
+
+def _word_matrix(tokens: list[Token], position: int, sign: Token, out: list[Token]) -> int:
+    """Word's `■(a&b@c&d)` as a matrix; gives where to go on."""
+    inside: list[Token] = []
+    level, opening = 1, tokens[position]
+    while level:
+        position += 1
+        token = tokens[position]
+        if token.kind == "end":
+            raise ReadError("this `(` is never closed", opening.start, 1, "add the `)` that it belongs to")
+        level += {"(": 1, ")": -1}.get(token.kind, 0)
+        inside.append(token)
+    end = inside.pop()
+    out.append(sign._replace(kind="begin", text="matrix"))
+    out += simplified([*inside, end._replace(kind="end", text="")])[:-1]
+    out.append(end._replace(kind="close", text="matrix"))
+    return position + 1
 
 
 @dataclass(slots=True)
@@ -201,6 +250,8 @@ def _only_sets_type(out: list[Token], start: int) -> bool:
     for token in out[start + 1 :]:
         level += _level_of(token)
         holds = holds or (level == 0 and token.kind in ("=", "&", "\\\\"))
+        if level == 0 and token.kind == ",":
+            return False  # a list, as Mathematica writes it
     return holds and not _is_argument(out, start)
 
 

@@ -17,8 +17,16 @@ from dynsolve.notation.tree import ZERO
 EXPECTED = "a formula is made of numbers, the problem's symbols, + - * / ^, sin, cos, tan and sqrt"
 """What is said where a formula was expected and no better remedy is known."""
 
-_WAYS: tuple[frozenset[str], ...] = (frozenset(), frozenset({"inertia"}), frozenset({"spaces"}))
-"""How a value may be read: as it stands; a bare I_1 as the moment of inertia; blanks between entries."""
+_WAYS: tuple[frozenset[str], ...] = (
+    frozenset(),
+    frozenset({"inertia"}),
+    frozenset({"spaces"}),
+    frozenset({"decimals"}),
+)
+"""How a value may be read.
+
+As it stands; a bare I_1 as the moment of inertia; blanks between entries; 0,5 as a decimal.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +54,8 @@ def read_right_side(
     for options in _WAYS:
         if options and not _may_help(options, tokens):
             continue
-        found = _read(vocabulary, tokens, owners, options)
+        piece = _with_decimals(tokens) if "decimals" in options else tokens
+        found = _read(vocabulary, piece, owners, options)
         if isinstance(found, RightSide) and _has_shape(vocabulary, found, owners):
             return found
         if first is None or (isinstance(first, ReadError) and isinstance(found, RightSide)):
@@ -114,8 +123,35 @@ def _is_worked_out(reader: FormulaReader, vocabulary: Vocabulary, owners: tuple[
     return bool(set(reader.symbols) - vocabulary.masses)
 
 
+def _decimal_commas(tokens: list[Token]) -> list[int]:
+    """Where commas stand between the digits of a number, outside of lists: `0,5 m_1`, not `[0,5]`."""
+    found: list[int] = []
+    lists = 0
+    for position, token in enumerate(tokens[:-1]):
+        lists += (token.kind == "[") - (token.kind == "]")
+        if token.kind != "," or lists > 0 or position == 0 or position - 2 in found:
+            continue
+        before, after = tokens[position - 1], tokens[position + 1]
+        digits = before.kind == after.kind == "number" and before.text.isdigit() and after.text.isdigit()
+        if digits and before.end == token.start and token.end == after.start:
+            found.append(position)
+    return found
+
+
+def _with_decimals(tokens: list[Token]) -> list[Token]:
+    """The tokens with one number for the digits on both sides of a decimal comma."""
+    out = list(tokens)
+    for position in reversed(_decimal_commas(tokens)):
+        before, after = tokens[position - 1], tokens[position + 1]
+        number = before._replace(text=f"{before.text}.{after.text}", end=after.end)
+        out[position - 1 : position + 2] = [number]
+    return out
+
+
 def _may_help(options: frozenset[str], tokens: list[Token]) -> bool:
     """Whether another way of reading could make sense of these tokens."""
     if "inertia" in options:
         return any(t.kind == "name" and t.text[0] in "IJ" for t in tokens)
+    if "decimals" in options:
+        return bool(_decimal_commas(tokens))
     return any(t.kind == "[" for t in tokens)

@@ -117,13 +117,31 @@ RIGHT: list[tuple[str, str, str, str]] = [
     (R, "md", rf"$$g = \pmatrix{{{G1}\cr {G2}\cr}}$$", "g"),
     (R, "md", rf"$$g = \bmqty{{{G1}\\ {G2}}}$$", "g"),
     (RP, "md", "$$f_2 = m_2 \\ddot L_2 - m_2 L_2 θ̇₁²$$", "f2"),
+    # what programs print, and Word's linear format
+    (RP, "yaml", "answers: {P: '0,5*m1*g*L1 + m2*g*L1'}", "P"),
+    (RP, "yaml", "answers: {K1: 'I1zz*(0,5*theta1_dot^2)'}", "K1"),
+    (RP, "md", r"$$g = \begin{bmatrix} 0,0\cdot L_1 \\ 0 \end{bmatrix}, \quad d_{22} = 1,0 m_2$$", "g d22"),
+    (R, "yaml", "answers: {g: '{g*((m1*lc1+m2*l1)*Cos[q1]+m2*lc2*Cos[q1+q2]), m2*g*lc2*Cos[q1+q2]}'}", "g"),
+    (R, "yaml", "answers: {K1: '(m1*lc1^2+I1)*Derivative[1][q1][t]^2/2'}", "K1"),
+    (R, "yaml", r"answers: {K1: '(m1*lc1^2+I1)*\[Theta]1''[t]^2/2'}", "K1"),
+    (R, "yaml", "answers: {g2: 'm[2]*g*lc[2]*cos(q[1]+q[2])'}", "g2"),
+    (R, "yaml", "answers: {g2: 'm2*g*lc2*sp.cos(q1+q2)'}", "g2"),
+    (R, "yaml", "answers: {K1: 'sp.Rational(1,2)*(m1*lc1**2+I1)*q1p**2'}", "K1"),
+    (R, "txt", "D(1,2) = m2*(lc2^2 + l1*lc2*cos(q2)) + I2\n", "d12"),
+    (R, "txt", "g(2) = m2*g*lc2*cos(q1+q2)\n", "g2"),
+    (R, "md", "$$K_1 = 1/2 (m_1 l_c1^2+I_1) (θ_1 ) ̇^2$$", "K1"),
+    (R, "md", "$$K_1 = 1/2 〖(m_1 l_c1^2+I_1)〗 q ̇_1^2$$", "K1"),
+    (R, "md", "$$g = [■(g((m_1 l_c1+m_2 l_1) cos⁡(q_1)+m_2 l_c2 cos⁡(q_1+q_2))"
+     "@m_2 g l_c2 cos⁡(q_1+q_2))]$$", "g"),
+    (R, "md", rf"$$g = \binom{{{G1}}}{{{G2}}}$$", "g"),
 ]  # fmt: skip
 
 SLIPS = (
     ("I_2", "I_1"), ("c_1 ", "s_1 "), ("c_{12}", "c_2"), ("l_1 l_{c2}", "l_2 l_{c2}"),
     (r"\sin q_1", r"\cos q_1"), ("+ I_1", "- I_1"), ("I2", "2*I2"), ("I1", "I2"), ("m_2", "m_1"),
     ("0{,}5", "0{,}6"), (r"\frac12", r"\frac13"), ("l_{c1}", "l_1"), ("L_{c1}", "L_1"),
-    ("I_{1,zz}", "2 I_{1,zz}"),
+    ("I_{1,zz}", "2 I_{1,zz}"), ("0,5", "0,6"), ("1,0", "1,1"), ("m2", "m1"),
+    ("m_1 l_c1", "m_1 l_1"), ("m[2]", "m[1]"), ("lc2", "l2"),
 )  # fmt: skip
 """What a slip puts in the place of what: the first that a text holds behind its first `=` or `:`."""
 
@@ -161,3 +179,22 @@ def test_a_right_answer_is_right(stem: str, ending: str, text: str, names: str) 
 def test_the_same_with_a_slip_is_not_right(stem: str, ending: str, text: str, names: str) -> None:
     found = verdicts(judged(stem, ending, with_slip(text)))
     assert any(found.get(name) in ("wrong", "unreadable") for name in names.split())
+
+
+def test_degrees_without_their_sign_are_pointed_out() -> None:
+    report = judged(R, "md", r"$$P_1 = m_1 g l_{c1} \sin(q_1 + 90)$$")
+    answer = next(found for found in report.answers if found.name == "P1")
+    assert answer.verdict.value == "wrong" and "90°" in " ".join(answer.notes)
+
+
+def test_programs_that_count_from_zero_are_not_read_as_if_from_one() -> None:
+    assert (
+        verdicts(judged(R, "yaml", "answers: {P: 'm[0]*g*lc[0]*sin(q[0])', g2: 'm[1]*lc[0]'}"))["P"]
+        == "unreadable"
+    )
+
+
+def test_an_unknown_letter_is_named() -> None:
+    report = judged(R, "md", r"$$P_1 = m_1 g a_1 \sin(q_1)$$")
+    answer = next(found for found in report.answers if found.name == "P1")
+    assert answer.verdict.value == "unreadable" and "a_1" in str(answer)

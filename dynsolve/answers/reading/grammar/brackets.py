@@ -50,6 +50,20 @@ def _parenthesis(reader: Reader) -> Value:
     return first
 
 
+def listed(reader: Reader, first: Value, opening: Token) -> Value:
+    """The rest of `{a, b}`, a list as Mathematica writes it; or a group around one sum."""
+    entries = [first]
+    while reader.token.kind == "," and len(entries) < MAX_ENTRIES:
+        reader.take()
+        entries.append(reader.sum())
+    reader.expect("}", opening)
+    if len(entries) == 1:
+        return first
+    if all(isinstance(entry, Grid) and entry.shape[0] == 1 for entry in entries):
+        return finished(reader, [[entry] for entry in entries], opening)
+    return finished(reader, [entries], opening)
+
+
 def square(reader: Reader) -> Value:
     """[...]: rows after commas, semicolons or line ends; or a bracket around a sum."""
     before = reader.rows_by_line

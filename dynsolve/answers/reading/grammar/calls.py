@@ -19,6 +19,8 @@ _DOTS = {"dot": 1, "ddot": 2}
 def is_call(reader: Reader) -> bool:
     """Whether a call of a function that programs print stands here."""
     token = reader.token
+    if token.text == "Derivative" and reader.peek().kind == "[":
+        return True
     if token.kind != "name" or reader.peek().kind != "(":
         return False
     if functions.is_elsewhere(token):
@@ -36,7 +38,9 @@ def read(reader: Reader) -> Value:
     reader.enter()
     name = reader.take()
     opening = reader.take()
-    if name.text in _DERIVATIVES:
+    if opening.kind == "[":
+        found = _mathematica_derivative(reader, opening)
+    elif name.text in _DERIVATIVES:
         found = _derivative(reader, opening)
     elif name.text in _MATRICES:
         found = _matrix(reader, opening)
@@ -98,6 +102,19 @@ def _derivative(reader: Reader, opening: Token) -> Value:
     dotted = rate(of, reader.vocabulary, order)
     if isinstance(dotted, Symbol):
         return dotted
+    return dotted if dotted is not None else total_rate(of)
+
+
+def _mathematica_derivative(reader: Reader, opening: Token) -> Value:
+    """Derivative[1][q1][t]"""
+    order = reader.until("]", opening)
+    if len(order) != 1 or order[0].text not in ("1", "2") or reader.token.kind != "[":
+        raise ReadError("this derivative is not read", opening.start, 1, "write Derivative[1][q1][t]")
+    bracket = reader.take()
+    of = reader.inner(reader.until("]", bracket))
+    if reader.token.kind == "[" and reader.peek().text == "t":
+        reader.until("]", reader.take())
+    dotted = rate(of, reader.vocabulary, int(order[0].text))
     return dotted if dotted is not None else total_rate(of)
 
 

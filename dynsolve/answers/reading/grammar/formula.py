@@ -259,8 +259,7 @@ class FormulaReader(Reader):
                 self.beside(form)
                 self.nesting -= 1
                 return names.value_of(self, form)
-            found = self.sum(form)
-            self.expect("}", opening)
+            found = brackets.listed(self, self.sum(form), opening)
         else:
             found = brackets.read(self)
         self.nesting -= 1
@@ -321,6 +320,10 @@ class FormulaReader(Reader):
             return self.scripted(derivatives.read(self))
         if name in ("sum", "int", "prod"):
             return calls.running_sum(self)
+        if name == "binom":
+            self.take()
+            above, below = self.group(), self.group()
+            return self.scripted(brackets.finished(self, [[self.inner(above)], [self.inner(below)]], token))
         if name == "hat":
             return self.unit_vector()
         if name in ("underbrace", "overbrace"):

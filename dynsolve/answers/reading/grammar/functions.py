@@ -9,7 +9,7 @@ from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient
+from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum
 
 _NAMES = {"sin": "sin", "cos": "cos", "tan": "tan", "sqrt": "sqrt", "cot": "cot", "sec": "sec", "csc": "csc"}
 _NAMES |= (
@@ -128,6 +128,16 @@ def _is_numeric_fraction(reader: Reader) -> bool:
     return reader.token.text == "frac" and reader.peek(1).kind == reader.peek(2).kind == "number"
 
 
+def _degrees_meant(argument: Node) -> str:
+    """The number in an angle that was meant in degrees by its looks: the 90 of theta_1 + 90."""
+    terms = argument.terms if isinstance(argument, Sum) else (argument,)
+    for term in terms:
+        number = term.argument if isinstance(term, Negative) else term
+        if isinstance(number, Number) and number.q == 1 and number.p and number.p % 15 == 0:
+            return str(number.p)
+    return ""
+
+
 def applied(reader: Reader, function: str, argument: Value, name: Token) -> Value:
     """The function of an argument."""
     if isinstance(argument, Abstract):
@@ -136,6 +146,8 @@ def applied(reader: Reader, function: str, argument: Value, name: Token) -> Valu
         message = f"`{name.text}` of a matrix or a vector"
         raise ReadError(message, name.start, name.end - name.start, "write it of one angle")
     reader.symbols.setdefault("")
+    if (degrees := _degrees_meant(argument)) and function != "sqrt":
+        reader.notes.setdefault(f"{degrees} is read as {degrees} rad; degrees are written {degrees}°")
     if function in _RECIPROCALS:
         above, below = _RECIPROCALS[function]
         return Quotient(Function(above, argument) if above else Number(1), Function(below, argument))

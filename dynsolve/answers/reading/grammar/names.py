@@ -66,10 +66,24 @@ def value_of(reader: Reader, form: Form) -> Value:
 
 
 def _called_index(reader: Reader, form: Form) -> str:
-    """The index of q(2), as MATLAB writes an entry of the vector q; nothing for every other name."""
-    if reader.token.kind != "(" or reader.peek(1).kind != "number" or reader.peek(2).kind != ")":
+    """The index of q(2), as MATLAB writes an entry of q, and of D(1,2); nothing for other names."""
+    if reader.token.kind != "(" or reader.peek(1).kind != "number":
+        return ""
+    if reader.naming and reader.peek(2).kind == ",":
+        indices = [reader.peek(ahead) for ahead in range(1, 5)]
+        entry = indices[0].text + indices[2].text
+        if [t.kind for t in indices] != ["number", ",", "number", ")"]:
+            return ""
+        if not reader.vocabulary.named(form.key + entry):
+            return ""
+        reader.until(")", reader.take())
+        return entry
+    if reader.peek(2).kind != ")":
         return ""
     index = reader.peek(1).text
+    if reader.naming and not form.index and reader.vocabulary.named(form.key + index):
+        reader.until(")", reader.take())
+        return index
     meaning = reader.vocabulary.symbol(form.key + index) if len(index) < 3 else None
     if form.index or meaning is None or reader.vocabulary.symbol(form.key) is not None:
         return ""

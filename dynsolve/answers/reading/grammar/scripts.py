@@ -103,12 +103,31 @@ class ScriptCursor(Cursor):
                     form.angle = tokens
             elif kind == "^" and (part := self.energy_part(form)):
                 form.index += part
+            elif kind == "[" and self.is_index(form):
+                self.take()
+                form.index += self.take().text
+                self.take()
             elif kind == "*" and self.star_is_mark(form):
                 self.take()
                 form.scripts.mark = True
             elif not self.script(form.scripts):
                 break
         form.end = self.tokens[max(self.position - 1, 0)].end
+
+    def is_index(self, form: Form) -> bool:
+        """Whether the index of a symbol stands in brackets, as Maple writes it: `m[1]`, `q[2](t)`.
+
+        Programs that count from 0 write them too: where there is an index 0 none is read.
+        """
+        index = self.peek(1)
+        if self.token.spaced or index.kind not in ("number", "name") or self.peek(2).kind != "]":
+            return False
+        if index.text == "t" or self.vocabulary.symbol(form.key + index.text) is None:
+            return False
+        return not any(
+            before.kind == "[" and token.text == "0" and after.kind == "]"
+            for before, token, after in zip(self.tokens, self.tokens[1:], self.tokens[2:], strict=False)
+        )
 
     def energy_part(self, form: Form) -> str:
         r"""The letter of the part of an energy that its superscript names, which is taken: `K_1^{rot}`."""
