@@ -65,7 +65,7 @@ RosterOption = Annotated[
         "--roster",
         metavar="CSV",
         help="The gradebook, worksheet or list of grades that the platform exports; "
-        "those of Moodle (in English) and Gradescope say who was late, too.",
+        "those of Moodle and Gradescope say who was late, too.",
     ),
 ]
 DiffOption = Annotated[
@@ -106,6 +106,7 @@ def grade(
                 problems, submissions, output,
                 lms=str(lms) if lms else None, roster=roster, diff=diff,
                 jobs=jobs, cluster=cluster, timeout=timeout, memory=memory, progress=advance,
+                warn=None if quiet else _warn,
             )  # fmt: skip
     except KeyboardInterrupt:
         typer.echo(f"stopped: what is done is kept in {output}; the same command goes on", err=True)
@@ -117,13 +118,17 @@ def grade(
     return ExitCode.DONE
 
 
+def _warn(said: str) -> None:
+    typer.echo(f"warning: {said}", err=True)
+
+
 def _say(grades: Grades) -> None:
     for refused in grades.refused[:MOST_REFUSED]:
         typer.echo(f"refused: {refused.name}: {refused.reason}", err=True)
     if len(grades.refused) > MOST_REFUSED:
         typer.echo(f"refused: {len(grades.refused) - MOST_REFUSED} more, which the report names", err=True)
     for warning in grades.warnings:
-        typer.echo(f"warning: {warning}", err=True)
+        _warn(warning)
     done, anew, waiting = grades.computed, grades.remarked, len(grades.waiting)
     same = grades.hand_ins - done - anew
     parts = [f"{done} hand-in{'s' if done != 1 else ''} graded"]

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import unescape
 from pathlib import PurePosixPath
 
@@ -19,6 +19,7 @@ from dynsolve.answers.reading.answer_file import parsed
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import InputError
+from dynsolve.grading.extensions import days_late
 from dynsolve.grading.platforms.gradescope import METADATA, Submitters, exports, read_metadata
 from dynsolve.grading.platforms.owner import FileOwner
 from dynsolve.grading.platforms.owners import FileOwners
@@ -61,12 +62,15 @@ class File:
 
 @dataclass(frozen=True, slots=True)
 class HandIn:
-    """What one student handed in for one problem; `left` are the copies that do not count."""
+    """What one student handed in for one problem.
+
+    `late` are the days that it is late, `left` the copies that do not count.
+    """
 
     student: str
     problem: str
     files: tuple[File, ...]
-    late: bool = False
+    late: int = 0
     left: tuple[str, ...] = ()
 
     @property
@@ -94,7 +98,7 @@ class _Piece:
     file: File
 
     @property
-    def copy(self) -> tuple[bool, str]:
+    def copy(self) -> tuple[int, str]:
         """What identifies the delivery that the file came with."""
         return self.owner.late, self.owner.delivery
 
@@ -104,8 +108,8 @@ class _Piece:
         return self.owner.order, self.file.upload.order, str(self.file.upload.path)
 
 
-def take_in(problems: ProblemSet, uploads: Uploads, late: Collection[str] = ()) -> Intake:
-    """Sort what was handed in by student and problem; `late` are the platform's ids of who was late."""
+def take_in(problems: ProblemSet, uploads: Uploads, late: Mapping[str, int] | None = None) -> Intake:
+    """Sort what was handed in by student and problem; `late` are the days by the platform's ids."""
     paths = [upload.path for upload in uploads.files]
     lists = {root / METADATA for root in (PurePosixPath(*parts) for parts in exports(paths))}
     owners = FileOwners(paths, _metadata(uploads, lists), late, lambda stem: bool(_folded(stem, problems)))
@@ -127,10 +131,14 @@ def take_in(problems: ProblemSet, uploads: Uploads, late: Collection[str] = ()) 
             if student:
                 students[student] = students.get(student) or id
             waiting.add(Waiting(student, "", refused.name, refused.reason))
-    hand_ins = tuple(
-        _counting(student, problem, found) for (student, problem), found in sorted(pieces.items())
-    )
+    counting = (_counting(student, problem, found) for (student, problem), found in sorted(pieces.items()))
+    hand_ins = tuple(_extended(problems, hand_in, students[hand_in.student]) for hand_in in counting)
     return Intake(dict(sorted(students.items())), hand_ins, tuple(sorted(waiting)))
+
+
+def _extended(problems: ProblemSet, hand_in: HandIn, id: str) -> HandIn:
+    days = days_late(problems.extensions, hand_in.student, id, hand_in.problem, hand_in.late)
+    return replace(hand_in, late=days)
 
 
 def _metadata(uploads: Uploads, lists: Collection[PurePosixPath]) -> Submitters:
@@ -288,7 +296,7 @@ def _within(text: str, problems: ProblemSet) -> str:
 def _counting(student: str, problem: str, pieces: Iterable[_Piece]) -> HandIn:
     """Of several copies the newest counts; the files that came with it belong to it."""
     pieces = list(pieces)
-    copies: dict[tuple[bool, str], list[_Piece]] = {}
+    copies: dict[tuple[int, str], list[_Piece]] = {}
     for piece in pieces:
         copies.setdefault(piece.copy, []).append(piece)
     newest = max(copies, key=lambda key: max(piece.age for piece in copies[key]))

@@ -9,6 +9,7 @@ from pathlib import PurePath
 
 from dynsolve.answers.marking.policy import Policy, from_data, to_data
 from dynsolve.errors import UsageError
+from dynsolve.grading.extensions import Extension
 from dynsolve.grading.record import Record
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import read_problem
@@ -34,6 +35,7 @@ class ProblemSet:
     title: str
     items: tuple[Item, ...]
     policy: Policy = field(default_factory=Policy)
+    extensions: tuple[Extension, ...] = ()
 
     @property
     def stems(self) -> tuple[str, ...]:

@@ -15,9 +15,10 @@ from dynsolve.grading.cohort import standings
 from dynsolve.grading.fingerprints import changes
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.outputs import write_outputs
+from dynsolve.grading.platforms import canvas
 from dynsolve.grading.platforms.registry import PLATFORMS, chosen_roster, export, keep_platform, late
 from dynsolve.grading.pool import Bounds, LocalPool
-from dynsolve.grading.problem_set import store_set, stored_set
+from dynsolve.grading.problem_set import ProblemSet, store_set, stored_set
 from dynsolve.grading.record import FILE, Record, Waiting
 from dynsolve.grading.run import Pool, grade_all
 from dynsolve.grading.set_file import load_set
@@ -61,6 +62,7 @@ def grade(
     timeout: float = 20.0,
     memory: int = 1024,
     progress: Callable[[int, int], None] | None = None,
+    warn: Callable[[str], None] | None = None,
 ) -> Grades:
     r"""Grade everything that was handed in, and write the folder `output`.
 
@@ -70,8 +72,8 @@ def grade(
     and from then on by every run and override.
     `jobs` processes (0: one a core) of this machine do the work, or those of the Dask
     scheduler `cluster`; each hand-in may take `timeout` seconds and `memory` MiB.
-    `progress` is told how many are done, and of how many.  Called again, after a stop
-    or a change, it computes only what is not in the record.
+    `progress` is told how many are done, and of how many; `warn` what is to be known before.
+    Called again, after a stop or a change, it computes only what is not in the record.
 
     Raises ProblemError for a faulty problem or `set.yaml`, InputError for hand-ins or a
     roster that cannot be read, UsageError where `output` cannot be written or is in use.
@@ -99,11 +101,15 @@ def grade(
         if lms and listed:
             keep_platform(record, lms, listed)
         with closing(_pool(jobs, cluster, Bounds(timeout, memory << 20))) as pool:
-            intake = take_in(chosen, uploads, late(record))
+            delays = late(record)
+            unknown = _late_unknown(chosen, uploads, delays)
+            if unknown and warn is not None:
+                warn(unknown)
+            intake = take_in(chosen, uploads, delays)
             store_set(record, chosen)
             done = grade_all(chosen, uploads, intake, record, pool, progress)
         write_outputs(folder, chosen, record)
-        warnings = export(folder, chosen, record)
+        warnings = (*export(folder, chosen, record), *filter(None, (unknown,)))
         changed = tuple(changes(record)) if diff else ()
         record.finish()
         totals = {standing.student: standing.total for standing in standings(record)}
@@ -118,6 +124,16 @@ def grade(
         changed,
         warnings,
     )
+
+
+def _late_unknown(problems: ProblemSet, uploads: Uploads, delays: dict[str, int] | None) -> str:
+    """What is said where lateness costs marks and nothing tells who was late."""
+    if not problems.policy.minds_late or delays is not None:
+        return ""
+    if any(canvas.owner((upload.path.name,)) is not None for upload in uploads.files):
+        return ""  # Canvas writes LATE into the names
+    said = "the policy takes marks for being late, and nothing says who was late: nobody loses any"
+    return f"{said}; give the platform's list with --lms and --roster"
 
 
 def _check_usage(folder: Path, submissions: Path, lms: str | None, roster: object) -> None:

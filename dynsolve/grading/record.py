@@ -100,7 +100,7 @@ class RecordedHandIn:
     problem: str
     files: tuple[str, ...]
     left: tuple[str, ...]
-    late: bool
+    late: int
     reason: str
     html: bytes
     markdown: bytes
@@ -257,7 +257,7 @@ class Record:
         order = f"SELECT {columns} FROM hand_ins ORDER BY student, problem"  # noqa: S608
         for s, p, files, left, late, reason, html, markdown in self.db.execute(order):
             names, others = (tuple(json.loads(text)) for text in (files, left))
-            yield RecordedHandIn(s, p, names, others, bool(late), reason, html, markdown)
+            yield RecordedHandIn(s, p, names, others, late, reason, html, markdown)
 
     def answers(self, student: str | None = None) -> Iterator[RecordedAnswer]:
         """The answers with their marks, the teacher's where given; of one student, or of all."""

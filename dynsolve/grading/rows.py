@@ -103,7 +103,7 @@ def _not_judged(problems: ProblemSet, student: str, item: Item, said: list[str])
     found["policy"] = of_policy(problems.policy)
     reason = "; ".join(said)
     row = _unread(problems, student, item.stem, reason)
-    rest = {"files": [], "left": [], "late": False, "reason": reason, "notes": []}
+    rest = {"files": [], "left": [], "late": 0, "reason": reason, "notes": []}
     return short(found), json.dumps(found, sort_keys=True), {**row, **rest}
 
 

@@ -5,19 +5,23 @@
     marks: {in3140-rp: {P: 2, K: 4, tau: 6}}       # wins over the problem files' own `marks`
     policy: {follow: 1/2, caps: {energy: 5}, rounding: 0.5, late: 0.8, hints: 2}
 
+Beside it may lie an `extensions.csv` (`extensions`).
+
 Every fault of the file is reported at its place, as in problem files.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 from dynsolve.algebra.rationals import rational_value
-from dynsolve.answers.marking.policy import Policy
+from dynsolve.answers.marking.policy import Policy, shown
 from dynsolve.errors import Finding, ProblemError
+from dynsolve.grading.extensions import read_extensions
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.set_keys import CAPS, POLICY, SET
 from dynsolve.problem.cells import read_cell
@@ -26,7 +30,15 @@ from dynsolve.problem.library import find
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.source import Faults, as_source
-from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode, read_nodes
+from dynsolve.problem.yaml_nodes import (
+    FaultyNode,
+    ListNode,
+    MappingNode,
+    ScalarNode,
+    Span,
+    YamlNode,
+    read_nodes,
+)
 from dynsolve.quantities.index import Quantities
 
 SET_FILE = "set.yaml"
@@ -71,7 +83,7 @@ def _folder(folder: Path) -> ProblemSet:
         raise ProblemError([*faults.found(), *findings])
     title = (free_text(faults, fields.get("title"), "title") if fields else "") or folder.resolve().name
     chosen = tuple(Item(_marked(r.problem, marks.get(s, {})), text) for s, (r, text) in readings.items())
-    return ProblemSet(title, chosen, policy)
+    return ProblemSet(title, chosen, policy, read_extensions(folder, list(readings)))
 
 
 def _fields(faults: Faults) -> Fields | None:
@@ -149,7 +161,7 @@ def _policy(faults: Faults, node: YamlNode | None) -> Policy:
         message = "hints are 1, 2 or 3"
         faults.error(fields.span_of("hints"), message, "1 says where, 2 what kind of slip, 3 how")
     follow = _share(faults, fields, "follow")
-    late = _share(faults, fields, "late")
+    late, *later = _late(faults, fields) or (plain.late,)
     step = _number(faults, fields.get("rounding"), "rounding") if "rounding" in fields else None
     if step == 0:
         faults.error(fields.span_of("rounding"), "marks cannot be rounded to steps of 0", "write 0.5 or 0.01")
@@ -163,15 +175,38 @@ def _policy(faults: Faults, node: YamlNode | None) -> Policy:
         if caps
         else {},
         step or plain.rounding,
-        plain.late if late is None else late,
+        late,
         hints or plain.hints,
+        tuple(later),
     )
 
 
 def _share(faults: Faults, fields: Fields, key: str) -> Fraction | None:
-    value = _number(faults, fields.get(key), key) if key in fields else None
+    return _read_share(faults, fields.get(key), fields.span_of(key), key) if key in fields else None
+
+
+def _late(faults: Faults, fields: Fields) -> list[Fraction]:
+    """The shares that a late hand-in keeps: one, or one a day."""
+    if "late" not in fields:
+        return []
+    node, span = fields.get("late"), fields.span_of("late")
+    nodes = node.items if isinstance(node, ListNode) else (node,)
+    shares = [_read_share(faults, one, one.span if one is not None else span, "late") for one in nodes]
+    return [share for share in shares if share is not None]
+
+
+def _read_share(faults: Faults, node: YamlNode | None, span: Span, key: str) -> Fraction | None:
+    percent = (
+        re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*%\s*", node.decoded) if isinstance(node, ScalarNode) else None
+    )
+    if percent:
+        share = Fraction(percent[1]) / 100
+        message = f"`{key}` is a share, not a percentage"
+        faults.error(span, message, f"write {shown(share)}" if share <= 1 else "write 1/2 or 0.8")
+        return None
+    value = _number(faults, node, key)
     if value is not None and value > 1:
-        faults.error(fields.span_of(key), f"`{key}` is a share, at most 1", "write 1/2 or 0.8")
+        faults.error(span, f"`{key}` is a share, at most 1", "write 1/2 or 0.8")
     return value
 
 

@@ -5,7 +5,7 @@ To add one, write its record here and read it in `set_file.py`.
 
 from __future__ import annotations
 
-from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, Plain
+from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain
 from dynsolve.problem.schema import Schema, schema_of_file
 from dynsolve.problem.specification import NAME, TEXT
 from dynsolve.quantities.stages import Stage
@@ -39,9 +39,10 @@ POLICY = Keyed(
         ),
         Key(
             "late",
-            _POINTS,
-            "The share that a late hand-in keeps, where the platform says who was late. Default 1.",
-            "0.8",
+            OneOf((_POINTS, ListOf(_POINTS, "a list of shares"))),
+            "The share that a late hand-in keeps of what it earns, where the platform says who was late; a "
+            "list has the share of each day, the last for all later ones. Default 1.",
+            "[0.9, 0.8, 0.5]",
             "1",
         ),
         Key(

@@ -51,7 +51,7 @@ def owner(parts: tuple[str, ...]) -> FileOwner | None:
         if found is None:
             return None
         who = found["who"]
-    late = bool(found["late"])
+    late = int(bool(found["late"]))  # Canvas does not say by how much
     name = found["name"] or _PAGES[found["page"]]
     order = int((found["file"] or "0")[:18])
     return FileOwner(f"{who}_{found['user']}", found["user"], "late" if late else "", name, late, order)

@@ -148,13 +148,24 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     remove_others(folder / "gradescope", set(told), (".json",))
 
 
-def late(roster: Roster) -> frozenset[str]:
-    """The submissions whose lateness in the list of grades is not 00:00:00."""
+def late(roster: Roster) -> dict[str, int] | None:
+    """The days that submissions are late by the list of grades, None where that does not say it."""
     if not {_ID, _LATENESS} <= set(roster.header):
-        return frozenset()
+        return None
     id, lateness = roster.header.index(_ID), roster.header.index(_LATENESS)
     rows = (row for row in roster.rows[1:] if len(row) > max(id, lateness))
-    return frozenset(f"submission_{row[id].strip()}" for row in rows if re.search("[1-9]", row[lateness]))
+    return {f"submission_{row[id].strip()}": _days(row[lateness]) for row in rows if _days(row[lateness])}
+
+
+def _days(lateness: str) -> int:
+    """The days, begun ones counted.
+
+    >>> _days("00:00:00"), _days("00:00:01"), _days("24:00:00"), _days("48:00:10")
+    (0, 1, 1, 3)
+    """
+    found = re.fullmatch(r"\s*(\d+):(\d+):(\d+)\s*", lateness)
+    hours, minutes, seconds = map(int, found.groups()) if found else (0, 0, 0)
+    return -(-(hours * 3600 + minutes * 60 + seconds) // 86400)
 
 
 def _results(standing: Standing, record: Record, problems: ProblemSet) -> dict[str, Any]:

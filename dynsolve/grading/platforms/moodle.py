@@ -26,7 +26,12 @@ _NAMED = re.compile(r"(?P<who>.+?)_(?P<id>\d+)_assignsubmission_[a-z]+_?(?P<name
 _GRADE = ("Grade", "Bewertung")
 _COMMENTS = ("Feedback comments", "Feedback als Kommentar")
 _NUMBER = re.compile(r"(\d+)\s*$")
-_LATE = re.compile(r"(?:^| - )\d[^-]* late(?= - |$)")
+_DATE = re.compile(r"\d{4}|\d[:.h]\d{2}")
+_DAY = re.compile(
+    r"days?|tage?n?|da[gn](?:er|ar|e|en|a|i|o)?|d[øy]g?n|jours?|d[ií]as?|dies|giorn[oi]|päivää?|päev\w*|vrk|dzień|dni|den|"
+    r"dn[yůíi]|d[eě]n|день|дн\w*|ден\w*|nap(?:ja|pal)?|gün|η?μέρ\w*|zile?|zi|dien\w*|egun\w*|[日天일].*"
+)
+"""A day in the languages that Moodle is used in most."""
 _TIME = re.compile(r"\d{1,2}[:.]\d{2}")
 
 
@@ -79,13 +84,34 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     yield from unmatched(all_of, seen, without, roster)
 
 
-def late(roster: Roster) -> frozenset[str]:
-    """The participants whose Status says `1 day 2 hours late`: it does so in English."""
-    if "Status" not in roster.header:
-        return frozenset()
-    place = roster.header.index("Status")
-    rows = (row for row in roster.rows[1:] if len(row) > place and _LATE.search(row[place]))
-    return frozenset(digits[1] for row in rows if (digits := _NUMBER.search(row[0])))
+def late(roster: Roster) -> dict[str, int] | None:
+    """The days that participants are late by their status; None where the worksheet has no such column.
+
+    The status is the column before the grade.  Its parts are joined by ` - `, in every language;
+    one that holds a length of time and no date says how late it is.
+    """
+    place = _grade(roster) - 1
+    if place < 1 or any("@" in row[place] for row in roster.rows[1:] if len(row) > place):
+        return None
+    rows = ((_NUMBER.search(row[0]), _days(row[place])) for row in roster.rows[1:] if len(row) > place)
+    return {digits[1]: days for digits, days in rows if digits and days}
+
+
+def _days(status: str) -> int:
+    """The days that a status says a hand-in is late, begun ones counted; one where the unit is not known.
+
+    >>> _days("Submitted for grading - 1 day 2 hours late"), _days("Abgegeben - 3 Tage verspätet")
+    (2, 3)
+    >>> _days("Levert - 5 min for sent"), _days("Submitted - Extension granted until: 1 May 2026")
+    (1, 0)
+    """
+    for part in re.split(r"(?:^|\s)[-–]\s", status):
+        numbers = re.findall(r"(\d+)\s*([^\W\d]*)", part)
+        if not numbers or ":" in part or _DATE.search(part):
+            continue
+        (first, unit), more = numbers[0], len(numbers) > 1
+        return int(first[:6]) + more if _DAY.fullmatch(unit.casefold()) else 1
+    return 0
 
 
 def _grade(roster: Roster) -> int:

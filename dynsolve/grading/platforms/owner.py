@@ -10,7 +10,8 @@ class FileOwner:
     """Whose file it is: `student` names the row, `id` is the platform's own, empty where there is none.
 
     `delivery` is what was handed in at once: its files belong together, another delivery
-    of the same student is another copy.  `order` grows with the delivery; `name` is the
+    of the same student is another copy.  `late` are the
+    days that it is late, begun ones counted.  `order` grows with the delivery; `name` is the
     file's own name.  A loose file's name is not `certain` to be a student's: what stands
     in the file wins.
     """
@@ -19,6 +20,6 @@ class FileOwner:
     id: str
     delivery: str
     name: str
-    late: bool = False
+    late: int = 0
     order: int = 0
     certain: bool = True

@@ -6,7 +6,7 @@ its student.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import PurePosixPath
 from unicodedata import normalize
@@ -26,8 +26,8 @@ _NAMED_BY: tuple[Callable[[tuple[str, ...]], FileOwner | None], ...] = (moodle.o
 class FileOwners:
     """Tells whose file each one is; `files` are all that were handed in.
 
-    `metadata` is Gradescope's, `late` are the platform's ids of those who were late, as
-    far as it tells them elsewhere than in the names; `is_problem` tells whether a file's
+    `metadata` is Gradescope's, `late` are the days that those were late, by the platform's ids,
+    as far as it tells them elsewhere than in the names; `is_problem` tells whether a file's
     name is that of a problem.
     """
 
@@ -35,14 +35,14 @@ class FileOwners:
         self,
         files: Iterable[PurePosixPath],
         metadata: Submitters | None = None,
-        late: Collection[str] = (),
+        late: Mapping[str, int] | None = None,
         is_problem: Callable[[str], bool] = lambda name: False,
     ) -> None:
         files = list(files)
         self.depth = _wrapping(files, is_problem)
         self.exports = gradescope.exports(files)
         self.submitters = metadata or {}
-        self.late = late
+        self.late = late or {}
 
     def of(self, path: PurePosixPath) -> tuple[FileOwner, ...]:
         """The owners of a file: one, or the members of a group."""
@@ -50,7 +50,7 @@ class FileOwners:
             replace(
                 owner,
                 student=normalize("NFC", owner.student),
-                late=owner.late or owner.id in self.late,
+                late=max(owner.late, self.late.get(owner.id, 0)),
             )
             for owner in self._of(path)
         )

@@ -17,13 +17,13 @@ from dynsolve.grading.record import Record
 class Platform:
     """How a platform's files are written; `check` raises for a faulty roster before anything is graded.
 
-    A platform without a check needs no roster.  `late` tells the platform's ids of those
-    who were late, where the roster says so; Canvas says it in the names of files.
+    A platform without a check needs no roster.  `late` tells the days that the
+    platform's ids were late, None where the roster does not say; Canvas says it in the names of files.
     """
 
     write: Callable[[Path, ProblemSet, Record, Roster], Iterator[str]]
     check: Callable[[ProblemSet, Roster], object] | None = None
-    late: Callable[[Roster], frozenset[str]] = lambda roster: frozenset()
+    late: Callable[[Roster], dict[str, int] | None] = lambda roster: None
 
 
 PLATFORMS = {
@@ -60,10 +60,10 @@ def keep_platform(record: Record, platform: str, roster: Roster) -> None:
     record.set_run(_ROSTER, to_text(roster))
 
 
-def late(record: Record) -> frozenset[str]:
-    """Who was late by the roster that is kept, if one is."""
+def late(record: Record) -> dict[str, int] | None:
+    """How many days late who was, by the roster that is kept; None where nothing says so."""
     platform = record.run(_PLATFORM)
-    return PLATFORMS[platform].late(from_text(record.run(_ROSTER))) if platform else frozenset()
+    return PLATFORMS[platform].late(from_text(record.run(_ROSTER))) if platform else None
 
 
 def export(folder: Path, problems: ProblemSet, record: Record) -> tuple[str, ...]:

@@ -5,10 +5,13 @@ from __future__ import annotations
 import os
 import time
 import zipfile
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 import pytest
 
+from dynsolve.errors import ProblemError
+from dynsolve.grading.extensions import read_extensions
 from dynsolve.grading.hand_ins import Intake, take_in
 from dynsolve.grading.platforms.gradescope import read_metadata
 from dynsolve.grading.platforms.owners import FileOwners
@@ -204,8 +207,38 @@ def test_late_is_also_who_the_platform_says_elsewhere(problems: ProblemSet, tmp_
         place = tmp_path / f"A_{i}_assignsubmission_file"
         place.mkdir()
         (place / "in3140-rp.yaml").write_text(ANSWER)
-    intake = take_in(problems, Uploads(tmp_path), {"2"})
+    intake = take_in(problems, Uploads(tmp_path), {"2": 1})
     assert [(h.student, h.late) for h in intake.hand_ins] == [("A_1", False), ("A_2", True)]
+
+
+@pytest.mark.parametrize(
+    ("row", "late"),
+    [("A_2,1,", 2), ("2,3,", 0), ("A,7,in3140-rp", 0), ("A,7,planar-2r", 3), ("B,7,", 3), ("", 3)],
+)
+def test_an_extension_takes_days_off(problems: ProblemSet, tmp_path: Path, row: str, late: int) -> None:
+    (tmp_path / "set").mkdir()
+    (tmp_path / "set" / "extensions.csv").write_text(f"student,days,problem\n{row}\n")
+    given = read_extensions(tmp_path / "set", problems.stems)
+    place = tmp_path / "in" / "A_2_assignsubmission_file"
+    place.mkdir(parents=True)
+    (place / "in3140-rp.yaml").write_text(ANSWER)
+    intake = take_in(replace(problems, extensions=given), Uploads(tmp_path / "in"), {"2": 3})
+    assert [hand_in.late for hand_in in intake.hand_ins] == [late]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("name,days\nA,1\n", "not the names of the columns"),
+        ("student,days\nA,soon\n", "`soon` is no number of days"),
+        ("student,days,problem\nA,1,in3140\n", "there is no problem `in3140`"),
+        ("student,days\n,1\n", "no student is named"),
+    ],
+)
+def test_a_faulty_list_of_extensions(problems: ProblemSet, tmp_path: Path, text: str, said: str) -> None:
+    (tmp_path / "extensions.csv").write_text(text)
+    with pytest.raises(ProblemError, match=said):
+        read_extensions(tmp_path, problems.stems)
 
 
 def test_one_student_whose_name_two_systems_spell_is_one(problems: ProblemSet, tmp_path: Path) -> None:

@@ -53,6 +53,8 @@ def test_a_folder_without_one_is_all_its_problems(tmp_path: Path) -> None:
         ("marks:\n  in3140-rp: {P: x}", (2, 18), "`x` is not a number"),
         ("policy: {follow: 2}", (1, 18), "is a share, at most 1"),
         ("policy: {late: -1}", (1, 16), "late cannot be negative"),
+        ("policy: {late: [0.9, 2]}", (1, 22), "is a share, at most 1"),
+        ("policy: {late: 80%}", (1, 16), "`late` is a share, not a percentage"),
         ("policy: {hints: 4}", (1, 17), "hints are 1, 2 or 3"),
         ("policy: {rounding: 0}", (1, 20), "rounded to steps of 0"),
         ("policy: {caps: {kinetics: 2}}", (1, 17), "unknown key `kinetics` in caps"),
@@ -67,6 +69,27 @@ def test_a_fault_is_reported_at_its_place(
     finding = caught.value.findings[0]
     assert message in finding.message
     assert (finding.line, finding.column) == place
+
+
+def test_late_by_the_day(tmp_path: Path) -> None:
+    policy = load_set(_folder(tmp_path, "policy: {late: [0.9, 4/5, 0]}\n")).policy
+    assert [policy.kept(days) for days in (0, 1, 2, 3, 9)] == [1, Fraction(9, 10), Fraction(4, 5), 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("text", "help"),
+    [
+        ("policy: {late: 80%}", "write 0.8"),
+        ("policy: {late: 80}", "write 1/2 or 0.8"),
+        ("marks: {in3140-pr: {P: 2}}", "in3140-rp"),
+        ("marks: {rp: {P: 2}}", "in3140-rp, planar-2r"),
+        ("problems: [in3140-pr.yaml]", "in3140-rp.yaml"),
+    ],
+)
+def test_a_fault_says_what_to_write(tmp_path: Path, text: str, help: str) -> None:
+    with pytest.raises(ProblemError) as caught:
+        load_set(_folder(tmp_path, text + "\n"))
+    assert help in caught.value.findings[0].help
 
 
 def test_faults_are_told_in_the_order_of_the_file(tmp_path: Path) -> None:

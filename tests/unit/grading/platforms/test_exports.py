@@ -432,7 +432,32 @@ def test_moodles_status_says_who_was_late(tmp_path: Path, problems: ProblemSet, 
     rows = [f"Participant {i},Ada,a@x,{said},,6.00,Yes,-,-," for i, said in status.items()]
     header = "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Grade can be changed,"
     header += "Last modified (submission),Last modified (grade),Feedback comments"
-    assert _late(tmp_path, problems, record, "moodle", [header, *rows]) == {"2", "4"}
+    assert _late(tmp_path, problems, record, "moodle", [header, *rows]) == {"2": 2, "4": 1}
+
+
+@pytest.mark.parametrize(
+    ("said", "days"),
+    [
+        ("Zur Bewertung abgegeben - 1 Tag 5 Stunden verspätet", 2),
+        ("Levert for vurdering - 2 dager for sent", 2),
+        ("Inlämnat för bedömning - 3 timmar 5 minuter försenad", 1),
+        ("Remis pour évaluation - 2 jours 4 heures de retard", 3),
+        ("Enviado para calificar - 1 día 1 hora después", 2),
+        ("Odesláno k hodnocení - 2 dny po termínu", 2),
+        ("Ответы для оценки - Срок выполнения закончился 3 дн. назад", 3),
+        ("評定のために提出済み - 2 日 3 時間 遅く提出", 3),
+        ("Zur Bewertung abgegeben - Verlängerung bis Montag, 3. Mai 2027, 23:59", 0),
+        ("Levert for vurdering", 0),
+    ],
+)
+def test_moodle_says_so_in_every_language(
+    tmp_path: Path, problems: ProblemSet, record: Record, said: str, days: int
+) -> None:
+    """The strings `submittedlateshort` of Moodle's language packs; the column is known by its place."""
+    header = "ID,Name,E-Mail,Stand,Punkte,Höchste,Änderbar,Zuletzt (Abgabe),Zuletzt (Bewertung),Kommentar"
+    rows = [f'Teilnehmer/in {i},Ada,a@x,"{said}",,6.00,Ja,-,-,' for i in (7, 8)]
+    found = _late(tmp_path, problems, record, "moodle", [header, *rows])
+    assert found == ({"7": days, "8": days} if days else {})
 
 
 def test_gradescopes_list_of_grades_says_who_was_late(
@@ -446,19 +471,21 @@ def test_gradescopes_list_of_grades_says_who_was_late(
         "Bob,B,s2,b@x,,,6,Ungraded,8,2026-05-03 12:00:10 +0200,48:00:10,0,1",
         "Eve,E,s3,e@x,,,6,Missing,,,,,",
     ]
-    assert _late(tmp_path, problems, record, "gradescope", [header, *rows]) == {"submission_8"}
+    assert _late(tmp_path, problems, record, "gradescope", [header, *rows]) == {"submission_8": 3}
 
 
-def test_without_a_roster_nobody_is_late(tmp_path: Path, problems: ProblemSet, record: Record) -> None:
-    assert late(record) == frozenset()
+def test_without_a_roster_nothing_says_who_was_late(
+    tmp_path: Path, problems: ProblemSet, record: Record
+) -> None:
+    assert late(record) is None
     keep_platform(record, "gradescope", chosen_roster(problems, "gradescope", None))
-    assert late(record) == frozenset()
-    assert _late(tmp_path, problems, record, "gradescope", ["Name", "8"]) == frozenset()
+    assert late(record) is None
+    assert _late(tmp_path, problems, record, "gradescope", ["Name", "8"]) is None
 
 
 def _late(
     tmp_path: Path, problems: ProblemSet, record: Record, platform: str, lines: list[str]
-) -> frozenset[str]:
+) -> dict[str, int] | None:
     path = tmp_path / "roster.csv"
     path.write_text("\n".join(lines) + "\n")
     keep_platform(record, platform, chosen_roster(problems, platform, path))
