@@ -1,6 +1,13 @@
-"""The commands, one file each: `solve`, `draw`, `check`, `grade`, `override`, `lint`, `new` and others.
+"""The commands, one file each with one function.
 
-`main` puts them together, and makes every error a message and an exit code.  What
+    solve, draw                     derive a model; draw its robot
+    check, grade, override          judge one hand-in, a course's hand-ins; change marks
+    lint, new, schema, problems     problem files: a second look, a first draft, their JSON
+                                    Schema, the library
+    docs                            the formats of files, verdicts and exit codes
+
+`main` puts them together, and makes every error a message and an exit code.  To add a
+command, write its file, register it in `main.app`, and add its row to the README.  What
 several commands share:
 
     common      reading a problem from wherever it is, showing findings

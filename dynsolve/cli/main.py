@@ -1,6 +1,6 @@
 """The program: its commands, and how every error becomes a message and an exit code.
 
-To add a command, write its file with one function and register it in `_app`.
+To add a command, write its file with one function and register it in `app`.
 """
 
 from __future__ import annotations

@@ -23,6 +23,10 @@ How it is written down: `svg`, `latex`, and `convert` for PDF and PNG.  What all
 made of: `vectors` (geometry), `paths` (lines and areas with their colours), `space` (which
 places on paper are taken).
 
+To draw one more thing, make its paths in a file of the second list, and add them in
+`scene`.  To add a file format, write its file beside `svg`, and add it to `PictureFormat`,
+`SUFFIXES` and `draw` below.
+
 Nothing but the reports and the command `draw` imports this package.
 """
 

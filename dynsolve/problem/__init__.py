@@ -24,6 +24,9 @@ the reader's keys, the JSON Schema (`schema`), the file of `dynsolve new` and th
 the documentation (`documentation`).  `lint` finds what is no fault but deserves a look,
 `library` the problems that come with dynsolve.
 
+To add a key, write its record in `specification` and read it in the file of its part
+above; to add a kind of value, write its class in `kinds`.
+
 The names of this module are resolved lazily, so that the schema costs no more than it needs.
 """
 

@@ -83,7 +83,7 @@ class BodyBuilder:
         self.ring = values.ring
 
     def body(self, parsed: ParsedBody) -> Body | None:
-        """The body of a sheet, None where something of it was reported."""
+        """The `Body` of a parsed entry of `masses:`; None where a fault of it was reported."""
         mass = self._mass(parsed)
         axes = self._axes(parsed)
         tensor = self._tensor(parsed.tensor, parsed) if parsed.tensor else None

@@ -244,7 +244,7 @@ PROBLEM = Keyed(
         Key(
             "values",
             MapOf(NUMBER, "numbers by symbol"),
-            "Numbers for numeric results and plots: {L1: 0.4, g: 9.81}.",
+            "Numbers for numeric results and the proportions of the picture: {L1: 0.4, g: 9.81}.",
             "{L1: 0.4, m1: 2, m2: 1, I1zz: 0.05, g: 9.81}",
             remedy="write values: {l1: 0.4, m1: 2, g: 9.81}",
         ),

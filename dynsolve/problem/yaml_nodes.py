@@ -62,7 +62,7 @@ YamlNode = ScalarNode | ListNode | MappingNode | FaultyNode
 
 
 def read_nodes(faults: Faults) -> YamlNode | None:
-    """The root node of the source of `report`, or None where there is none or YAML's syntax fails."""
+    """The root node of the source of `faults`; None for an empty file or wrong YAML syntax."""
     import yaml
 
     loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)

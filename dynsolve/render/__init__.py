@@ -8,4 +8,7 @@ Formulas: `line_breaking` cuts them into pieces and these into lines, `typesetti
 displayed formula to a width, `matrices` gives one that is too wide entry by entry,
 `references` numbers them.  A terminal has cells in place of a font: `terminal_boxes`,
 `terminal_formulas`, `terminal_breaking`.  `files` writes a file whole or not at all.
+
+To add a format, derive its page from one in `page` and enter its name and suffixes in
+`formats`; `.github/CONTRIBUTING.md` lists what else a format of reports needs.
 """

@@ -5,4 +5,6 @@ and its bodies.  `shapes`: uniform bodies and their inertia.  `geometry`: rotati
 axes, and where the ends of a link are.  `parallel`: the sums of joint angles in which
 formulas about parallel axes are short.  `dimensions`: what every symbol is measured in, by
 its role; `units`: how dimensions and units are written.
+
+To add a shape, write its record in `shapes`; to add a unit, its line in `units.KNOWN`.
 """

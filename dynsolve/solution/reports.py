@@ -1,7 +1,6 @@
 """Solutions in the form their reader uses: text, JSON, LaTeX, PDF, HTML, Markdown.
 
-To add a form, write its renderer, and add it to
-`dynsolve.render.formats` and to `report`.
+What a further format needs, and where, is listed in `.github/CONTRIBUTING.md` under "How to add".
 """
 
 from __future__ import annotations

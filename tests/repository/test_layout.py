@@ -34,6 +34,19 @@ def test_every_room_of_the_package_has_unit_tests_and_no_folder_of_them_is_witho
     assert folders(TESTS) >= ELSEWHERE
 
 
+ROOMS = sorted(path for path in PACKAGE.rglob("__init__.py") if path.parent != PACKAGE)
+
+
+@pytest.mark.parametrize("init", ROOMS, ids=lambda path: path.parent.relative_to(PACKAGE).as_posix())
+def test_the_docstring_of_a_room_names_every_file_in_it(init: Path) -> None:
+    """As a whole word: `trees` does not name `tree`.  The page of the house may name its path instead."""
+    words = set(re.findall(r"\w+", ast.get_docstring(ast.parse(init.read_text(encoding="utf-8"))) or ""))
+    page = (PACKAGE / "README.md").read_text(encoding="utf-8")
+    room = init.parent.relative_to(PACKAGE).as_posix()
+    files = {path.stem for path in init.parent.glob("*.py")} - {"__init__"}
+    assert not {name for name in files - words if f"`{room}/{name}.py`" not in page}
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(TESTS).as_posix())
 def test_what_looks_like_a_test_is_collected(path: Path) -> None:
     tree = ast.parse(path.read_text(encoding="utf-8"))

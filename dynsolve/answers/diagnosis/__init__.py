@@ -11,6 +11,9 @@ one after the other, the simplest first, in the order of the list at its end:
     substitution     one symbol, angle or function for another throughout
     changed_rules    an earlier step done otherwise, and all that follows from it
 
+What they share: `wrong_entry` (the scalar that is wrong), `fourier` (an expression as terms),
+`term_slips` (a slip between two terms), `term_writer` (terms in words).
+
 To add a slip, write its record with an example in `slips`, and its recognition in the
 file above that it belongs to; the tests run every example.
 """

@@ -3,7 +3,8 @@ r"""Reading answers: text and LaTeX as people write them -> trees in the symbols
 The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 
 1. `files` knows the format by the file's ending; `reports`, `answer_file`, `notebooks` or `web`
-   finds the displayed equations, each a `displays.Display`.  `sources` keeps where every
+   finds the displayed equations, each a `displays.Display` (`report_text` leaves comments and
+   what is struck out away; `plain_lines` finds equations that are no displays).  `sources` keeps where every
    character stands in the file, `limits` says how much is read.
 2. `lexer` cuts the text of a display into tokens: letters, numbers, commands, signs.
 3. `prepare` writes the student's macros out and leaves out fonts, sizes and environments that

@@ -3,6 +3,7 @@
     owners      whose file it is, asking the platforms in turn
     roster      the table of students that a platform exports
     registry    the platforms by name
+    canvas, moodle, gradescope
 
 To add a platform, write a file like `canvas` with
 

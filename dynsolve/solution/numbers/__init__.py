@@ -9,5 +9,10 @@ only where a result is shown.
     substitution    exact values put into expressions and robots
     results         the results with values (`Valued`), at a state (`State`), and both (`Numbers`)
     rounding        exact results as decimals
+    selection       which results are shown in numbers, stage by stage
+    measures        what each result is measured in: its dimension and its unit
     blocks          all of it as a part of a document
+
+To show one more result in numbers, add it to its stage in `selection`; what it is measured
+in stands in its record in `dynsolve.quantities.families`.
 """

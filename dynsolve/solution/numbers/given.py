@@ -60,7 +60,7 @@ class Given:
 
 
 def of_file(problem: Problem) -> Iterator[Assignment]:
-    """The `values:` of a problem file; those of coordinates are for plots."""
+    """The `values:` of a problem file but for those of coordinates, which belong to a state."""
     coordinates = {q.name for q in problem.robot.coordinates}
     for name, text in problem.written.items():
         if name not in coordinates and name in problem.robot.parameters:
