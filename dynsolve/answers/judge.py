@@ -93,17 +93,24 @@ class Judge:
         answers = self._answers()
         place = self.graph.quantities.place
         ordered = weighed(self, tuple(sorted(answers.values(), key=lambda answer: place(answer.name))))
-        wrong = [answer for answer in ordered if answer.verdict is Verdict.WRONG]
-        first = next((answer for answer in wrong if answer.given), wrong[0] if wrong else None)
+        wrong = sorted(
+            (answer for answer in ordered if answer.verdict is Verdict.WRONG),
+            key=lambda answer: (not answer.given, self._comes_late(answer.name)),
+        )
         return Report(
             self.problem.stem,
             self.submission.student,
             self.submission.file,
             self._marked(ordered),
             self._not_recognized(),
-            first.name if first is not None else "",
+            wrong[0].name if wrong else "",
             self.submission.faults,
         )
+
+    def _comes_late(self, name: str) -> bool:
+        """Whether an answer is a torque of a hand-in that assembles them from D, C and g."""
+        direction = self.explanations.direction
+        return self.graph.node(name) in direction.forces and direction.is_assembled()
 
     def _marked(self, answers: tuple[JudgedAnswer, ...]) -> tuple[JudgedAnswer, ...]:
         """The answers with the marks that they earn where a course decides nothing else."""

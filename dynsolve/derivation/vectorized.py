@@ -74,3 +74,9 @@ def coriolis_matrix(robot: Robot, symbols: Christoffel) -> Matrix:
 def gravity_vector(robot: Robot, P: Expr) -> Matrix:
     """g, n×1: g_k = ∂P/∂q_k."""
     return Matrix.column(robot.ring, [robot.ring.diff(P, k) for k in range(robot.n)])
+
+
+def torque(robot: Robot, D: Matrix, coriolis: Matrix, g: Matrix, k: int) -> Expr:
+    """τ_k = Σ_j d_kj q̈_j + (C q̇)_k + g_k; k counts from 0."""
+    accelerations = [robot.ring.symbol(name, 2) for name in robot.ring.names]
+    return robot.ring.dot(list(D.rows[k]), accelerations) + coriolis[k, 0] + g[k, 0]

@@ -54,21 +54,29 @@ class PossibleValue:
 
 @dataclass
 class FollowThrough:
-    """The candidates of every node, given what a student handed in."""
+    """The candidates of every node, given what a student handed in.
+
+    `assembled` says which way the routes between τ and D, C, g are taken, see `graph`.
+    """
 
     graph: AnswerGraph
     students: Mapping[str, StudentValue]
+    assembled: bool = False
     work: int = 0
     _touched: dict[str, bool] = field(default_factory=dict)
     _choices: dict[str, tuple[PossibleValue, ...]] = field(default_factory=dict)
     _derived: dict[str, tuple[PossibleValue, ...]] = field(default_factory=dict)
+
+    def routes(self, node: str) -> Sequence[Route]:
+        """The routes to a node."""
+        return self.graph.routes(node, self.assembled)
 
     def touched(self, node: str) -> bool:
         """Whether an answer that is not correct lies before a node."""
         if node not in self._touched:
             self._touched[node] = any(
                 self._wrong(name) or self.touched(name)
-                for route in self.graph.routes(node)
+                for route in self.routes(node)
                 for name in route.inputs
             )
         return self._touched[node]
@@ -98,7 +106,7 @@ class FollowThrough:
         """The values that a node's inputs lead to, fewest derived inputs first."""
         if node not in self._derived:
             found: list[PossibleValue] = []
-            streams = [self._combinations(route) for route in self.graph.routes(node)]
+            streams = [self._combinations(route) for route in self.routes(node)]
             for one in _merged(streams):
                 _keep(found, one)
                 if len(found) >= MOST_CANDIDATES:
@@ -108,7 +116,7 @@ class FollowThrough:
 
     def nearest_of_each_route(self, node: str) -> Iterator[PossibleValue]:
         """The nearest value of each route to a node on which an answer of the student's lies."""
-        for route in self.graph.routes(node):
+        for route in self.routes(node):
             if any(name in self.students or self.touched(name) for name in route.inputs):
                 yield from islice(self._combinations(route), 1)
 

@@ -1,6 +1,9 @@
 """The derivation as a grader sees it: which answers lead to which.
 
 A quantity has one route or several to it (D from τ or from K, g from τ or from P).
+Between τ and D, C, g there are routes both ways: some read D, C and g off from τ, others
+assemble τ from them.  A walk takes them one way, `assembled` or not, so that nothing ever
+leads to itself.
 The formulas are the textbook's rules on the robot in the answers' ring; here stands only what
 they are fed with.  Many matrices C give the same C q̇, so this
 vector is what the Coriolis term is compared by.
@@ -30,6 +33,10 @@ _LINEAR = (
     families.DLDQ, families.FORCE, families.TAU,
 )  # fmt: skip
 """What is made of sums and derivatives alone."""
+
+
+MODEL = ("D", "Cqd", "g")
+"""What τ is assembled from."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,30 +107,42 @@ class AnswerGraph:
             total = total + body.mass
         return total
 
-    def routes(self, node: str) -> Sequence[Route]:
-        """The routes to a node; none for what the table gives."""
+    def routes(self, node: str, assembled: bool = False) -> Sequence[Route]:
+        """The routes to a node; none for what the table gives.
+
+        `assembled`: τ from D, C and g too, and none of these from τ.
+        """
         quantity = self.quantities.of_rule(node)
         if node not in self.answer_ring.rules or quantity is None or quantity.family in _STATED:
             return ()
         rule = self.answer_ring.rules[node]
         match node:
-            case "D":
-                return (Route(("tau",), self._inertia), Route(("K",), self._inertia_from_energy))
-            case "Cqd":
-                return (
-                    Route(("tau",), self._coriolis),
-                    Route(("D",), self._coriolis_from_inertia),
-                    Route(("D",), self._coriolis_entry_by_entry),
-                )
-            case "g":
-                return (Route(("tau",), self._gravity), Route(("P",), self._gravity_vector))
+            case "D" | "Cqd" | "g":
+                found = self._routes_of_model(node)
+                return tuple(r for r in found if r.inputs != ("tau",)) if assembled else found
             case "C" | "christoffel":
                 return (Route(("D",), self._symbols if node == "christoffel" else self._coriolis_matrix),)
         body = self._lifted(node)
         if self.zero_potential is not None and body is not None:
             lift = self.zero_potential * body.mass
             return (Route(rule.inputs, lambda rc: rule.compute(rc) + lift, linear=False),)
-        return (Route(rule.inputs, rule.compute, quantity.family in _LINEAR),) if rule.inputs else ()
+        lagrange = (Route(rule.inputs, rule.compute, quantity.family in _LINEAR),) if rule.inputs else ()
+        if assembled and quantity.family is families.FORCE:
+            together = partial(vectorized.torque, self.robot, k=quantity.index[0] - 1)
+            return (*lagrange, Route(MODEL, together))
+        return lagrange
+
+    def _routes_of_model(self, node: str) -> tuple[Route, ...]:
+        """The routes to D, C q̇ and g."""
+        if node == "D":
+            return (Route(("tau",), self._inertia), Route(("K",), self._inertia_from_energy))
+        if node == "g":
+            return (Route(("tau",), self._gravity), Route(("P",), self._gravity_vector))
+        return (
+            Route(("tau",), self._coriolis),
+            Route(("D",), self._coriolis_from_inertia),
+            Route(("D",), self._coriolis_entry_by_entry),
+        )
 
     # -- the vectorized form, from what students have ----------------------------------------------
 
