@@ -5,18 +5,19 @@ from __future__ import annotations
 import re
 from pathlib import PurePath
 
+from dynsolve.answers.reading.documents import FORMATS, as_report
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.limits import MAX_BYTES
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source, decoded
 from dynsolve.answers.reading.vocabulary import vocabulary
 from dynsolve.answers.submission import Submission
-from dynsolve.errors import Finding
+from dynsolve.errors import Finding, ReadError
 from dynsolve.explain.style import style_of
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.problem.model import Problem
 
-ENDINGS = (".yaml", ".yml", ".json", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm")
+ENDINGS = (".yaml", ".yml", ".json", ".md", ".markdown", ".tex", ".txt", ".ipynb", ".html", ".htm", *FORMATS)
 """The endings of files that are read."""
 
 
@@ -50,7 +51,7 @@ class FileReader:
         if self.printer.remembered > MOST_PRINTED:
             self.printer = UnicodePrinter(self.style)
         reader = EquationReader(self.vocabulary.fresh(), self.printer)
-        problem, student, faults = _read(reader, Source(decoded(content), file))
+        problem, student, faults = _read(reader, content, file)
         reader.found.settle()
         answers, refused = tuple(reader.found.answers), tuple(reader.found.not_recognized)
         return Submission(problem, student, file, answers, refused, tuple(faults))
@@ -65,9 +66,12 @@ def read_submission(problem: Problem, source: bytes | str, file: str) -> Submiss
     return FileReader(problem)(source, file)
 
 
-def _read(reader: EquationReader, source: Source) -> tuple[str, str, list[Finding]]:
+def _read(reader: EquationReader, content: bytes | str, file: str) -> tuple[str, str, list[Finding]]:
     """Read a file by its ending; gives the problem and the student that it names, and its faults."""
-    ending = PurePath(source.file.replace("\0", "")).suffix.lower()
+    ending = PurePath(file.replace("\0", "")).suffix.lower()
+    if ending in FORMATS and isinstance(content, bytes):
+        return "", "", _read_document(reader, content, file, ending)
+    source = Source(decoded(content), file)
     if ending == ".ipynb":
         from dynsolve.answers.reading.notebooks import read_notebook
 
@@ -84,3 +88,16 @@ def _read(reader: EquationReader, source: Source) -> tuple[str, str, list[Findin
         (problem, student), faults = read_answer_file(reader, source)
         return problem, student, faults
     return "", "", []
+
+
+def _read_document(reader: EquationReader, content: bytes, file: str, ending: str) -> list[Finding]:
+    """Read what pandoc makes a report of; gives its faults."""
+    try:
+        text, pictures = as_report(content, ending)
+    except ReadError as error:
+        return [Finding(error.message, error.help, file)]
+    read_report(reader, Source(text, file))
+    if pictures and not reader.found.answers:
+        message = "no formula stands in this document, only pictures, which a human has to read"
+        return [Finding(message, "write formulas with the editor for formulas", file)]
+    return []
