@@ -16,9 +16,10 @@ from html import unescape
 from pathlib import PurePosixPath
 
 from dynsolve.answers.reading.answer_file import parsed
+from dynsolve.answers.reading.documents import EXTRA, FORMATS, as_report, pandoc
 from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.answers.reading.sources import decoded
-from dynsolve.errors import InputError
+from dynsolve.errors import InputError, ReadError
 from dynsolve.grading.extensions import days_late
 from dynsolve.grading.platforms.gradescope import METADATA, Submitters, exports, read_metadata
 from dynsolve.grading.platforms.owner import FileOwner
@@ -41,7 +42,9 @@ _FRONT, _BACK = ("---", "<!--"), ("---", "...", "-->")
 
 _KINDS = {
     ".pdf": "a PDF", ".doc": "a Word file", ".docx": "a Word file", ".odt": "a word processor's file",
-    ".rtf": "a word processor's file", ".pages": "a word processor's file", ".png": "a picture",
+    ".rtf": "a word processor's file", ".pages": "a word processor's file",
+    ".typ": "a typst file", ".org": "an Org file",
+    ".rst": "a reStructuredText file", ".png": "a picture",
     ".jpg": "a picture", ".jpeg": "a picture", ".heic": "a picture", ".gif": "a picture",
     ".webp": "a picture", ".tif": "a picture", ".tiff": "a picture", ".bmp": "a picture",
     ".svg": "a picture", ".zip": "an archive", ".rar": "an archive", ".7z": "an archive",
@@ -192,7 +195,10 @@ def _sorted(
         except InputError as error:
             yield _Left(owner, owner.student, named, shown, error.findings[0].message)
             continue
-        text = _beginning(content, ending)
+        text, reason = _beginning(content, ending)
+        if reason:
+            yield _Left(owner, owner.student, named, shown, f"{_KINDS[ending]}: {reason}")
+            continue
         student = owner.student if owner.certain else _said_student(text, ending) or owner.student
         problem, reason = _problem(problems, text, owner.name, ending)
         if reason:
@@ -204,8 +210,10 @@ def _sorted(
             yield _Left(owner, student, other, shown, reason)
 
 
-def _beginning(content: bytes, ending: str) -> str:
-    """The text that a file begins with, that of a notebook's first cells."""
+def _beginning(content: bytes, ending: str) -> tuple[str, str]:
+    """The text that a file begins with, that of a notebook's first cells; or why a human has to read it."""
+    if ending in FORMATS:
+        return _document(content, ending)
     text = decoded(content if ending == ".ipynb" else content[:_HEAD])
     if ending == ".ipynb":
         with suppress(ValueError, RecursionError):
@@ -213,7 +221,17 @@ def _beginning(content: bytes, ending: str) -> str:
             cells = book.get("cells", ()) if isinstance(book, dict) else ()
             sources = [cell.get("source") for cell in cells if isinstance(cell, dict)][:20]
             text = "\n\n".join("".join(map(str, s)) if isinstance(s, list) else str(s) for s in sources)
-    return text[:_HEAD]
+    return text[:_HEAD], ""
+
+
+def _document(content: bytes, ending: str) -> tuple[str, str]:
+    if pandoc() is None:
+        return "", f"a human reads it, or dynsolve after `{EXTRA}`"
+    try:
+        text, _ = as_report(content, ending)
+    except ReadError as error:
+        return "", f"a human reads it ({error.message})"
+    return text[:_HEAD], "" if "=" in text else "no formula stands in it, so a human reads it"
 
 
 def _front(text: str, ending: str) -> str:
