@@ -11,8 +11,9 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_values import AnswerValue, fitted
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.planar import unfolded
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.tree import Node, Product, Sum, Symbol
+from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 
 Rows = tuple[tuple[WrittenEntry, ...], ...]
 
@@ -96,7 +97,7 @@ class KeyComparer:
         if value.rows is None or target.node not in self.answer_ring.rules:
             return KeyComparison(value, target)
         key = self.key(target)
-        rows, obstacles = self._coriolis(value) if name == "C" else self._rows(value, key)
+        rows, obstacles = self._coriolis(value) if name == "C" else self._rows(name, value, key)
         if not rows:
             return KeyComparison(value, target, obstacles=obstacles)
         matrix = key if isinstance(key, Matrix) else Matrix(self.answer_ring.ring, ((key,),))
@@ -106,17 +107,27 @@ class KeyComparer:
         )
         return KeyComparison(value, target, rows, right, obstacles)
 
-    def _rows(self, value: AnswerValue, key: Any) -> tuple[Rows, tuple[Obstacle, ...]]:
+    def _rows(self, name: str, value: AnswerValue, key: Any) -> tuple[Rows, tuple[Obstacle, ...]]:
         """The entries as they are compared, in the key's shape."""
         assert value.rows is not None
         rows = fitted(value.rows, key)
         if rows is None:
-            return (), (self._misfit(value, key),)
+            whole = self._unfolded(name, value)
+            return (whole, ()) if whole is not None else ((), (self._misfit(value, key),))
         nodes = iter([node for row in value.nodes for node in row])
         blank = value.nodes[0][0]  # one 0 for a whole vector, and the last row of a transformation
         return tuple(
             tuple(WrittenEntry(value, next(nodes, blank), self.changed) for value in row) for row in rows
         ), ()
+
+    def _unfolded(self, name: str, value: AnswerValue) -> Rows | None:
+        """The entries where rows that are zero for every q were left out, as of planar robots they may."""
+        assert value.rows is not None
+        quantity = self.graph.quantities.get(name)
+        nodes = zip(value.rows, value.nodes, strict=True)
+        written = [[WrittenEntry(v, n, self.changed) for v, n in zip(*row, strict=True)] for row in nodes]
+        zero = WrittenEntry(RationalExpr(self.answer_ring.ring.zero), ZERO, self.changed)
+        return None if quantity is None else unfolded(self.answer_ring, quantity, written, zero)
 
     def _misfit(self, value: AnswerValue, key: Any) -> Obstacle:
         assert value.rows is not None

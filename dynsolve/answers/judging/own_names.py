@@ -16,6 +16,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.planar import unfolded
 from dynsolve.answers.submission import Answer
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Reference
@@ -108,7 +109,9 @@ class OwnNames:
         for place in self._places.get(name, ()):
             rows = self._rows(place)
             if rows is not None:
-                return _entry(rows, row, column)
+                zero = RationalExpr(self.answer_ring.ring.zero)
+                whole = unfolded(self.answer_ring, self.graph.quantities[name], rows, zero)
+                return _entry(rows if whole is None else whole, row, column)
         return None
 
     def _from_parts(self, name: str, row: int | None, column: int | None) -> RationalExpr | None:
