@@ -8,6 +8,7 @@ from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.right_side import EXPECTED, RightSide
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown
+from dynsolve.answers.reading.vector_entries import Entry, VectorEntries
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.submission import Answer, NotRecognized
 from dynsolve.errors import ReadError
@@ -61,6 +62,15 @@ class AnswerList:
     not_recognized: list[NotRecognized] = field(default_factory=list)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
+    _entries: VectorEntries = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._entries = VectorEntries(self.vocabulary)
+
+    def entry(self, entry: Entry, member: Member, origin: Origin, refused: NotRecognized) -> None:
+        """Keep what may be one row of C q̇ until it is known what stands beside it."""
+        answer = self.answer(("P",), member, origin)  # a scalar of any name
+        self._entries.keep(entry, answer, refused)
 
     def value(self, names: list[tuple[str, ...]], member: Member, origin: Origin) -> list[Answer]:
         """The answers that one value gives, one for each tuple of candidate names.
@@ -143,3 +153,5 @@ class AnswerList:
         forces = {q.force for q in self.vocabulary.coordinates}
         if self._models and "tau" not in given and not forces <= given:
             self.answers += self._models
+        self.answers, lost = self._entries.settled(self.answers, self.printer)
+        self.not_recognized += lost

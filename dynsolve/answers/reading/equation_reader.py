@@ -13,7 +13,7 @@ from dataclasses import replace
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
 from dynsolve.answers.reading.displays import Display, Equation, chain, equations
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
-from dynsolve.answers.reading.grids import Abstract
+from dynsolve.answers.reading.grids import Abstract, Grid
 from dynsolve.answers.reading.left_side import (
     LeftSide,
     NamedAnswers,
@@ -28,10 +28,13 @@ from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.prepare import Macro, prepared
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
 from dynsolve.answers.reading.shapes import fitted, is_gravity_vector, model_parts, shown
+from dynsolve.answers.reading.vector_entries import entry_of
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
 from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
+from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.notation.walk import walk
 from dynsolve.quantities.spelling import key
 
 _NEVER_DEFINED = frozenset({"t", "i", "j", "k", "n"})
@@ -129,6 +132,8 @@ class EquationReader:
             if not isinstance(sides[index], (NamedAnswers, UnknownSide))
         ]
         read = self._defined_by_the_end(read)
+        if self._entry_of_vector(members[0], read, origin):
+            return
         if not names:
             self._without_name(sides[0], members, read, origin)
         elif self._defines_own_letter(members[0], names, read):
@@ -138,6 +143,16 @@ class EquationReader:
             self.found.not_recognized.append(origin.not_recognized(start, end))
         else:
             self._with_names(names, read, origin)
+
+    def _entry_of_vector(self, first: list[Token], read: list[Member], origin: Origin) -> bool:
+        """Keep what may be one row of C q̇; whether its arguments say that it is nothing else."""
+        values = [member for member in read if _is_value(member.found)]
+        entry = entry_of(self.vocabulary, first) if values else None
+        if entry is None:
+            return False
+        end = max(token.end for token in values[-1].tokens)
+        self.found.entry(entry, values[-1], origin, origin.not_recognized(first[0].start, end))
+        return entry.is_sure and entry.letter != "V"
 
     def _aside(self, equation: Equation) -> None:
         """Keep what a formula in a sentence says of a letter; of answers it says nothing."""
@@ -201,11 +216,22 @@ class EquationReader:
         first = members[0]
         if names == [("g",)] and self._is_gravity(_values(read)):
             return True
+        if names == [("D",)] and [token.text for token in first] == ["B"] and self._is_input(_values(read)):
+            return True
         if len(names) > 1 or len(first) > 1 or key(first[0].text) not in self.vocabulary.symbols:
             return False
         if any(token.kind in ("begin", "[") for member in members for token in member):
             return False
         return bool(read) and not self._any_fits(names[0], _values(read))
+
+    def _is_input(self, values: list[RightSide]) -> bool:
+        """Whether B is the matrix of the inputs, B u: one of constants, or of another shape than D."""
+        shape = self.vocabulary.shape("D")
+        return any(
+            isinstance(found.value, Grid)
+            and (found.value.shape != shape or not any(isinstance(p, Symbol) for p in walk(found.value.node)))
+            for found in values
+        )
 
     def _is_gravity(self, values: list[RightSide]) -> bool:
         """Whether a value is the vector of the acceleration of gravity, [0, 0, -g], and not its torques."""
@@ -272,6 +298,8 @@ class EquationReader:
         elif side.is_name_alone:
             if faults:
                 self.vocabulary.broken[side.key] = faults[-1].message
+            if not origin.display.plain:
+                self.found.not_recognized.append(refused)
         elif not origin.display.plain:
             self.found.not_recognized.append(refused)
 

@@ -145,6 +145,8 @@ def simplified(tokens: list[Token]) -> list[Token]:
             _accent(token, out)
         elif kind == "■" and tokens[position].kind == "(":
             position = _word_matrix(tokens, position, token, out)
+        elif kind == "name" and token.text in _INTRODUCING and tokens[position].spaced:
+            out.append(token._replace(kind="separator"))
         elif kind == "name" and token.text in _MODULES and _is_qualified(tokens, position):
             position += 1
         elif kind == "_" and out and (power := _power_before(out)):
@@ -159,6 +161,8 @@ def _is_unit(out: list[Token]) -> bool:
     return len(out) > 2 and out[-1].kind == "text" and out[-2].kind == "["
 
 
+_INTRODUCING = frozenset("where with hvor".split())
+"""Words of plain text before a definition: `where h = ...`."""
 _MODULES = frozenset("sp sym sympy smp np numpy math".split())
 _OF_MODULES = frozenset(
     "sin cos tan sqrt pi Matrix array matrix Rational Derivative diff Integer transpose".split()

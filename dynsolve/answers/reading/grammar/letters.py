@@ -21,7 +21,7 @@ _LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*
 _HEIGHT = re.compile(r"h[1-9a-z][0-9]*")
 
 
-def _only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
+def only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
     r"""The coordinate that `\dot\theta` is where there is only one θ: in a scalar, without a transpose."""
     if reader.naming or form.scripts.transposed or not (form.dots or form.scripts.mark or name in _ANGLES):
         return None
@@ -45,7 +45,7 @@ def _only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
 def letter(reader: Reader, form: Form, name: str) -> Value | None:
     """The vector of coordinates, a running index, z_0, o_2, R_1, a zero level of height."""
     vocabulary = reader.vocabulary
-    lone = _only_coordinate(reader, form, name)
+    lone = only_coordinate(reader, form, name)
     if lone is not None:
         return lone
     if vocabulary.is_vector(name) and form.dots <= 2:

@@ -6,7 +6,7 @@ import re
 from difflib import get_close_matches
 
 from dynsolve.answers.reading.grammar.forms import Form
-from dynsolve.answers.reading.grammar.letters import letter
+from dynsolve.answers.reading.grammar.letters import letter, only_coordinate
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.references import quantity
@@ -38,6 +38,8 @@ def value_of(reader: Reader, form: Form) -> Value:
     """The value of a name with its scripts; raises UnknownName for one that has none."""
     vocabulary = reader.vocabulary
     name = form.key + _called_index(reader, form)
+    if form.scripts.mark and not form.index and (lone := only_coordinate(reader, form, name)) is not None:
+        return lone
     if reader.naming or form.script:
         found = quantity(reader, form, name)
         if found is not None:

@@ -32,6 +32,8 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
             names = vocabulary.named("v" + name[2:])
         else:
             return None
+    if len(names) > 1 and not reader.naming and _has_rates(reader):
+        names = tuple(n for n in names if vocabulary.shape(n) is not None) or names
     names, framed = _framed(vocabulary.quantities, form, names)
     if not names:
         return None
@@ -66,6 +68,18 @@ def _framed(quantities: Quantities, form: Form, names: tuple[str, ...]) -> tuple
     if first.family is families.I_BODY and frame == 1:
         return names[:1], True
     return names, False
+
+
+def _has_rates(reader: Reader) -> bool:
+    r"""Whether velocities stand among the arguments here: V(q, \dot q) is no potential energy."""
+    if reader.token.kind != "(" or not only_coordinates(reader, reader.position):
+        return False
+    for token in reader.tokens[reader.position :]:
+        if token.kind == ")":
+            return False
+        if token.kind == "'" or token.dots or token.text == "dot" or token.text in ("qdot", "dq", "qd"):
+            return True
+    return False
 
 
 def placeholder(vocabulary: Vocabulary, name: str) -> Value:
