@@ -8,6 +8,7 @@ side is a name of the student's own defines that name for what follows.
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
@@ -36,6 +37,9 @@ from dynsolve.notation.tree import Symbol
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import walk
 from dynsolve.quantities.spelling import key
+
+_CONTROL = re.compile(r"unknown (?:symbol `[Kk]_?\{?[pPdDiI]\}?`|command `\\tilde`)")
+"""What a controller's gains and errors are told as: an equation that holds them is none of the answers."""
 
 _NEVER_DEFINED = frozenset({"t", "i", "j", "k", "n"})
 """Letters of sentences that are no abbreviation: the time, running indices, the number of joints."""
@@ -142,7 +146,7 @@ class EquationReader:
         elif self._states_constant(members, names, read):
             self.found.not_recognized.append(origin.not_recognized(start, end))
         else:
-            self._with_names(names, read, origin)
+            self._with_names(names, read, origin, origin.not_recognized(start, end))
 
     def _entry_of_vector(self, first: list[Token], read: list[Member], origin: Origin) -> bool:
         """Keep what may be one row of C q̇; whether its arguments say that it is nothing else."""
@@ -240,12 +244,16 @@ class EquationReader:
     def _any_fits(self, candidates: tuple[str, ...], values: list[RightSide]) -> bool:
         return any(fitted(self.vocabulary, candidates, found.value) for found in values)
 
-    def _with_names(self, names: list[tuple[str, ...]], read: list[Member], origin: Origin) -> None:
+    def _with_names(
+        self, names: list[tuple[str, ...]], read: list[Member], origin: Origin, refused: NotRecognized
+    ) -> None:
         """Every value is an answer to each name; what cannot be read is one where no value follows it."""
         values = [member.index for member in read if _is_value(member.found)]
         for member in read:
             if _is_value(member.found):
                 self.found.answers += self.found.value(names, member, origin)
+            elif isinstance(member.found, ReadError) and _CONTROL.match(member.found.message):
+                self.found.not_recognized.append(refused)
             elif origin.display.among_prose:
                 if isinstance(member.found, ReadError):
                     whole = origin.not_recognized(0, len(origin.display.text))

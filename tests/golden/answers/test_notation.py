@@ -41,6 +41,13 @@ H = "h = -m_2 l_1 l_{c2} s_2"
 T01 = r"\begin{bmatrix} c_1 & -s_1 & 0 & l_1 c_1 \\ s_1 & c_1 & 0 & l_1 s_1 \\ 0&0&1&0\\0&0&0&1 \end{bmatrix}"
 K1 = r"\frac12(m_1 l_{c1}^2 + I_1)\dot q_1^2"
 
+D = (
+    r"\begin{bmatrix} m_1 l_{c1}^2 + m_2(l_1^2+l_{c2}^2+2l_1 l_{c2} c_2)+I_1+I_2 &"
+    r" m_2(l_{c2}^2+l_1l_{c2}c_2)+I_2 \\ m_2(l_{c2}^2+l_1l_{c2}c_2)+I_2 & m_2 l_{c2}^2+I_2\end{bmatrix}"
+)
+V1 = r"-m_2 l_1 l_{c2} s_2 (2\dot q_1\dot q_2 + \dot q_2^2)"
+V2 = r"m_2 l_1 l_{c2} s_2 \dot q_1^2"
+
 RIGHT: list[tuple[str, str, str, str]] = [
     # problem, form, text, the answers that are right
     (R, "md", r"$$d_{22} = m_2l_{c2}^2+I_2$$", "d22"),
@@ -117,6 +124,21 @@ RIGHT: list[tuple[str, str, str, str]] = [
     (R, "md", rf"$$g = \pmatrix{{{G1}\cr {G2}\cr}}$$", "g"),
     (R, "md", rf"$$g = \bmqty{{{G1}\\ {G2}}}$$", "g"),
     (RP, "md", "$$f_2 = m_2 \\ddot L_2 - m_2 L_2 θ̇₁²$$", "f2"),
+    # what else stands in the report decides
+    (R, "md", f"$$M(\\theta)={D}$$ $$V_1 = {V1}$$ $$V_2 = {V2}$$ $$G_2={G2}$$", "D Cqd g2"),
+    (R, "md", f"$$M={D}$$ $$N_1 = {V1}, N_2 = {V2}$$", "D Cqd"),
+    (R, "md", f"$$c_1(q,\\dot q) = {V1}$$ $$c_2(q,\\dot q) = {V2}$$", "Cqd"),
+    (R, "md", f"$$V_1 = m_1 g l_{{c1}} \\sin q_1$$ $$T_1 = {K1}$$", "P1 K1"),
+    (R, "md", r"$$M(\theta)\ddot\theta + V(\theta,\dot\theta) + G(\theta) = \tau$$" f"$$M={D}$$", "D"),
+    (R, "md", f"$$M(q) = {D}$$" r"$$B = \begin{bmatrix} 1 \\ 0 \end{bmatrix}$$ $$M\ddot q + g = B u$$", "D"),
+    (R, "md", f"$$M(q) = {D}$$" r"$$B = \begin{bmatrix} 1 & 0 \\ 0 & 1 \end{bmatrix}$$", "D"),
+    (R, "md", f"$$B(q) = {D}$$", "D"),
+    (R, "md", r"$$M = M_0 + m_2 M_p$$"
+     r"$$M_0 = \begin{bmatrix} m_1 l_{c1}^2 + I_1+I_2 & I_2\\ I_2 & I_2\end{bmatrix}$$"
+     r"$$M_p = \begin{bmatrix} l_1^2+l_{c2}^2+2l_1 l_{c2} c_2 & l_{c2}^2+l_1l_{c2}c_2 \\"
+     r" l_{c2}^2+l_1l_{c2}c_2 & l_{c2}^2 \end{bmatrix}$$", "D"),
+    (R, "txt", "C = [h*q2_dot, h*(q1_dot+q2_dot); -h*q1_dot, 0]\nwhere h = -m2*l1*lc2*sin(q2)\n", "C"),
+    (RP, "md", r"$$K_2 = \frac12 m_2(\dot L^{*2} + L^{*2} \dot\theta^2)$$", "K2"),
     # what programs print, and Word's linear format
     (RP, "yaml", "answers: {P: '0,5*m1*g*L1 + m2*g*L1'}", "P"),
     (RP, "yaml", "answers: {K1: 'I1zz*(0,5*theta1_dot^2)'}", "K1"),
@@ -198,3 +220,9 @@ def test_an_unknown_letter_is_named() -> None:
     report = judged(R, "md", r"$$P_1 = m_1 g a_1 \sin(q_1)$$")
     answer = next(found for found in report.answers if found.name == "P1")
     assert answer.verdict.value == "unreadable" and "a_1" in str(answer)
+
+
+def test_a_controller_is_none_of_the_answers() -> None:
+    report = judged(R, "md", r"$$\tau_2 = -K_p(q_2 - q_d)$$ $$u = K_p \tilde{q}$$")
+    assert not [answer for answer in report.answers if answer.given]
+    assert len(report.not_recognized) == 2
