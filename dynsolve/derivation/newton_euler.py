@@ -3,7 +3,8 @@
 There A_i is a formula of the book and the torques come from energies; here a row of
 the table is elementary motions (a turn or a slide along an axis), velocities and
 accelerations are carried outwards through them, forces and moments inwards by
-Newton's and Euler's laws.
+Newton's and Euler's laws.  Even the vectors are its own: it imports nothing of dynsolve, so
+that no fault of the algebra can be in both.
 
 Luh, Walker, Paul, On-line computational scheme for mechanical manipulators (1980);
 Spong, Hutchinson, Vidyasagar, section 7.6; Craig, section 6.5.

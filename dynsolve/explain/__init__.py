@@ -21,6 +21,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     step        what a step is, and in which detail it is shown
     context     the robot, its exact values, their compact forms
     forms       the compact form of every value; how long ones are put together from parts
+    entry_formulas
+                energies, momenta and forces in the entries of D and g and the Christoffel symbols
     style       how a robot's formulas look: s_1 for sin θ_1
     writing     references, sentences and pieces of formulas
 

@@ -9,14 +9,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from functools import partial
 
 from dynsolve.document import Prose
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
-from dynsolve.explain.entries import Entries
+from dynsolve.explain.entry_formulas import (
+    EntryFormulas,
+    Factor,
+    collected_coriolis_force,
+    coriolis_matrix,
+    pairs,
+)
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.tree import (
@@ -34,6 +40,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import with_children
 from dynsolve.quantities import letters
+from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
 
@@ -52,13 +59,15 @@ def in_names(steps: Iterable[Step], context: Context, short: Abbreviated) -> Ite
 
 
 def _of_short_model(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
-    forms, entries = context.forms, Entries(context.robot, short)
+    forms, names = context.forms, context.robot.ring.names
     named: dict[Node, Node] = {
         **{forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()},
         forms("D"): short.D,
         forms("C"): short.C,
         forms("g"): short.g,
-        forms("Cqd"): tree.column(*(_coriolis_force(entries, k) for k in range(context.robot.n))),
+        forms("Cqd"): tree.column(
+            *(collected_coriolis_force(names, short.symbol, k) for k in range(context.robot.n))
+        ),
     }
     for step in steps:
         if step.stage is Stage.VECTORIZED:
@@ -75,29 +84,20 @@ def _exchanged(node: Node, named: Mapping[Node, Node]) -> Node:
     return with_children(node, lambda part: _exchanged(part, named)) if inside else node
 
 
-def _coriolis_force(entries: Entries, k: int) -> Node:
-    """Row k of C q̇, the rates that have the same factor drawn together."""
-    shared: dict[Node, list[Node]] = {}
-    for i, j in entries.pairs():
-        symbol = entries.short.christoffel[i, j, k]
-        if symbol != ZERO:
-            rates = times(1 if i == j else 2, [(rate, 1) for rate in entries.rates(i, j)])
-            shared.setdefault(symbol, []).append(rates)
-    return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])
-
-
 # -- a long model ----------------------------------------------------------------------------------
 
 
 def _of_long_model(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
     changes = _LongModel(context, short).changes()
+    known = quantities(context.robot)
     told: set[str] = set()
     for step in steps:
         change = changes.get(step.id)
         if change is not None:
             yield change(step)
         elif _is_too_long(step):
-            kind = step.id.rstrip("0123456789")
+            quantity = known.of_rule(step.id)
+            kind = quantity.family.stem if quantity else step.id
             yield _left_out(step, first=not told, again=kind in told)
             told.add(kind)
         else:
@@ -143,8 +143,8 @@ class _LongModel:
 
     def __init__(self, context: Context, short: Abbreviated) -> None:
         self.context, self.short = context, short
-        self.entries = Entries(context.robot, short)
-        self.n = context.robot.n
+        self.n, names = context.robot.n, context.robot.ring.names
+        self.formulas = EntryFormulas(names, self._d, self._c, self._g, _with_number_in_front)
 
     def changes(self) -> dict[str, Callable[[Step], Step]]:
         """The changes by the ids of their steps."""
@@ -166,10 +166,23 @@ class _LongModel:
             }
         return changes
 
+    def _d(self, i: int, j: int) -> Node:
+        """The name of d_ij."""
+        return ZERO if self.short.D.rows[i][j] == ZERO else letters.entry("d", min(i, j) + 1, max(i, j) + 1)
+
+    def _c(self, i: int, j: int, k: int) -> Node:
+        """The name of c_ijk, the same for c_jik."""
+        i, j = min(i, j), max(i, j)
+        return ZERO if self.short.symbol(i, j, k) == ZERO else letters.entry("c", i + 1, j + 1, k + 1)
+
+    def _g(self, k: int) -> Node:
+        """The name of g_k."""
+        return ZERO if self.short.g.rows[k][0] == ZERO else letters.entry("g", k + 1)
+
     def kinetic(self, step: Step) -> Step:
         return _with(
             step,
-            equation(letters.K, _QUADRATIC, sum_of(self.entries.kinetic_energy())),
+            equation(letters.K, _QUADRATIC, self.formulas.kinetic_energy()),
             " Collected by the rates, it is a quadratic form; its coefficients are the entries of D, which "
             "the vectorized form gives.",
         )
@@ -179,17 +192,21 @@ class _LongModel:
 
     def momentum(self, q: Coordinate, step: Step) -> Step:
         momentum = letters.slope(letters.L, letters.rate(q))
-        result = equation(momentum, sum_of(self.entries.momentum(q.index - 1)))
+        result = equation(momentum, self.formulas.momentum(q.index - 1))
         return _with(step, result, " The entries of D are given with the vectorized form.")
 
     def momentum_rate(self, q: Coordinate, step: Step) -> Step:
         """d_kj q̈_j + ḋ_kj q̇_j"""
-        k, entries = q.index - 1, self.entries
+        k = q.index - 1
         D, ring = self.context.values["D"], self.context.robot.ring
         moving = [j for j in range(self.n) if any(not ring.diff(D[k, j], i).is_zero for i in range(self.n))]
-        rates = [Product((d, entries.rate(j))) for j in moving if (d := entries.d(k, j, dots=1))]
+        rates = [
+            Product((replace(d, dots=1), Symbol(ring.names[j], 1)))
+            for j in moving
+            if isinstance(d := self._d(k, j), Letter)
+        ]
         left = letters.time_rate(letters.slope(letters.L, letters.rate(q)))
-        result = equation(left, sum_of([*entries.accelerated(k), *rates]))
+        result = equation(left, total([*self.formulas.acceleration_terms(k), *rates]))
         i, j, row = (Symbol(name) for name in ("i", "j", str(q.index)))
         both = tree.Parenthesized(Sum((Letter("c", Row((i, j, row))), Letter("c", Row((i, row, j))))))
         change = equation(
@@ -202,18 +219,14 @@ class _LongModel:
         k, by = q.index - 1, Symbol(q.name)
         D, ring = self.context.values["D"], self.context.robot.ring
         terms: list[Node] = []
-        if any(not ring.diff(D[i, j], k).is_zero for i, j in self.entries.pairs()):
+        if any(not ring.diff(D[i, j], k).is_zero for i, j in pairs(self.n)):
             middle = tree.Parenthesized(letters.slope(letters.D, by))
             terms.append(Product((letters.HALF, letters.transposed_product(letters.QD, middle))))
-        if g := self.entries.g(k):
-            terms.append(Negative(g))
-        return _with(step, equation(letters.slope(letters.L, by), sum_of(terms)))
+        terms.append(negated(self._g(k)))
+        return _with(step, equation(letters.slope(letters.L, by), total(terms)))
 
     def force(self, q: Coordinate, step: Step) -> Step:
-        k = q.index - 1
-        g = self.entries.g(k)
-        terms = [*self.entries.accelerated(k), *self.entries.coriolis_force(k), *([g] if g else [])]
-        result = equation(letters.force(q), sum_of(terms))
+        result = equation(letters.force(q), self.formulas.force(q.index - 1))
         why = " Collected by the accelerations and the rates; the factors follow below."
         return _with(step, result, why)
 
@@ -230,7 +243,8 @@ class _LongModel:
 
     def coriolis(self, step: Step) -> Step:
         """C by its Christoffel symbols."""
-        return replace(step, result=(equation(letters.C, self.entries.coriolis_matrix()),))
+        C = coriolis_matrix(self.formulas.coordinates, self._c)
+        return replace(step, result=(equation(letters.C, C),))
 
     def christoffel(self, step: Step) -> Step:
         """The distinct symbols; those that are equal, or each other's opposites, in one chain."""
@@ -248,6 +262,15 @@ class _LongModel:
                 groups.setdefault(terms, (value, []))[1].append((1, name))
         rows = tuple(_chain(named, value) for value, named in groups.values())
         return replace(step, result=rows, listed=True)
+
+
+def _with_number_in_front(coefficient: Fraction | int, factors: Iterable[Factor]) -> Node:
+    """coefficient · Π node^exponent with names for factors: ½ d_11 q̇_1², not d_11 q̇_1² / 2."""
+    product = times(1, factors)
+    if coefficient == 1 or product == ZERO:
+        return product
+    inner = product.factors if isinstance(product, Product) else (product,)
+    return Product((Number(coefficient.numerator, coefficient.denominator), *inner))
 
 
 def _terms(value: Node) -> frozenset[Node]:

@@ -26,11 +26,12 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.derivation.vectorized import christoffel_symbols
 from dynsolve.explain.base_parameters import BaseParameters
+from dynsolve.explain.entry_formulas import coriolis_matrix, pairs
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.recurring import Definition, name_recurring
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, negated, times, total
-from dynsolve.notation.tree import ZERO, Node, Symbol
+from dynsolve.notation.build import cost, negated
+from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.walk import with_children
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "expanded", "is_long"]
@@ -66,6 +67,10 @@ class Abbreviated:
     g: tree.Matrix
     christoffel: Mapping[Index, Node]
     long: bool = False
+
+    def symbol(self, i: int, j: int, k: int) -> Node:
+        """c_ijk, the same as c_jik."""
+        return self.christoffel[min(i, j), max(i, j), k]
 
     @property
     def definitions(self) -> tuple[Definition, ...]:
@@ -148,7 +153,7 @@ def _assembled(
     long: bool,
 ) -> Abbreviated:
     n = forms.robot.n
-    upper = [(i, j) for i in range(n) for j in range(i, n)]
+    upper = pairs(n)
     entries = [*(D.rows[i][j] for i, j in upper), *(row[0] for row in g.rows), *symbols.values()]
     taken = {*forms.robot.ring.parameters, *forms.robot.ring.names}
     name = partial(name_recurring, entries, whole=long, decimal=is_numeric(forms.robot))
@@ -161,7 +166,7 @@ def _assembled(
         constants=constants,
         sums=sums,
         D=tree.Matrix(tuple(tuple(d[min(i, j), max(i, j)] for j in range(n)) for i in range(n))),
-        C=_coriolis(short, forms.robot.ring.names),
+        C=coriolis_matrix(forms.robot.ring.names, lambda i, j, k: short[min(i, j), max(i, j), k]),
         g=tree.column(*used[len(upper) : len(upper) + n]),
         christoffel=short,
         long=long,
@@ -171,21 +176,6 @@ def _assembled(
 def _names(letter: str, taken: set[str]) -> Iterator[Symbol]:
     """letter1, letter2, ..., past those that the problem uses."""
     return (Symbol(f"{letter}{k}") for k in count(1) if f"{letter}{k}" not in taken)
-
-
-def _coriolis(symbols: Mapping[Index, Node], coordinates: Sequence[str]) -> tree.Matrix:
-    """c_kj = Σ_i c_ijk q̇_i, the rates of equal symbols drawn together."""
-
-    def entry(k: int, j: int) -> Node:
-        shared: dict[Node, list[Node]] = {}
-        for i, name in enumerate(coordinates):
-            symbol = symbols[min(i, j), max(i, j), k]
-            if symbol != ZERO:
-                shared.setdefault(symbol, []).append(Symbol(name, 1))
-        return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])
-
-    n = len(coordinates)
-    return tree.Matrix(tuple(tuple(entry(k, j) for j in range(n)) for k in range(n)))
 
 
 def expanded(definitions: Sequence[Definition], nodes: Sequence[Node]) -> list[Node]:

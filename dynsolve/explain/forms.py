@@ -8,17 +8,16 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from fractions import Fraction
 from functools import cached_property
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation
+from dynsolve.explain.entry_formulas import EntryFormulas, coriolis_matrix
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, times, total
-from dynsolve.notation.tree import ZERO, Node, Symbol
+from dynsolve.notation.tree import ZERO, Node
 from dynsolve.quantities import families
 from dynsolve.quantities.index import quantities
 from dynsolve.robot.model import Convention, Robot
@@ -79,7 +78,7 @@ class Forms:
         if name == "tau":
             return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
         if name == "L":
-            return self._lagrangian()
+            return total([self("K"), negated(self("P"))])
         if name == "P":
             return self._potential_energy(self.of(value))
         return self.of(value)
@@ -97,26 +96,32 @@ class Forms:
         quantity = quantities(self.robot).of_rule(name)
         if quantity is None:
             return None
+        formulas = self._formulas
         match quantity.family:
             case families.K:
-                return self._kinetic_energy()
+                return formulas.kinetic_energy()
             case families.C:
-                return self._coriolis()
+                return coriolis_matrix(self.robot.ring.names, self.christoffel)
             case families.CQD:
-                return self._coriolis_forces()
+                return tree.column(*(formulas.coriolis_force(k) for k in range(self.robot.n)))
             case families.I:
                 return self._base_inertia(self.robot.bodies[quantity.index[0] - 1].name)
             case families.K_BODY:
                 body = self.robot.bodies[quantity.index[0] - 1].name
                 return total([self(f"Kv{body}"), self(f"Kw{body}")])
         of_coordinate = {
-            families.DLDQD: self._momentum,
-            families.DDT: self._momentum_rate,
-            families.DLDQ: self._slope,
-            families.FORCE: self._force,
+            families.DLDQD: formulas.momentum,
+            families.DDT: formulas.momentum_rate,
+            families.DLDQ: formulas.lagrangian_derivative,
+            families.FORCE: formulas.force,
         }
         way = of_coordinate.get(quantity.family)
         return None if way is None else way(quantity.index[0] - 1)
+
+    @cached_property
+    def _formulas(self) -> EntryFormulas:
+        """The formulas in the entries of D and g and the Christoffel symbols, written by their forms."""
+        return EntryFormulas(self.robot.ring.names, self._d, self.christoffel, self._g)
 
     def _d(self, i: int, j: int) -> Node:
         D = self("D")
@@ -127,86 +132,6 @@ class Forms:
         g = self("g")
         assert isinstance(g, tree.Matrix)
         return g.rows[k][0]
-
-    def _kinetic_energy(self) -> Node:
-        """Σ_i ½ d_ii q̇_i² + Σ_{i<j} d_ij q̇_i q̇_j"""
-        return total(
-            [
-                times(Fraction(1, 2) if i == j else 1, [(self._d(i, j), 1), *self._rates(i, j)])
-                for i, j in _pairs(self.robot.n)
-            ]
-        )
-
-    def _lagrangian(self) -> Node:
-        """K - P"""
-        return total([self("K"), negated(self("P"))])
-
-    def _momentum(self, k: int) -> Node:
-        """Σ_j d_kj q̇_j"""
-        return total([times(1, [(self._d(k, j), 1), self._rate(j)]) for j in range(self.robot.n)])
-
-    def _rate(self, k: int, dots: int = 1) -> tuple[Node, int]:
-        return Symbol(self.robot.ring.names[k], dots), 1
-
-    def _rates(self, i: int, j: int) -> list[tuple[Node, int]]:
-        """q̇_i q̇_j"""
-        return [(self._rate(i)[0], 2)] if i == j else [self._rate(i), self._rate(j)]
-
-    def _accelerated(self, k: int) -> list[Node]:
-        """Σ_j d_kj q̈_j"""
-        return [times(1, [(self._d(k, j), 1), self._rate(j, 2)]) for j in range(self.robot.n)]
-
-    def _momentum_rate(self, k: int) -> Node:
-        """Σ_j d_kj q̈_j + Σ_ij ∂d_kj/∂q_i q̇_i q̇_j, the slopes as c_ijk + c_ikj"""
-        terms = self._accelerated(k)
-        for i, j in _pairs(self.robot.n):
-            own = times(1 if i == j else 2, [(self.christoffel(i, j, k), 1)])
-            others = (
-                [self.christoffel(i, k, j)]
-                if i == j
-                else [self.christoffel(i, k, j), self.christoffel(j, k, i)]
-            )
-            terms.append(times(1, [(total([own, *others]), 1), *self._rates(i, j)]))
-        return total(terms)
-
-    def _slope(self, k: int) -> Node:
-        """½ Σ_ij ∂d_ij/∂q_k q̇_i q̇_j - g_k, the slopes as c_kij + c_kji"""
-        terms = []
-        for i, j in _pairs(self.robot.n):
-            both = total([self.christoffel(k, i, j), self.christoffel(k, j, i)])
-            if i == j:
-                terms.append(times(1, [(self.christoffel(k, i, i), 1), *self._rates(i, i)]))
-            else:
-                terms.append(times(1, [(both, 1), *self._rates(i, j)]))
-        return total([*terms, negated(self._g(k))])
-
-    def _force(self, k: int) -> Node:
-        """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k"""
-        return total([*self._accelerated(k), *self._coriolis_terms(k), self._g(k)])
-
-    def _coriolis_terms(self, k: int) -> list[Node]:
-        """Σ_ij c_ijk q̇_i q̇_j"""
-        return [
-            times(1 if i == j else 2, [(self.christoffel(i, j, k), 1), *self._rates(i, j)])
-            for i, j in _pairs(self.robot.n)
-        ]
-
-    def _coriolis_forces(self) -> Node:
-        """C q̇"""
-        return tree.column(*(total(self._coriolis_terms(k)) for k in range(self.robot.n)))
-
-    def _coriolis(self) -> Node:
-        """c_kj = Σ_i c_ijk q̇_i, equal symbols drawn together"""
-        n = self.robot.n
-        return tree.Matrix(tuple(tuple(self._coriolis_entry(k, j) for j in range(n)) for k in range(n)))
-
-    def _coriolis_entry(self, k: int, j: int) -> Node:
-        shared: dict[Node, list[Node]] = {}
-        for i in range(self.robot.n):
-            symbol = self.christoffel(i, j, k)
-            if symbol != ZERO:
-                shared.setdefault(symbol, []).append(self._rate(i)[0])
-        return total([times(1, [(symbol, 1), (total(rates), 1)]) for symbol, rates in shared.items()])
 
     def _base_inertia(self, body: str) -> Node:
         """Σ_kl R_ik I_kl R_jl with the entries of R as they are printed."""
@@ -223,10 +148,6 @@ def _sandwich(left: tuple[Node, ...], tensor: tree.Matrix, right: tuple[Node, ..
         inner = total([times(1, [(entry, 1), (right[m], 1)]) for m, entry in enumerate(row) if entry != ZERO])
         terms.append(times(1, [(left[k], 1), (inner, 1)]))
     return total(terms)
-
-
-def _pairs(n: int) -> Iterable[tuple[int, int]]:
-    return ((i, j) for i in range(n) for j in range(i, n))
 
 
 def leading_names(robot: Robot) -> list[str]:

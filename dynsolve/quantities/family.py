@@ -92,6 +92,11 @@ class Family:
     mirrored: bool = False
 
     @property
+    def stem(self) -> str:
+        """What the names of its members begin with: `Kv` of `Kv{b}`."""
+        return self.name.partition("{")[0]
+
+    @property
     def is_vector(self) -> bool:
         """Whether it is a column vector by its nature, and no matrix that may have one column."""
         return self.shape is not None and self.shape[1] == 1

@@ -165,7 +165,7 @@ class Quantities(Mapping[str, Quantity]):
         """The quantities of each family that has a name of its own, which no single answer has."""
         found: dict[str, list[Quantity]] = {}
         for quantity in self.values():
-            stem = quantity.family.name.partition("{")[0]
+            stem = quantity.family.stem
             if quantity.index and stem not in self._by_name:
                 found.setdefault(stem, []).append(quantity)
         return found

@@ -26,7 +26,7 @@ from dynsolve.algebra.compact.monomials import (
     multiply,
     whole_content,
 )
-from dynsolve.algebra.compact.terms import Rational, exact
+from dynsolve.algebra.compact.terms import Rational, add_term, exact
 from dynsolve.notation.build import cost, split_sign, times, total
 from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Product, Quotient, Sum
 
@@ -160,16 +160,8 @@ class Collector:
             spread = isinstance(inner, Sum) and not mono
             for term in inner.terms if isinstance(inner, Sum) and spread else (inner,):
                 own, rest = self.decompose(term)
-                self._add(poly, multiply(mono, rest) if mono else rest, factor * own * sign)
+                add_term(poly, multiply(mono, rest) if mono else rest, factor * own * sign)
         return self.form(poly)
-
-    @staticmethod
-    def _add(poly: Polynomial, mono: Monomial, factor: Rational) -> None:
-        value = poly.get(mono, 0) + factor
-        if value:
-            poly[mono] = value
-        else:
-            poly.pop(mono, None)
 
     def _sum(self, poly: Polynomial) -> Node:
         key = frozenset(poly.items())

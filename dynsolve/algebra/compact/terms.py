@@ -35,6 +35,15 @@ def exact(value: Rational, divisor: Rational) -> Rational:
     return quotient.numerator if quotient.denominator == 1 else quotient
 
 
+def add_term(poly: dict[_Key, Rational], key: _Key, factor: Rational) -> None:
+    """Add a term to a polynomial; one that cancels is left out."""
+    total = poly.get(key, 0) + factor
+    if total:
+        poly[key] = total
+    else:
+        poly.pop(key, None)
+
+
 def primitive(poly: Mapping[_Key, Rational]) -> tuple[frozenset[tuple[_Key, Rational]], Rational]:
     """(key, factor): polynomials that differ by a rational factor alone share the key.
 

@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from itertools import product
 from math import comb
 
-from dynsolve.algebra.compact.terms import Exponents, Rational, exact
+from dynsolve.algebra.compact.terms import Exponents, Rational, add_term, exact
 from dynsolve.algebra.fourier import FourierForm, Multiples, TrigFunction, fourier_form, positive, terms_of
 from dynsolve.algebra.integer_basis import coordinates_in
 
@@ -106,7 +106,7 @@ def _without_cos_squares(poly: TrigPolynomial, j: int) -> TrigPolynomial:
         s, c = e[2 * j], e[2 * j + 1]
         half, odd = divmod(c, 2)
         for k in range(half + 1):
-            _add(result, _with_powers(e, j, s + 2 * k, odd), f * (-1) ** k * comb(half, k))
+            add_term(result, _with_powers(e, j, s + 2 * k, odd), f * (-1) ** k * comb(half, k))
     return result
 
 
@@ -116,7 +116,7 @@ def _without_sin_squares(poly: TrigPolynomial, j: int) -> TrigPolynomial:
     for e, f in poly.items():
         half, odd = divmod(e[2 * j], 2)
         for k in range(half + 1):
-            _add(result, _with_powers(e, j, odd, e[2 * j + 1] + 2 * k), f * (-1) ** k * comb(half, k))
+            add_term(result, _with_powers(e, j, odd, e[2 * j + 1] + 2 * k), f * (-1) ** k * comb(half, k))
     return result
 
 
@@ -131,21 +131,13 @@ def _homogeneous(poly: TrigPolynomial, j: int) -> TrigPolynomial | None:
         s, c = e[2 * j], e[2 * j + 1]
         half = (top - s - c) // 2
         for k in range(half + 1):
-            _add(result, _with_powers(e, j, s + 2 * k, c + 2 * (half - k)), f * comb(half, k))
+            add_term(result, _with_powers(e, j, s + 2 * k, c + 2 * (half - k)), f * comb(half, k))
     return result
 
 
 def _with_powers(e: Exponents, j: int, s: int, c: int) -> Exponents:
     """The exponents with other ones for sine and cosine of angle j."""
     return (*e[: 2 * j], s, c, *e[2 * j + 2 :])
-
-
-def _add(poly: TrigPolynomial, key: Exponents, value: Rational) -> None:
-    total = poly.get(key, 0) + value
-    if total:
-        poly[key] = total
-    else:
-        poly.pop(key, None)
 
 
 # -- another basis -----------------------------------------------------------------------------------
@@ -161,7 +153,7 @@ def _over_basis(fourier: FourierForm, basis: list[Multiples]) -> TrigPolynomial 
         cosine, sine = _cos_sin([int(m) for m in multiples])
         for part, factor in ((cosine, a), (sine, b)):
             for e, f in part.items() if factor else ():
-                _add(result, e, f * factor)
+                add_term(result, e, f * factor)
     for j in range(len(basis)):
         result = _without_sin_squares(result, j)
     return result
@@ -198,7 +190,7 @@ def _product(poly: TrigPolynomial, other: dict[tuple[int, int], int], j: int) ->
     result: TrigPolynomial = {}
     for e, f in poly.items():
         for (s, c), g in other.items():
-            _add(result, _with_powers(e, j, e[2 * j] + s, e[2 * j + 1] + c), f * g)
+            add_term(result, _with_powers(e, j, e[2 * j] + s, e[2 * j + 1] + c), f * g)
     return result
 
 
@@ -206,7 +198,7 @@ def _sum(left: TrigPolynomial, right: TrigPolynomial, factor: int) -> TrigPolyno
     """left + factor · right"""
     result = dict(left)
     for e, f in right.items():
-        _add(result, e, factor * f)
+        add_term(result, e, factor * f)
     return result
 
 
