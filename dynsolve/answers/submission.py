@@ -43,6 +43,7 @@ class Answer:
     `references` are the answers that occur inside the value: a scalar one as
     `Reference("K1")`, a matrix one entry by entry as `Reference("I1", 1, 3)`.  `free` are
     the names of symbols that are no symbol of the problem (h0, a zero level of height).
+    `turned` are the coordinates that it counts the other way than the problem does.
     `occurrence` is (chain, member): which equation of the file, and which member of
     `a = b = c` from 0; answers stand in the order of the file.
     """
@@ -59,6 +60,7 @@ class Answer:
     alternatives: tuple[str, ...] = ()
     references: tuple[str, ...] = ()
     free: tuple[str, ...] = ()
+    turned: tuple[str, ...] = ()
     occurrence: tuple[int, int] = (0, 0)
 
 

@@ -3,6 +3,7 @@
 answer_ring, ring_extension   the ring that holds the key and all that was written
 evaluate                      a formula tree -> its value in that ring
 answer_values                 the answers of a hand-in with their values
+own_coordinates               answers in the student's own coordinates, turned to the problem's
 own_names                     what a name inside a value stands for
 graph                         which answers lead to which, by which routes
 entry_comparison              whether two scalars are equal

@@ -16,11 +16,13 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing, AnswerRingBuilder
 from dynsolve.answers.judging.evaluate import AnswerEvaluator
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.own_coordinates import in_problems_coordinates
 from dynsolve.answers.judging.own_names import GivenNowhereError, OwnNames, Rows
 from dynsolve.answers.submission import Answer
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Reference
+from dynsolve.quantities.index import quantities
 
 MOST_ENTRIES = 144
 """The most entries of a matrix that is judged."""
@@ -56,13 +58,16 @@ class AnswerValues:
 
     def __init__(self, base: AnswerRing, answers: Sequence[Answer]) -> None:
         builder = AnswerRingBuilder(base)
+        named = quantities(base.robot)
+        self._nodes: dict[int, Node] = {}
         self._faults: dict[int, tuple[str, str]] = {}
         for place, answer in enumerate(answers):
             if answer.node is None:
                 self._faults[place] = answer.fault or "this could not be read", answer.expected
                 continue
             try:
-                builder.admit(answer.node)
+                self._nodes[place] = in_problems_coordinates(answer, named) or answer.node
+                builder.admit(self._nodes[place])
             except AlgebraError as error:
                 self._faults[place] = error.message, error.help
         self.answer_ring: AnswerRing = builder.build()
@@ -86,8 +91,7 @@ class AnswerValues:
         answer = self.answers[place]
         if place in self._faults:
             return AnswerValue(answer, None, (), *self._faults[place])
-        assert answer.node is not None
-        nodes = _entries(answer.node)
+        nodes = _entries(self._nodes[place])
         if len(nodes) * len(nodes[0]) > MOST_ENTRIES:
             return AnswerValue(
                 answer, None, nodes, "the matrix is too large", f"at most {MOST_ENTRIES} entries"

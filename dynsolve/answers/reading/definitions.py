@@ -10,6 +10,7 @@ from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.right_side import read_right_side
 from dynsolve.answers.reading.vocabulary import Meaning
 from dynsolve.errors import ReadError
+from dynsolve.notation.tree import Node
 from dynsolve.quantities.spelling import key
 
 
@@ -32,6 +33,8 @@ def own_symbols(reader: EquationReader, display: Display, name: str, is_symbol: 
     if not plain:
         return ReadError("this is no name", 0, 1, "a name is a letter with an index: q1")
     if is_symbol:
+        if not dots and isinstance(found.value, Node):
+            reader.coordinates.append(found.value)
         keep_symbol(reader.vocabulary, plain, dots, found.value)
     else:
         reader.vocabulary.define(plain, Meaning(found.value))

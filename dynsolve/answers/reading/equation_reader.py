@@ -33,7 +33,7 @@ from dynsolve.answers.reading.vector_entries import entry_of
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
 from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import walk
 from dynsolve.quantities.spelling import key
@@ -49,7 +49,8 @@ class EquationReader:
     """Reads equation after equation of one hand-in.
 
     `vocabulary` grows by what the student defines, `macros` are the student's own LaTeX
-    commands, `found` gathers the answers, `equations` counts the chains that were read.
+    commands, `found` gathers the answers, `equations` counts the chains that were read,
+    `coordinates` are what the student's own names for symbols stand for.
     """
 
     def __init__(self, vocabulary: Vocabulary, printer: UnicodePrinter) -> None:
@@ -57,6 +58,7 @@ class EquationReader:
         self.macros: dict[str, Macro] = {}
         self.found = AnswerList(vocabulary, printer)
         self.equations = 0
+        self.coordinates: list[Node] = []
         self._first: dict[str, Meaning] = {}
         self._ahead: dict[str, Meaning] = {}
 

@@ -8,6 +8,7 @@ from pathlib import PurePath
 from dynsolve.answers.reading.documents import FORMATS, as_report
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.limits import MAX_BYTES
+from dynsolve.answers.reading.own_coordinates import with_own_coordinates
 from dynsolve.answers.reading.reports import read_report
 from dynsolve.answers.reading.sources import Source, decoded
 from dynsolve.answers.reading.vocabulary import vocabulary
@@ -53,7 +54,9 @@ class FileReader:
         reader = EquationReader(self.vocabulary.fresh(), self.printer)
         problem, student, faults = _read(reader, content, file)
         reader.found.settle()
-        answers, refused = tuple(reader.found.answers), tuple(reader.found.not_recognized)
+        names = [q.name for q in self.vocabulary.coordinates]
+        answers = tuple(with_own_coordinates(reader.found.answers, reader.coordinates, names))
+        refused = tuple(reader.found.not_recognized)
         return Submission(problem, student, file, answers, refused, tuple(faults))
 
 
