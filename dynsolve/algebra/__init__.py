@@ -8,11 +8,11 @@ Arrows run one way, from the first of these files to the last:
   them, and the variables of its polynomials in order;
 - `relations`, `expr`, `ring`: s² + c² = 1 and the normal form, the elements, the ring with
   its derivatives; `floats`: values in floating point;
-- `fraction`, `evaluate`, `build`, `matrix`: fractions, the value of a formula, making a
+- `fraction`, `ring_values`, `build`, `matrix`: fractions, the value of a formula, making a
   ring, matrices;
 - `fourier`, `compact`: the Fourier form, and what a textbook would print.
 
 To add a kind of generator (a variable of the polynomials), name it in `generators.Generator`
 and lay it out there, find the formulas that need it in `contents` and `ring_plan`, write its
-relation in `relations`, its value in `evaluate` and `floats`, its derivative in `ring`.
+relation in `relations`, its value in `ring_values` and `floats`, its derivative in `ring`.
 """

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.ring import NoRoom, Ring
 from dynsolve.algebra.ring_plan import RingPlan, plan_ring
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.tree import Node, Number, Quotient
 
 

@@ -213,4 +213,4 @@ def _entries(name: str, compared: KeyComparison) -> Iterator[tuple[tuple[int, ..
 
 def in_order(graph: AnswerGraph, names: Iterable[str]) -> tuple[str, ...]:
     """Answers in the order of the derivation, each once."""
-    return tuple(sorted(dict.fromkeys(names), key=graph.quantities.place))
+    return tuple(sorted(dict.fromkeys(names), key=graph.quantities.position))

@@ -91,7 +91,7 @@ class Judge:
     def report(self) -> Report:
         """Everything that is said of the hand-in."""
         answers = self._answers()
-        place = self.graph.quantities.place
+        place = self.graph.quantities.position
         ordered = weighed(self, tuple(sorted(answers.values(), key=lambda answer: place(answer.name))))
         wrong = sorted(
             (answer for answer in ordered if answer.verdict is Verdict.WRONG),

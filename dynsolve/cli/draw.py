@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from dynsolve.cli.common import Quiet, read, say
-from dynsolve.cli.output import form_of, refuse_on_terminal, write_to_standard_output
+from dynsolve.cli.output import format_of, refuse_on_terminal, write_to_standard_output
 from dynsolve.draw import SUFFIXES, PictureFormat
 from dynsolve.render.files import check_place, write_whole
 
@@ -44,7 +44,7 @@ def draw(
     """
     path = None if output in (None, "-") else Path(str(output))
     if path is not None:
-        form = form_of(str(path), path.suffix, SUFFIXES, format)
+        form = format_of(str(path), path.suffix, SUFFIXES, format)
         check_place(path)
     else:
         form = format or PictureFormat.SVG

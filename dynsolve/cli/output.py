@@ -78,13 +78,13 @@ def chosen_output(
     suffix = "" if path is None or is_folder else path.suffix
     form = next(iter(asked), None)
     if path is not None:
-        form = form_of(str(output), suffix, SUFFIXES, form)
+        form = format_of(str(output), suffix, SUFFIXES, form)
     chosen = Output(form or Format.TEXT, path, is_folder)
     _check(chosen, problems)
     return chosen
 
 
-def form_of(place: str, suffix: str, suffixes: Mapping[str, Form], asked: Form | None) -> Form:
+def format_of(place: str, suffix: str, suffixes: Mapping[str, Form], asked: Form | None) -> Form:
     """The form of a file: the one that is asked for, or else that its suffix says.
 
     Raises UsageError where neither says it, or they contradict each other.

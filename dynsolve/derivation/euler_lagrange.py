@@ -25,18 +25,18 @@ def momentum_rate(momentum: Expr) -> Expr:
     return momentum.ring.time_derivative(momentum)
 
 
-def slope(L: Expr, k: int) -> Expr:
+def coordinate_derivative(L: Expr, k: int) -> Expr:
     """∂L/∂q_k, k from 0."""
     return L.ring.diff(L, k)
 
 
-def generalized_force(ddt: Expr, slope: Expr) -> Expr:
+def generalized_force(momentum_rate: Expr, coordinate_derivative: Expr) -> Expr:
     """τ_k = d/dt ∂L/∂q̇_k - ∂L/∂q_k: a torque for a revolute coordinate, a force for a prismatic one.
 
     The joints' drives are the only forces beside gravity.  Friction, which no potential
     gives, would be one more term here: τ_k = ... + F_k(q̇).
     """
-    return ddt - slope
+    return momentum_rate - coordinate_derivative
 
 
 def force_vector(robot: Robot, forces: tuple[Expr, ...]) -> Matrix:

@@ -111,7 +111,7 @@ def _euler_lagrange(robot: Robot) -> Iterator[Rule]:
         k = q.index
         yield Rule(f"dLdqd{k}", ("L",), partial(euler_lagrange.momentum, k=k - 1))
         yield Rule(f"ddt{k}", (f"dLdqd{k}",), euler_lagrange.momentum_rate)
-        yield Rule(f"dLdq{k}", ("L",), partial(euler_lagrange.slope, k=k - 1))
+        yield Rule(f"dLdq{k}", ("L",), partial(euler_lagrange.coordinate_derivative, k=k - 1))
         yield Rule(f"tau{k}", (f"ddt{k}", f"dLdq{k}"), euler_lagrange.generalized_force)
     forces = tuple(f"tau{q.index}" for q in robot.coordinates)
     yield Rule("tau", forces, lambda *parts: euler_lagrange.force_vector(robot, parts))

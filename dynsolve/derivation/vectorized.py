@@ -47,13 +47,13 @@ def inertia_from_energy(robot: Robot, K: Expr) -> Matrix:
 def christoffel_symbols(robot: Robot, D: Matrix) -> dict[tuple[int, int, int], Expr]:
     """c_ijk = ½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k), at (i, j, k) with i ≤ j and from 0."""
     ring, n = D.ring, robot.n
-    slopes = {(i, j, k): ring.diff(D[i, j], k) for i in range(n) for j in range(i, n) for k in range(n)}
+    derivatives = {(i, j, k): ring.diff(D[i, j], k) for i in range(n) for j in range(i, n) for k in range(n)}
 
-    def slope(i: int, j: int, k: int) -> Expr:
-        return slopes[min(i, j), max(i, j), k]
+    def derivative(i: int, j: int, k: int) -> Expr:
+        return derivatives[min(i, j), max(i, j), k]
 
     return {
-        (i, j, k): (slope(k, j, i) + slope(k, i, j) - slope(i, j, k)) * HALF
+        (i, j, k): (derivative(k, j, i) + derivative(k, i, j) - derivative(i, j, k)) * HALF
         for i in range(n)
         for j in range(i, n)
         for k in range(n)

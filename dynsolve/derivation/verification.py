@@ -34,8 +34,8 @@ from dynsolve.derivation.newton_euler import (
     transposed,
 )
 from dynsolve.errors import VerificationError
-from dynsolve.notation.evaluate import compile_trees
 from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import compile_trees
 from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 
 TOLERANCE = 1e-9

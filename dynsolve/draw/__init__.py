@@ -2,7 +2,7 @@
 
 From the table to a pose:
 
-    numbers       how long every symbol is drawn
+    drawn_lengths how long every symbol is drawn
     orientation   which way is up, and whether the robot moves in a plane
     skeleton      where frames and links are for given values of the coordinates
     mass_centers  where the mass centres are
@@ -20,7 +20,7 @@ What is drawn of it:
     scene         all of it together
 
 How it is written down: `svg`, `latex`, and `convert` for PDF and PNG.  What all of it is
-made of: `vectors` (geometry), `paths` (lines and areas with their colours), `space` (which
+made of: `vectors` (geometry), `paths` (lines and areas with their colours), `occupied` (which
 places on paper are taken).
 
 To draw one more thing, make its paths in a file of the second list, and add them in

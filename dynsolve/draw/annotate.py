@@ -12,10 +12,10 @@ from itertools import pairwise
 
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Wanted
+from dynsolve.draw.occupied import Taken
 from dynsolve.draw.parts import RADIUS, TUBE, JointBody
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import AXIS, Pose
-from dynsolve.draw.space import Taken
 from dynsolve.draw.typography import typeset
 from dynsolve.draw.vectors import (
     Point,

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from random import Random
 
-from dynsolve.draw.space import Box, Taken
+from dynsolve.draw.occupied import Box, Taken
 from dynsolve.draw.typography import LabelLine
 from dynsolve.draw.vectors import Point
 from dynsolve.notation.tree import Node

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from dynsolve.draw import paths
 from dynsolve.draw.annotate import Notes
+from dynsolve.draw.occupied import Taken
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
-from dynsolve.draw.space import Taken
 from dynsolve.draw.vectors import NEAR, Point, Vector, distance, moved, scaled
 from dynsolve.notation.tree import Negative, Node
 from dynsolve.robot.model import JointType, Robot

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from dynsolve.draw import paths
+from dynsolve.draw.occupied import Box, bounds
 from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, TUBE, Parts
 from dynsolve.draw.paths import Path
-from dynsolve.draw.space import Box, bounds
 from dynsolve.draw.vectors import Point, Vector, between, distance, dot, length, scale, subtract
 from dynsolve.draw.view import View
 from dynsolve.robot.model import JointType

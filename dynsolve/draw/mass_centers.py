@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dynsolve.draw.numbers import RobotNumbers, evaluate
+from dynsolve.draw.drawn_lengths import RobotNumbers, evaluate
 from dynsolve.draw.skeleton import MassCenter, Skeleton, near_and_far
 from dynsolve.draw.vectors import (
     NEAR,

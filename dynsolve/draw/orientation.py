@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dynsolve.draw.numbers import RobotNumbers, evaluate
+from dynsolve.draw.drawn_lengths import RobotNumbers, evaluate
 from dynsolve.draw.skeleton import DrawnFrame, Skeleton, base_frame, skeleton
 from dynsolve.draw.vectors import Vector, any_normal, cross, dot, length, scale, subtract, unit
 from dynsolve.robot.model import JointType, Robot

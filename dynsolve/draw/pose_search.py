@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from random import Random
 
+from dynsolve.draw.drawn_lengths import RobotNumbers
 from dynsolve.draw.mass_centers import with_masses
-from dynsolve.draw.numbers import RobotNumbers
 from dynsolve.draw.orientation import Orientation
 from dynsolve.draw.parts import arrange
 from dynsolve.draw.pose import Choice, Pose, cost_of, taste

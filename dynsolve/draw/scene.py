@@ -7,15 +7,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from dynsolve.draw import annotate, paths
+from dynsolve.draw.drawn_lengths import numbers
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimension, row_lengths
-from dynsolve.draw.numbers import numbers
+from dynsolve.draw.occupied import Box, Taken, bounds
 from dynsolve.draw.orientation import Orientation, orientation
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.solids import solids
-from dynsolve.draw.space import Box, Taken, bounds
 from dynsolve.draw.vectors import NEAR, Point, dot
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol

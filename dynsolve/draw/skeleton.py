@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from dynsolve.draw.numbers import RobotNumbers
+from dynsolve.draw.drawn_lengths import RobotNumbers
 from dynsolve.draw.vectors import (
     NEAR,
     ORIGIN,

@@ -161,7 +161,7 @@ class _LongModel:
             changes |= {
                 f"dLdqd{q.index}": partial(self.momentum, q),
                 f"ddt{q.index}": partial(self.momentum_rate, q),
-                f"dLdq{q.index}": partial(self.slope, q),
+                f"dLdq{q.index}": partial(self.coordinate_derivative, q),
                 f"tau{q.index}": partial(self.force, q),
             }
         return changes
@@ -191,7 +191,7 @@ class _LongModel:
         return _with(step, equation(letters.L, Sum((_QUADRATIC, Negative(letters.P)))))
 
     def momentum(self, q: Coordinate, step: Step) -> Step:
-        momentum = letters.slope(letters.L, letters.rate(q))
+        momentum = letters.partial_derivative(letters.L, letters.velocity(q))
         result = equation(momentum, self.formulas.momentum(q.index - 1))
         return _with(step, result, " The entries of D are given with the vectorized form.")
 
@@ -205,7 +205,7 @@ class _LongModel:
             for j in moving
             if isinstance(d := self._d(k, j), Letter)
         ]
-        left = letters.time_rate(letters.slope(letters.L, letters.rate(q)))
+        left = letters.time_derivative(letters.partial_derivative(letters.L, letters.velocity(q)))
         result = equation(left, total([*self.formulas.acceleration_terms(k), *rates]))
         i, j, row = (Symbol(name) for name in ("i", "j", str(q.index)))
         both = tree.Parenthesized(Sum((Letter("c", Row((i, j, row))), Letter("c", Row((i, row, j))))))
@@ -215,15 +215,15 @@ class _LongModel:
         )
         return _with(step, result, " In the Christoffel symbols, ", change, ".")
 
-    def slope(self, q: Coordinate, step: Step) -> Step:
+    def coordinate_derivative(self, q: Coordinate, step: Step) -> Step:
         k, by = q.index - 1, Symbol(q.name)
         D, ring = self.context.values["D"], self.context.robot.ring
         terms: list[Node] = []
         if any(not ring.diff(D[i, j], k).is_zero for i, j in pairs(self.n)):
-            middle = tree.Parenthesized(letters.slope(letters.D, by))
+            middle = tree.Parenthesized(letters.partial_derivative(letters.D, by))
             terms.append(Product((letters.HALF, letters.transposed_product(letters.QD, middle))))
         terms.append(negated(self._g(k)))
-        return _with(step, equation(letters.slope(letters.L, by), total(terms)))
+        return _with(step, equation(letters.partial_derivative(letters.L, by), total(terms)))
 
     def force(self, q: Coordinate, step: Step) -> Step:
         result = equation(letters.force(q), self.formulas.force(q.index - 1))

@@ -40,9 +40,9 @@ def christoffel_step(context: Context) -> Step:
         Product((
             letters.HALF,
             Parenthesized(Sum((
-                letters.slope(_d(_K, _J), Letter("q", _I)),
-                letters.slope(_d(_K, _I), Letter("q", _J)),
-                Negative(letters.slope(_d(_I, _J), Letter("q", _K))),
+                letters.partial_derivative(_d(_K, _J), Letter("q", _I)),
+                letters.partial_derivative(_d(_K, _I), Letter("q", _J)),
+                Negative(letters.partial_derivative(_d(_I, _J), Letter("q", _K))),
             ))),
         )),
     )  # fmt: skip
@@ -105,18 +105,18 @@ def _symbol(context: Context, i: int, j: int, k: int) -> Node:
 def _weighted(context: Context, key: tuple[tuple[int, int], int], weight: int) -> tuple[int, Node]:
     (row, col), by = key
     name = letters.entry("d", row + 1, col + 1)
-    return weight, letters.slope(name, Symbol(context.robot.coordinates[by].name))
+    return weight, letters.partial_derivative(name, Symbol(context.robot.coordinates[by].name))
 
 
 def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
-    """½ (Σ weight·slope), with weights 1, 2 and -1; a factor 2 that stands alone cancels."""
+    """½ (Σ weight · ∂d/∂q), with weights 1, 2 and -1; a factor 2 that stands alone cancels."""
     if len(parts) == 1:
-        weight, slope = parts[0]
-        node = slope if abs(weight) == 2 else Product((letters.HALF, slope))
+        weight, derivative = parts[0]
+        node = derivative if abs(weight) == 2 else Product((letters.HALF, derivative))
         return Negative(node) if weight < 0 else node
     terms = []
-    for weight, slope in parts:
-        term = Product((Number(2), slope)) if abs(weight) == 2 else slope
+    for weight, derivative in parts:
+        term = Product((Number(2), derivative)) if abs(weight) == 2 else derivative
         terms.append(Negative(term) if weight < 0 else term)
     return Product((letters.HALF, Parenthesized(Sum(tuple(terms)))))
 

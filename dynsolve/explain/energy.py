@@ -197,7 +197,7 @@ def _velocities(context: Context, body: Body) -> Step:
     if not body.is_point:
         results.append(equation(w, context.form(f"w{b}")))
         formulas.append(equation(w, Product((letters.jw(body), letters.QD))))
-    qd = column(*(letters.rate(q) for q in context.robot.coordinates))
+    qd = column(*(letters.velocity(q) for q in context.robot.coordinates))
     Jv = context.form(f"Jv{b}")
     working = (equation(v, Product((Jv, qd))),) if is_small(Jv, qd) else ()
     return Step(

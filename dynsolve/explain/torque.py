@@ -26,7 +26,7 @@ def steps(context: Context) -> Iterator[Step]:
 
 
 def _momentum(context: Context, q: Coordinate) -> Step:
-    rate = letters.rate(q)
+    rate = letters.velocity(q)
     return Step(
         id=f"dLdqd{q.index}",
         stage=STAGE,
@@ -34,7 +34,7 @@ def _momentum(context: Context, q: Coordinate) -> Step:
         why=_partial(context, rate, "coordinate", "rate"),
         formula=None,
         source=spong("7.1"),
-        result=(equation(letters.slope(letters.L, rate), context.form(f"dLdqd{q.index}")),),
+        result=(equation(letters.partial_derivative(letters.L, rate), context.form(f"dLdqd{q.index}")),),
     )
 
 
@@ -45,14 +45,14 @@ def _partial(context: Context, by: Node, held: str, like: str) -> Prose:
 
 
 def _rate(context: Context, q: Coordinate) -> Step:
-    momentum = letters.slope(letters.L, letters.rate(q))
+    momentum = letters.partial_derivative(letters.L, letters.velocity(q))
     return Step(
         id=f"ddt{q.index}",
         stage=STAGE,
         title=f"Coordinate {q.index}: time derivative of the momentum",
         why=_rate_why(context, q),
         source=spong("7.1"),
-        result=(equation(letters.time_rate(momentum), context.form(f"ddt{q.index}")),),
+        result=(equation(letters.time_derivative(momentum), context.form(f"ddt{q.index}")),),
         hint=(
             "Differentiate the momentum with respect to time. Each rate in it becomes an acceleration, "
             "and each coordinate in it brings its own rate (product and chain rule).",
@@ -85,7 +85,7 @@ def _slope(context: Context, q: Coordinate) -> Step:
         title=f"Coordinate {q.index}: partial derivative of L",
         why=why,
         source=spong("7.1"),
-        result=(equation(letters.slope(letters.L, Symbol(q.name)), form),),
+        result=(equation(letters.partial_derivative(letters.L, Symbol(q.name)), form),),
         hint=(
             "Differentiate L with respect to the coordinate alone: the rates are held fixed, and a term "
             "in which the coordinate does not stand drops out.",
@@ -95,8 +95,8 @@ def _slope(context: Context, q: Coordinate) -> Step:
 
 def _force(context: Context, q: Coordinate) -> Step:
     force = letters.force(q)
-    momentum = letters.time_rate(letters.slope(letters.L, letters.rate(q)))
-    slope = letters.slope(letters.L, Symbol(q.name))
+    momentum = letters.time_derivative(letters.partial_derivative(letters.L, letters.velocity(q)))
+    derivative = letters.partial_derivative(letters.L, Symbol(q.name))
     return Step(
         id=f"tau{q.index}",
         stage=STAGE,
@@ -107,7 +107,7 @@ def _force(context: Context, q: Coordinate) -> Step:
             if turns(q)
             else " is a length, so what drives it is a force.",
         ),
-        formula=equation(force, Sum((momentum, Negative(slope)))),
+        formula=equation(force, Sum((momentum, Negative(derivative)))),
         source=spong("7.1"),
         result=(equation(force, context.form(f"tau{q.index}")),),
         detail=Detail.BRIEF,

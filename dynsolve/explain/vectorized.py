@@ -66,7 +66,7 @@ def _inertia(context: Context) -> Step:
             "Entry (i, j) is the factor of the j-th acceleration in the i-th force. D is symmetric, "
             "and may depend on the coordinates, but on no rate.",
         ),
-        formula=equation(_d(_I, _J), letters.slope(Letter("tau", _I), Letter("q", _J, dots=2))),
+        formula=equation(_d(_I, _J), letters.partial_derivative(Letter("tau", _I), Letter("q", _J, dots=2))),
         source=spong("7.3"),
         result=(equation(letters.D, context.form("D")),),
         uses=_forces(context),
@@ -226,7 +226,7 @@ def _gravity(context: Context) -> Step:
         stage=STAGE,
         title="g, from the potential energy",
         why=why,
-        formula=equation(Letter("g", _K), letters.slope(letters.P, Letter("q", _K))),
+        formula=equation(Letter("g", _K), letters.partial_derivative(letters.P, Letter("q", _K))),
         source=spong("7.3"),
         result=(equation(letters.G, context.form("g")),),
         uses=("P",),

@@ -9,7 +9,7 @@ tree before it is multiplied out, `limits` bounds it for problem files.
 
 Printed: `printing` is what all printers share, `formulas` what those of whole formulas share;
 `unicode`, `latex`, `mathml`, `typst` and `python` are one notation each.  `extent` measures
-how wide a formula is when it is set.  `evaluate` puts numbers into trees; `bounded` holds
+how wide a formula is when it is set.  `tree_values` puts numbers into trees; `bounded_cache` holds
 memories of limited size.
 
 To add a notation, derive a printer from `FormulaPrinter` (`formulas` says how).  To add a

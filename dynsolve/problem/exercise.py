@@ -11,9 +11,9 @@ from math import radians
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.errors import AlgebraError, ReadError
-from dynsolve.notation.evaluate import evaluate
 from dynsolve.notation.names import normalize
 from dynsolve.notation.tree import Node as Tree
+from dynsolve.notation.tree_values import evaluate
 from dynsolve.problem.cells import Cell, read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.model import FIND

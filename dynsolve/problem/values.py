@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from dynsolve.algebra.build import build_ring
-from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.parsed_file import ParsedFile

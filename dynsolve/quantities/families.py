@@ -26,7 +26,7 @@ VELOCITY = times(LENGTH, PER_SECOND)
 MOMENTUM = times(INERTIA, PER_SECOND)
 
 
-def _set(letter: Node) -> LetterMaker:
+def _of_robot(letter: Node) -> LetterMaker:
     """The letter of what the robot has one of."""
     return lambda robot: letter
 
@@ -84,7 +84,7 @@ JV = Family(
     name="Jv",
     stage=Stage.JACOBIAN,
     shape=(3, "n"),
-    letter=_set(letters.JV),
+    letter=_of_robot(letters.JV),
     json="Jv",
     dimension=LENGTH,
     per=("column",),
@@ -97,7 +97,7 @@ JW = Family(
     name="Jw",
     stage=Stage.JACOBIAN,
     shape=(3, "n"),
-    letter=_set(letters.JW),
+    letter=_of_robot(letters.JW),
     json="Jw",
     dimension=NONE,
     dimension_is_told=False,
@@ -105,7 +105,7 @@ JW = Family(
     part_of="J",
 )
 
-J = Family(name="J", stage=Stage.JACOBIAN, shape=(6, "n"), letter=_set(letters.J))
+J = Family(name="J", stage=Stage.JACOBIAN, shape=(6, "n"), letter=_of_robot(letters.J))
 
 # -- the bodies: mass centres, velocities, inertia -------------------------------------------------
 
@@ -130,7 +130,7 @@ R = Family(
     json="R",
     dimension=NONE,
     is_answer=False,
-    spins=True,
+    needs_rotation=True,
 )
 
 JV_BODY = Family(
@@ -194,7 +194,7 @@ I_BODY = Family(
     json="I_body",
     dimension=INERTIA,
     spellings=("Ib{b}", "I{b}", "Ic{b}", "I{b}b", "I{b}body"),
-    spins=True,
+    needs_rotation=True,
 )
 
 I = Family(  # noqa: E741  the book's symbol
@@ -206,7 +206,7 @@ I = Family(  # noqa: E741  the book's symbol
     json="I_base",
     dimension=INERTIA,
     spellings=("I0{b}", "Ibase{b}", "I{b}base"),
-    spins=True,
+    needs_rotation=True,
 )
 
 # -- energies --------------------------------------------------------------------------------------
@@ -245,7 +245,7 @@ KW = Family(
     unit="J",
     spellings=(*_each(_ENERGY, _W), *_each("K T E", "{b}", "omega w"), *_each("Krot Kr KR", "{b}")),
     part_of="K{b}",
-    spins=True,
+    needs_rotation=True,
 )
 
 K_BODY = Family(
@@ -263,7 +263,7 @@ K_BODY = Family(
 P = Family(
     name="P",
     stage=Stage.ENERGY,
-    letter=_set(letters.P),
+    letter=_of_robot(letters.P),
     json="P",
     dimension=ENERGY,
     unit="J",
@@ -273,7 +273,7 @@ P = Family(
 K = Family(
     name="K",
     stage=Stage.ENERGY,
-    letter=_set(letters.K),
+    letter=_of_robot(letters.K),
     json="K",
     dimension=ENERGY,
     unit="J",
@@ -285,7 +285,7 @@ K = Family(
 L = Family(
     name="L",
     stage=Stage.LAGRANGIAN,
-    letter=_set(letters.L),
+    letter=_of_robot(letters.L),
     json="L",
     dimension=ENERGY,
     unit="J",
@@ -294,7 +294,7 @@ L = Family(
 
 
 def _momentum(q: Coordinate) -> Node:
-    return letters.slope(letters.L, letters.rate(q))
+    return letters.partial_derivative(letters.L, letters.velocity(q))
 
 
 DLDQD = Family(
@@ -314,7 +314,7 @@ DDT = Family(
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
     capped_in=Stage.LAGRANGIAN,
-    letter=_of_coordinate(lambda q: letters.time_rate(_momentum(q))),
+    letter=_of_coordinate(lambda q: letters.time_derivative(_momentum(q))),
     json="ddt",
     dimension=ENERGY,
     per=("owner",),
@@ -327,7 +327,7 @@ DLDQ = Family(
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
     capped_in=Stage.LAGRANGIAN,
-    letter=_of_coordinate(lambda q: letters.slope(letters.L, Symbol(q.name))),
+    letter=_of_coordinate(lambda q: letters.partial_derivative(letters.L, Symbol(q.name))),
     json="dL_dq",
     dimension=ENERGY,
     per=("owner",),
@@ -346,7 +346,7 @@ FORCE = Family(
     per=("owner",),
     unit="N m",
     spellings=(*_each("tau f F Q", "{i}"), *_each("tau f F", "{q}")),
-    weak=("tau{s}", "f{s}"),
+    fallback_spellings=("tau{s}", "f{s}"),
     aliases=("tau{i}", "f{i}"),
     part_of="tau",
 )
@@ -355,7 +355,7 @@ TAU = Family(
     name="tau",
     stage=Stage.TORQUE,
     shape=("n", 1),
-    letter=_set(letters.TAU),
+    letter=_of_robot(letters.TAU),
     json="tau",
     dimension=ENERGY,
     per=("row",),
@@ -369,7 +369,7 @@ D = Family(
     name="D",
     stage=Stage.VECTORIZED,
     shape=("n", "n"),
-    letter=_set(letters.D),
+    letter=_of_robot(letters.D),
     json="D",
     dimension=INERTIA,
     per=("row", "column"),
@@ -386,7 +386,7 @@ D_ENTRY = Family(
     spellings=_each("D m M b B", "{i}{j}"),
     aliases=_each("D m M b B", "{i}{j}"),
     part_of="D",
-    mirrored=True,
+    is_symmetric_entry=True,
 )
 
 CHRISTOFFEL = Family(name="christoffel", stage=Stage.VECTORIZED, is_answer=False)
@@ -406,7 +406,7 @@ C = Family(
     name="C",
     stage=Stage.VECTORIZED,
     shape=("n", "n"),
-    letter=_set(letters.C),
+    letter=_of_robot(letters.C),
     json="C",
     dimension=MOMENTUM,
     per=("row", "column"),
@@ -429,7 +429,7 @@ G = Family(
     name="g",
     stage=Stage.VECTORIZED,
     shape=("n", 1),
-    letter=_set(letters.G),
+    letter=_of_robot(letters.G),
     json="g",
     dimension=ENERGY,
     per=("row",),
@@ -453,7 +453,7 @@ CQD = Family(
     name="Cqd",
     stage=Stage.VECTORIZED,
     shape=("n", 1),
-    letter=_set(Product((letters.C, letters.QD))),
+    letter=_of_robot(Product((letters.C, letters.QD))),
     dimension=ENERGY,
     per=("row",),
     unit="N m",

@@ -63,12 +63,12 @@ class Family:
     `dimension` is called (N m, and not J, of a torque).  An answer whose terms have
     another dimension is told so where `dimension_is_told`.
 
-    `spellings` are what students write for it besides its name, `weak` what they may
+    `spellings` are what students write for it besides its name, `fallback_spellings` what they may
     write where it means nothing else; a family without `is_answer` is none of the answers.
     `aliases` are the further names that `find` and `marks` take.
 
-    `part_of` is the whole it is added up to, or an entry of.  `spins` marks what a point
-    mass has in name only; `mirrored` an entry that equals the one across the diagonal.
+    `part_of` is the whole it is added up to, or an entry of.  `needs_rotation` marks what a point
+    mass has in name only; `is_symmetric_entry` an entry that equals the one across the diagonal.
     """
 
     name: str
@@ -85,11 +85,11 @@ class Family:
     dimension_is_told: bool = True
     is_answer: bool = True
     spellings: tuple[str, ...] = ()
-    weak: tuple[str, ...] = ()
+    fallback_spellings: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
     part_of: str = ""
-    spins: bool = False
-    mirrored: bool = False
+    needs_rotation: bool = False
+    is_symmetric_entry: bool = False
 
     @property
     def stem(self) -> str:

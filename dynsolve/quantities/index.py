@@ -49,7 +49,7 @@ class Owners:
         repeat = {Owner.ROBOT: 0, Owner.PAIR: 2, Owner.TRIPLE: 3}[owner]
         return product(range(1, min(len(self.coordinates), MOST_INDEXED) + 1), repeat=repeat)
 
-    def words(self, owner: Owner, index: tuple[int, ...]) -> dict[str, str]:
+    def template_values(self, owner: Owner, index: tuple[int, ...]) -> dict[str, str]:
         """What stands for the braces of a family's templates; see `dynsolve.quantities.family`."""
         match owner:
             case Owner.ROW:
@@ -109,17 +109,17 @@ class Quantities(Mapping[str, Quantity]):
         for owner, families in groupby(FAMILIES, key=lambda family: family.owner):
             group = tuple(families)
             for index in owners.indices(owner):
-                words = owners.words(owner, index)
+                values = owners.template_values(owner, index)
                 for family in group:
-                    quantity = self._made(family, index, words)
+                    quantity = self._made(family, index, values)
                     self._by_name.setdefault(quantity.name, quantity)
 
-    def _made(self, family: Family, index: tuple[int, ...], words: dict[str, str]) -> Quantity:
+    def _made(self, family: Family, index: tuple[int, ...], values: dict[str, str]) -> Quantity:
         n = len(self.owners.coordinates)
-        name, whole = family.name.format(**words), family.part_of.format(**words)
+        name, whole = family.name.format(**values), family.part_of.format(**values)
         shape = family.shape and (n if family.shape[0] == "n" else family.shape[0],
                                   n if family.shape[1] == "n" else family.shape[1])  # fmt: skip
-        return Quantity(name, family.rule.format(**words) or name, family, index, shape, whole,
+        return Quantity(name, family.rule.format(**values) or name, family, index, shape, whole,
                         self._entry(family, index))  # fmt: skip
 
     def _entry(self, family: Family, index: tuple[int, ...]) -> tuple[int, ...]:
@@ -158,7 +158,7 @@ class Quantities(Mapping[str, Quantity]):
             if quantity.family.is_answer and self.is_real(quantity)
         }
         name = None if found else self.canonical(text)
-        return (name,) if name else tuple(sorted(found.values(), key=self.place))
+        return (name,) if name else tuple(sorted(found.values(), key=self.position))
 
     @cached_property
     def _families(self) -> dict[str, list[Quantity]]:
@@ -189,9 +189,9 @@ class Quantities(Mapping[str, Quantity]):
     def spelled(self, quantity: Quantity, templates: tuple[str, ...]) -> Iterator[str]:
         """Templates of its family, filled in; each once."""
         owner = quantity.family.owner
-        words = self.owners.words(owner, quantity.index)
+        values = self.owners.template_values(owner, quantity.index)
         names = [{}] if owner is not Owner.COORDINATE else self._coordinate_names[quantity.index[0] - 1]
-        return iter(dict.fromkeys(text.format(**words, **more) for text in templates for more in names))
+        return iter(dict.fromkeys(text.format(**values, **more) for text in templates for more in names))
 
     @cached_property
     def _coordinate_names(self) -> list[list[dict[str, str]]]:
@@ -246,25 +246,25 @@ class Quantities(Mapping[str, Quantity]):
 
     def is_real(self, quantity: Quantity) -> bool:
         """Whether there is anything to it: no rotation of a point mass."""
-        if not quantity.family.spins:
+        if not quantity.family.needs_rotation:
             return True
         return self.owners.bodies[quantity.index[0] - 1] not in self.owners.points
 
     def mirrored(self, name: str) -> str:
         """The entry across the diagonal, which is equal: d21 for d12; the name itself for all others."""
         quantity = self.get(name)
-        if quantity is None or not quantity.family.mirrored:
+        if quantity is None or not quantity.family.is_symmetric_entry:
             return name
         i, j = quantity.index
         return quantity.family.name.format(i=j, j=i)
 
-    def place(self, name: str) -> int:
+    def position(self, name: str) -> int:
         """Where a name stands in the order of the derivation; others come last."""
-        return self._places.get(name, len(self))
+        return self._positions.get(name, len(self))
 
     @cached_property
-    def _places(self) -> dict[str, int]:
-        return {name: place for place, name in enumerate(self)}
+    def _positions(self) -> dict[str, int]:
+        return {name: position for position, name in enumerate(self)}
 
     def dimension(self, quantity: Quantity, row: int = 0, column: int = 0) -> Dimension | None:
         """The dimension of an entry of a quantity, counted from 0; None where nothing is known of it."""
@@ -292,9 +292,9 @@ class Quantities(Mapping[str, Quantity]):
             family = quantity.family
             for text in (quantity.name, *self.spelled(quantity, family.spellings)):
                 found.setdefault(key(text), {})[quantity.name] = None
-            weak = tuple(self.spelled(quantity, family.weak))
-            if weak and weak[0] not in found:
-                for text in weak:
+            fallbacks = tuple(self.spelled(quantity, family.fallback_spellings))
+            if fallbacks and fallbacks[0] not in found:
+                for text in fallbacks:
                     found.setdefault(text, {})[quantity.name] = None
         if len(self.owners.bodies) == 1:
             for quantity in self.answers():
@@ -311,7 +311,7 @@ class Quantities(Mapping[str, Quantity]):
             stem = open_index(text)
             if stem:
                 found.setdefault(stem, set()).update(name for name in names if self[name].index)
-        return {stem: tuple(sorted(names, key=self.place)) for stem, names in found.items() if names}
+        return {stem: tuple(sorted(names, key=self.position)) for stem, names in found.items() if names}
 
 
 @lru_cache(maxsize=64)  # asked for at every hand-in; 18 ms to make for a 7R arm, 0.01 ms to find

@@ -114,17 +114,17 @@ def force(q: Coordinate) -> Letter:
     return Letter("tau" if q.type is JointType.REVOLUTE else "f", Number(q.index))
 
 
-def rate(q: Coordinate) -> Symbol:
+def velocity(q: Coordinate) -> Symbol:
     """q̇_k"""
     return Symbol(q.name, 1)
 
 
-def slope(of: Node, by: Node) -> Derivative:
+def partial_derivative(of: Node, by: Node) -> Derivative:
     """∂of/∂by"""
     return Derivative(of, by)
 
 
-def time_rate(of: Node) -> Derivative:
+def time_derivative(of: Node) -> Derivative:
     """d of/dt"""
     return Derivative(of, Symbol("t"), total=True)
 

@@ -14,7 +14,7 @@ from typing import Any
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.ring import Ring
-from dynsolve.notation.bounded import recalled
+from dynsolve.notation.bounded_cache import recalled
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.units import ACCELERATION, INERTIA, LENGTH, MASS, NONE, Dimension, dimension, times
 

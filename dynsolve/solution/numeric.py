@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dynsolve.errors import UsageError
-from dynsolve.notation.evaluate import DOTS, Program, compile_trees
 from dynsolve.notation.python import python_name
 from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import DOTS, Program, compile_trees
 from dynsolve.problem import Problem
 from dynsolve.quantities.index import quantities
 

@@ -6,7 +6,6 @@ from typing import Any
 
 import sympy
 
-from dynsolve.notation.evaluate import plain_name
 from dynsolve.notation.tree import (
     Degrees,
     Function,
@@ -21,6 +20,7 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
 )
+from dynsolve.notation.tree_values import plain_name
 
 _FUNCTIONS = {"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "sqrt": sympy.sqrt}
 

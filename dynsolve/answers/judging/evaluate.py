@@ -1,6 +1,6 @@
 """The exact value of what a student wrote: trees -> fractions over the answers' ring.
 
-It differs from that of a problem's formulas (`algebra.evaluate`) in four things: a
+It differs from that of a problem's formulas (`algebra.ring_values`) in four things: a
 denominator may hold joint variables; a function may have any argument; a name may stand
 for another answer; and the work that one answer may cost is counted.
 """
@@ -14,14 +14,14 @@ from typing import ClassVar
 from flint.utils.flint_exceptions import FlintError
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.evaluate import Evaluator, Unreduced
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import Evaluator, Unreduced
 from dynsolve.answers.judging.ring_extension import expected_angle, plain_radicand
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.bounded import keep
+from dynsolve.notation.bounded_cache import keep
 from dynsolve.notation.tree import Function, Node, Reference
 
 MOST_WORK = 400_000

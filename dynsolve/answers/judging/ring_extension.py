@@ -15,7 +15,7 @@ from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
-from dynsolve.notation.bounded import keep
+from dynsolve.notation.bounded_cache import keep
 from dynsolve.notation.tree import Function, Node, Product, Symbol
 from dynsolve.notation.walk import walk
 

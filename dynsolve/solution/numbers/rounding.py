@@ -76,7 +76,7 @@ def without_constants(expr: Expr) -> Expr:
     """The expression with √3, cos 17° and π in it as decimals of 40 digits.
 
     >>> from dynsolve.algebra.build import build_ring
-    >>> from dynsolve.algebra.evaluate import value_of
+    >>> from dynsolve.algebra.ring_values import value_of
     >>> ring = build_ring([], [Function("sqrt", Number(2))])
     >>> float(without_constants(value_of(ring, Function("sqrt", Number(2)))).number)
     1.4142135623730951

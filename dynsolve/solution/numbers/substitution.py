@@ -11,12 +11,12 @@ from typing import Any
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
 from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.tree import (
     Degrees,
     Function,

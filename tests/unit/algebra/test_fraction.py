@@ -6,8 +6,8 @@ import pytest
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import build_ring
-from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.fraction import RationalExpr, as_expr, equal, is_zero, simplified
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.text import read
 
 RING = build_ring(

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import build_ring
-from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Number, Power, Product, Quotient

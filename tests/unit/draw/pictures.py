@@ -6,9 +6,9 @@ from functools import cache
 from pathlib import Path
 
 from dynsolve.draw.labels import Label
+from dynsolve.draw.occupied import Box, Taken
 from dynsolve.draw.paths import WHITE, line
 from dynsolve.draw.scene import Scene, scene
-from dynsolve.draw.space import Box, Taken
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import load, read_problem
 

@@ -10,10 +10,10 @@ import pytest
 from dynsolve.derivation.kinematics import base_transform, dh_matrix, frame
 from dynsolve.draw import PictureFormat, draw, picture
 from dynsolve.draw.convert import to_pdf, to_png
-from dynsolve.draw.numbers import numbers
+from dynsolve.draw.drawn_lengths import numbers
+from dynsolve.draw.occupied import Box, Taken
 from dynsolve.draw.paths import circle, flattened
 from dynsolve.draw.skeleton import skeleton
-from dynsolve.draw.space import Box, Taken
 from dynsolve.draw.typography import typeset
 from dynsolve.draw.vectors import IDENTITY, applied, distance, into, turned
 from dynsolve.notation.printing import Style

@@ -88,7 +88,7 @@ def test_a_picture_is_the_same_every_time(name: str) -> None:
 def test_a_planar_arm_is_drawn_flat() -> None:
     """Seen from straight in front, z axes are points and x axes have their full length."""
     problem = load(next(path for path in LIBRARY if path.stem == "planar-2r"))
-    from dynsolve.draw.numbers import numbers
+    from dynsolve.draw.drawn_lengths import numbers
     from dynsolve.draw.orientation import orientation
 
     world = orientation(problem.robot, numbers(problem))
@@ -97,7 +97,7 @@ def test_a_planar_arm_is_drawn_flat() -> None:
 
 @pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r", "scara-rrpr", "crustcrawler-2r"])
 def test_an_arm_that_leaves_its_plane_is_drawn_in_space(name: str) -> None:
-    from dynsolve.draw.numbers import numbers
+    from dynsolve.draw.drawn_lengths import numbers
     from dynsolve.draw.orientation import orientation
 
     problem = load(next(path for path in LIBRARY if path.stem == name))

@@ -17,7 +17,6 @@ from dynsolve.document import Equations
 from dynsolve.errors import AlgebraError, VerificationError
 from dynsolve.explain.abbreviations import Abbreviated, abbreviate, is_long
 from dynsolve.notation.build import cost
-from dynsolve.notation.evaluate import compile_trees, evaluate
 from dynsolve.notation.tree import (
     Derivative,
     Letter,
@@ -34,6 +33,7 @@ from dynsolve.notation.tree import (
     Symbol,
     Words,
 )
+from dynsolve.notation.tree_values import compile_trees, evaluate
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import definition_blocks, solution_document
 from tests.robots import robots

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from dynsolve.algebra.angles import Angle
-from dynsolve.algebra.evaluate import value_of
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation.text import read
 from dynsolve.problem import load, read_problem
 from dynsolve.problem.documentation import template

@@ -96,7 +96,7 @@ SHARED = [
 def test_spellings_are_shared_knowingly(stem: str) -> None:
     known = quantities(robot(stem))
     for spelling, names in known.spellings.items():
-        places = [known.place(name) for name in names]
+        places = [known.position(name) for name in names]
         assert places == sorted(places)
         if len(names) > 1:
             assert tuple(known[name].family for name in names) in SHARED, (spelling, names)
@@ -111,8 +111,9 @@ def test_parts_and_wholes(stem: str) -> None:
         for part in known.parts(name):
             assert known[part].whole == name
         if quantity.whole and quantity.family.is_answer:
-            spins = quantity.family.spins and robot(stem).bodies[quantity.index[0] - 1].name in points
-            assert spins or quantity.family is families.C_SYMBOL or name in known.parts(quantity.whole)
+            family, owner = quantity.family, quantity.index[:1]
+            is_empty = family.needs_rotation and robot(stem).bodies[owner[0] - 1].name in points
+            assert is_empty or family is families.C_SYMBOL or name in known.parts(quantity.whole)
     assert len(known.parts("D")) == len(known.parts("C")) == n * n
     assert known.parts("J") == ("Jv", "Jw") and len(known.parts("tau")) == len(known.parts("g")) == n
 

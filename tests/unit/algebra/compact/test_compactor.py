@@ -8,13 +8,13 @@ from hypothesis import given, settings
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
-from dynsolve.algebra.evaluate import value_of
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.rules import derive
 from dynsolve.explain.forms import Forms
-from dynsolve.notation.evaluate import compile_trees
 from dynsolve.notation.python import to_python
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Matrix
+from dynsolve.notation.tree_values import compile_trees
 from dynsolve.problem import read_problem
 from tests.robots import robots
 

@@ -10,7 +10,7 @@ import sympy
 import dynsolve
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import build_ring
-from dynsolve.algebra.evaluate import value_of
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError, UsageError
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Degrees, Node, Number

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from dynsolve.notation.evaluate import compile_trees, evaluate
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Node, Number, Sum, Symbol
+from dynsolve.notation.tree_values import compile_trees, evaluate
 
 VALUES = {"x": 0.7, "y": -1.3, "x_dot": 2.0}
 
