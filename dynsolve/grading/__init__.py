@@ -3,6 +3,7 @@
     set_keys, set_file      `set.yaml`: its keys and its schema, reading it
     problem_set             what is graded, and how it is marked
     uploads -> hand_ins     files, safely read -> who handed in what for which problem
+    sections                a report on several problems, told apart by its headings
     run, fingerprints       what has to be computed; what has not is in the record
     rows                    what the record is told of a hand-in, judged or not
     pool, worker, cluster   bounded processes, on this machine or on a Dask scheduler

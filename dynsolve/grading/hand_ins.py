@@ -12,7 +12,6 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from html import unescape
 from pathlib import PurePosixPath
 
 from dynsolve.answers.reading.answer_file import parsed
@@ -26,17 +25,14 @@ from dynsolve.grading.platforms.owner import FileOwner
 from dynsolve.grading.platforms.owners import FileOwners
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Waiting
+from dynsolve.grading.sections import Span, parts, titles
 from dynsolve.grading.uploads import Upload, Uploads, digest, printable
 
 _HEAD = 20_000
+_IN_PARTS = (".md", ".markdown", ".tex", ".txt", ".html", ".htm", *FORMATS)
 _ANSWER_FILES = (".yaml", ".yml", ".json")
 _FIELD = r"(?m)^[ \t]{{0,3}}[\"']?{}[\"']?[ \t]{{0,9}}:[ \t]{{0,99}}(\S.{{0,300}}?)[ \t]*(?:#.*)?$"
 _STUDENT, _PROBLEM = (re.compile(_FIELD.format(key)) for key in ("student", "problem"))
-_HEADING = re.compile(
-    r"(?m)^#{1,6}[ \t]+(.{1,300})$|^([^\n]{1,300})\n={3,}[ \t]*$"
-    r"|\\(?:title|section|chapter|subsection)\*?\{([^}\n]{1,300})\}|<h[1-6][^>]{0,300}>((?s:.{1,300}?))</h"
-)
-_TAG = re.compile(r"<[^>]{0,300}>")
 _FRONT, _BACK = ("---", "<!--"), ("---", "...", "-->")
 """The lines that front matter stands between."""
 
@@ -56,11 +52,15 @@ _KINDS = {
 
 @dataclass(frozen=True, slots=True)
 class File:
-    """A file that counts: where it lies, the name it was handed in under, and what identifies it."""
+    """A file that counts: where it lies, the name it was handed in under, and what identifies it.
+
+    `others` are the parts of its text that are for other problems.
+    """
 
     upload: Upload
     name: str
     digest: str
+    others: tuple[Span, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,10 +204,15 @@ def _sorted(
         if reason:
             yield _Left(owner, student, problem, shown, reason)
             continue
-        yield _Piece(owner, student, problem, File(upload, owner.name, digest(content)))
-        for other in _also(problems, text, owner.name, ending):
-            reason = f"it was read as an answer to {problem}; its headings name {other}, too"
-            yield _Left(owner, student, other, shown, reason)
+        file = File(upload, owner.name, digest(content))
+        told = _parts(problems, content, owner.name, text)
+        for stem, others in told.items():
+            yield _Piece(owner, student, stem, replace(file, others=others))
+        if not told:
+            yield _Piece(owner, student, problem, file)
+            for other in _also(problems, text, owner.name, ending):
+                reason = f"it was read as an answer to {problem}; its headings name {other}, too"
+                yield _Left(owner, student, other, shown, reason)
 
 
 def _beginning(content: bytes, ending: str) -> tuple[str, str]:
@@ -268,6 +273,8 @@ def _problem(problems: ProblemSet, text: str, name: str, ending: str) -> tuple[s
         return named, ""
     for found in _headed(problems, text):
         return found, ""
+    for found in parts(text, lambda title: _within(title, problems), problems.stems):
+        return found, ""
     if len(problems.items) == 1:
         return problems.items[0].stem, ""
     return "", "neither its front matter, its name nor its heading says which problem it is for"
@@ -275,10 +282,23 @@ def _problem(problems: ProblemSet, text: str, name: str, ending: str) -> tuple[s
 
 def _headed(problems: ProblemSet, text: str) -> Iterator[str]:
     """The problems that headings name."""
-    for heading in _HEADING.finditer(text):
-        found = _within(unescape(_TAG.sub(" ", next(filter(None, heading.groups())))), problems)
+    for _, title in titles(text):
+        found = _within(title, problems)
         if found:
             yield found
+
+
+def _parts(problems: ProblemSet, content: bytes, name: str, text: str) -> dict[str, tuple[Span, ...]]:
+    """The problems that a report is on, where they are several, each with what is for the others."""
+    ending = PurePosixPath(name).suffix.lower()
+    if ending not in _IN_PARTS or _said(_PROBLEM, text, ending) or _by_name(problems, name):
+        return {}
+    return parts(as_text(content, ending), lambda title: _within(title, problems), problems.stems)
+
+
+def as_text(content: bytes, ending: str) -> str:
+    """The text of a report whose parts are told apart; raises ReadError."""
+    return as_report(content, ending)[0] if ending in FORMATS else decoded(content)
 
 
 def _also(problems: ProblemSet, text: str, name: str, ending: str) -> list[str]:

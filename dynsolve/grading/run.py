@@ -14,10 +14,11 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any, Protocol
 
 from dynsolve.answers.marking.policy import to_data
+from dynsolve.answers.reading.documents import FORMATS
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.fingerprints import (
     causes,
@@ -25,12 +26,13 @@ from dynsolve.grading.fingerprints import (
     fingerprints,
     touches_marks_alone,
 )
-from dynsolve.grading.hand_ins import File, HandIn, Intake
+from dynsolve.grading.hand_ins import File, HandIn, Intake, as_text
 from dynsolve.grading.marking import rescored
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.rows import row_of_result, rows_of_absent
+from dynsolve.grading.sections import without
 from dynsolve.grading.uploads import Uploads, digest
 from dynsolve.quantities.index import quantities
 
@@ -154,10 +156,19 @@ def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
         "student": hand_in.student,
         "late": hand_in.late,
         "files": [
-            {"name": file.name, "content": base64.b64encode(_same(uploads, file)).decode()}
-            for file in hand_in.files
+            {"name": name, "content": base64.b64encode(content).decode()}
+            for name, content in (_own_part(file, _same(uploads, file)) for file in hand_in.files)
         ],
     }
+
+
+def _own_part(file: File, content: bytes) -> tuple[str, bytes]:
+    """A file without what it holds for other problems; a document then is the report that was made of it."""
+    if not file.others:
+        return file.name, content
+    ending = PurePath(file.name).suffix.lower()
+    text = without(as_text(content, ending), file.others)
+    return f"{file.name}.md" if ending in FORMATS else file.name, text.encode()
 
 
 def _same(uploads: Uploads, file: File) -> bytes:

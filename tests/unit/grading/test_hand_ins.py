@@ -349,18 +349,14 @@ def test_a_file_says_which_problem_it_is_for(problems: ProblemSet, tmp_path: Pat
     assert [hand_in.problem for hand_in in intake.hand_ins] == ["in3140-rp"]
 
 
-def test_a_report_on_two_problems_waits_for_a_human_as_the_second(
-    problems: ProblemSet, tmp_path: Path
-) -> None:
+def test_a_report_on_two_problems_is_in_parts(problems: ProblemSet, tmp_path: Path) -> None:
     title = problems.item("planar-2r").problem.title
     text = f"# RP manipulator\n\n$$K = 0$$\n\n# {title}\n\n$$K = 0$$\n\n# RP manipulator again\n"
     intake = _intake(problems, tmp_path, {"s1.md": text, "in3140-rp_s2.md": text})
-    assert [(h.student, h.problem) for h in intake.hand_ins] == [
-        ("in3140-rp_s2", "in3140-rp"), ("s1", "in3140-rp"),
+    assert [(h.student, h.problem, len(h.files[0].others)) for h in intake.hand_ins] == [
+        ("in3140-rp_s2", "in3140-rp", 0), ("s1", "in3140-rp", 1), ("s1", "planar-2r", 2),
     ]  # fmt: skip
-    assert [(w.student, w.problem, w.reason) for w in intake.waiting] == [
-        ("s1", "planar-2r", "it was read as an answer to in3140-rp; its headings name planar-2r, too")
-    ]
+    assert not intake.waiting
 
 
 def test_a_refused_file_is_still_its_students(problems: ProblemSet, tmp_path: Path) -> None:
