@@ -33,6 +33,10 @@ SECONDS = 10
 _MEMORY = "512M"
 _MAX_DEPTH = 60
 _MAX_UNPACKED = 100_000_000
+_ONE_DOT = "˙\u0307."
+_ACCENT = re.compile(rf"\\overset\{{([{_ONE_DOT}¨\u0308]|\.\.)\}}")
+"""The dots of a derivative as Word and LibreOffice may have them: as a sign that stands above."""
+
 _OBJECT = re.compile(rb'(xlink:href="(?:\./)?[^"/]{1,200})/"')
 
 
@@ -137,7 +141,7 @@ class _Walker:
             return "\n"
         if kind == "Math":
             sign = "$$" if content[0]["t"] == "DisplayMath" else "$"
-            return f"{sign}{content[1].strip()}{sign}"
+            return f"{sign}{_ACCENT.sub(_accented, content[1]).strip()}{sign}"
         if kind in ("Code", "RawInline"):
             return str(content[1])
         if kind in ("Subscript", "Superscript"):
@@ -151,6 +155,10 @@ class _Walker:
             return sign + self.inlines(content[1], depth) + sign
         inside = content[1] if kind in ("Cite", "Link", "Span") else content
         return self.inlines(inside, depth) if isinstance(inside, list) else ""
+
+
+def _accented(found: re.Match[str]) -> str:
+    return "\\dot" if found[1] in _ONE_DOT else "\\ddot"
 
 
 def _blocks_inside(content: Any, depth: int) -> Iterator[list[Any]]:

@@ -39,6 +39,9 @@ _MATRICES = {"pmatrix": "pmatrix", "bmatrix": "bmatrix", "matrix": "matrix", "mq
 
 _DERIVATIVES = {"dv": "d", "odv": "d", "derivative": "d", "pdv": "partial", "partialderivative": "partial"}
 _STACKED = frozenset({"overset", "underset", "stackrel"})
+_FUNCTIONS = frozenset({"sin", "cos", "tan"})
+"""The functions that MathML, made to LaTeX, has in a group of their own: `{\\cos}(q_1)`."""
+
 _SINGLE = frozenset({"name", "letter", "number", "text"})
 _FRACTIONS = frozenset("frac dfrac tfrac cfrac nicefrac sfrac flatfrac xfrac".split())
 _SIGNS = frozenset({"+", "-", "="})
@@ -222,7 +225,7 @@ def _close_group(closing: Token, group: _Group, out: list[Token], following: str
         out.append(closing._replace(kind="close", text="matrix"))
     elif inside == 0:
         del out[start:]
-    elif inside == 1 and out[-1].kind in _SINGLE:
+    elif inside == 1 and (out[-1].kind in _SINGLE or out[-1].text in _FUNCTIONS):
         out[start:] = [out[-1]._replace(spaced=out[start].spaced)]
     elif (bar := _bar(out, start)) > 0:
         _written_as_fraction(out, start, bar, closing)
