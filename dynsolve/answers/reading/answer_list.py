@@ -62,6 +62,7 @@ class AnswerList:
     not_recognized: list[NotRecognized] = field(default_factory=list)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
+    _asides: list[tuple[tuple[str, ...], NotRecognized]] = field(default_factory=list)
     _entries: VectorEntries = field(init=False)
 
     def __post_init__(self) -> None:
@@ -131,6 +132,10 @@ class AnswerList:
             occurrence=(origin.equation, index),
         )
 
+    def said_aside(self, candidates: tuple[str, ...], refused: NotRecognized) -> None:
+        """Keep what a sentence says of an answer: it is listed where no display gives that."""
+        self._asides.append((candidates, refused))
+
     def put_off(self, family: tuple[str, ...], answers: list[Answer], refused: NotRecognized) -> None:
         """Keep an equation until it is known which answers of its family are absent."""
         self._undecided.append(_Undecided(family, answers, refused, len(self.answers)))
@@ -155,3 +160,5 @@ class AnswerList:
             self.answers += self._models
         self.answers, lost = self._entries.settled(self.answers, self.printer)
         self.not_recognized += lost
+        given = {answer.name for answer in self.answers}
+        self.not_recognized += [refused for names, refused in self._asides if not given & set(names)]

@@ -259,10 +259,14 @@ def _is_words(piece: list[Token]) -> bool:
 
 def _is_remark(piece: list[Token]) -> bool:
     r"""Whether what stands beside an equation says something else of it: `c \in \mathbb{R}^2`, `m > 0`."""
-    return not _is_equation(piece) and any(t.text in _RELATIONS for t in piece)
+    return not _is_equation(piece) and any(_is_relation(t) for t in piece)
 
 
 _RELATIONS = frozenset("in ni notin subset forall exists neq ne geq ge leq le gt lt to mapsto < >".split())
+
+
+def _is_relation(token: Token) -> bool:
+    return token.kind in ("command", "<", ">") and token.text in _RELATIONS
 
 
 def _is_equation(piece: list[Token]) -> bool:
@@ -277,6 +281,8 @@ def _is_equation(piece: list[Token]) -> bool:
 def _trimmed(piece: list[Token]) -> list[Token]:
     while piece and piece[-1].kind in _ENDINGS:
         piece = piece[:-1]
+    while piece and piece[0].kind in _ENDINGS:
+        piece = piece[1:]
     return [t for t in piece if not (t.kind == "command" and t.text in SEPARATORS)]
 
 
@@ -289,7 +295,18 @@ def _members(piece: list[Token]) -> list[list[Token]]:
             members.append([])
         else:
             members[-1].append(token)
-    return [member for member in members if member] if len(members) > 1 else []
+    said = [_without_remark(member) for member in members if member]
+    return said if len(members) > 1 else []
+
+
+def _without_remark(member: list[Token]) -> list[Token]:
+    r"""The member without what is said of it behind a sign of relation: `m_2 l_1 \neq 0`."""
+    level = 0
+    for position, token in enumerate(member):
+        level += _OPENS.get(token.kind, 0)
+        if level == 0 and position and _is_relation(token):
+            return member[:position]
+    return member
 
 
 def chain(tokens: list[Token]) -> list[list[Token]]:

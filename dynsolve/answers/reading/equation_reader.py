@@ -97,7 +97,7 @@ class EquationReader:
             return
         for equation in found:
             if display.aside:
-                self._aside(equation)
+                self._aside(equation, Origin(display, "", self.equations))
                 continue
             if len(self.found.answers) < MAX_ANSWERS:
                 self._read_equation(equation, self._origin(display, equation.label or display.label))
@@ -160,16 +160,14 @@ class EquationReader:
         self.found.entry(entry, values[-1], origin, origin.not_recognized(first[0].start, end))
         return entry.is_sure and entry.letter != "V"
 
-    def _aside(self, equation: Equation) -> None:
-        """Keep what a formula in a sentence says of a letter; of answers it says nothing."""
+    def _aside(self, equation: Equation, origin: Origin) -> None:
+        """Keep what a formula in a sentence says of a letter; it is no answer."""
         members = equation.members
         if len(members) > MAX_MEMBERS:
             return
         side = read_left_side(self.vocabulary, members[0])
         own = members[0][0].text if len(members[0]) == 1 else ""
         is_new = isinstance(side, UnknownSide) and side.is_name_alone and not side.family
-        if isinstance(side, NamedAnswers) and own not in OWN_LETTERS:
-            return
         value = read_right_side(self.vocabulary, members[-1])
         if isinstance(value, ReadError):
             if isinstance(side, UnknownSide):
@@ -178,8 +176,12 @@ class EquationReader:
             return
         elif is_new and isinstance(side, UnknownSide) and side.key not in _NEVER_DEFINED:
             self.define(side.key, value)
-        elif isinstance(side, NamedAnswers) and not self._any_fits(side.candidates, [value]):
-            self.define(own, value)
+        elif isinstance(side, NamedAnswers) and self._any_fits(side.candidates, [value]):
+            start, end = members[0][0].start, members[-1][-1].end
+            self.found.said_aside(side.candidates, origin.not_recognized(start, end))
+        elif isinstance(side, NamedAnswers):
+            if own in OWN_LETTERS:
+                self.define(own, value)
         elif side is None:
             self._in_passing(members[0], value)
 

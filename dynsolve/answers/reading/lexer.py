@@ -108,7 +108,16 @@ _VANISHING = dict.fromkeys(
     "label vspace color ref eqref cite class cssId textcolor notag phantom hphantom vphantom footnote index "
     "marginpar colorbox pagecolor raisebox hskip vskip mskip mkern kern cline href".split(),
     1,
-) | {"fontsize": 2, "fcolorbox": 2, "rule": 2, "setlength": 2, "addtolength": 2, "definecolor": 3}
+) | {
+    "fontsize": 2,
+    "fcolorbox": 2,
+    "rule": 2,
+    "setlength": 2,
+    "IEEEeqnarraymulticol": 2,
+    "multicolumn": 2,
+    "addtolength": 2,
+    "definecolor": 3,
+}
 _TEXTS = dict.fromkeys(
     "text textrm textit textbf textnormal textsf texttt textup mbox hbox emph".split(), "text"
 ) | {

@@ -142,7 +142,7 @@ def simplified(tokens: list[Token]) -> list[Token]:
             word = _word(token, out)
             if word is not None:
                 out.append(word)
-        elif kind == "]" and _is_unit(out):
+        elif kind == "]" and _is_unit(out, tokens[position]):
             del out[-2:]
         elif kind == "accent" and out:
             _accent(token, out)
@@ -159,9 +159,15 @@ def simplified(tokens: list[Token]) -> list[Token]:
     return out
 
 
-def _is_unit(out: list[Token]) -> bool:
-    r"""Whether the bracket that closes here holds a word alone: `[\text{J}]`."""
-    return len(out) > 2 and out[-1].kind == "text" and out[-2].kind == "["
+_UNITS = frozenset({"J", "N", "Nm", "rad", "kg"})
+
+
+def _is_unit(out: list[Token], after: Token) -> bool:
+    r"""Whether the bracket that closes here holds a unit alone: `[\text{J}]`, or `[J]` at the end."""
+    if len(out) < 3 or out[-2].kind != "[":
+        return False
+    at_end = after.kind in ("end", "\\\\", ",", ".", ";", "tag", "}", "&")
+    return out[-1].kind == "text" or (at_end and out[-1].kind == "name" and out[-1].text in _UNITS)
 
 
 _INTRODUCING = frozenset("where with hvor".split())

@@ -124,6 +124,12 @@ RIGHT: list[tuple[str, str, str, str]] = [
     (R, "md", rf"$$g = \pmatrix{{{G1}\cr {G2}\cr}}$$", "g"),
     (R, "md", rf"$$g = \bmqty{{{G1}\\ {G2}}}$$", "g"),
     (RP, "md", "$$f_2 = m_2 \\ddot L_2 - m_2 L_2 θ̇₁²$$", "f2"),
+    # words, units and remarks beside a formula
+    (R, "md", rf"$$\text{{Body 1}}: K_1 = {K1}\ [\mathrm{{J}}]$$", "K1"),
+    (R, "md", rf"$$K_1 = {K1} \quad \text{{(kinetic energy of body 1)}}$$", "K1"),
+    (R, "md", rf"$$d_{{22}} = {D22} \neq 0, \quad m_2 \in \mathbb{{R}}^+$$", "d22"),
+    (R, "tex", rf"\begin{{IEEEeqnarray}}{{rCl}} \IEEEeqnarraymulticol{{3}}{{l}}{{d_{{22}} = {D22}}} \\ g_2 &=& {G2}"
+     r"\IEEEyesnumber\label{a} \end{IEEEeqnarray}", "d22 g2"),
     # what else stands in the report decides
     (R, "md", f"$$M(\\theta)={D}$$ $$V_1 = {V1}$$ $$V_2 = {V2}$$ $$G_2={G2}$$", "D Cqd g2"),
     (R, "md", f"$$M={D}$$ $$N_1 = {V1}, N_2 = {V2}$$", "D Cqd"),
@@ -226,3 +232,10 @@ def test_a_controller_is_none_of_the_answers() -> None:
     report = judged(R, "md", r"$$\tau_2 = -K_p(q_2 - q_d)$$ $$u = K_p \tilde{q}$$")
     assert not [answer for answer in report.answers if answer.given]
     assert len(report.not_recognized) == 2
+
+
+def test_an_answer_in_a_sentence_alone_is_listed() -> None:
+    report = judged(
+        R, "md", f"The entry $d_{{22}} = {D22}$ is clear. $$g_2 = {G2}$$ since $g_2 = {G2}$ again."
+    )
+    assert [found.text for found in report.not_recognized] == [f"d_{{22}} = {D22}"]
