@@ -128,8 +128,8 @@ RIGHT: list[tuple[str, str, str, str]] = [
     (R, "md", rf"$$\text{{Body 1}}: K_1 = {K1}\ [\mathrm{{J}}]$$", "K1"),
     (R, "md", rf"$$K_1 = {K1} \quad \text{{(kinetic energy of body 1)}}$$", "K1"),
     (R, "md", rf"$$d_{{22}} = {D22} \neq 0, \quad m_2 \in \mathbb{{R}}^+$$", "d22"),
-    (R, "tex", rf"\begin{{IEEEeqnarray}}{{rCl}} \IEEEeqnarraymulticol{{3}}{{l}}{{d_{{22}} = {D22}}} \\ g_2 &=& {G2}"
-     r"\IEEEyesnumber\label{a} \end{IEEEeqnarray}", "d22 g2"),
+    (R, "tex", rf"\begin{{IEEEeqnarray}}{{rCl}} \IEEEeqnarraymulticol{{3}}{{l}}{{d_{{22}} = {D22}}}"
+     rf"\\ g_2 &=& {G2} " r"\IEEEyesnumber\label{a} \end{IEEEeqnarray}", "d22 g2"),
     # what else stands in the report decides
     (R, "md", f"$$M(\\theta)={D}$$ $$V_1 = {V1}$$ $$V_2 = {V2}$$ $$G_2={G2}$$", "D Cqd g2"),
     (R, "md", f"$$M={D}$$ $$N_1 = {V1}, N_2 = {V2}$$", "D Cqd"),
