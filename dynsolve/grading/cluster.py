@@ -37,9 +37,14 @@ class ClusterPool:
         self.address = address
         self._alone = 0
         try:
+            import_module("distributed.comm").get_address_host_port(
+                address
+            )  # a Client that fails here is noisy
             self._client: Any = distributed.Client(address, timeout="10s", set_as_default=False)
-        except (OSError, ValueError) as error:
-            raise UsageError(f"no Dask scheduler answers at {address}: {error}") from None
+        except Exception as error:  # noqa: BLE001  # theirs, of many kinds: an address of nonsense is any of them
+            said = " ".join(str(error).split()) or type(error).__name__
+            message = f"no Dask scheduler answers at {address[:80]}: {said[:200]}"
+            raise UsageError(f"{message}; write tcp://host:8786") from None
         self._executor: Any = self._client.get_executor(pure=False, retries=3)
 
     @property

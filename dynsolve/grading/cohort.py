@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import groupby
@@ -18,11 +18,15 @@ from dynsolve.quantities.index import quantities
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """A student's marks by problem; a problem that was not handed in is not among them."""
+    """A student's marks by problem; a problem that was not handed in is not among them.
+
+    `unjudged` are the problems that wait for a human, with the reasons: they have no marks yet.
+    """
 
     student: str
     id: str
     marks: dict[str, Fraction]
+    unjudged: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def total(self) -> Fraction:
@@ -33,13 +37,13 @@ class Standing:
 def standings(record: Record) -> Iterator[Standing]:
     """Every student, in the order of their names; one is in memory at a time."""
     found = groupby(record.marks(), key=lambda entry: entry[0][0])
-    waiting = next(found, None)
+    waiting, unjudged = next(found, None), record.unjudged()
     for student, id in record.students().items():
         marks: dict[str, Fraction] = {}
         if waiting is not None and waiting[0] == student:
             marks = {problem: points(*of_answers) for (_, problem), of_answers in waiting[1]}
             waiting = next(found, None)
-        yield Standing(student, id, marks)
+        yield Standing(student, id, marks, unjudged.get(student, {}))
 
 
 def most(problems: ProblemSet) -> dict[str, Fraction]:

@@ -183,36 +183,66 @@ def _sorted(
 ) -> Iterator[_Piece | _Left]:
     """A file for each of its owners."""
     for owner in owners.of(upload.path):
-        shown = printable(str(upload.path))
-        named = _by_name(problems, owner.name)
-        ending = PurePosixPath(owner.name).suffix.lower()
-        if ending not in ENDINGS:
-            kind = _KINDS.get(ending, f"a file of an unknown kind ({ending or 'without an ending'})")
-            yield _Left(owner, owner.student, named, shown, f"{kind}: a human reads it")
-            continue
-        try:
-            content = uploads.read(upload)
-        except InputError as error:
-            yield _Left(owner, owner.student, named, shown, error.findings[0].message)
-            continue
-        text, reason = _beginning(content, ending)
-        if reason:
-            yield _Left(owner, owner.student, named, shown, f"{_KINDS[ending]}: {reason}")
-            continue
-        student = owner.student if owner.certain else _said_student(text, ending) or owner.student
-        problem, reason = _problem(problems, text, owner.name, ending)
-        if reason:
-            yield _Left(owner, student, problem, shown, reason)
-            continue
-        file = File(upload, owner.name, digest(content))
-        told = _parts(problems, content, owner.name, text)
-        for stem, others in told.items():
-            yield _Piece(owner, student, stem, replace(file, others=others))
-        if not told:
-            yield _Piece(owner, student, problem, file)
-            for other in _also(problems, text, owner.name, ending):
-                reason = f"it was read as an answer to {problem}; its headings name {other}, too"
-                yield _Left(owner, student, other, shown, reason)
+        if PurePosixPath(owner.name).suffix.lower() == ".zip":
+            yield from _unzipped(problems, uploads, owner, upload)
+        else:
+            yield from _one(problems, uploads, owner, upload)
+
+
+def _unzipped(
+    problems: ProblemSet, uploads: Uploads, owner: FileOwner, upload: Upload
+) -> Iterator[_Piece | _Left]:
+    """The files of a zip that a student handed in; what is refused waits for a human."""
+    shown, named = printable(str(upload.path)), _by_name(problems, owner.name)
+    try:
+        inner, refused = uploads.inside(upload)
+    except InputError as error:
+        yield _Left(owner, owner.student, named, shown, f"an archive: {error.findings[0].message}")
+        return
+    for other in refused:
+        yield _Left(owner, owner.student, named, f"{shown}/{other.name}", other.reason)
+    if not inner and not refused:
+        yield _Left(owner, owner.student, named, shown, "an archive without a file in it")
+    for one in inner:
+        name = str(one.path.relative_to(upload.path))
+        if not _within(name, problems):
+            name = f"{PurePosixPath(owner.name).stem}/{name}"
+        yield from _one(problems, uploads, replace(owner, name=name), one)
+
+
+def _one(
+    problems: ProblemSet, uploads: Uploads, owner: FileOwner, upload: Upload
+) -> Iterator[_Piece | _Left]:
+    """A file of one owner."""
+    shown, named = printable(str(upload.path)), _by_name(problems, owner.name)
+    ending = PurePosixPath(owner.name).suffix.lower()
+    if ending not in ENDINGS:
+        kind = _KINDS.get(ending, f"a file of an unknown kind ({ending or 'without an ending'})")
+        yield _Left(owner, owner.student, named, shown, f"{kind}: a human reads it")
+        return
+    try:
+        content = uploads.read(upload)
+    except InputError as error:
+        yield _Left(owner, owner.student, named, shown, error.findings[0].message)
+        return
+    text, reason = _beginning(content, ending)
+    if reason:
+        yield _Left(owner, owner.student, named, shown, f"{_KINDS[ending]}: {reason}")
+        return
+    student = owner.student if owner.certain else _said_student(text, ending) or owner.student
+    problem, reason = _problem(problems, text, owner.name, ending)
+    if reason:
+        yield _Left(owner, student, problem, shown, reason)
+        return
+    file = File(upload, owner.name, digest(content))
+    told = _parts(problems, content, owner.name, text)
+    for stem, others in told.items():
+        yield _Piece(owner, student, stem, replace(file, others=others))
+    if not told:
+        yield _Piece(owner, student, problem, file)
+        for other in _also(problems, text, owner.name, ending):
+            reason = f"it was read as an answer to {problem}; its headings name {other}, too"
+            yield _Left(owner, student, other, shown, reason)
 
 
 def _beginning(content: bytes, ending: str) -> tuple[str, str]:

@@ -37,7 +37,10 @@ def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
     of = decimal(sum(most(problems).values(), Fraction(0)))
     yield ("student", *problems.stems, "total", "of")
     for standing in standings(record):
-        cells = (decimal(standing.marks.get(stem, Fraction(0))) for stem in problems.stems)
+        cells = (
+            "" if stem in standing.unjudged else decimal(standing.marks.get(stem, Fraction(0)))
+            for stem in problems.stems
+        )
         yield (standing.student, *cells, decimal(standing.total), of)
 
 

@@ -251,6 +251,18 @@ class Record:
         found = self.db.execute("SELECT * FROM overrides")
         return {(s, p, a): (marks, why) for s, p, a, marks, why in found}
 
+    def unjudged(self) -> dict[str, dict[str, str]]:
+        """By student the problems that nobody has judged, neither the program nor a teacher, and why."""
+        found: dict[str, dict[str, str]] = {}
+        without = (
+            "SELECT student, problem, reason FROM hand_ins h WHERE reason != '' AND EXISTS ("
+            "SELECT 1 FROM answers a LEFT JOIN overrides o USING (student, problem, answer) "
+            "WHERE a.student = h.student AND a.problem = h.problem AND a.of != '0' AND o.marks IS NULL)"
+        )
+        for student, problem, reason in self.db.execute(without):
+            found.setdefault(student, {})[problem] = reason
+        return found
+
     def rows(self) -> Iterator[RecordedHandIn]:
         """The hand-ins, one after the other."""
         columns = "student, problem, files, left_aside, late, reason, html, markdown"

@@ -8,6 +8,7 @@ Nothing is unpacked to disk.
 from __future__ import annotations
 
 import hashlib
+import io
 import os
 import re
 import stat
@@ -29,6 +30,10 @@ MAX_FILES = 200_000
 MAX_TOTAL = 4_000_000_000
 """So much may a whole zip unpack to."""
 
+MAX_INSIDE = 100
+MAX_INSIDE_TOTAL = 20_000_000
+"""So many files, and so many bytes of them, a zip may hold that a student handed in."""
+
 MAX_RATIO = 200
 """What is packed tighter than this, and is no trifle, is a bomb."""
 
@@ -47,11 +52,15 @@ _MAX_WHOSE = 30_000_000
 
 @dataclass(frozen=True, slots=True)
 class Upload:
-    """A file by its path within what was handed in; `order` grows with its date."""
+    """A file by its path within what was handed in; `order` grows with its date.
+
+    `within` is the zip that was handed in with the file in it.
+    """
 
     path: PurePosixPath
     order: tuple[int, ...]
     size: int
+    within: Upload | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +143,40 @@ class Uploads:
             raise InputError([Finding(_of_size(str(upload.path), len(content)), "", str(upload.path))])
         return content
 
+    def inside(self, archive: Upload) -> tuple[list[Upload], list[Refused]]:
+        """The files of a zip that was handed in, and those that are refused; it is held in memory.
+
+        Raises InputError where it cannot be read.
+        """
+        taken: list[Upload] = []
+        refused: list[Refused] = []
+        content = self.read(archive)
+        try:
+            members = zipfile.ZipFile(io.BytesIO(content)).infolist()
+        except (zipfile.BadZipFile, NotImplementedError, ValueError) as error:
+            reason = "it is damaged, or no zip"
+            raise InputError([Finding(reason, "", str(archive.path))]) from error
+        total = 0
+        for member in members:
+            name = _name(member)
+            if name.endswith("/") or _LEFT_ALONE.search(name):
+                continue
+            total += member.file_size
+            reason = self._of_member(member, name)
+            if len(taken) >= MAX_INSIDE or total > MAX_INSIDE_TOTAL:
+                reason = "the zip holds too much"
+            path = archive.path / name if not reason else archive.path
+            if reason:
+                refused.append(Refused(printable(name), reason))
+            else:
+                taken.append(Upload(path, (*member.date_time,), member.file_size, archive))
+        return taken, refused
+
     def _opened(self, upload: Upload) -> IO[bytes]:
+        if upload.within is not None:
+            archive = zipfile.ZipFile(io.BytesIO(self.read(upload.within)))
+            name = upload.path.relative_to(upload.within.path)
+            return archive.open(next(m for m in archive.infolist() if PurePosixPath(_name(m)) == name))
         if self._zip is not None:
             return self._zip.open(self._members[upload.path])
         flags = (getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))

@@ -23,7 +23,7 @@ from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 if TYPE_CHECKING:
     from dynsolve.answers.judge import Judge
 
-ALONE = "it is 0, and nothing else in the hand-in is right"
+ALONE = "it is 0, and nothing that is more than 0 is right"
 
 _EARNING = (Verdict.CORRECT, Verdict.FOLLOWS)
 
@@ -40,7 +40,8 @@ def weighed(judge: Judge, answers: tuple[JudgedAnswer, ...]) -> tuple[JudgedAnsw
         for name, answer in own.items()
         if not answer.given and (parts := _parts(judge, name, own))
     }
-    if any(map(_is_of_substance, own.values())):
+    tried = [answer for answer in own.values() if answer.given and not answer.zero]
+    if not tried or any(map(_is_of_substance, own.values())):
         return tuple(own.values())
     return tuple(
         replace(a, empty=True, loss=a.loss or ALONE) if a.zero and a.verdict is not Verdict.MISSING else a

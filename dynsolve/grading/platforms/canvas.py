@@ -16,7 +16,7 @@ from pathlib import Path
 from dynsolve.grading.cohort import Standing, most, standings
 from dynsolve.grading.files import decimal
 from dynsolve.grading.platforms.owner import FileOwner
-from dynsolve.grading.platforms.roster import Cells, Roster, number, unmatched
+from dynsolve.grading.platforms.roster import Cells, Roster, not_judged, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 
@@ -88,7 +88,8 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
                 without.append(row[0])
             else:
                 seen.add(found.student)
-                stands = stands if stands.upper() == "EX" else roster.marks(found.total)
+                kept_as_it_is = found.unjudged or stands.upper() == "EX"
+                stands = stands if kept_as_it_is else roster.marks(found.total)
         out.append((*(row[place] for place in kept), stands))
     if not any(row[0].strip() == _POINTS for row in out):
         out.insert(1, (f"    {_POINTS}", *("" for _ in kept[1:]), roster.marks(of)))
@@ -96,6 +97,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     if column is None:
         yield f"{roster.file} has no assignment `{problems.title}`: Canvas will make a new one"
     yield from _of_points(points, of)
+    yield from not_judged(students.all)
     yield from unmatched(students.all, seen, without, roster)
 
 

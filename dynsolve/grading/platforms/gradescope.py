@@ -14,7 +14,7 @@ from dynsolve.answers.marking.policy import points
 from dynsolve.grading.cohort import Standing, standings
 from dynsolve.grading.files import folder_name, remove_others
 from dynsolve.grading.platforms.owner import FileOwner
-from dynsolve.grading.platforms.roster import Roster
+from dynsolve.grading.platforms.roster import Roster, not_judged
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.grading.uploads import printable
@@ -137,7 +137,10 @@ def _scalar(found: dict[str, list[dict[str, str]]], open_: list[_OpenCollection]
 def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) -> Iterator[str]:
     """Write `gradescope/<submission>/results.json`; a group's members share theirs."""
     told: dict[Path, tuple[str, bytes]] = {}
-    for standing in standings(record):
+    all_of = list(standings(record))
+    for standing in all_of:
+        if standing.unjudged:
+            continue
         path = folder / "gradescope" / folder_name(standing.id or standing.student) / "results.json"
         text = json.dumps(_results(standing, record, problems), indent=1, ensure_ascii=False) + "\n"
         data = text.encode("utf-8", errors="replace")
@@ -146,6 +149,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
             yield f"{standing.student} and {first} share {path.parent.name}, and their marks differ"
         write_changed(path, told[path][1], durable=False)
     remove_others(folder / "gradescope", set(told), (".json",))
+    yield from not_judged(all_of)
 
 
 def late(roster: Roster) -> dict[str, int] | None:

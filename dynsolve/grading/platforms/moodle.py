@@ -16,7 +16,7 @@ from pathlib import Path
 from dynsolve.grading.cohort import Standing, most, standings
 from dynsolve.grading.files import decimal, folder_name
 from dynsolve.grading.platforms.owner import FileOwner
-from dynsolve.grading.platforms.roster import Roster, number, unmatched
+from dynsolve.grading.platforms.roster import Roster, not_judged, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.render.files import changed
@@ -69,8 +69,9 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
             without.append(cells[0])
         else:
             seen.add(found.student)
-            cells[grade] = roster.marks(found.total)
-            if comments is not None and _is_free(cells[comments], problems):
+            if not found.unjudged:
+                cells[grade] = roster.marks(found.total)
+            if comments is not None and not found.unjudged and _is_free(cells[comments], problems):
                 cells[comments] = _comment(found, problems)
         out.append(tuple(cells))
     roster.write(folder / "moodle.csv", out, trusted=comments)
@@ -81,6 +82,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
         yield f"the maximum grade in Moodle is {decimal(maximum)}, the problem set has {decimal(of)}"
     if comments is None:
         yield "the worksheet has no column for comments: turn on Feedback comments in the assignment"
+    yield from not_judged(all_of)
     yield from unmatched(all_of, seen, without, roster)
 
 

@@ -132,6 +132,15 @@ def unmatched(standings: Iterable[Standing], seen: set[str], without: list[str],
     return found
 
 
+def not_judged(standings: Iterable[Standing]) -> list[str]:
+    """A warning on whose hand-ins wait for a human: they get no marks before."""
+    waiting = [
+        f"{standing.student} ({', '.join(standing.unjudged)})" for standing in standings if standing.unjudged
+    ]
+    wait = "waits for a human and keeps" if len(waiting) == 1 else "wait for a human and keep"
+    return [f"{_count(waiting)} {wait} what stands there: {_named(waiting)}"] if waiting else []
+
+
 def _count(students: list[str]) -> str:
     return "1 student" if len(students) == 1 else f"{len(students)} students"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import time
 import zipfile
@@ -17,7 +18,7 @@ from dynsolve.grading.platforms.gradescope import read_metadata
 from dynsolve.grading.platforms.owners import FileOwners
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.set_file import load_set
-from dynsolve.grading.uploads import Uploads
+from dynsolve.grading.uploads import MAX_INSIDE, Uploads
 
 ANSWER = "answers:\n  K: m1*g\n"
 
@@ -403,3 +404,69 @@ def test_a_hostile_file_is_sorted_quickly(problems: ProblemSet, tmp_path: Path, 
     intake = take_in(problems, Uploads(tmp_path))
     assert time.process_time() - start < 0.5
     assert "good" in {hand_in.student for hand_in in intake.hand_ins}
+
+
+# -- zips that students hand in ----------------------------------------------------------------------
+
+
+def _zipped(files: dict[str, bytes]) -> bytes:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    return out.getvalue()
+
+
+ZIPPED = {
+    "in3140-rp.yaml": ANSWER.encode(),
+    "work/planar-2r.yaml": b"answers:\n  g2: 0\n",
+    "photo.jpg": b"x",
+    "more.zip": _zipped({"in3140-rp.yaml": ANSWER.encode()}),
+    "__MACOSX/._in3140-rp.yaml": b"x",
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "student"),
+    [("lovelaceada_41_7_all.zip", "lovelaceada_41"), ("s1/all.zip", "s1"), ("s1.zip", "s1")],
+)
+def test_a_zip_that_was_handed_in_is_opened(
+    problems: ProblemSet, tmp_path: Path, name: str, student: str
+) -> None:
+    path = tmp_path / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes(_zipped(ZIPPED))
+    (tmp_path / "other_42_8_in3140-rp.yaml").write_text(ANSWER)
+    uploads = Uploads(tmp_path)
+    intake = take_in(problems, uploads, {})
+    found = {
+        h.problem: [uploads.read(f.upload) for f in h.files] for h in intake.hand_ins if h.student == student
+    }
+    assert found == {"in3140-rp": [ZIPPED["in3140-rp.yaml"]], "planar-2r": [ZIPPED["work/planar-2r.yaml"]]}
+    assert sorted(PurePosixPath(w.file).name for w in intake.waiting) == ["more.zip", "photo.jpg"]
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (b"no zip", "an archive: it is damaged, or no zip"),
+        (_zipped({}), "an archive without a file in it"),
+        (_zipped({"bomb.yaml": bytes(1_900_000)}), "it unpacks to far more than it is (a zip bomb)"),
+        (_zipped({"../x.yaml": b"K: 0"}), "its name leads out of the folder"),
+    ],
+)
+def test_a_zip_that_cannot_be_opened_waits(
+    problems: ProblemSet, tmp_path: Path, content: bytes, reason: str
+) -> None:
+    (tmp_path / "ada_41_7_in3140-rp.zip").write_bytes(content)
+    intake = take_in(problems, Uploads(tmp_path), {})
+    assert [(w.student, w.problem, w.reason) for w in intake.waiting] == [("ada_41", "in3140-rp", reason)]
+    assert not intake.hand_ins
+
+
+def test_a_zip_holds_no_more_than_the_bounds(problems: ProblemSet, tmp_path: Path) -> None:
+    files = {f"{i}/in3140-rp.yaml": ANSWER.encode() for i in range(MAX_INSIDE + 3)}
+    (tmp_path / "ada_41_7_in3140-rp.zip").write_bytes(_zipped(files))
+    intake = take_in(problems, Uploads(tmp_path), {})
+    assert [len(h.files) for h in intake.hand_ins] == [MAX_INSIDE]
+    assert {w.reason for w in intake.waiting} == {"the zip holds too much"}

@@ -417,6 +417,53 @@ def test_what_is_left_of_a_student_who_is_gone_is_removed(
     assert sorted(path.name for path in (tmp_path / "gradescope").iterdir()) == ["submission_7"]
 
 
+# -- what nobody has judged --------------------------------------------------------------------------
+
+
+def _waiting(record: Record, student: str, id: str) -> None:
+    """A student whose PDF waits for a human."""
+    record.set_intake({**record.students(), student: id}, ())
+    unread = {"verdict": "unreadable", "marks": "0", "line": 0, "diagnosis": [], "why": "unreadable"}
+    answers = [{**BLANK, **unread, "name": name, "of": str(of)} for name, of in MARKS.items()]
+    row = {
+        "answers": answers,
+        "files": [],
+        "left": [],
+        "late": 0,
+        "reason": "a PDF: a human reads it",
+        "notes": [],
+    }
+    record.write((student, "in3140-rp"), "", "{}", {**row, "html": "", "markdown": ""})
+
+
+def test_what_nobody_has_judged_keeps_what_stands_there(
+    tmp_path: Path, problems: ProblemSet, record: Record
+) -> None:
+    _graded(record, {"a_1": ("1", "4", "2")})
+    _waiting(record, "b_2", "2")
+    header = "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Grade can be changed,"
+    header += "Last modified (submission),Last modified (grade),Feedback comments"
+    rows = [f"Participant {i},Ada,a@x,Submitted,{old},6.00,Yes,-,-," for i, old in ((1, ""), (2, "3.50"))]
+    warnings = _exported(tmp_path, problems, record, "moodle", "\n".join([header, *rows]) + "\n")
+    written = (tmp_path / "moodle.csv").read_text().splitlines()
+    assert [line.split(",")[4] for line in written[1:]] == ["6", "3.50"]
+    assert "1 student waits for a human and keeps what stands there: b_2 (in3140-rp)" in warnings
+    canvas = "Student,ID,Section,Assignment 2 (9)\n    Points Possible,,,6.00\nA,1,,\nB,2,,\n"
+    warnings = _exported(tmp_path, problems, record, "canvas", canvas)
+    assert [line.split(",")[-1] for line in (tmp_path / "canvas.csv").read_text().splitlines()[2:]] == [
+        "6",
+        "",
+    ]
+    assert any("b_2" in warning for warning in warnings)
+    _exported(tmp_path, problems, record, "gradescope")
+    assert [path.name for path in (tmp_path / "gradescope").iterdir()] == ["1"]
+    for answer in MARKS:
+        record.override("b_2", "in3140-rp", answer, "1", "on paper")
+    _exported(tmp_path, problems, record, "moodle", "\n".join([header, *rows]) + "\n")
+    written = (tmp_path / "moodle.csv").read_text().splitlines()
+    assert [line.split(",")[4] for line in written[1:]] == ["6", "2"]
+
+
 # -- who was late ------------------------------------------------------------------------------------
 
 
