@@ -1,11 +1,10 @@
 """What an answer is worth beside its verdict: zeros are easy to write, and following is easy from nothing.
 
-zero     the key is 0 there for every q: such an entry earns with the rest of its matrix,
-such an answer with the rest of the hand-in
-empty    it follows, and is 0 or has lost most of its terms, or follows from what has:
-it earns nothing by itself
-loss     what is lost or left alone, in words; it waits for a human
-parts    the answers that a whole which is not written is judged by
+An answer, or an entry of it, is `zero` where the key is 0 for every q: such an entry earns with the
+rest of its matrix, such an answer where more than zeros was written, or nothing else.  It is `empty`
+where it follows and is 0, or has lost most of its terms, or follows from what has: it earns nothing
+by itself.  Its `loss` says what is lost, and lets it wait for a human; its `parts` are the answers
+that a whole which is not written is judged by.
 """
 
 from __future__ import annotations
@@ -23,9 +22,7 @@ from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
 if TYPE_CHECKING:
     from dynsolve.answers.judge import Judge
 
-ALONE = "it is 0, and nothing that is more than 0 is right"
-
-_EARNING = (Verdict.CORRECT, Verdict.FOLLOWS)
+ONLY_ZEROS = "nothing but zeros was written"
 
 
 def weighed(judge: Judge, answers: tuple[JudgedAnswer, ...]) -> tuple[JudgedAnswer, ...]:
@@ -40,11 +37,12 @@ def weighed(judge: Judge, answers: tuple[JudgedAnswer, ...]) -> tuple[JudgedAnsw
         for name, answer in own.items()
         if not answer.given and (parts := _parts(judge, name, own))
     }
-    tried = [answer for answer in own.values() if answer.given and not answer.zero]
-    if not tried or any(map(_is_of_substance, own.values())):
+    if found.has_more_than_zeros or not any(a.given and not a.zero for a in own.values()):
         return tuple(own.values())
     return tuple(
-        replace(a, empty=True, loss=a.loss or ALONE) if a.zero and a.verdict is not Verdict.MISSING else a
+        replace(a, empty=True, loss=a.loss or ONLY_ZEROS)
+        if a.zero and a.verdict is not Verdict.MISSING
+        else a
         for a in own.values()
     )
 
@@ -54,6 +52,7 @@ class _Substance:
 
     def __init__(self, judge: Judge) -> None:
         self.judge = judge
+        self.has_more_than_zeros = False
 
     def __call__(self, answer: JudgedAnswer) -> JudgedAnswer:
         key = self._key(answer.name)
@@ -64,6 +63,8 @@ class _Substance:
         compared = self.judge.hand_in.comparisons.get(answer.name)
         if compared is None or not compared.rows or not answer.given:
             return replace(answer, zero=zero)
+        if not all(entry.value.is_zero for row in compared.rows for entry in row):
+            self.has_more_than_zeros = True
         entries = tuple(_weighed_entry(entry, rows, compared) for entry in answer.entries)
         following = answer.verdict is Verdict.FOLLOWS or any(
             entry.verdict is Verdict.FOLLOWS for entry in answer.entries
@@ -171,13 +172,6 @@ def _parts(judge: Judge, name: str, answers: Mapping[str, JudgedAnswer]) -> tupl
         return ()
     missing = (JudgedAnswer(name, Verdict.MISSING) for name in names)
     return tuple(piece or absent for piece, absent in zip(pieces, missing, strict=True))
-
-
-def _is_of_substance(answer: JudgedAnswer) -> bool:
-    """Whether an answer, or an entry of it, is right and more than a 0."""
-    if answer.entries:
-        return any(e.verdict in _EARNING and not e.zero and not e.empty for e in answer.entries)
-    return answer.verdict in _EARNING and not answer.zero and not answer.empty
 
 
 def _names(values: list[Expr]) -> set[str]:

@@ -139,8 +139,8 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     told: dict[Path, tuple[str, bytes]] = {}
     all_of = list(standings(record))
     for standing in all_of:
-        if standing.unjudged:
-            continue
+        if len(standing.unjudged) == len(problems.items):
+            continue  # nothing of it was judged, and nothing is no zero
         path = folder / "gradescope" / folder_name(standing.id or standing.student) / "results.json"
         text = json.dumps(_results(standing, record, problems), indent=1, ensure_ascii=False) + "\n"
         data = text.encode("utf-8", errors="replace")
