@@ -285,7 +285,7 @@ class EquationReader:
                 return
         leading = read[0].found if read and read[0].index == 0 else None
         is_definition = isinstance(leading, RightSide) and leading.is_definition
-        if not is_definition and not origin.display.plain:
+        if not is_definition and (not origin.display.plain or _values(read)):
             self.found.not_recognized.append(refused)
 
     def _unknown_side(
@@ -312,7 +312,7 @@ class EquationReader:
                 self.vocabulary.broken[side.key] = faults[-1].message
             if not origin.display.plain:
                 self.found.not_recognized.append(refused)
-        elif not origin.display.plain:
+        elif values or not origin.display.plain:
             self.found.not_recognized.append(refused)
 
     # Values of an answer file

@@ -12,6 +12,10 @@ _ITEM = re.compile(r"[-*+][ \t]+[^=]{1,60}=|[-*+][ \t]+[^\s:]{1,40}:[ \t]")
 
 _NAMED = re.compile(r"([^\s:=|$]{1,40}):[ \t]+(?=\S)")
 _SAID = re.compile(r"[^\n=$]{1,150}:[ \t]+(?=[^\s:=]{1,40}[ \t]*=)")
+_WORDS = re.compile(r"(?:[^\W\d_]{2,30}[,.]?[ \t]+){1,20}(?=[^\s:=]{1,40}[ \t]*=)")
+"""The words of a sentence before an equation: `The potential energy P = ...`."""
+
+_AND = re.compile(r"[ \t](?:and|og|und|et|y)[ \t](?=[ \t]{0,9}[^\s:=]{1,40}[ \t]*=)")
 _REMARK = re.compile(r"(?:(?<=\s)|(?<=[;)\]]))(?:#|//|%(?!pi\b))[^\n]*")
 _DOTS = re.compile(r"\.\.\.[ \t]*(?=\n)")
 _TRAILING = frozenset("=+-*/,([{&\\")
@@ -44,13 +48,18 @@ def _begins(text: str, start: int, stop: int, names_answer: Callable[[str], bool
     if not _EQUATION.match(text, first, stop):
         return -1
     said = _SAID.match(text, first, stop)
-    return said.end() if said else first
+    first = said.end() if said else first
+    words = _WORDS.match(text, first, stop)
+    if words is not None and names_answer(text[words.end() : text.index("=", words.end())].strip()):
+        return words.end()
+    return first
 
 
 def _formula(piece: str, names_answer: Callable[[str], bool]) -> str:
     """The equation without remarks and the dots of lines that go on; `K1: ...` as `K1= ...`."""
     piece = _REMARK.sub(lambda found: " " * len(found[0]), piece)
     piece = _DOTS.sub(lambda found: " " * len(found[0]), piece)
+    piece = _AND.sub(lambda found: ";" + " " * (len(found[0]) - 1), piece)
     named = _NAMED.match(piece)
     if named is not None and names_answer(named[1]):
         at = named.end(1)

@@ -16,6 +16,13 @@ _HIDDEN = re.compile(
 )
 _CONDITION = re.compile(r"\\(?:if(?!f(?![A-Za-z]))[A-Za-z@]*|else(?![A-Za-z])|fi(?![A-Za-z]))")
 _STRUCK = re.compile(r"(?<!~)~~(?!~)((?:(?!\n[ \t]*\n)[^~]|(?<!~)~(?!~)){1,20000}?)~~(?!~)")
+_EMPHASIS = re.compile(
+    r"(?m)^([ \t>+-]{0,20}(?:[0-9]{1,2}[.)][ \t]+)?)(\*\*|__)([^*_\n=]{1,60}[:=]?)\2"
+    r"(?=[ \t]*[:=]|(?<=[:=]\2)[ \t])"
+)
+"""A bold name at the beginning of a line: `**K1** = ...`, `**K1:** ...`."""
+
+_CODE = re.compile(r"(?<!`)`([^`\n]{1,1000})`(?!`)")
 _SCRIPT = re.compile(r"<(sub|sup)>([^<>\n]{1,80})</\1>", re.IGNORECASE)
 
 
@@ -29,6 +36,8 @@ def visible(text: str, latex: bool) -> str:
     if not latex:
         text = _STRUCK.sub(lambda found: found[0] if _cuts_formula(found) else _blank(found), text)
         text = _SCRIPT.sub(_script, text)
+        text = _EMPHASIS.sub(r"\1  \3  ", text)
+        text = _CODE.sub(r" \1 ", text)
     return text
 
 

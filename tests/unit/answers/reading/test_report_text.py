@@ -67,6 +67,12 @@ LINES = [
     ("K: m1*g", "m₁ g"),
     ("- K: m1*g", "m₁ g"),
     ("Kinetic energy: K = m1*g", "m₁ g"),
+    ("The kinetic energy is K = m1*g", "m₁ g"),
+    ("We get P1 = m2 and K = m1*g", "m₁ g"),
+    ("We get K = m1*g and P1 = m2", "m₁ g"),
+    ("**K** = m1*g", "m₁ g"),
+    ("- **K:** m1*g", "m₁ g"),
+    ("`K = m1*g`", "m₁ g"),
     ("K = m1*g  # all of it", "m₁ g"),
     ("K = m1*g;  % all of it", "m₁ g"),
     ("K = m1*g // all of it", "m₁ g"),
@@ -129,3 +135,10 @@ def test_a_line_in_plain_text_knows_its_place() -> None:
 def test_indices_and_powers_of_a_page() -> None:
     text = "<p>K = m<sub>1</sub> l<sub>c1</sub><sup>2</sup> sin<sup>2</sup>(q<sub>1</sub>)</p>"
     assert shown_last(report(text, "report.html"), "K") == "m₁ l_c1² sin²(q₁)"
+
+
+def test_a_formula_without_a_name_is_listed() -> None:
+    text = "Kinetic energy of link 1 = m1*g\nso that 2 = the number of links\nP = m1\n"
+    found = report(text, "report.txt")
+    assert [answer.name for answer in found.answers] == ["P"]
+    assert [refused.text for refused in found.not_recognized] == ["Kinetic energy of link 1 = m1*g"]
