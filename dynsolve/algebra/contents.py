@@ -1,4 +1,4 @@
-"""What formulas hold that a ring must hold for them: symbols, angles, roots, denominators."""
+"""The symbols, angles, roots and denominators that a ring needs for given formulas."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ class Contents:
     functions: tuple[Function, ...] = ()
 
     def __bool__(self) -> bool:
-        """Whether anything occurs."""
+        """Whether there is anything in it."""
         return any(getattr(self, f.name) for f in fields(self))
 
     def joined(self, other: Self) -> Self:
-        """What occurs in either."""
+        """The union of two contents."""
         pairs = ((f.name, getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
         return type(self)(**{name: tuple(dict.fromkeys((*a, *b))) for name, a, b in pairs})
 
@@ -53,14 +53,14 @@ class ContentsCollector:
         self.functions: dict[Function, None] = {}
 
     def collect(self, trees: Iterable[Node]) -> None:
-        """Note everything that trees hold.  Raises AlgebraError for what no ring can hold."""
+        """Note the contents of trees.  Raises AlgebraError for a formula that no ring can hold."""
         waiting = [*trees][::-1]
         while waiting:
             waiting.extend(reversed(self.note(waiting.pop())))
 
     @property
     def contents(self) -> Contents:
-        """What was noted."""
+        """The contents noted so far."""
         return Contents(
             tuple(self.symbols),
             tuple(self.angles),
@@ -71,7 +71,7 @@ class ContentsCollector:
         )
 
     def note(self, node: Node) -> Sequence[Node]:
-        """Note what a node brings by itself; the parts that are still to be walked."""
+        """Note one node, and return the parts that are still to be walked."""
         match node:
             case Symbol(name, dots):
                 self.symbol(name, dots)
@@ -100,7 +100,7 @@ class ContentsCollector:
             self.symbols.setdefault(name)
 
     def function(self, node: Function) -> Sequence[Node]:
-        """Note a function of an angle; the parts that are still to be walked."""
+        """Note a function of an angle, and return the parts that are still to be walked."""
         self.angle(angle_from_tree(node.argument))
         if node.name == "tan":
             self.denominators.setdefault(Function("cos", node.argument))

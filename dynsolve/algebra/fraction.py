@@ -1,7 +1,7 @@
 """Fractions over a ring: numerator / denominator, compared by cross-multiplication.
 
-A denominator may hold joint variables, as in sin θ / tan θ; what can be divided is,
-so that most values end as elements of the ring.
+A denominator may contain joint variables, as in sin θ / tan θ.  Where the division is
+exact it is carried out, so that most values become elements of the ring.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class RationalExpr:
 
     @property
     def ring(self) -> Ring:
-        """The ring of both."""
+        """The ring of numerator and divisor."""
         return self.numerator.ring
 
     @property
@@ -36,7 +36,7 @@ class RationalExpr:
 
     @property
     def denominator(self) -> Expr:
-        """What the numerator is divided by."""
+        """The denominator, 1 where there is no divisor."""
         return self.ring.one if self.divisor is None else self.divisor
 
     def __neg__(self) -> RationalExpr:
@@ -105,7 +105,7 @@ MOST_PRODUCTS = 20_000
 
 
 def _without_sines(numerator: Expr, divisor: Expr) -> tuple[Expr, Expr]:
-    """Both times the conjugates of the divisor, sine by sine: (a + b s)(a - b s) = a² - b² (1 - c²)."""
+    """Both times the divisor's conjugates, sine by sine: (a + b s)(a - b s) = a² - b² (1 - c²)."""
     for pair in divisor.ring.pairs:
         if not divisor.poly or len(numerator) * len(divisor) > MOST_PRODUCTS:
             break

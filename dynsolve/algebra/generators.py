@@ -1,4 +1,4 @@
-"""What the variables of a ring's polynomials stand for."""
+"""The generators of a ring: the variables of its polynomials, and the meaning of each."""
 
 from __future__ import annotations
 

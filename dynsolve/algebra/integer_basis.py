@@ -1,4 +1,4 @@
-"""A basis of angles: independent linear forms of which every given one is an integer combination.
+"""A basis of angles: independent linear forms such that every given form is an integer combination of them.
 
 θ₁ and θ₁ + θ₂ are such a basis of themselves; θ₁/2 is one of θ₁ and 3θ₁/2.  An angle is
 a vector of rational rates here; the eliminations are FLINT's.

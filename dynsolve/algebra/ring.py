@@ -102,7 +102,7 @@ class Ring:
         return self.one * value
 
     def generator(self, index: int) -> Expr:
-        """The element that one variable is."""
+        """One variable as an element of the ring."""
         return Expr(self, self._gens[index])
 
     def symbol(self, name: str, dots: int = 0) -> Expr:
@@ -120,7 +120,7 @@ class Ring:
         raise AlgebraError(f"this {node.name} does not occur in the problem")
 
     def has_symbol(self, name: str, dots: int = 0) -> bool:
-        """Whether `symbol` knows it."""
+        """Whether the ring has this symbol."""
         return (name, dots) in self.symbol_indices
 
     def cos(self, angle: Angle) -> Expr:
@@ -155,7 +155,7 @@ class Ring:
         return c, (s if times > 0 else -s)
 
     def multiples(self, angle: Angle) -> tuple[int, ...]:
-        """The integer multiples of the basic angles, one a pair, that make up an angle but for a constant."""
+        """The multiples of the basic angles, one a pair, that add up to an angle without its constant."""
         return self.plan.multiples(angle)[0]
 
     def root(self, argument: Node, value: Expr) -> Expr:
@@ -220,7 +220,7 @@ class Ring:
 
     @cached_property
     def _rates(self) -> tuple[tuple[tuple[Pair, Fraction], ...], ...]:
-        """For each coordinate the pairs whose angle it turns at a constant rate, with the rate."""
+        """For each coordinate the pairs whose angle depends linearly on it, with the rate."""
         return tuple(
             tuple(
                 (pair, rate) for pair in self.pairs for atom, rate in pair.angle.terms if atom == ((name, 1),)
@@ -230,7 +230,7 @@ class Ring:
 
     @cached_property
     def _product_rates(self) -> tuple[tuple[tuple[Pair, Expr], ...], ...]:
-        """For each coordinate the pairs whose angle has it in a product, as sin(q₂ q₃), with ∂angle/∂q."""
+        """For each coordinate the pairs with it in a product, as in sin(q₂ q₃), with ∂angle/∂q."""
         return tuple(
             tuple((pair, rate) for pair in self.pairs if not (rate := self._product_rate(pair, name)).is_zero)
             for name in self.names

@@ -65,11 +65,11 @@ class RingPlan:
         return multiples, rest.degrees
 
     def at_rest(self, angle: Angle) -> Angle:
-        """What is left of an angle at q = 0."""
+        """The value of an angle at q = 0."""
         return Angle(tuple(sorted(_split(angle, self.coordinates)[1].items())), angle.degrees)
 
     def extended(self, more: Contents, most_denominators: int) -> RingPlan:
-        """The plan that holds more as well; where θ₁/2 is new, it takes the place of θ₁.
+        """The plan for further formulas as well; where θ₁/2 is new, it takes the place of θ₁.
 
         Generators are set aside for the inverses of the denominators, up to that many.
         """
@@ -108,7 +108,7 @@ def _split(angle: Angle, coordinates: Sequence[str]) -> tuple[Vector, dict[Atom,
 def _without_turning(
     angle: Angle, turning: Sequence[tuple[Vector, Angle]], coordinates: Sequence[str]
 ) -> tuple[tuple[Fraction, ...], Angle]:
-    """(multiples of the turning angles, what is left of the angle, without coordinates)
+    """(multiples of the turning angles, the rest of the angle, which has no coordinates)
 
     Raises AlgebraError where the angle turns otherwise.
     """
@@ -150,7 +150,7 @@ def plan_ring(
 
 
 def _finest(terms: Iterable[tuple[Atom, Fraction]]) -> tuple[tuple[Atom, Fraction], ...]:
-    """For each atom of these terms the largest rate of which all its rates are integer multiples."""
+    """For each atom the largest rate such that all its rates are integer multiples of it."""
     rates: dict[Atom, list[Fraction]] = {}
     for atom, rate in terms:
         rates.setdefault(atom, []).append(rate)

@@ -1,4 +1,4 @@
-"""The exact value of a tree in a ring.  Nothing is evaluated that was not read into a tree before.
+"""The exact value of a tree in a ring.  Only trees are evaluated, never text.
 
 Work is bounded before a product is formed: a library in C cannot be interrupted, and ends
 the process where memory ends.  Terms that are products of symbols, sines and cosines are
@@ -94,7 +94,7 @@ class Evaluator:
     def value(self, node: Node) -> RationalExpr:
         """The exact value of a scalar tree.
 
-        Raises AlgebraError for what has no value in the ring, or for work over the bounds.
+        Raises AlgebraError for a tree without a value in the ring, or for work over the bounds.
         """
         match node:
             case Sum(terms):
@@ -325,7 +325,7 @@ class Evaluator:
 
 
 def _unwrapped(node: Node) -> tuple[Node, bool]:
-    """What stands behind signs and parentheses, and whether it is negative."""
+    """The tree inside signs and parentheses, and whether it is negated."""
     is_negative = False
     while isinstance(node, (Negative, Parenthesized)):
         is_negative = is_negative != isinstance(node, Negative)

@@ -1,4 +1,4 @@
-"""What the commands share: reading a problem from wherever it is, and showing findings."""
+"""Shared by the commands: reading a problem from a path, the library or standard input; showing findings."""
 
 from __future__ import annotations
 

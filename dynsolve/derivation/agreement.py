@@ -1,4 +1,4 @@
-"""Whether two ways to the same quantity give the same, exactly.
+"""The exact comparison of two ways to the same quantity.
 
 D, C q̇ and g are read off from τ, and assembled directly: D from the Jacobians, C from
 the Christoffel symbols, g from the potential energy.
@@ -26,7 +26,7 @@ class Agreement:
 
     @property
     def holds(self) -> bool:
-        """All of them."""
+        """Whether all of these hold."""
         return self.inertia and self.coriolis and self.gravity and self.skew_symmetric
 
 

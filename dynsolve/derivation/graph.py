@@ -1,8 +1,8 @@
 """Rules, and the evaluator of a graph of them.
 
 A rule computes one quantity from others: `Rule("K1", ("Kv1", "Kw1"), lambda v, w: v + w)`.
-The rules of the textbook are in `dynsolve.derivation.rules`; here stands how they are
-evaluated, whatever they say.
+The rules of the textbook are in `dynsolve.derivation.rules`; this module
+evaluates the rules of any graph.
 """
 
 from __future__ import annotations

@@ -27,13 +27,13 @@ def inertia_from_torque(robot: Robot, tau: Matrix) -> Matrix:
 
 
 def gravity_from_torque(robot: Robot, tau: Matrix) -> Matrix:
-    """g, n×1: what is left of τ at rest."""
+    """g, n×1: τ at q̇ = q̈ = 0."""
     ring = robot.ring
     return tau.map(lambda t: ring.without(ring.without(t, 2), 1))
 
 
 def coriolis_from_torque(robot: Robot, tau: Matrix, g: Matrix) -> Matrix:
-    """C q̇, n×1: what is left of τ without accelerations and gravity."""
+    """C q̇, n×1: τ without the terms of accelerations and gravity."""
     return tau.map(lambda t: robot.ring.without(t, 2)) - g
 
 

@@ -231,7 +231,7 @@ def _negligible(arm: Arm) -> float:
 
 
 def _kinematic_errors(arm: Arm, ours: Mapping[str, list[list[float]]]) -> Iterator[tuple[str, float]]:
-    """Of the last frame: where it is, and how J q̇ says that it moves."""
+    """The errors of the last frame: of its position, and of its motion J q̇."""
     if "H" not in ours or "J" not in ours:
         return
     frames, _ = outwards(arm, arm.qd, arm.qdd, ZERO)

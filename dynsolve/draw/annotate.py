@@ -1,4 +1,4 @@
-"""What is written and drawn around a robot: axes of frames, joint variables, lengths, mass centres, gravity.
+"""The annotations around a robot: axes of frames, joint variables, lengths, mass centres, gravity.
 
 Each function gives paths, and the labels that belong to them.
 """

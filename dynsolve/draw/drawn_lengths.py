@@ -1,4 +1,4 @@
-"""Numbers for what a picture cannot leave open: how long L_1 is drawn.
+"""The lengths in a picture: how long L_1 is drawn where it has no number, and where it has one.
 
 Lengths with a number in the problem file keep their proportions, but the shortest
 is drawn long enough to be seen; the others are all equally long.  A mass centre

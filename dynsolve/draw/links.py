@@ -35,7 +35,7 @@ class Solid:
 
     @property
     def box(self) -> Box:
-        """What it takes of the paper."""
+        """The area of paper that it covers."""
         return bounds(self.paths)
 
 

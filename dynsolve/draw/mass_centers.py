@@ -73,7 +73,7 @@ def _local_center(
     near: Vector,
     far: Vector,
 ) -> tuple[Vector, Vector | None, float]:
-    """The centre in its frame; where its only free symbol is measured from, and the rate of that."""
+    """The centre in its frame; the origin of its only free symbol, and the rate of that symbol."""
     values = dict(numbers.values) | dict.fromkeys(free, 0.0)
     rate = 0.0
 
@@ -99,7 +99,7 @@ def _local_center(
 
 
 def _best(direction: Vector, wanted: Vector, size: float, symbols: int) -> float:
-    """How much of a direction leads nearest to what is wanted, and not to nothing."""
+    """The multiple of a direction that comes nearest to a wanted vector, and is not zero."""
     square = length(direction) ** 2
     if square < NEAR:
         return 0.5

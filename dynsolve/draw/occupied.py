@@ -1,4 +1,4 @@
-"""Which places on paper are taken, on a grid, so that labels find free ones."""
+"""The grid of the places on paper that are occupied, so that labels find free ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the parts stand along the chain: cylinders and boxes on the axes, links between them.
+"""The places of the parts along the chain: cylinders and boxes on the axes, links between them.
 
 A part may stand anywhere on its joint's axis without a change of the kinematics;
 it is put where it meets no other part.  Sizes are in picture units.

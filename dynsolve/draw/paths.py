@@ -1,4 +1,4 @@
-"""What a picture is made of on paper: paths with their colours, and nothing that only one format knows."""
+"""Paths with their colours: the elements of a picture on paper, the same for every format."""
 
 from __future__ import annotations
 

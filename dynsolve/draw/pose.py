@@ -1,4 +1,4 @@
-"""A robot in a pose, and what the pose costs.
+"""A robot in a pose, and the cost of the pose.
 
 A pose is good where nothing hides anything: origins lie apart on paper, links do
 not cross, axes are not seen end on, and the arm stays above the ground.
@@ -125,7 +125,7 @@ def _foreshortening(pose: Pose) -> float:
 
 
 def _lowness(body: Skeleton, orientation: Orientation) -> float:
-    """What it costs to reach below the base."""
+    """The cost of reaching below the base."""
     start = body.frames[0].origin
     heights = [dot(subtract(point, start), orientation.up) for point in body.path]
     return 12.0 * sum(max(0.0, -0.05 - height) for height in heights)

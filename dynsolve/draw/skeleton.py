@@ -1,4 +1,4 @@
-"""Where everything of a robot is at one pose: its frames, and the legs d and a of its rows.
+"""The geometry of a robot at one pose: its frames, and the legs d and a of its rows.
 
 Both conventions come to one chain of points.  Row i has a leg along the axis of
 its joint, of length d_i from its foot to its head, and a leg of length a_i across:
@@ -113,7 +113,7 @@ def _path(legs: Sequence[Leg]) -> tuple[Vector, ...]:
 
 
 def base_frame(numbers: RobotNumbers) -> DrawnFrame:
-    """Frame 0, turned as the file says; where it is moved to does not matter to a picture."""
+    """Frame 0, rotated as the file says; its displacement does not matter to a picture."""
     return DrawnFrame(ORIGIN, numbers.base)
 
 

@@ -231,7 +231,7 @@ class _LongModel:
         return _with(step, result, why)
 
     def coriolis_forces(self, step: Step) -> Step:
-        """Of the forces nothing new is to be read off."""
+        """C q̇ is part of the forces above, and is not written again."""
         why = " In the forces above they are the terms with c and g."
         return replace(step, result=(), why=(*step.why, why))
 

@@ -1,4 +1,4 @@
-"""Long results with names: constants first, then what recurs, then D, the Christoffel symbols, C and g.
+"""Long results in names: constants, recurring terms, then D, the Christoffel symbols, C and g in these.
 
 An explicit model of a six-joint arm is read as Armstrong, Khatib and Burdick wrote
 theirs (The explicit dynamic model and inertial parameters of the PUMA 560 arm, ICRA
@@ -174,7 +174,7 @@ def _assembled(
 
 
 def _names(letter: str, taken: set[str]) -> Iterator[Symbol]:
-    """letter1, letter2, ..., past those that the problem uses."""
+    """letter1, letter2, ..., without names that the problem uses."""
     return (Symbol(f"{letter}{k}") for k in count(1) if f"{letter}{k}" not in taken)
 
 

@@ -132,7 +132,7 @@ class BaseParameters:
         return shared, {_minus(e, shared): f for e, f in coefficient.items()}
 
     def _reduced(self, coefficient: Coefficient) -> tuple[Coefficient, Combination]:
-        """(what no known base parameter makes up, the combination that makes up the others)"""
+        """(the part outside the span of the known base parameters, the combination that gives the rest)"""
         rest, made_of = dict(coefficient), Combination()
         for lead in sorted(self._rows.keys() & rest.keys(), reverse=True):
             self._take(rest, made_of, lead)
@@ -148,7 +148,7 @@ class BaseParameters:
             _add_to(made_of, row.made_of, factor)
 
     def _add(self, coefficient: Coefficient) -> None:
-        """Make a base parameter of what the known ones do not make up."""
+        """Make a base parameter of the part outside the span of the known ones."""
         _, whole = self._without_lengths(coefficient)
         if not self._reduced(whole)[0]:
             return
@@ -201,7 +201,7 @@ class BaseParameters:
 
     @cached_property
     def meanings(self) -> Mapping[str, Expr]:
-        """What each stands for, in the robot's ring."""
+        """The meaning of each, in the robot's ring."""
         ring = self.robot.ring
         return {
             name: Expr(ring, ring.ctx.from_dict({e: fmpq(f.numerator, f.denominator) for e, f in c.items()}))
@@ -260,7 +260,7 @@ def _normalized(coefficient: Coefficient) -> Coefficient:
 
 
 def _length(coefficient: Coefficient) -> float:
-    """How long it is to read: its terms, and a little for a minus and a number."""
+    """Its length to a reader: its terms, with a small extra for a minus sign or a number."""
     return len(coefficient) + sum(0.5 * (abs(f) != 1) + 0.2 * (f < 0) for f in coefficient.values())
 
 

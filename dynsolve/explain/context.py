@@ -1,4 +1,4 @@
-"""What every step is made from: the robot, its exact values, their compact forms."""
+"""The data that every step is made from: the robot, its exact values, their compact forms."""
 
 from __future__ import annotations
 
@@ -52,5 +52,5 @@ class Context:
 
     @property
     def ground(self) -> str:
-        """What everything is seen from: frame 0, or the world in which the problem turns it."""
+        """The frame of reference in words: frame 0 (the base), or the world in which the problem turns it."""
         return "world" if letters.has_base(self.robot) else "base"

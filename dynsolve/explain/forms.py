@@ -41,12 +41,12 @@ class Forms:
 
     @cached_property
     def compactor(self) -> Compactor:
-        """The one that writes everything about this robot."""
+        """The compactor of this robot's ring."""
         return Compactor(self.robot.ring, *self.collecting, decimal=is_numeric(self.robot))
 
     @property
     def collecting(self) -> tuple[list[str], list[frozenset[str]]]:
-        """What a compactor of this robot must know: its masses and inertias, its parallel joints."""
+        """The arguments of this robot's compactor: its masses and inertias, its parallel joints."""
         return leading_names(self.robot), _parallel(self.robot)
 
     def __call__(self, name: str) -> Node:

@@ -1,4 +1,4 @@
-"""Hints: what to do next in a stage, without its results.
+"""Hints: the tasks of a stage, without its results.
 
 A hint is made of the steps of the stage, their reasons and formulas, of what earlier
 stages have given, and of the pitfalls that this robot has.  Nothing that the stage or
@@ -87,7 +87,7 @@ _AT_HAND = {
 
 
 def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
-    """What the stage starts from, by letter and name."""
+    """The results that the stage starts from, by letter and name."""
     robot = context.robot
     if stage in (Stage.JACOBIAN, Stage.INERTIA):
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)
@@ -117,7 +117,7 @@ def _tasks(context: Context, stage: Stage) -> Iterator[Block]:
 
 
 def _grouped(steps: Iterable[Step]) -> Iterator[_Task]:
-    """The steps of a stage, those that go the same way together."""
+    """The steps of a stage, grouped where they are done in the same way."""
     tasks: dict[tuple[str, str], _Task] = {}
     for step in steps:
         if not step.is_task:

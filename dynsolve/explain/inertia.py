@@ -237,7 +237,7 @@ def _ends_after(context: Context, body: Body) -> bool:
 
 
 def _right_frame(context: Context, link: int) -> Iterator[Prose]:
-    """Which frame is mistaken for that of the link: the one at its other end."""
+    """The frame that is easily mistaken for the link's: the one at its other end."""
     joints = context.robot.joints
     if context.standard:
         if link > 1 and joints[link - 1].type:

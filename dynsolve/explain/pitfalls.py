@@ -1,4 +1,4 @@
-"""What goes wrong most often in a stage, as far as this robot can go wrong there.
+"""The most frequent mistakes of a stage that can be made with this robot.
 
 To add a pitfall, yield it in the function of its stage, under the condition on the
 robot that makes it one.

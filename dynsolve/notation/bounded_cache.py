@@ -1,4 +1,4 @@
-"""What is remembered within bounds, so that nothing a process keeps grows without end."""
+"""Caches of bounded size, so that the memory of a long process does not grow without end."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _V = TypeVar("_V")
 
 
 def recalled(memory: dict[_K, _V], key: _K, make: Callable[[], _V], most: int) -> _V:
-    """What a memory of at most so many entries holds under a key, made where it holds nothing yet.
+    """The value under a key of a cache of at most `most` entries; made and kept if there is none.
 
     >>> squares: dict[int, int] = {}
     >>> recalled(squares, 3, lambda: 9, most=10), squares
@@ -23,7 +23,7 @@ def recalled(memory: dict[_K, _V], key: _K, make: Callable[[], _V], most: int) -
 
 
 def keep(memory: dict[_K, _V], key: _K, value: _V, most: int) -> _V:
-    """Put a value into a memory; one that is full is begun anew."""
+    """Put a value into a cache and return it; a full cache is emptied first."""
     if len(memory) >= most:
         memory.clear()
     memory[key] = value

@@ -1,4 +1,4 @@
-"""Small constructors of notation trees, and what a tree costs to read.
+"""Small constructors of notation trees, and the cost of a tree to its reader.
 
 The cost of a formula is what a person counts in it: every + - * /, power, sign
 and function call.

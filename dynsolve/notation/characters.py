@@ -1,4 +1,4 @@
-"""Which characters a formula is made of, and what is said about the others.
+"""The characters that a formula may contain, and the errors about all others.
 
 Latin and Greek letters, digits and a few operators are read.  Letters that only
 look like them (a Cyrillic `а`, a Greek capital `Α`) and characters that cannot be

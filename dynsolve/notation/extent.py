@@ -76,7 +76,7 @@ _DOT = 0.73
 
 
 class Ruler:
-    """Measures trees; what was measured once is looked up.
+    """Measures trees; the width of each sub-tree is computed once and kept.
 
     >>> from dynsolve.notation.tree import Symbol, Product
     >>> round(Ruler().width(Product((Symbol("m1"), Symbol("g")))), 2)

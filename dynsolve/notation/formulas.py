@@ -105,7 +105,7 @@ class FormulaPrinter(Printer):
         return text
 
     def _scripted(self, base: str, sub: str, sup: str) -> str:
-        """A base with what stands below and above it, either may be empty."""
+        """A base with a subscript and a superscript; either may be empty."""
         raise NotImplementedError
 
     def _fraction(self, above: str, below: str) -> str:
@@ -264,13 +264,13 @@ class FormulaPrinter(Printer):
         return self._operand(node.left) + self.cross + self._operand(node.right)
 
     def _operand(self, node: Node) -> str:
-        """What stands beside the sign of a cross product."""
+        """An operand of a cross product."""
         text = self.text(node)
         needed = type(node) in self.compound or text.startswith(self.minus)
         return self.parenthesized(text) if needed else text
 
     def _summand(self, node: Node) -> str:
-        """What a running sum adds up."""
+        """The summand of a running sum."""
         text = self.text(node)
         needed = type(node) in (Sum, Relation) or text.startswith(self.minus)
         return self.parenthesized(text) if needed else text

@@ -1,4 +1,4 @@
-"""What is said about a plain-text formula that cannot be read: the place, the fault, the remedy."""
+"""The errors about a plain-text formula that cannot be read: the place, the fault, the remedy."""
 
 from __future__ import annotations
 

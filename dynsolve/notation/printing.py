@@ -1,4 +1,4 @@
-"""What every printer shares: the style, the walk over the tree, the signs of sums.
+"""The base class of all printers: the style, the walk over the tree, the signs of sums.
 
 A printer has a method for each class of nodes that it writes, called after the class:
 `_big_sum` writes a `BigSum`.  A printer of expressions alone (Python) derives from `Printer`;
@@ -109,7 +109,7 @@ class Printer:
 
     @property
     def remembered(self) -> int:
-        """How many parts are remembered."""
+        """The number of sub-trees whose text is kept."""
         return len(self._memory)
 
     def parenthesized(self, text: str) -> str:

@@ -151,7 +151,7 @@ def _bare_numbers(cell: Cell) -> Iterator[tuple[int, int, str]]:
 
 
 def _in_degrees(text: str) -> str:
-    """What a bare number was probably meant to be: degrees, or radians of a multiple of 15 degrees."""
+    """The angle that a bare number probably means: degrees, or radians of a multiple of 15 degrees."""
     degrees = float(text) * 180 / pi
     whole = round(degrees / 15) * 15
     meant = whole if whole and abs(degrees - whole) < 0.05 else text
@@ -159,7 +159,7 @@ def _in_degrees(text: str) -> str:
 
 
 def denominators(node: Node) -> Iterator[Node]:
-    """What an expression divides by."""
+    """The denominators of an expression."""
     for part in walk(node):
         match part:
             case Quotient(_, denominator):

@@ -1,4 +1,4 @@
-"""What a person reads about the keys of a problem file, made from their specification.
+"""The documentation of the keys of a problem file, made from their specification.
 
 `template` is the file that `dynsolve new` writes: valid as it stands, with every key and
 its meaning; an `active` key stands with its example, any other as a comment that can be

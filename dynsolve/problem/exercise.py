@@ -1,4 +1,4 @@
-"""What a problem file says about the exercise: numbers, units, marks, what is asked for."""
+"""The exercise in a problem file: numbers, units, marks, the answers asked for."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def _read_find(faults: Faults, node: YamlNode | None, names: Quantities | None) 
 
 
 def _answers(faults: Faults, node: YamlNode, names: Quantities | None) -> tuple[str, ...]:
-    """What an item of `find` asks for: one answer, or all of a family."""
+    """The answers that an item of `find` asks for: one, or all of a family."""
     family = names.members(node.text) if names is not None and isinstance(node, ScalarNode) else ()
     if family:
         return family

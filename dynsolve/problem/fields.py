@@ -13,7 +13,7 @@ from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, Scala
 
 
 def describe(node: YamlNode) -> str:
-    """What a node is, for a message."""
+    """The kind of a node in words, for a message."""
     if isinstance(node, MappingNode):
         return "a mapping"
     if isinstance(node, ListNode):
@@ -49,7 +49,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
 
 def odd_letter(word: str) -> str:
-    """A word on the first letter that is not Latin, which may only look as if it were."""
+    """A remark on the first letter that is not Latin but may look so."""
     for character in word:
         if not character.isascii():
             name = unicodedata.name(character, "?").lower()

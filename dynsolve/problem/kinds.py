@@ -113,7 +113,7 @@ class Key:
 
     @property
     def described(self) -> str:
-        """What it means: by itself, or by what its kind means everywhere."""
+        """Its meaning: its own, or else that of its kind."""
         return self.meaning or (self.kind.meaning if isinstance(self.kind, Shared) else "")
 
     @property

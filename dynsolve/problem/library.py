@@ -12,7 +12,7 @@ ENDINGS = (".yaml", ".yml")
 
 
 def folder() -> Path:
-    """Where they lie: inside the installed package, or beside it in a source tree."""
+    """The folder of the bundled problems: in the installed package, or beside it in a source tree."""
     package = Path(__file__).parent.parent
     inside = package / "problems"
     return inside if inside.is_dir() else package.parent / "problems"

@@ -1,4 +1,4 @@
-"""What deserves a second look in a problem file that is no error.
+"""Warnings about a problem file that has no errors but deserves a second look.
 
 A check is a function from a `Reading` to findings; adding one is adding it to
 `CHECKS`.  Each finding carries a code.

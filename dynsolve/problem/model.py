@@ -1,4 +1,4 @@
-"""A problem: a robot, what the exercise says about it, and where in its file everything stands."""
+"""A problem: a robot, its exercise, and the place of each part in the file."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ _SUFFIXES = (("_dot", "velocity"), ("_ddot", "acceleration"))
 
 @dataclass(frozen=True, slots=True)
 class Role:
-    """What a symbol is where it stands alone: a mass, a length, an angle, ..."""
+    """The role of a symbol where it stands alone: a mass, a length, an angle, ..."""
 
     name: str
     kind: str
@@ -105,7 +105,7 @@ def check_size(faults: Faults, parsed: ParsedFile) -> bool:
 
 
 def _parts(tree: Node) -> Iterator[tuple[str, Node]]:
-    """What makes exact algebra long: each denominator, root, sine and cosine."""
+    """The parts that make exact algebra long: each denominator, root, sine and cosine."""
     yield from (("denominators", node) for node in denominators(tree) if rational_value(node) is None)
     for node in walk(tree):
         if isinstance(node, Function):

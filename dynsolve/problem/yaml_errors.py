@@ -1,4 +1,4 @@
-"""What YAML's parser complains of, said so that the writer of a problem file can mend it."""
+"""The syntax errors of YAML's parser, worded so that the writer of a problem file can mend them."""
 
 from __future__ import annotations
 

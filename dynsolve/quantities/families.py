@@ -27,7 +27,7 @@ MOMENTUM = times(INERTIA, PER_SECOND)
 
 
 def _of_robot(letter: Node) -> LetterMaker:
-    """The letter of what the robot has one of."""
+    """The letter of a quantity that a robot has one of."""
     return lambda robot: letter
 
 

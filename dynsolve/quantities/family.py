@@ -1,4 +1,4 @@
-"""What a family of quantities is: everything that one record says of K₁, K₂, ... at once.
+"""A family of quantities: one record for K₁, K₂, ... together.
 
 Names and spellings are templates.  What stands in braces is the owner's:
 
@@ -24,7 +24,7 @@ from dynsolve.robot.units import Dimension
 
 
 class Owner(Enum):
-    """What has one quantity of a family each."""
+    """The kind of thing that owns one quantity of a family each."""
 
     ROBOT = 0
     ROW = 1

@@ -1,4 +1,4 @@
-"""The quantities of one robot: which there are, by name, and what is part of what."""
+"""The quantities of one robot: all of them by name, and the parts that each consists of."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MOST_INDEXED = 9
 
 @dataclass(frozen=True, slots=True)
 class Owners:
-    """What a robot has that quantities belong to: rows of its table, coordinates, bodies by name.
+    """The owners of a robot's quantities: rows of its table, coordinates, bodies by name.
 
     `points` are the bodies without inertia.
     """
@@ -50,7 +50,7 @@ class Owners:
         return product(range(1, min(len(self.coordinates), MOST_INDEXED) + 1), repeat=repeat)
 
     def template_values(self, owner: Owner, index: tuple[int, ...]) -> dict[str, str]:
-        """What stands for the braces of a family's templates; see `dynsolve.quantities.family`."""
+        """The values of the fields in a family's templates; see `dynsolve.quantities.family`."""
         match owner:
             case Owner.ROW:
                 return {"i": str(index[0])}
@@ -87,7 +87,7 @@ class Quantity:
         return bool(self.entry) and self.rule == self.whole
 
     def letter(self, robot: Robot) -> Node:
-        """What it is set with."""
+        """The letter that it is printed with."""
         return self.family.letter(robot, *self.index)
 
 
@@ -179,7 +179,7 @@ class Quantities(Mapping[str, Quantity]):
         return found
 
     def answers(self) -> Iterator[Quantity]:
-        """Those that an answer may be given for."""
+        """The quantities that an answer may be given for."""
         return (quantity for quantity in self.values() if quantity.family.is_answer)
 
     def examples(self) -> tuple[str, ...]:
@@ -195,7 +195,7 @@ class Quantities(Mapping[str, Quantity]):
 
     @cached_property
     def _coordinate_names(self) -> list[list[dict[str, str]]]:
-        """Of each coordinate what stands for {q}, {name} and {s}, once for each of its names."""
+        """The values of {q}, {name} and {s} for each coordinate, once for each of its names."""
         spoken = {q.name: subscript for subscript, q in subscripts(self.owners.coordinates).items()}
         return [
             [{"q": other, "name": other_names(q, spoken[q.name])[0], "s": spoken[q.name]}
@@ -219,7 +219,7 @@ class Quantities(Mapping[str, Quantity]):
         return {quantity.rule: quantity for quantity in self.values() if not quantity.is_read_off}
 
     def result(self, name: str) -> Quantity | None:
-        """What a result is called by: its name, or that of its rule."""
+        """The quantity of a result, found by its name or by that of its rule."""
         return self.get(name) or self.of_rule(name)
 
     def of_family(self, family: Family) -> tuple[Quantity, ...]:
@@ -245,7 +245,7 @@ class Quantities(Mapping[str, Quantity]):
         return found
 
     def is_real(self, quantity: Quantity) -> bool:
-        """Whether there is anything to it: no rotation of a point mass."""
+        """Whether it exists: a point mass has no tensor and no energy of rotation."""
         if not quantity.family.needs_rotation:
             return True
         return self.owners.bodies[quantity.index[0] - 1] not in self.owners.points
@@ -305,7 +305,7 @@ class Quantities(Mapping[str, Quantity]):
 
     @cached_property
     def open_spellings(self) -> Mapping[str, tuple[str, ...]]:
-        """The same for names with an index that there is not: `K#` are K1, K2, ..., `d##` entries of D."""
+        """The same for names whose index is out of range: `K#` are K1, K2, ..., `d##` entries of D."""
         found: dict[str, set[str]] = {}
         for text, names in self.spellings.items():
             stem = open_index(text)

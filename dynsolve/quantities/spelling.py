@@ -37,6 +37,6 @@ def other_names(q: Coordinate, subscript: str) -> tuple[str, ...]:
 
 
 def open_index(name: str) -> str:
-    """What names with another index have in common: `P3` is P#, `d13` is d##; empty for one without."""
+    """A name with `#` for each digit of its index: P# of `P3`, d## of `d13`; empty without an index."""
     stem = name.rstrip("0123456789")
     return stem + "#" * (len(name) - len(stem)) if stem != name else ""

@@ -85,7 +85,7 @@ def changed(path: Path) -> Iterator[IO[bytes]]:
 
 
 def temporary_of(path: Path) -> Path:
-    """What `write_changed` writes before the file itself.
+    """The temporary file that `write_changed` writes first.
 
     >>> temporary_of(Path("out/grades.csv")).name
     '.grades.csv.new'

@@ -83,7 +83,7 @@ def _switch(level: str) -> str:
 
 
 def html_notation(printer: MathMLPrinter) -> Notation:
-    """How MathML writes what a formula is made of."""
+    """The signs of a formula in MathML."""
 
     def fence(sign: str, inner: str) -> str:
         tall = any(mark in inner for mark in _TALL)
@@ -247,7 +247,7 @@ class _Page(MarkupPage):
         return f'<div class="line">{pieces}</div>'
 
     def needed(self, width: float) -> int:
-        """The width of the page on which so much fits, beside what stands around a formula."""
+        """The page width that a formula of this width needs, with its surroundings."""
         needed = int(width * 1.1 + _AROUND) + 1
         self.widths.add(needed)
         return needed
@@ -282,7 +282,7 @@ class _Page(MarkupPage):
         )
 
     def widths_css(self) -> str:
-        """From which width of the page on a matrix is shown whole."""
+        """The page widths from which on each matrix is shown whole."""
         return "".join(
             f"@container (min-width:{width}em){{.w{width}{{display:block}}.n{width}{{display:none}}}}\n"
             for width in sorted(self.widths)

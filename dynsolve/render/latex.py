@@ -76,7 +76,7 @@ def render(document: Document, style: Style = PLAIN) -> str:
 
 
 def render_fragment(document: Document, style: Style = PLAIN) -> str:
-    r"""What a document of the reader's own takes in with \input; it needs amsmath."""
+    r"""A fragment for \input into another document; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
     body = "\n".join(page.blocks(document.blocks))
     begin = "\\begingroup\\allowdisplaybreaks[3]\\emergencystretch=4em"
@@ -88,7 +88,7 @@ def _is_title(block: Block) -> bool:
 
 
 def latex_notation(printer: LatexPrinter) -> Notation:
-    """How LaTeX writes what a formula is made of."""
+    """The signs of a formula in LaTeX."""
 
     def opened(inner: str) -> str:
         return r"\Bigl(" if any(mark in inner for mark in _TALL) else "("

@@ -35,7 +35,7 @@ _FINE = 11.0
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """How a notation writes what a formula is made of.
+    """The signs of a formula in one notation.
 
     `plus`, `minus` and `relation` are signs between two parts, `lead` a minus before
     the first term; `opened` and `closed` are parentheses of a fixed size that may
@@ -74,7 +74,7 @@ class _Builder:
         self.widths[-1] += width
 
     def gap(self, depth: int) -> None:
-        """Here a line may end."""
+        """A place where a line may end."""
         if self.texts[-1]:
             self.texts.append([])
             self.widths.append(0.0)

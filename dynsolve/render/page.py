@@ -1,4 +1,4 @@
-"""What every format of a document has in common: `Page` turns its blocks into pieces of the format.
+"""The base of every format: a `Page` turns the blocks of a document into pieces of the format.
 
 To add a format, write a file with a `render` function and a page that derives from `Page`,
 or from `TypesetPage` where lines are broken here and not by whoever shows them; its methods
@@ -99,7 +99,7 @@ class Page(ABC, Generic[_Piece]):
 
     @abstractmethod
     def uses(self, sentence: str) -> Iterator[_Piece]:
-        """The sentence that says what goes into the next formula."""
+        """The sentence that lists the results used in the next formula."""
 
     @abstractmethod
     def list(self, items: Sequence[Prose]) -> Iterator[_Piece]:
@@ -140,7 +140,7 @@ class Page(ABC, Generic[_Piece]):
 
     @abstractmethod
     def verbatim(self, text: str) -> str:
-        """What somebody typed."""
+        """Text as somebody typed it."""
 
     @abstractmethod
     def inline(self, node: Node) -> str:
@@ -181,7 +181,7 @@ class TypesetPage(MarkupPage):
         self.numbered = Typesetter(notation, ruler, width - number)
 
     def typesetter(self, formula: Formula) -> Typesetter:
-        """What sets a formula, beside whose number there is less room."""
+        """The typesetter of a formula; one with a number has less room."""
         return self.numbered if formula.label in self.labels else self.unnumbered
 
     def inline(self, node: Node) -> str:

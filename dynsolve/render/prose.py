@@ -1,4 +1,4 @@
-"""Text as it may stand in any document: what is seen, and the mathematics among it as formulas.
+"""Text that is safe in any document: its visible characters, with mathematics as formulas.
 
 Words come from two sides: from the explanations, which write A₁, θ and q̇ in Unicode,
 and from problem files, where a title may hold anything.  Control characters and

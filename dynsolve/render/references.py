@@ -26,7 +26,7 @@ def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:
 
 
 def with_results(blocks: Sequence[Block]) -> list[Block]:
-    """The blocks without a `Uses` that nothing follows which is computed from it."""
+    """Drops each `Uses` that no formula follows."""
     return [
         block
         for block, after in zip_longest(blocks, blocks[1:])

@@ -1,4 +1,4 @@
-"""Breaking what is too wide for a terminal: sums at their signs, prose between its words."""
+"""Line breaks for a terminal: sums break at their signs, prose between its words."""
 
 from __future__ import annotations
 

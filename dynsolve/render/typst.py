@@ -74,7 +74,7 @@ def to_typst_document(document: Document, style: Style = PLAIN) -> str:
 
 
 def typst_notation(printer: TypstPrinter) -> Notation:
-    """How Typst writes what a formula is made of."""
+    """The signs of a formula in Typst."""
 
     def fence(sign: str, inner: str) -> str:
         return f"lr(size: #1.9em, \\{sign})" if any(mark in inner for mark in _TALL) else f"\\{sign}"

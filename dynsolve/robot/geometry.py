@@ -1,4 +1,4 @@
-"""Rotations about axes, and where a link's ends are, seen from its own frame.
+"""Rotations about axes, and the positions of a link's ends in its own frame.
 
 Standard convention: link i reaches from o_{i-1} to o_i; frame i is at its far end.
 Modified convention: from o_i to o_{i+1}; frame i is at its near end.

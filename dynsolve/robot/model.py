@@ -1,4 +1,4 @@
-"""What a manipulator is: joints in a Denavit-Hartenberg table, and bodies that have mass.
+"""The model of a manipulator: joints in a Denavit-Hartenberg table, and bodies that have mass.
 
 Everything here is exact, frozen and whole.  Lengths, masses and inertias are
 elements of one ring (`robot.ring`); angles are linear forms in the coordinates.
@@ -31,7 +31,7 @@ class Convention(Enum):
 
 
 class JointType(Enum):
-    """What a coordinate is: an angle or a length."""
+    """The type of a coordinate: an angle or a length."""
 
     REVOLUTE = "revolute"
     PRISMATIC = "prismatic"
@@ -87,7 +87,7 @@ class Joint:
 
 
 class AxesKind(Enum):
-    """What a body-attached frame is given relative to.
+    """The frame relative to which a body-attached frame is given.
 
     LINK: R_b = R_i · rotation; turns with frame i.
     REST: parallel to frame 0 at q = 0, and turns with the link.

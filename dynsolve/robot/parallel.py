@@ -28,7 +28,7 @@ Rotation = tuple[tuple[float, float, float], ...]
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """What a row of the table turns by: its θ and α; `revolute` where θ holds the joint variable."""
+    """The rotation of a row of the table: its θ and α; `revolute` where θ holds the joint variable."""
 
     theta: Angle
     alpha: Angle
@@ -99,7 +99,7 @@ def _leading_positive(angle: Angle, coordinates: Collection[str]) -> Angle:
 def _constant_rotations(
     turn: Turn, coordinates: Collection[str], modified: bool
 ) -> tuple[Rotation, Rotation]:
-    """What a row turns by before and after its joint axis; without one, its whole turn in two parts.
+    """The constant rotations of a row before and after its joint axis; of a fixed row, both parts.
 
     The constant part of a revolute θ is a turn about the joint's own axis, and matters to no sign.
     """

@@ -1,4 +1,4 @@
-"""Dimensions and units: what may be added to what, how it is called, how large a unit is in SI.
+"""Dimensions and units: which quantities may be added, the names of dimensions, the SI size of a unit.
 
 A dimension is three exponents, of mass, length and time.  A result is in SI units; a
 value given in others (`units: {L1: mm}`) is turned into them exactly.  To add a unit, add

@@ -193,7 +193,7 @@ def _number_sections(solution: Dynamics, numbers: Numbers) -> dict[str, Any]:
 
 
 def _given(given: Given) -> dict[str, dict[str, str]]:
-    """What was given, by name; an angle without a unit of its own is in radians."""
+    """The given values by name; an angle without a unit is in radians."""
     return {
         name + ("", "_dot", "_ddot")[dots]: {"value": entry.text, "unit": entry.unit or "rad"}
         for (name, dots), entry in given.entries.items()
@@ -201,7 +201,7 @@ def _given(given: Given) -> dict[str, dict[str, str]]:
 
 
 def _units(robot: Robot) -> Iterator[tuple[str, str | measures.Units]]:
-    """The units of what the robot has one of, but for the Jacobian."""
+    """The units of the quantities that a robot has one of, but for the Jacobian."""
     for family in _exported(robot):
         if family.owner is Owner.ROBOT and family.stage.needs_masses:
             yield family.json, measures.of_result(robot, family.name)

@@ -1,4 +1,4 @@
-"""Atoms: what the factors of a printed product are, and in which order they stand.
+"""Atoms: the factors of a printed product, and their order.
 
 An atom is whatever is printed as one factor: a mass, a length, cos θ₂, a velocity, a sum
 (a₃ + x₃) that recurs as a whole.  Monomials name atoms by number; the table knows the
@@ -14,7 +14,7 @@ from dynsolve.notation.walk import children
 
 
 class Rank(IntEnum):
-    """What stands before what, in a product and in a sum: √2 m a d (a + b) sin θ (c₁ + c₂) θ̇ (θ̇₁ + θ̇₂)."""
+    """The order in products and sums: √2 m a d (a + b) sin θ (c₁ + c₂) θ̇ (θ̇₁ + θ̇₂)."""
 
     ROOT = 0  # of a number
     LEADING = 1  # a mass or a moment of inertia
@@ -32,7 +32,7 @@ AtomPlace = tuple[Rank, tuple[int, ...]]
 
 
 class AtomTable:
-    """What the numbers in a monomial stand for, and in which order they are printed."""
+    """The table of atoms: the meaning of the numbers in a monomial, and the order of printing."""
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []

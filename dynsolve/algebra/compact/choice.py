@@ -24,7 +24,7 @@ SHARED = 0.75
 
 
 class _Option(NamedTuple):
-    """A form, its price, and of that what the sines and cosines of each term cost."""
+    """A form, its price, and the share of the price for the sines and cosines of each term."""
 
     items: tuple[tuple[TrigMonomial, Rational], ...]
     price: float

@@ -86,7 +86,7 @@ class Collector:
         return factor, mono, self._divided(poly, mono, factor)
 
     def content(self, factors: Iterable[Rational]) -> Rational:
-        """What is worth drawing out; of decimals only what all are equal to."""
+        """The factor worth drawing out; of decimals only one that all are equal to."""
         if not self.decimal:
             return content(factors)
         sizes: set[Rational] = {f if f > 0 else -f for f in factors}

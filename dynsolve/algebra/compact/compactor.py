@@ -97,7 +97,7 @@ class Compactor:
     # -- velocities and accelerations --------------------------------------------------------------
 
     def _by_rates(self, layout: TermLayout, terms: Terms) -> Node:
-        """What has accelerations, what has velocities and what has neither, each by itself."""
+        """The terms with accelerations, those with velocities and all others, each collected separately."""
         if not layout.rates:
             return self._coefficient(layout, terms)
         accelerations = sum(self.ring.generators[i].dots == 2 for i in layout.rates)
@@ -177,7 +177,7 @@ class Compactor:
         return found if scale == 1 else times(scale, [(found, 1)])
 
     def _without_common(self, layout: TermLayout, terms: Terms) -> tuple[tuple[Rational, Monomial], Terms]:
-        """(what all terms share of parameters and numbers, the rest)"""
+        """(the parameters and numbers that all terms share, the rest)"""
         start = sum(width for _, width in layout.groups)
         symbols = zip(*(e[start:] for e in terms), strict=True)
         least = tuple(min(powers) for powers in symbols)
@@ -191,7 +191,7 @@ class Compactor:
         return (factor, self._atoms.monomial(layout.symbols, least)), rest
 
     def _by_masses(self, layout: TermLayout, terms: Terms) -> Node:
-        """Σ mass · (what it multiplies); masses that multiply the same are summed first."""
+        """Σ mass · factor; masses with equal factors are summed first."""
         start = sum(width for _, width in layout.groups)
         split = split_middle(terms, start, start + len(layout.leading))
         inner = layout.without_leading()
@@ -226,7 +226,7 @@ class Compactor:
         return self._paired(parts, lambda part: self._by_angles(inner, part))
 
     def _without_angles(self, layout: TermLayout, terms: Terms) -> Node:
-        """Parameters, and velocities where they have come along."""
+        """The terms without angles: parameters, and velocities if these were not split off before."""
         if layout.rates:
             split = split_tail(terms, len(layout.rates))
             inner = layout.without_rates()

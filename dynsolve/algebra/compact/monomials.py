@@ -48,7 +48,7 @@ def common(monos: Iterable[Monomial]) -> Monomial:
 
 
 def content(factors: Iterable[Rational]) -> Rational:
-    """What is worth drawing out: the common divisor, and a denominator if most share it or all have one.
+    """The factor worth drawing out: the common divisor, and a denominator if most share it or all have one.
 
     The denominator must be a multiple of the others: (m₁ + 2 m₂)/4, but a/2 + b/3.
     """

@@ -1,4 +1,4 @@
-"""Which atom a generator of the ring is, and a sine or cosine of some angle: how each is printed."""
+"""The atoms of a ring's generators, and of the sines and cosines of angles: how each is printed."""
 
 from __future__ import annotations
 

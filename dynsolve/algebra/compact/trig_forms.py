@@ -62,7 +62,7 @@ def trig_forms(poly: TrigPolynomial) -> list[TrigForm]:
 
 
 def _other_bases(basis: list[Multiples]) -> Iterator[list[Multiples]]:
-    """Of two angles, each of them with their difference."""
+    """The other bases of two angles: each of them with their difference."""
     if len(basis) == 2:
         _, difference = positive(tuple(b - a for a, b in zip(*basis, strict=True)))
         for angle in basis:

@@ -1,4 +1,4 @@
-"""What a user gives: values for parameters and states, read and checked, each fault at its place.
+"""Values that a user gives for parameters and states, read and checked, each fault at its place.
 
 `L1=0.4` on a command line, `L1: 0.4` in a problem file and `L1=0.4` in a call come
 here as text; what leaves is exact.
@@ -338,7 +338,7 @@ def _degrees(value: Fraction) -> Node:
 
 
 def _angle_names(robot: Robot) -> frozenset[str]:
-    """The names that turn something, as angles by themselves."""
+    """The names that are angles by themselves."""
     angles = [pair.angle for pair in robot.ring.pairs]
     angles += [angle for joint in robot.joints for angle in (joint.theta, joint.alpha)]
     alone = {atom[0][0] for angle in angles for atom, _ in angle.terms if len(atom) == 1 and atom[0][1] == 1}

@@ -1,4 +1,4 @@
-"""What every result of a robot is measured in: N m, kg m², J, by its role and the type of its coordinates."""
+"""The unit of every result of a robot: N m, kg m², J, by its role and the type of its coordinates."""
 
 from __future__ import annotations
 

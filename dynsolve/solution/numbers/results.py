@@ -145,7 +145,7 @@ def _float(expr: Expr, name: str) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Numbers:
-    """What stands in numbers beside the symbolic results of a robot.
+    """The numeric results beside the symbolic ones of a robot.
 
     `given` are the values of parameters; `valued` the results with these values, None
     where there are none; `state` what holds at a state, None where none is asked for.

@@ -160,5 +160,5 @@ def _worth(poly: Any, known: Mapping[int, arb]) -> arb | None:
 
 
 def has_constants(ring: Ring) -> bool:
-    """Whether roots of numbers, cosines of constant angles or π are generators of a ring."""
+    """Whether a ring has roots of numbers, cosines of constant angles or π among its generators."""
     return bool(_constants(ring))

@@ -97,7 +97,7 @@ class Substitution:
 
     @cached_property
     def _images(self) -> tuple[Any, ...]:
-        """What every generator becomes."""
+        """The image of every generator."""
         return tuple(self._image(g).poly for g in self.source.generators)
 
     def _image(self, g: Generator) -> Expr:
