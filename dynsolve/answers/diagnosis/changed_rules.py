@@ -55,12 +55,12 @@ class DerivationSlips:
         self.graph = graph
         self._made: list[tuple[str, ChangedDerivation, Diagnosis]] | None = None
 
-    def values(self, node: str) -> Iterator[tuple[Any, Diagnosis]]:
-        """What a node becomes under every slip that reaches it."""
+    def values(self, node: str) -> Iterator[tuple[Any, Diagnosis, ChangedDerivation]]:
+        """What a node becomes under every slip that reaches it, and what everything else becomes."""
         for source, replaced, told in self.made():
             if source != node and replaced.reached(node):
                 try:
-                    yield replaced(node), told
+                    yield replaced(node), told, replaced
                 except Exception:  # noqa: BLE001, S112  a step that cannot be taken from there tells nothing
                     continue
 

@@ -18,7 +18,7 @@ from typing import Any
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, DerivationSlips
+from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, ChangedDerivation, DerivationSlips
 from dynsolve.answers.diagnosis.fourier import is_small
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.steps import variants
@@ -27,10 +27,12 @@ from dynsolve.answers.diagnosis.term_slips import LIGHT, TermSlip, tell
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.diagnosis.terms import TermDiagnoser
 from dynsolve.answers.diagnosis.wrong_entry import DimensionCheck, WrongEntry
+from dynsolve.answers.judging.entry_comparison import substituted
 from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.derivation.energy import velocities
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import families
@@ -65,6 +67,7 @@ class Diagnoser:
         derivation_slips: DerivationSlips,
     ) -> None:
         self.derivation_slips = derivation_slips
+        self._leading: dict[str, frozenset[str]] = {}
         self.problem = problem
         self.graph = graph
         self.follow_through = follow_through
@@ -113,9 +116,24 @@ class Diagnoser:
     def _named(self, wrong: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
         if self._is_constant(wrong, mine):
             yield slip("constant_term")
-        case = _Case(wrong, mine, self.expected(wrong), self.terms)
+        case = _Case(wrong, *self._with_numbers(mine, self.expected(wrong)), self.terms)
         explained = (tuple(explain(self, case)) for explain in _IN_ORDER)
         yield from next(filter(None, explained), ())
+
+    def _with_numbers(self, mine: Expr, expected: Expr) -> tuple[Expr, Expr]:
+        """Both with the numbers of the problem file, as far as the answer has numbers for symbols."""
+        indices = self.ring.symbol_indices
+        put = {indices[name, 0]: value for name, value in self.problem.values.items() if (name, 0) in indices}
+        if not put or not mine.poly:
+            return mine, expected
+        degrees = mine.poly.degrees()
+        unused = {i: value for i, value in put.items() if degrees[i] <= 0}
+        choices = [
+            (mine, expected),
+            (mine, substituted(expected, unused)),
+            (substituted(mine, put), substituted(expected, put)),
+        ]
+        return max(choices, key=lambda pair: _likeness(*pair))
 
     # -- one explanation after the other, see _IN_ORDER --------------------------------------------
 
@@ -138,14 +156,19 @@ class Diagnoser:
 
     def _one_term(self, case: _Case) -> Iterator[Diagnosis]:
         """One slip in one term: a lost square, a dropped mass."""
-        if len(case.term_slips) == 1 and case.term_slips[0].weight < LIGHT:
-            yield case.term_slips[0].diagnosis
+        if len(case.term_slips) == 1:
+            (one,) = case.term_slips
+            is_seen = one.code == "missing_term" and _in_common(case.mine, case.expected) > 0
+            if one.weight < LIGHT or is_seen:
+                yield one.diagnosis
 
     def _earlier_step_otherwise(self, case: _Case) -> Iterator[Diagnosis]:
         """An earlier step was done wrongly, and every step after it correctly."""
-        found = self._first_of(self._derived(case.wrong, case.mine), case.wrong, case.mine)
-        if found is not None:
-            yield found
+        for value, diagnosis, changed in self._derived(case.wrong, case.mine):
+            is_it = diagnosis.code not in OF_THE_MATRIX and case.wrong.at(value) == case.mine
+            if is_it and self._fits_the_rest(case.wrong, changed):
+                yield diagnosis
+                return
 
     def _several_terms(self, case: _Case) -> Iterator[Diagnosis]:
         """Several slips in several terms, each named; where they are too many, which terms differ."""
@@ -164,12 +187,36 @@ class Diagnoser:
             None,
         )
 
-    def _derived(self, wrong: WrongEntry, *mine: Expr) -> Iterator[tuple[Any, Diagnosis]]:
+    def _fits_the_rest(self, wrong: WrongEntry, changed: ChangedDerivation) -> bool:
+        """Whether a slip of an earlier step agrees with all that the student wrote on the way.
+
+        What the student's own answer holds was not left out.
+        """
+        node = wrong.target.node
+        for name, own in self.follow_through.students.items():
+            if own.value is None or not changed.reached(name):
+                continue
+            if name == node:
+                if not _agree(changed(name), own.value, self.graph.key(name)):
+                    return False
+            elif name in self._before(node) and changed(name) != own.value:
+                return False
+        return True
+
+    def _before(self, node: str) -> frozenset[str]:
+        """The nodes that lead to a node."""
+        if node not in self._leading:
+            self._leading[node] = frozenset()
+            inputs = {name for route in self.graph.routes(node) for name in route.inputs}
+            self._leading[node] = frozenset(inputs).union(*map(self._before, inputs))
+        return self._leading[node]
+
+    def _derived(self, wrong: WrongEntry, *mine: Expr) -> Iterator[tuple[Any, Diagnosis, ChangedDerivation]]:
         """The values of a node under slips of earlier steps; for an answer 0, those that omit something."""
         is_zero = all(value.is_zero for value in mine)
-        for value, diagnosis in self.derivation_slips.values(wrong.target.node):
-            if not is_zero or diagnosis.code.endswith("_missing"):
-                yield value, diagnosis
+        for found in self.derivation_slips.values(wrong.target.node):
+            if not is_zero or found[1].code.endswith("_missing"):
+                yield found
 
     def _refined(self, one: Diagnosis, wrong: WrongEntry) -> Diagnosis:
         """A wrong sign of a potential energy, or of g, is the wrong sign of gravity."""
@@ -221,12 +268,14 @@ class Diagnoser:
             return found
         target = wrong.target
         given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
+        if wrong.name == "C" and self._is_transposed_coriolis(compared):
+            return (slip("transposed"),)
         candidates = [*self._variants(wrong, target.node), *self._transposed(target)]
         for value, diagnosis in candidates:
             if target.of(value) == given:
                 return (diagnosis, *(d for d in found if d.code == "dimensions"))
-        for value, diagnosis in self._derived(wrong, *given.entries):
-            if target.of(value) == given:
+        for value, diagnosis, changed in self._derived(wrong, *given.entries):
+            if target.of(value) == given and self._fits_the_rest(wrong, changed):
                 return (diagnosis, *(d for d in found if d.code == "dimensions"))
         return found
 
@@ -235,6 +284,16 @@ class Diagnoser:
         if isinstance(right, Matrix) and right.shape[0] == right.shape[1] > 1:
             yield right.T, slip("transposed")
 
+    def _is_transposed_coriolis(self, compared: KeyComparison) -> bool:
+        """Whether the transpose of C gives the right C q̇."""
+        rows = compared.answer_value.rows or ()
+        n = self.graph.robot.n
+        mine = [as_expr(entry) for row in rows for entry in row]
+        if len(mine) != n * n or any(entry is None for entry in mine):
+            return False
+        C = Matrix.of(self.ring, [[e for e in mine[k::n] if e is not None] for k in range(n)])
+        return bool(C @ velocities(self.graph.robot) == self.graph.key("Cqd"))
+
     def difference(self, wrong: WrongEntry) -> Node | None:
         """The answer minus what was expected, in compact form."""
         mine = wrong.mine
@@ -242,6 +301,14 @@ class Diagnoser:
             return None
         difference = mine - self.expected(wrong)
         return self.words.form(difference) if is_small(difference) else None
+
+
+def _agree(changed: Any, own: Any, key: Any) -> bool:
+    """Whether a slip changes nothing that is right, entry by entry: what it changes is as it was written."""
+    if not isinstance(changed, Matrix) or not isinstance(own, Matrix):
+        return True
+    entries = zip(changed.entries, own.entries, key.entries, strict=True)
+    return all(new in (right, mine) for new, mine, right in entries)
 
 
 def _in_common(a: Expr, b: Expr) -> int:

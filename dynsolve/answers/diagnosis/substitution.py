@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from typing import Any
 
 from flint import fmpq
@@ -10,6 +11,7 @@ from flint import fmpq
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
@@ -150,8 +152,24 @@ def _symbols(graph: AnswerGraph, words: TermWriter, values: _Pair) -> Iterator[D
     ]  # fmt: skip
     have, wanted = set(_used(mine)), set(_used(expected))
     changed = (mine - expected).poly.monoms()
+    for g in parameters:
+        number = _number_for(g, mine, expected) if g.index in wanted - have else None
+        if number is not None and values.becomes({g.index: ring.constant(number).poly}):
+            text = words.of(ring.constant(number))
+            yield slip("symbol", yours=words.of(mine), part=text, other=words.generator(g))
     for name in [g for g in parameters if g.index in wanted]:
         yield from _symbol(words, name, parameters, values, (have, wanted), changed)
+
+
+def _number_for(g: Generator, mine: Expr, expected: Expr) -> Fraction | None:
+    """The number that may stand for a symbol of first degree: told by the first term that holds it."""
+    ours = mine.poly.to_dict()
+    for exponents, value in expected.poly.to_dict().items():
+        if exponents[g.index] == 1:
+            bare = (*exponents[: g.index], 0, *exponents[g.index + 1 :])
+            number = fraction(ours[bare] / value) if bare in ours else None
+            return None if number in (None, 1, -1) else number
+    return None
 
 
 def _symbol(

@@ -65,12 +65,38 @@ class SymbolSlips:
                     generators[plus], p, generators[minus], -q, has.get(minus, 0), yours
                 )
                 return
+        reindexed = self._reindexed(change)
+        if reindexed is not None:
+            here, there = map(self.writer.monomial, reindexed)
+            yield found_slip(2, "symbol", yours=yours, part=here, other=there)
+            return
         if all(power > 0 for power in change.values()) and sum(change.values()) <= 3:
             lost = self.writer.monomial(change.items())
             yield found_slip(3, "dropped_factor", yours=yours, part=lost)
         elif all(power < 0 for power in change.values()) and sum(change.values()) >= -3:
             gained = self.writer.monomial([(i, -p) for i, p in change.items()])
             yield found_slip(3, "extra_factor", yours=yours, part=gained)
+
+    def _reindexed(self, change: dict[int, int]) -> tuple[Monomial, Monomial] | None:
+        """What was written and what belongs there, where one index is another: m₃ d_c3 for m₄ d_c4."""
+        if any(self.ring.generators[i].kind != "symbol" or self.ring.generators[i].dots for i in change):
+            return None
+        written = tuple((i, -p) for i, p in change.items() if p < 0)
+        wanted = tuple((i, p) for i, p in change.items() if p > 0)
+        mine, theirs = self._letters_and_numbers(written), self._letters_and_numbers(wanted)
+        if len(mine) < 2 or [letter for letter, _ in mine] != [letter for letter, _ in theirs]:
+            return None
+        moved = {(a, b) for (_, a), (_, b) in zip(mine, theirs, strict=True)}
+        return (written, wanted) if len(moved) == 1 else None
+
+    def _letters_and_numbers(self, monomial: Monomial) -> list[tuple[tuple[str, int], str]]:
+        """((letters of a name, its power), number in its indices) of each symbol, sorted."""
+        found = []
+        for i, power in monomial:
+            name = self.ring.generators[i].name
+            letters = "".join(c for c in name if not c.isdigit())
+            found.append(((letters, power), "".join(c for c in name if c.isdigit())))
+        return sorted(found)
 
     def _dropped(self, g: Generator, power: int, present: int) -> str:
         if present:

@@ -128,7 +128,7 @@ def test_an_entry_of_an_inertia_matrix_is_no_transposed_matrix() -> None:
 def test_a_slip_long_before_is_named(stem: str, node: str) -> None:
     """Only what comes out at the end is handed in; slips with the same outcome are one to us."""
     g, forms = graph(stem), Forms(problem(stem).robot, key(stem))
-    outcomes = [(v, t) for v, t in DerivationSlips(g).values(node) if not _equal(v, g.key(node))]
+    outcomes = [(v, t) for v, t, _ in DerivationSlips(g).values(node) if not _equal(v, g.key(node))]
     for value, told in outcomes:
         answer = Answer(node, "", forms.of(value), Place(1, 1), "")
         report = checker(stem)(Submission("", "", "", (answer,)))

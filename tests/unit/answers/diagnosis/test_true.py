@@ -1,0 +1,129 @@
+"""What a diagnosis says is true of the hand-in, or it is not said."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.diagnosis.fourier import part_expr, parts
+from dynsolve.answers.submission import Answer, Place, Submission
+from tests.unit.answers.hands import Text, checker, codes, judge, judged
+from tests.unit.answers.test_generated import forms, graph
+
+ELBOW, RP = "planar-2r", "in3140-rp"
+TURNING = "(m1*lc1^2+I1)*q1_dot^2/2 + I2*(q1_dot+q2_dot)^2/2"
+MOVING = "m2*(l1^2*q1_dot^2 + lc2^2*(q1_dot+q2_dot)^2 + 2*l1*lc2*cos(q2)*q1_dot*(q1_dot+q2_dot))/2"
+DDT = "m2*(lc2^2 + l1*lc2*cos(q2))*q1_ddot + m2*lc2^2*q2_ddot - m2*l1*lc2*sin(q2)*q1_dot*q2_dot"
+
+
+def test_what_an_earlier_answer_holds_was_not_left_out() -> None:
+    alone = judged(ELBOW, "ddt2", DDT)
+    assert "rotation_missing" in codes(alone)
+    beside = judged(ELBOW, "ddt2", DDT, K=f"{TURNING} + {MOVING}")
+    assert set(codes(beside)) == {"missing_term"}
+
+
+def test_a_body_that_stands_in_P_was_not_left_out_of_it() -> None:
+    P = "m1*g*lc1*sin(q1) + m2*g*(l1*sin(q1) + lc2*sin(q1 + q2))"
+    g: Text = [["m1*g*lc1*cos(q1)"], ["0"]]
+    assert "body_missing" in codes(judged(ELBOW, "g", g))
+    assert "body_missing" not in codes(judged(ELBOW, "g", g, P=P))
+
+
+def test_a_transposed_C_is_told_as_that() -> None:
+    h = "m2*l1*lc2*sin(q2)"
+    C = [[f"-{h}*q2_dot", f"{h}*q1_dot"], [f"-{h}*(q1_dot + q2_dot)", "0"]]
+    assert codes(judged(ELBOW, "C", C)) == ["transposed"]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "says"),
+    [
+        ("g2", "m2*9.81*lc2*cos(q1+q2)", "stands 9.81 where g belongs"),
+        ("g1", "(m1*lc1+m2*l1)*10*cos(q1)+m2*lc2*10*cos(q1+q2)", "stands 10 where g belongs"),
+    ],
+)
+def test_a_number_for_a_symbol_is_one_slip(name: str, text: str, says: str) -> None:
+    found = judged(ELBOW, name, text)
+    assert says in found.diagnosis[0].message
+    assert set(codes(found)) <= {"symbol", "dimensions"}
+
+
+def test_right_terms_with_numbers_of_the_file_belong() -> None:
+    rod = """
+dh: [{theta: q1*, a: l1}]
+gravity: [0, -g, 0]
+masses: [{mass: m1, link: 1, center: midpoint, shape: {rod: {length: l1}}}]
+values: {g: 9.81, m1: 2}
+"""
+    found = judged(rod, "tau1", "2*l1^2/3*q1_ddot + 9.81*l1*cos(q1) + 9.81*l1*sin(q1)")
+    assert codes(found) == ["extra_term"]
+    assert "sin" in found.diagnosis[0].message or "s₁" in found.diagnosis[0].message
+
+
+@pytest.mark.parametrize(("written", "wanted"), [("m1*lc1^2", "m2*lc2^2")])
+def test_one_index_for_another_is_one_slip(written: str, wanted: str) -> None:
+    """In a term of its own, a mass and a length with the index of another body."""
+    right = f"m1*lc1^2 + m2*(l1^2 + 2*l1*lc2*cos(q2)) + I1 + I2 + {wanted}"
+    found = judged(ELBOW, "d11", right.replace(wanted, written))
+    assert len(found.diagnosis) <= 2
+    assert codes(judged(ELBOW, "d22", f"{written} + I2")) == ["symbol"]
+
+
+STEMS = [RP, ELBOW, "rp-vertical", "elbow-3r"]
+TRUE_OF_A_TERM = {
+    -1: {"sign", "sign_all", "gravity_sign", "slope_sign", "factor", "factor_all", "twist_sign"},
+    0: {"missing_term", "terms_missing", "product_rule", "chain_rule", "slope_missing", "gravity_missing"},
+    2: {"factor", "factor_all", "double_angle"},
+}
+"""Codes that are true of a term that was made -1, 0 or 2 times as large."""
+
+GENERAL = {
+    "terms_differ", "terms_missing", "trig_part", "dimensions", "extra_term", "missing_term", "constant_term",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("factor", [-1, 0, 2])
+def test_a_slip_beside_the_right_answers_before_it_is_told_as_it_is(factor: int, seed: int) -> None:
+    """Everything before it is given and right, so that no earlier step went wrong."""
+    draw = random.Random(seed)
+    stem = draw.choice(STEMS)
+    g = graph(stem)
+    node = draw.choice(["P", "K", "dLdqd1", "ddt1", "tau2", "g", "D"])
+    value = g.key(node)
+    entries = list(value.entries) if isinstance(value, Matrix) else [value]
+    places = [i for i, e in enumerate(entries) if len(parts(e)) > 1]
+    if not places:
+        return
+    place = draw.choice(places)
+    part = part_expr(value.ring, draw.choice(list(parts(entries[place]).values())))
+    entries[place] = entries[place] + part * (factor - 1)
+    width = value.shape[1] if isinstance(value, Matrix) else 1
+    rows = [entries[i : i + width] for i in range(0, len(entries), width)]
+    wrong = Matrix.of(value.ring, rows) if isinstance(value, Matrix) else entries[0]
+    order = ["rc1", "rc2", "P1", "P2", "K1", "K2", "P", "K", "L", "dLdqd1", "ddt1", "dLdq1", "tau1", "dLdqd2",
+             "ddt2", "dLdq2", "tau2", "D", "Cqd", "g"]  # fmt: skip
+    before = [n for n in order[: order.index(node)] if n in g.answer_ring.rules]
+    answers = tuple(
+        Answer(g.answer(n), "", forms(stem).of(wrong if n == node else g.key(n)), Place(i + 1, 1), "",
+               occurrence=(i, 0))
+        for i, n in enumerate([*before, node])
+    )  # fmt: skip
+    report = checker(stem)(Submission("", "", "", answers))
+    found = next(a for a in report.answers if a.name == g.answer(node))
+    assert found.verdict == "wrong"
+    told = set(codes(found)) - {"dimensions"}
+    steps = {"body_missing", "rotation_missing", "translation_missing"} if factor == 0 else set()
+    assert told <= TRUE_OF_A_TERM[factor] | GENERAL | steps, (
+        stem,
+        node,
+        [d.message for d in found.diagnosis],
+    )
+
+
+def test_a_hand_in_of_the_key_has_no_diagnosis() -> None:
+    report = judge(ELBOW, {"d22": "m2*lc2^2 + I2", "g2": "m2*g*lc2*cos(q1+q2)"})
+    assert all(not a.diagnosis for a in report.answers)
