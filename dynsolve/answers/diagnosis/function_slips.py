@@ -6,13 +6,17 @@ A part is compared with the part of the expected value that has the same monomia
 from __future__ import annotations
 
 from fractions import Fraction
+from math import prod
 
 from dynsolve.algebra.fourier import TrigFunction
 from dynsolve.answers.diagnosis.fourier import (
     Part,
     angle_of,
+    part_expr,
 )
+from dynsolve.answers.diagnosis.substitution import put_polynomials
 from dynsolve.answers.diagnosis.term_slips import PartWriter, TermSlip, found_slip, ratio_of
+from dynsolve.notation.tree import Negative, Node, Number, Product, Quotient
 
 
 class FunctionSlips:
@@ -27,8 +31,9 @@ class FunctionSlips:
         """The slips that lead from the expected part to the one that was written."""
         ratio = ratio_of(mine, expected)
         if ratio is not None:
-            return [self._factor(expected, ratio, self._number_of(mine), self._number_of(expected))]
-        single = self._trig_function(mine, expected)
+            number = self._number_of(expected)
+            return [self._factor(expected, ratio, ratio * number, number)]
+        single = self._trig_function(mine, expected) or self._exchanged(mine, expected)
         if single is not None:
             return [single]
         return self._term_by_term(mine, expected)
@@ -42,7 +47,25 @@ class FunctionSlips:
         return found_slip(weight, "factor", term=self.writer.part(bare), yours=mine, other=theirs)
 
     def _number_of(self, part: Part) -> Fraction:
-        return part.fourier[0][1]
+        """The number before a part as a person writes it."""
+        if part.single is not None:
+            return part.single[1]
+        return _coefficient(self.words.form(part_expr(self.ring, part))) or part.fourier[0][1]
+
+    def _exchanged(self, mine: Part, expected: Part) -> TermSlip | None:
+        """Sine for cosine, or cosine for sine, in one factor of a product: s₁ s₂ for s₁ c₂."""
+        here, there = part_expr(self.ring, mine), part_expr(self.ring, expected)
+        degrees = there.poly.degrees()
+        for pair in self.ring.pairs:
+            if (degrees[pair.sine] > 0) == (degrees[pair.cosine] > 0):
+                continue
+            s, c = self.ring.generator(pair.sine), self.ring.generator(pair.cosine)
+            if put_polynomials(there, {pair.sine: c.poly, pair.cosine: s.poly}) == here:
+                written, wanted = (c, s) if degrees[pair.sine] > 0 else (s, c)
+                part, other = self.words.of(written), self.words.of(wanted)
+                yours = self.writer.part(mine)
+                return found_slip(2, "sin_for_cos", yours=yours, part=part, other=other)
+        return None
 
     def _trig_function(self, mine: Part, expected: Part) -> TermSlip | None:
         """A slip in the one sine or cosine of a part: the wrong function, the wrong angle."""
@@ -98,3 +121,17 @@ class FunctionSlips:
             factor = self.writer.part(Part((), mine.fourier))
             return [found_slip(5, "trig_part", term=term, yours=factor)]
         return found
+
+
+def _coefficient(node: Node) -> Fraction:
+    """The number before a product."""
+    match node:
+        case Number(p, q):
+            return Fraction(p, q)
+        case Negative(argument):
+            return -_coefficient(argument)
+        case Product(factors):
+            return prod((_coefficient(factor) for factor in factors), start=Fraction(1))
+        case Quotient(numerator, denominator):
+            return _coefficient(numerator) / (_coefficient(denominator) or 1)
+    return Fraction(1)

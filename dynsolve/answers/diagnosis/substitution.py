@@ -44,7 +44,7 @@ class _Pair:
             moved = [images[i](*self.point) if i in images else x for i, x in enumerate(self.point)]
             if self.expected.poly(*moved) != self.value:
                 return False
-        return _put(self.expected, images) == self.mine
+        return put_polynomials(self.expected, images) == self.mine
 
 
 def _point(ring: Ring) -> list[fmpq]:
@@ -66,7 +66,8 @@ def substitutions(graph: AnswerGraph, words: TermWriter, mine: Expr, expected: E
     yield from _symbols(graph, words, pair)
 
 
-def _put(expr: Expr, images: dict[int, Any]) -> Expr:
+def put_polynomials(expr: Expr, images: dict[int, Any]) -> Expr:
+    """The expression with polynomials for some generators."""
     ring = expr.ring
     point = [images.get(i, g) for i, g in enumerate(ring.ctx.gens())]
     return Expr(ring, ring.reduce(expr.poly.compose(*point, ctx=ring.ctx)))
@@ -81,7 +82,7 @@ def _gravity(graph: AnswerGraph, values: _Pair) -> Iterator[Diagnosis]:
     strength = {i for entry in graph.robot.gravity.entries if entry.poly for i in _used(entry)}
     symbols = [i for i in strength if ring.generators[i].kind == "symbol"]
     for index in symbols:
-        if _put(expected, {index: ring.zero.poly}) == expected:
+        if put_polynomials(expected, {index: ring.zero.poly}) == expected:
             continue
         if values.becomes({index: -ring.generator(index).poly}):
             yield slip("gravity_sign")

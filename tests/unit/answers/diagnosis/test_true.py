@@ -72,6 +72,26 @@ def test_one_index_for_another_is_one_slip(written: str, wanted: str) -> None:
     assert codes(judged(ELBOW, "d22", f"{written} + I2")) == ["symbol"]
 
 
+SPHERE = """
+dh: [{theta: theta1*, alpha: 90deg}, {theta: theta2* + 90deg, alpha: 90deg}, {d: L2}]
+masses: [{mass: m1, link: 3, shape: point, center: tip}]
+"""
+
+
+@pytest.mark.parametrize("written", ["L2*cos(theta1)*sin(theta2)", "L2*sin(theta1)*cos(theta2)"])
+def test_sine_for_cosine_in_one_factor_is_told_once(written: str) -> None:
+    rest = [["L2*sin(theta1)*cos(theta2)"], ["L2*sin(theta2)"]]
+    assert judged(SPHERE, "rc1", [["L2*cos(theta1)*cos(theta2)"], *rest]).verdict == "correct"
+    assert codes(judged(SPHERE, "rc1", [[written], *rest])) == ["sin_for_cos"]
+
+
+def test_the_number_before_a_square_of_a_cosine_is_the_one_that_is_written() -> None:
+    found = judged(SPHERE, "Kv1", "m1*L2^2*(2*cos(theta2)^2*theta1_dot^2 + theta2_dot^2)/2")
+    assert [d.code for d in found.diagnosis] == ["factor"]
+    assert "has 1 in front where ½ belongs" in found.diagnosis[0].message
+    assert not found.diagnosis[0].message.startswith("2")
+
+
 STEMS = [RP, ELBOW, "rp-vertical", "elbow-3r"]
 TRUE_OF_A_TERM = {
     -1: {"sign", "sign_all", "gravity_sign", "slope_sign", "factor", "factor_all", "twist_sign"},
