@@ -13,6 +13,8 @@
     record                  everything that is known, in SQLite
     outputs, files          grades.csv, answers.csv and the students' pages, from the record
     cohort, teacher         the teacher's page
+    by_hand                 a human's marks in bulk
+    extensions              who was given more days
     platforms/              what Canvas, Moodle and Gradescope hand out and import
     public                  `dynsolve.grade` and `dynsolve.override`
 

@@ -102,6 +102,23 @@ class Cohort:
     pages: set[tuple[str, str]] = field(default_factory=set)
 
 
+OVERTAKEN = "its marks were set by hand for an earlier hand-in"
+
+
+def to_fill(record: Record) -> Iterator[tuple[RecordedAnswer, str]]:
+    """The answers that wait for a human's marks, with the reason: those of the page to fill."""
+    unjudged, overtaken = record.unjudged(), record.overtaken()
+    for a in record.answers():
+        if a.of == "0":
+            continue
+        if (a.student, a.problem, a.answer) in overtaken:
+            yield a, OVERTAKEN
+        elif not a.said:
+            reason = unjudged.get(a.student, {}).get(a.problem, "") or _for_a_human(a)
+            if reason:
+                yield a, reason
+
+
 def counted(problems: ProblemSet, record: Record) -> Cohort:
     """Everything that the teacher's page shows."""
     cohort = Cohort()
@@ -126,6 +143,8 @@ def counted(problems: ProblemSet, record: Record) -> Cohort:
             cohort.queue.append(ForAHuman(row.student, row.problem, left, "left aside: a newer copy counts"))
     for standing in standings(record):
         cohort.marks.append((standing.student, standing.marks, standing.total))
+    for student, problem, name in sorted(record.overtaken()):
+        cohort.queue.append(ForAHuman(student, problem, name, OVERTAKEN))
     for answer in record.answers():
         _count(cohort, answer, unjudged.get((answer.student, answer.problem), ""))
     return cohort

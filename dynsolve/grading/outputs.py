@@ -10,7 +10,8 @@ from itertools import groupby
 from pathlib import Path
 
 from dynsolve.answers.marking.policy import points, shown
-from dynsolve.grading.cohort import most, standings
+from dynsolve.grading.by_hand import COLUMNS
+from dynsolve.grading.cohort import most, standings, to_fill
 from dynsolve.grading.files import decimal, folder_name, remove_others, table, write
 from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
 from dynsolve.grading.problem_set import ProblemSet
@@ -29,6 +30,7 @@ def write_outputs(folder: Path, problems: ProblemSet, record: Record) -> None:
     """Write everything but the record itself; files that are the same already are left alone."""
     write(folder / "grades.csv", table(_grades(problems, record)))
     write(folder / "answers.csv", table(_answers(record)))
+    write(folder / "queue.csv", table(_queue(record)))
     _feedback(folder / "feedback", problems, record)
     write(folder / "report.html", teachers_page(problems, record))
 
@@ -42,6 +44,13 @@ def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
             for stem in problems.stems
         )
         yield (standing.student, *cells, decimal(standing.total), of)
+
+
+def _queue(record: Record) -> Iterator[tuple[str, ...]]:
+    """The page to fill: `dynsolve override OUT --from` takes it back."""
+    yield (*COLUMNS, "of", "reason")
+    for a, reason in to_fill(record):
+        yield (a.student, a.problem, a.answer, "", "", decimal(points(a.of)), reason)
 
 
 def _answers(record: Record) -> Iterator[tuple[str, ...]]:

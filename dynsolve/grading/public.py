@@ -10,7 +10,8 @@ from fractions import Fraction
 from pathlib import Path
 
 from dynsolve.answers.marking.policy import shown
-from dynsolve.errors import UsageError
+from dynsolve.errors import Finding, InputError, UsageError
+from dynsolve.grading.by_hand import read_by_hand
 from dynsolve.grading.cohort import standings
 from dynsolve.grading.fingerprints import changes
 from dynsolve.grading.hand_ins import take_in
@@ -149,27 +150,57 @@ def override(
     problem: str,
     answer: str,
     *,
-    marks: str | int | float | Fraction,
+    marks: str | int | float | Fraction | None = None,
     why: str,
 ) -> None:
     """Set the marks of one answer by hand; no later run changes them.
 
-    The names are those of `answers.csv`; `marks` is a number or a text such as "5/2",
-    `why` is what the student reads.
+    The names are those of `answers.csv`; `marks` is a number or a text such as "5/2", None for
+    a comment that changes no marks; `why` is what the student reads.
 
     Raises UsageError for an answer that is not in the record, or marks that it cannot have.
     """
-    folder = Path(output)
+    with _overriding(Path(output)) as record:
+        _override(record, student, problem, answer, "" if marks is None else str(marks), why)
+
+
+def override_all(output: str | os.PathLike[str], marks: str | os.PathLike[str]) -> int:
+    """Set the marks of a CSV with the columns student, problem, answer, marks, comment; how many.
+
+    Raises InputError with every row that cannot be; nothing is changed then.
+    """
+    rows, findings = list(read_by_hand(Path(marks))), []
+    with _overriding(Path(output)) as record:
+        record.db.execute("BEGIN")
+        for row in rows:
+            try:
+                why = row.comment or "marked by hand"
+                _override(record, row.student, row.problem, row.answer, row.marks, why)
+            except UsageError as error:
+                findings.append(Finding(str(error), "", os.fspath(marks), row.line, 1))
+        record.db.execute("ROLLBACK" if findings else "COMMIT")
+        if findings:
+            raise InputError(findings)
+    return len(rows)
+
+
+@contextmanager
+def _overriding(folder: Path) -> Iterator[Record]:
+    """The record of a folder, whose files are written anew."""
     if not (folder / FILE).is_file():
         raise UsageError(f"there is no {FILE} in {folder}: `dynsolve grade` makes it")
     with _opened(folder) as record:
         problems = stored_set(record)
-        points = _points(record, student, problem, answer, str(marks))
-        if not why.strip():
-            raise UsageError("the reason says nothing: the student reads it")
-        record.override(student, problem, answer, str(points), " ".join(why.split()))
+        yield record
         write_outputs(folder, problems, record)
         export(folder, problems, record)
+
+
+def _override(record: Record, student: str, problem: str, answer: str, marks: str, why: str) -> None:
+    points = _points(record, student, problem, answer, marks or "0")
+    if not why.strip():
+        raise UsageError("the reason says nothing: the student reads it")
+    record.override(student, problem, answer, str(points) if marks else "", " ".join(why.split()))
 
 
 def _points(record: Record, student: str, problem: str, answer: str, marks: str) -> Fraction:

@@ -46,6 +46,9 @@ CREATE TABLE IF NOT EXISTS waiting (
 CREATE TABLE IF NOT EXISTS overrides (
   student TEXT, problem TEXT, answer TEXT, marks TEXT NOT NULL, why TEXT NOT NULL,
   PRIMARY KEY (student, problem, answer)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS overridden (
+  student TEXT, problem TEXT, answer TEXT, hand_in TEXT NOT NULL,
+  PRIMARY KEY (student, problem, answer)) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS finished (
   student TEXT, problem TEXT, causes TEXT NOT NULL, answers TEXT NOT NULL,
   PRIMARY KEY (student, problem)) WITHOUT ROWID;
@@ -209,9 +212,20 @@ class Record:
                 self.db.executemany(statement, gone)
 
     def override(self, student: str, problem: str, answer: str, marks: str, why: str) -> None:
-        """Keep the marks that a teacher gave for an answer, and why."""
+        """Keep the marks that a teacher gave for an answer, empty for none, and what is said of it."""
         row = (student, problem, answer, marks, why)
         self.db.execute("INSERT OR REPLACE INTO overrides VALUES (?, ?, ?, ?, ?)", row)
+        of = (student, problem, answer, self._hand_in((student, problem)))
+        self.db.execute("INSERT OR REPLACE INTO overridden VALUES (?, ?, ?, ?)", of)
+
+    def overtaken(self) -> set[tuple[str, str, str]]:
+        """The answers whose marks were set by hand for another hand-in than the one that counts now."""
+        found = self.db.execute("SELECT * FROM overridden")
+        return {(s, p, a) for s, p, a, hand_in in found if hand_in != self._hand_in((s, p))}
+
+    def _hand_in(self, key: Key) -> str:
+        """What identifies the hand-in that counts."""
+        return self.kept(key)[0].get("hand-in", "")
 
     def finish(self) -> None:
         """Keep the current marks, which the next run is compared with."""
@@ -257,7 +271,8 @@ class Record:
         without = (
             "SELECT student, problem, reason FROM hand_ins h WHERE reason != '' AND EXISTS ("
             "SELECT 1 FROM answers a LEFT JOIN overrides o USING (student, problem, answer) "
-            "WHERE a.student = h.student AND a.problem = h.problem AND a.of != '0' AND o.marks IS NULL)"
+            "WHERE a.student = h.student AND a.problem = h.problem AND a.of != '0' "
+            "AND COALESCE(o.marks, '') = '')"
         )
         for student, problem, reason in self.db.execute(without):
             found.setdefault(student, {})[problem] = reason
@@ -283,7 +298,9 @@ class Record:
             told = tuple(message.split("\n")) if codes else ()
             graded = RecordedAnswer(s, p, name, label, verdict, marks, of, why, line, diagnosis, told, *rest)
             said = overrides.get((s, p, name)) if overrides else None
-            if said is not None:
+            if said is not None and not said[0]:
+                graded = graded._replace(why=f"{why}; the teacher: {said[1]}")
+            elif said is not None:
                 by_hand = f"set by the teacher: {said[1]} (the program: {why})"
                 graded = graded._replace(marks=said[0], why=by_hand, said=said[1])
             yield graded
@@ -293,7 +310,7 @@ class Record:
         overrides = self.overrides()
         order = "SELECT student, problem, answer, marks FROM answers ORDER BY student, problem, place"
         for key, found in groupby(self.db.execute(order), key=itemgetter(0, 1)):
-            marks = ((overrides[s, p, a][0] if (s, p, a) in overrides else m) for s, p, a, m in found)
+            marks = (overrides.get((s, p, a), ("", ""))[0] or m for s, p, a, m in found)
             yield key, tuple(marks)
 
     def standing(self) -> Iterator[tuple[Key, str, list[list[str]]]]:
