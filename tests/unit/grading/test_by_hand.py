@@ -9,7 +9,6 @@ import pytest
 
 import dynsolve
 from dynsolve.errors import InputError
-from dynsolve.grading.cohort import OVERTAKEN
 from dynsolve.grading.public import override_all
 
 D = "answers:\n  D: [[I1zz + m2*L2^2, 0], [0, m2]]\n"
