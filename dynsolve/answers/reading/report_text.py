@@ -12,10 +12,10 @@ _NOT_LINE_END = re.compile(r"[^\n]")
 _LATEX_COMMENT = re.compile(r"(?<!\\)(?:\\\\)*(%[^\n]*)")
 _HIDDEN = re.compile(
     r"\\begin\{comment\}(?s:.*?)(?:\\end\{comment\}|\Z)|\\end\{document\}(?s:.*)|<!--(?s:.*?)(?:-->|\Z)"
-    r"|<(?P<tag>del|s|strike)(?:\s[^>\n]{0,200})?>(?s:.{0,20000}?)</(?P=tag)>"
 )
+_DELETED = re.compile(r"<(del|s|strike)(?:\s[^>\n]{0,200})?>")
 _CONDITION = re.compile(r"\\(?:if(?!f(?![A-Za-z]))[A-Za-z@]*|else(?![A-Za-z])|fi(?![A-Za-z]))")
-_STRUCK = re.compile(r"(?<!~)~~(?!~)((?:(?!\n[ \t]*\n)[^~]|(?<!~)~(?!~)){1,20000}?)~~(?!~)")
+_STRUCK = re.compile(r"(?<!~)~~(?!~)((?:(?!\n[ \t]*\n)[^~]|(?<!~)~(?!~)){1,5000}?)~~(?!~)")
 _EMPHASIS = re.compile(
     r"(?m)^([ \t>+-]{0,20}(?:[0-9]{1,2}[.)][ \t]+)?)(\*\*|__)([^*_\n=]{1,60}[:=]?)\2"
     r"(?=[ \t]*[:=]|(?<=[:=]\2)[ \t])"
@@ -35,6 +35,7 @@ def visible(text: str, latex: bool) -> str:
         text = _without_false(text)
     if not latex:
         text = _STRUCK.sub(lambda found: found[0] if _cuts_formula(found) else _blank(found), text)
+        text = _without_deleted(text)
         text = _SCRIPT.sub(_script, text)
         text = _EMPHASIS.sub(r"\1  \3  ", text)
         text = _CODE.sub(r" \1 ", text)
@@ -53,8 +54,8 @@ def _without(found: re.Match[str], group: int) -> str:
 def _cuts_formula(found: re.Match[str]) -> bool:
     """Whether one of the two signs stands inside a formula, where `~` is a blank."""
     text = found.string
-    paragraph = text.rfind("\n\n", 0, found.start()) + 1
-    before = text[max(paragraph, found.start() - 20_000) : found.start()]
+    paragraph = text.rfind("\n\n", max(found.start() - 2_000, 0), found.start()) + 1
+    before = text[max(paragraph, found.start() - 2_000) : found.start()]
     return any(_leaves_open(piece) for piece in (before, found[1]))
 
 
@@ -64,6 +65,27 @@ def _leaves_open(text: str) -> bool:
     pairs = (("\\[", "\\]"), ("\\(", "\\)"))
     inline = text.count("$") - 2 * displays
     return bool(displays % 2 or inline % 2) or any(text.count(a) != text.count(b) for a, b in pairs)
+
+
+def _without_deleted(text: str) -> str:
+    """The text without what stands between `<del>` and `</del>`."""
+    pieces: list[str] = []
+    done = 0
+    unclosed: set[str] = set()
+    for found in _DELETED.finditer(text):
+        closing = f"</{found[1]}>"
+        if found.start() < done or closing in unclosed:
+            continue
+        end = text.find(closing, found.end())
+        if end < 0:
+            unclosed.add(closing)
+            continue
+        pieces += [
+            text[done : found.start()],
+            _NOT_LINE_END.sub(" ", text[found.start() : end + len(closing)]),
+        ]
+        done = end + len(closing)
+    return "".join([*pieces, text[done:]])
 
 
 def _without_false(text: str) -> str:

@@ -37,6 +37,9 @@ _MACRO = re.compile(
     r"|\\def\s{0,20}\\(?P<defined>[A-Za-z]{1,60})(?P<hash>#1)?\s{0,20}(?=\{)"
 )
 _NOT_LINE_END = re.compile(r"[^\n]")
+_MOST_HEADS = 2_000
+"""So many different beginnings of lines in plain text are looked at."""
+
 _MAYBE_LABEL = re.compile(r"[\s~]*[(\\]")
 _ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
 _MARGIN = 200
@@ -195,12 +198,18 @@ def _plain(
     reader: EquationReader, text: str, source: Source, start: int, end: int, among_others: bool
 ) -> Iterator[tuple[int, Display]]:
     """Equations in plain text; beside displayed ones a line that cannot be read may be a sentence."""
+    known: dict[str, bool] = {}
 
     def names_answer(head: str) -> bool:
-        try:
-            return isinstance(read_left_side(reader.vocabulary, prepared(head)[:-1]), NamedAnswers)
-        except ReadError:
-            return False
+        if head not in known:
+            if len(known) > _MOST_HEADS:
+                return False
+            try:
+                side = read_left_side(reader.vocabulary, prepared(head)[:-1])
+                known[head] = isinstance(side, NamedAnswers)
+            except ReadError:
+                known[head] = False
+        return known[head]
 
     for at, formula in plain_lines(text, start, end, names_answer):
         display = _display(text, source, at, at + len(formula), "", plain=True)
