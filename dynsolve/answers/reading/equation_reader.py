@@ -95,6 +95,9 @@ class EquationReader:
         except ReadError as error:
             self._display_without_tokens(display, error)
             return
+        if not found and "=" in display.text and not display.plain and not display.aside:
+            place = display.locate(0, len(display.text))
+            self.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place))
         for equation in found:
             if display.aside:
                 self._aside(equation, Origin(display, "", self.equations))

@@ -449,12 +449,18 @@ def _write_derivative(tokens: list[Token], position: int, command: Token, out: l
 def _word(token: Token, out: list[Token]) -> Token | None:
     r"""`\text{...}`: an index, a function, a word between equations, or nothing."""
     word = token.text
-    if out and (out[-1].kind in ("_", "^") or (out[-1].kind in ("{", ",", "name") and _in_script(out))):
+    if (
+        out
+        and not word.isdecimal()
+        and (out[-1].kind in ("_", "^") or (out[-1].kind in ("{", ",", "name") and _in_script(out)))
+    ):
         return (
             token._replace(kind="name") if word.isascii() and word.isalnum() and word[0].isalpha() else None
         )
     if word in _FUNCTIONS:
         return token._replace(kind="name")
+    if word.isdecimal() and word.isascii():
+        return token._replace(kind="number")
     if _WORD_AS_NAME.fullmatch(word) and word.lower() not in _WORDS:
         return token
     if any(part.strip(",.:;").lower() in _WORDS for part in word.split()):

@@ -130,6 +130,8 @@ RIGHT: list[tuple[str, str, str, str]] = [
     (R, "md", rf"$$d_{{22}} = {D22} \neq 0, \quad m_2 \in \mathbb{{R}}^+$$", "d22"),
     (R, "tex", rf"\begin{{IEEEeqnarray}}{{rCl}} \IEEEeqnarraymulticol{{3}}{{l}}{{d_{{22}} = {D22}}}"
      rf"\\ g_2 &=& {G2} " r"\IEEEyesnumber\label{a} \end{IEEEeqnarray}", "d22 g2"),
+    (R, "md", rf"$$d_{{22}} \overset{{!}}{{=}} {D22}$$", "d22"),
+    (R, "md", r"$$K_{\text{1}} = \frac12 (m_{\text{1}}l_{c\text{1}}^2 + I_1)\dot q_{\text{1}}^2$$", "K1"),
     # what else stands in the report decides
     (R, "md", f"$$M(\\theta)={D}$$ $$V_1 = {V1}$$ $$V_2 = {V2}$$ $$G_2={G2}$$", "D Cqd g2"),
     (R, "md", f"$$M={D}$$ $$N_1 = {V1}, N_2 = {V2}$$", "D Cqd"),
