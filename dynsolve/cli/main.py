@@ -149,6 +149,6 @@ def _say(text: str) -> None:
 
 
 def _reader_left() -> int:
-    """Whoever read the output has stopped, as `head` does: end without a word."""
+    """The reader of the output has closed the pipe, as `head` does: end without a message."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return ExitCode.DONE

@@ -1,4 +1,4 @@
-"""Where results go and in which form: one rule for every form of output.
+"""The place and the format of results: one rule for all of them.
 
 The suffix of `-o FILE` says the form; `--format`, or `--latex` and its like, says it
 where there is none.  Without `-o` results go to standard output.

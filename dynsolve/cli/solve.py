@@ -61,7 +61,7 @@ HintOption = Annotated[
 
 @dataclass(frozen=True, slots=True)
 class _View:
-    """What of a solution is shown, and how; a `hint` is shown instead of it."""
+    """The part of a solution that is shown, and its form; a `hint` is shown instead of it."""
 
     stages: list[str] | None
     detail: DetailName

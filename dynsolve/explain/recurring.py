@@ -1,4 +1,4 @@
-"""What recurs in long formulas gets a name: h = m₂ l₁ l_c2 s₂.
+"""Names for recurring sub-expressions of long formulas: h = m₂ l₁ l_c2 s₂.
 
 A sum that stands in several places is named once, whichever its sign; so is a part
 of several sums; so is a product.  Names build on each other, the inner ones first.
@@ -139,7 +139,7 @@ class _Sharing:
         return changed
 
     def _common_parts(self) -> Iterator[tuple[_Key, tuple[Symbol, Symbol]]]:
-        """What two sums have in common, whichever the sign, with the two."""
+        """The common part of two sums, up to its sign, together with the two."""
         by_term: dict[Node, list[Symbol]] = {}
         for name, terms in self.terms.items():
             for term in terms:

@@ -16,7 +16,7 @@ from dynsolve.quantities.stages import Stage
 
 
 class Detail(IntEnum):
-    """From which level of detail on a step is shown."""
+    """The level of detail from which on a step is shown."""
 
     BRIEF = 1
     NORMAL = 2

@@ -39,7 +39,7 @@ def _momentum(context: Context, q: Coordinate) -> Step:
 
 
 def _partial(context: Context, by: Node, held: str, like: str) -> Prose:
-    """What is differentiated by what, and what is held fixed meanwhile."""
+    """The sentence about a partial derivative: the variable, and the quantities that are held fixed."""
     fixed = f"the {held} is" if context.robot.n == 1 else f"the {held}s and the other {like}s are"
     return ("Differentiate L with respect to ", by, f" alone: {fixed} held fixed.")
 

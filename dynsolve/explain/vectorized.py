@@ -81,7 +81,7 @@ def _forces(context: Context) -> tuple[str, ...]:
 
 
 def _rest(context: Context) -> Step:
-    """What is left of the forces without accelerations: C q̇ and g."""
+    """The forces without the terms of accelerations: C q̇ + g."""
     values = context.values
     Cqd = Product((letters.C, letters.QD))
     why: Prose = ("What is left of the forces without the accelerations: the terms with rates are ",)
@@ -155,7 +155,7 @@ def _is_short(context: Context) -> bool:
 
 
 def _part(context: Context, body: Body) -> Step:
-    """What one body adds to D."""
+    """The contribution of one body to D."""
     b = body.name
     Jv, Jw = letters.jv(body), letters.jw(body)
     linear = Product((context.mass(body), letters.transposed_product(Jv)))

@@ -30,7 +30,7 @@ def turns(q: Coordinate) -> bool:
 
 
 def name_of(body: Body) -> str:
-    """How sentences call a body."""
+    """The name of a body in a sentence."""
     return f"body {body.name}"
 
 

@@ -1,4 +1,4 @@
-"""Numbers put into trees.
+"""Numeric values of trees.
 
 Trees share their parts heavily, so they are compiled once into a flat list of
 operations, each part of which is computed once; the list is then run at as many

@@ -75,7 +75,7 @@ def to_unicode(node: Node, style: Style = PLAIN) -> str:
 
 
 def width(text: str) -> int:
-    """How many columns of a terminal a text takes: dots over letters take none.
+    """The width of a text in columns of a terminal: dots over letters take none.
 
     >>> width("θ̇₁")
     2
@@ -142,7 +142,7 @@ class UnicodePrinter(FormulaPrinter):
         return base + _DOTS[dots]
 
     def _indices(self, groups: Sequence[str]) -> str:
-        """Groups of indices; a comma only where the next would not be seen to begin."""
+        """Groups of indices; a comma only where two would run together."""
         text = ""
         for group in map(_with_greek, groups):
             text += "," + group if text and not (text[-1].isdecimal() and group[0].isalpha()) else group
@@ -152,7 +152,7 @@ class UnicodePrinter(FormulaPrinter):
         return short[0], short[1]  # c_{h1,h2} is the cosine of two angles, which c_h1h2 would not show
 
     def _index(self, node: Node) -> str:
-        """What stands in a subscript, on one level: v_1 is `v1`."""
+        """The text of a subscript, on one level: v_1 is `v1`."""
         match node:
             case Symbol():
                 return "".join(self._symbol_parts(node))
@@ -267,12 +267,12 @@ class UnicodePrinter(FormulaPrinter):
 
 
 def _is_applied(node: Node) -> bool:
-    """Whether the node is a derivative of something, which what follows would seem to belong to."""
+    """Whether the node is a derivative of something: the next factor would seem to belong to it."""
     return type(node) is Derivative and node.of is not None
 
 
 def _between(before: str, after: str) -> str:
-    """What separates two factors: a dot before a number, nothing after one, else a space."""
+    """The separator of two factors: a dot before a number, nothing after one, else a space."""
     lead = after[:1]
     if lead.isdecimal() or lead in _FRACTION_SIGNS:
         return "·"

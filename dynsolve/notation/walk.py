@@ -1,4 +1,4 @@
-"""Walking over formula trees and rebuilding them: what every other module does with a tree, in one place.
+"""Visiting and rebuilding formula trees, for every other module that works on trees.
 
 The parts of a node are known from the annotations of its fields (see `notation.tree`), so a
 new node needs nothing here.  `children` and `walk` look at a tree; `with_children` and
@@ -126,7 +126,7 @@ _KINDS: dict[Any, tuple[Callable[[Any], tuple[Node, ...]], Callable[[Any, Change
 
 
 class _Readers(dict[type[Node], Callable[[Any], tuple[Node, ...]]]):
-    """What takes the parts from a node of each class, made when it is first asked for."""
+    """For each class of nodes the function that gives a node's parts; made at the first use."""
 
     def __missing__(self, kind: type[Node]) -> Callable[[Any], tuple[Node, ...]]:
         self[kind] = reader = self._made(kind)
@@ -149,7 +149,7 @@ _Field = tuple[Callable[[Any], Any], Callable[[Any, Change], Any] | None]
 
 
 class _Fields(dict[type[Node], tuple[_Field, ...]]):
-    """For each field of a class: how it is read, and how the parts in it are changed if it holds any."""
+    """For each field of a class the function that reads it, and the one that changes the parts in it."""
 
     def __missing__(self, kind: type[Node]) -> tuple[_Field, ...]:
         self[kind] = found = tuple(

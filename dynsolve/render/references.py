@@ -26,7 +26,7 @@ def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:
 
 
 def with_results(blocks: Sequence[Block]) -> list[Block]:
-    """Drops each `Uses` that no formula follows."""
+    """The blocks, without each `Uses` that no formula follows."""
     return [
         block
         for block, after in zip_longest(blocks, blocks[1:])

@@ -1,4 +1,4 @@
-"""Dimensions: what may be added to what, from the roles that symbols have in a problem.
+"""The dimensions of symbols, concluded from their roles in a problem, and of terms.
 
 A mass stands under `mass`, a length under `a`, a moment of inertia in a tensor; so
 every term of an answer has a dimension, and terms that cannot be added are a slip
@@ -64,7 +64,7 @@ class Dimensions:
                 self._of[index] = (a, b, c)
 
     def _sound(self, expr: Expr, role: Dimension) -> bool:
-        """Whether every term of a role has its dimension: a bare number for a length has not."""
+        """Whether every term of a role has its dimension; a bare number for a length does not."""
         return all(found in (None, role) for found in self.terms(expr))
 
     def of_generator(self, g: Generator) -> Dimension | None:
@@ -111,7 +111,7 @@ class Dimensions:
 
 
 def _powers(exponents: tuple[int, ...]) -> Iterator[tuple[int, int]]:
-    """(generator, exponent) of those that occur."""
+    """(generator, exponent) of the generators that occur."""
     return ((i, e) for i, e in enumerate(exponents) if e)
 
 
@@ -120,7 +120,7 @@ def _terms(expr: Expr) -> Iterator[tuple[tuple[int, ...], Any]]:
 
 
 def _roles(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
-    """The expressions whose dimension their place in the problem tells."""
+    """The expressions whose dimension follows from their place in the problem."""
     for joint in robot.joints:
         yield joint.a, LENGTH
         yield joint.d, LENGTH

@@ -1,4 +1,4 @@
-"""Solutions as documents: what is shown of a derivation, and in which order."""
+"""Solutions as documents: the choice and the order of the steps that are shown."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def solution_document(
 
 
 def _numbers(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
-    """What the document says in numbers, where they were asked for."""
+    """The section of numeric results, where they were asked for."""
     if solution.numbers is not None:
         from dynsolve.solution.numbers.blocks import blocks
 

@@ -1,4 +1,4 @@
-"""A robot's dynamics, derived and verified: what documents, JSON and numbers are made of."""
+"""A robot's dynamics, derived and verified: the source of documents, JSON and numbers."""
 
 from __future__ import annotations
 
