@@ -16,7 +16,7 @@ from pathlib import Path
 from dynsolve.grading.cohort import Standing, most, standings
 from dynsolve.grading.files import decimal, folder_name
 from dynsolve.grading.platforms.owner import FileOwner
-from dynsolve.grading.platforms.roster import Roster, not_judged, number, unmatched
+from dynsolve.grading.platforms.roster import MOST_NAMED, Roster, not_judged, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.render.files import changed
@@ -80,10 +80,21 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     if maximum not in (None, of):
         assert maximum is not None
         yield f"the maximum grade in Moodle is {decimal(maximum)}, the problem set has {decimal(of)}"
+    yield from _over(all_of, maximum)
     if comments is None:
         yield "the worksheet has no column for comments: turn on Feedback comments in the assignment"
     yield from not_judged(all_of)
     yield from unmatched(all_of, seen, without, roster)
+
+
+def _over(all_of: list[Standing], maximum: Fraction | None) -> Iterator[str]:
+    """Warnings on grades that Moodle will not take."""
+    if maximum is None and all_of:
+        yield "the assignment is graded with a scale: Moodle takes its words, not marks"
+    over = [s.student for s in all_of if maximum is not None and s.total > maximum]
+    if over:
+        assert maximum is not None
+        yield f"over the maximum of {decimal(maximum)}, which Moodle refuses: {'; '.join(over[:MOST_NAMED])}"
 
 
 def late(roster: Roster) -> dict[str, int] | None:

@@ -417,6 +417,23 @@ def test_what_is_left_of_a_student_who_is_gone_is_removed(
     assert sorted(path.name for path in (tmp_path / "gradescope").iterdir()) == ["submission_7"]
 
 
+@pytest.mark.parametrize(
+    ("maximum", "said"),
+    [
+        ("5.00", "over the maximum of 5, which Moodle refuses: a_1"),
+        ("Pass", "the assignment is graded with a scale: Moodle takes its words, not marks"),
+    ],
+)
+def test_moodle_is_not_given_what_it_refuses_without_a_word(
+    tmp_path: Path, problems: ProblemSet, record: Record, maximum: str, said: str
+) -> None:
+    _graded(record, {"a_1": ("1", "4", "2")})
+    header = "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Grade can be changed,"
+    header += "Last modified (submission),Last modified (grade),Feedback comments"
+    row = f"Participant 1,Ada,a@x,Submitted,,{maximum},Yes,-,-,"
+    assert said in _exported(tmp_path, problems, record, "moodle", f"{header}\n{row}\n")
+
+
 # -- what nobody has judged --------------------------------------------------------------------------
 
 
