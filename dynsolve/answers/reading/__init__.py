@@ -23,7 +23,7 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 file, from `answer_lines`; `placed_text` keeps where each character of a value stands.
 Modules import only those of earlier layers: text (`limits`, `sources`, `lexer`, `prepare`,
 `displays`), names (`grids`, `vocabulary`, `name_splitting`), `grammar`, equations
-(`size`, `shapes`, `own_names`, `left_side`, `right_side`, `answer_list`, `equation_reader`,
+(`size`, `shapes`, `own_names`, `left_side`, `right_side`, `vector_entries`, `answer_list`, `equation_reader`,
 `definitions`), formats (`placed_text`,
 `yaml_scalars`, `yaml_values`, `answer_lines`, `reports`, `answer_file`, `notebooks`, `web`,
 `files`).
