@@ -20,6 +20,7 @@ from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import walk
 
 _ENTRY = re.compile(r"([VNnhcC])([1-9])")
+_LETTERS = frozenset("VNnhcC")
 _ONLY_WITH_ARGUMENTS = frozenset({"c", "C"})
 _ENERGIES = re.compile(r"K.*|L|dL.*")
 
@@ -35,8 +36,10 @@ class Entry:
 
 def entry_of(vocabulary: Vocabulary, member: list[Token]) -> Entry | None:
     """The entry of C q̇ that a left side may name, None for every other side."""
+    if len(member) > 40 or member[0].text[:1] not in _LETTERS:
+        return None
     reader = FormulaReader(member, vocabulary, naming=True)
-    if len(member) > 40 or not reader.begins_with_name():
+    if not reader.begins_with_name():
         return None
     try:
         form = reader.form()
