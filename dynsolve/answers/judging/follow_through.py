@@ -123,6 +123,8 @@ class FollowThrough:
     def _combinations(self, route: Route) -> Iterator[PossibleValue]:
         """The values of one route, over all choices of its inputs, cheapest first."""
         lists = [self.choices(name) for name in route.inputs]
+        if not all(lists):  # what leads to an input goes over the bound of work
+            return
         start = (0,) * len(lists)
         waiting = [(self._derivations(lists, start), start)]
         seen = {start}

@@ -4,8 +4,9 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 
 1. `files` knows the format by the file's ending; `reports`, `answer_file`, `notebooks` or `web`
    finds the displayed equations, each a `displays.Display` (`report_text` leaves comments and
-   what is struck out away; `plain_lines` finds equations that are no displays).  `sources` keeps where every
-   character stands in the file, `limits` says how much is read.
+   struck-out text away, `plain_lines` finds equations that are no displays, `documents` lets
+   pandoc read Word and its like).  `sources` keeps where every character stands in the file,
+   `limits` says how much is read.
 2. `lexer` cuts the text of a display into tokens: letters, numbers, commands, signs.
 3. `prepare` writes the student's macros out and leaves out fonts, sizes and environments that
    only align, so that one thing has one spelling from here on.
@@ -18,15 +19,20 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 7. `answer_list` makes the record (`answers.submission.Answer`), under the name whose shape
    the value has (`shapes`), and settles at the end what needs the whole file.
 
-`definitions` reads the names that an answer file declares under `symbols:` and `let:`.  Its values come from
-`yaml_values` (what YAML says) and `yaml_scalars` (what stands between quotes), or, where YAML refuses the
-file, from `answer_lines`; `placed_text` keeps where each character of a value stands.
+`definitions` reads the names that an answer file declares under `symbols:` and `let:`;
+`own_coordinates` are those that count a coordinate the other way, `own_names` keeps what follows
+from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row.  The
+values of an answer file come from `yaml_values` (what YAML says) and `yaml_scalars` (what stands
+between quotes), or, where YAML refuses the file, from `answer_lines`; `placed_text` keeps where
+each character of a value stands.
+
 Modules import only those of earlier layers: text (`limits`, `sources`, `lexer`, `prepare`,
-`displays`), names (`grids`, `vocabulary`, `name_splitting`), `grammar`, equations
-(`size`, `shapes`, `own_names`, `left_side`, `right_side`, `vector_entries`, `answer_list`, `equation_reader`,
-`definitions`), formats (`placed_text`,
-`yaml_scalars`, `yaml_values`, `answer_lines`, `reports`, `answer_file`, `notebooks`, `web`,
-`files`).
+`displays`), names (`grids`, `vocabulary`, `name_splitting`), `grammar`, equations (`size`,
+`shapes`, `own_names`, `left_side`, `right_side`, `vector_entries`, `answer_list`,
+`equation_reader`, `definitions`), formats (the rest).
+
+To read one more format, write a file that finds its displays, and name its ending in `files`; one
+more notation is a row or a module of `grammar`.
 
 Where a fault is: a wrong place in a message is `sources`; a wrong sign or command `lexer` or
 `prepare`; an equation cut in two, or a lost label `displays`; a name not known, or taken for

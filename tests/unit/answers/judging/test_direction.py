@@ -131,3 +131,11 @@ def test_one_wrong_line_of_tau_leaves_D_wrong_where_it_was_written_first() -> No
     worse = Matrix.column(tau.ring, [tau[0, 0] * 2, tau[1, 0]])
     found = verdicts(hand_in("planar-2r", {"D": D, "Cqd": Cqd, "g": g.key("g"), "tau": worse}))
     assert (found["D"], found["tau"]) == ("wrong", "wrong")
+
+
+def test_what_goes_over_the_bound_of_work_leads_nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An input that nothing can be computed for leaves its route without values; no answer is lost for it."""
+    monkeypatch.setattr("dynsolve.answers.judging.follow_through.MOST_WORK", 0)
+    tau = key("planar-2r")["tau"]
+    report = hand_in("planar-2r", {"P1": key("planar-2r")["P2"], "tau": tau.scale(tau.ring.constant(2))})
+    assert verdicts(report) == {**verdicts(report), "P1": "wrong", "tau": "wrong"}
