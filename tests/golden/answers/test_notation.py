@@ -241,3 +241,34 @@ def test_an_answer_in_a_sentence_alone_is_listed() -> None:
         R, "md", f"The entry $d_{{22}} = {D22}$ is clear. $$g_2 = {G2}$$ since $g_2 = {G2}$ again."
     )
     assert [found.text for found in report.not_recognized] == [f"d_{{22}} = {D22}"]
+
+
+TAU = (
+    r"$$\tau_1 = (m_2 L_2^2 + I_{1,zz})\ddot\theta_1 + 2 m_2 L_2\dot\theta_1\dot L_2$$"
+    "\n"
+    r"$$f_2 = m_2\ddot L_2 - m_2 L_2\dot\theta_1^2$$"
+    "\n"
+)
+
+
+@pytest.mark.parametrize(
+    "restated",
+    [
+        r"\tau = D\ddot q + C\dot q + g",
+        r"D\ddot{q} + C\dot{q} + g = \tau",
+        r"\tau = M\ddot q + C\dot q + G",
+        r"\boldsymbol\tau = \mathbf{D}\ddot{\mathbf q} + \mathbf{C}\dot{\mathbf q} + \mathbf{g}",
+        r"\tau = D(q)\ddot q + C(q,\dot q)\dot q + g",
+    ],
+)
+def test_a_general_equation_takes_no_answer_away(restated: str) -> None:
+    """Beside matrices g is the vector of gravity, so that the equation only says what the letters are."""
+    found = verdicts(judged("in3140-rp", "md", f"{TAU}$${restated}$$\n"))
+    assert (found["tau1"], found["f2"], found["tau"]) == ("correct", "correct", "correct")
+    assert verdicts(judged("in3140-rp", "md", f"$${restated}$$\n"))["tau"] == "missing"
+
+
+def test_the_acceleration_of_gravity_stays_a_number_beside_numbers() -> None:
+    report = r"$$P = \tfrac12 m_1 g L_1 + m_2 g L_1$$" + "\n" + r"$$g = \begin{bmatrix}0\\0\end{bmatrix}$$"
+    found = verdicts(judged("in3140-rp", "md", report))
+    assert (found["P"], found["g"]) == ("correct", "correct")

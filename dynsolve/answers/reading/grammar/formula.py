@@ -21,6 +21,7 @@ from dynsolve.answers.reading.grammar import (
     functions,
     names,
     numbers,
+    references,
     shorthand,
 )
 from dynsolve.answers.reading.grammar.forms import Form, Scripts
@@ -109,6 +110,8 @@ class FormulaReader(Reader):
                 break
             self.take()
         self.nesting -= 1
+        if len(terms) > 1:
+            terms = references.vectors_for_letters(self, terms)
         found = terms[0] if len(terms) == 1 else self.placed(start, total, terms)
         if sign == "over":
             self.take()

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dynsolve.answers.reading.grammar.forms import Form
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grids import Grid, Value
+from dynsolve.answers.reading.grids import Grid, Value, negative
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.notation.tree import (
+    Negative,
     Reference,
     Symbol,
 )
@@ -92,6 +93,30 @@ def placeholder(vocabulary: Vocabulary, name: str) -> Value:
         tuple(tuple(Reference(name, i, j) for j in range(1, columns + 1)) for i in range(1, rows + 1)),
         quantity=name,
     )
+
+
+def vectors_for_letters(reader: Reader, terms: list[Value]) -> list[Value]:
+    """Terms in which a bare letter beside matrices is the vector of that name: the g of D q̈ + C q̇ + g.
+
+    Beside a matrix no scalar can stand, so it is not the acceleration of gravity.
+    """
+    shape = next((term.shape for term in terms if isinstance(term, Grid)), None)
+    return terms if shape is None else [_vector(reader, term, shape) for term in terms]
+
+
+def _vector(reader: Reader, term: Value, shape: tuple[int, int]) -> Value:
+    letter = term.argument if isinstance(term, Negative) else term
+    if not isinstance(letter, Symbol):
+        return term
+    vocabulary = reader.vocabulary
+    name = next((n for n in vocabulary.named(key(letter.name)) if vocabulary.shape(n) == shape), "")
+    if not name:
+        return term
+    reader.names_used += 1
+    reader.symbols.pop(letter.name, None)
+    reader.references.setdefault(name)
+    found = placeholder(vocabulary, name)
+    return negative(found) if isinstance(term, Negative) else found
 
 
 def skip_arguments(reader: Reader) -> None:
