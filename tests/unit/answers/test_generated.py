@@ -109,7 +109,7 @@ def test_two_slips_are_two_and_all_else_follows(seed: int) -> None:
     stem = draw.choice(STEMS[:4])
     g = graph(stem)
     heads = [n for n in nodes(stem) if n.rstrip("0123456789") in START and n[0] != "P"]
-    first, second = sorted(draw.sample(heads, 2), key=g.quantities.place)
+    first, second = sorted(draw.sample(heads, 2), key=g.quantities.position)
     wrong = spoilt(g.key(first), draw)
     if wrong is None:
         return
