@@ -135,7 +135,7 @@ def test_every_good_hand_in_gets_its_marks(tmp_path: Path, make: object) -> None
     assert all(refused.name.isprintable() and refused.reason for refused in grades.refused)
     assert len(grades.refused) == (8 if make is _folder else 10)
     reasons = {waiting.student: waiting.reason for waiting in grades.waiting}
-    assert reasons["archive-zip"] == "an archive: a human reads it"
+    assert reasons["archive-zip"] == "an archive: it is damaged, or no zip"
     assert reasons["large-yaml"] == "it is larger than 2 MB"
     assert not (tmp_path / "out.yaml").exists()
     for path in out.rglob("*.*"):
