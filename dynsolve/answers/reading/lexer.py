@@ -44,7 +44,7 @@ _NAME_PART = rf"[{_LETTER}{_INDEX}](?![\u0307\u0308])|_(?=[A-Za-z0-9])|{_BRACED}
 _TOKEN = re.compile(
     rf"""[ ]*(?:
       (?P<name>[{_LETTER}](?![\u0307\u0308])(?:{_NAME_PART})*)
-    | (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200b\u202f\u2061-\u2064~]|%(?!pi\b)[^\n]*(?:\n|$)
+    | (?P<space>(?:[ \t\r\n\u00a0\u2000-\u200a\u202f\u2061-\u2064~]|%(?!pi\b)[^\n]*(?:\n|$)
           |\\(?:[,;:!\ >]|\n)|\\(?:left|right)[ ]?\.)+)
     | (?P<comma>[0-9]+\{{,\}}[0-9]+)
     | (?P<number>(?:[0-9]+(?:\.[0-9]+|\.(?![A-Za-z.*/^\\']))?|\.[0-9]+)(?:[eE][+-]?[0-9]+(?![A-Za-z_]))?)
@@ -106,7 +106,7 @@ SEPARATORS = frozenset(
 # Commands that vanish with their argument, and those whose argument is no formula but leaves a token.
 _VANISHING = dict.fromkeys(
     "label vspace color ref eqref cite class cssId textcolor notag phantom hphantom vphantom footnote index "
-    "marginpar colorbox pagecolor raisebox hskip vskip mskip mkern kern cline href".split(),
+    "marginpar colorbox pagecolor raisebox hskip vskip mskip mkern kern cline".split(),
     1,
 ) | {
     "fontsize": 2,

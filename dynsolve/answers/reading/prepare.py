@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from dynsolve.answers.reading.lexer import SEPARATORS, Token, tokenize
-from dynsolve.answers.reading.limits import MAX_TOKENS
+from dynsolve.answers.reading.limits import MAX_NESTING, MAX_TOKENS
 from dynsolve.errors import ReadError
 
 _FONTS = frozenset(
@@ -134,6 +134,8 @@ def simplified(tokens: list[Token]) -> list[Token]:
                 out.append(token)
             else:
                 _close_group(token, group, out, tokens[position].kind)
+            if groups and out[-1].kind == "}":
+                groups[-1].depth = max(groups[-1].depth, group.depth + 1)
         elif kind == "command":
             position = _simplify_command(token, tokens, position, groups, out)
         elif kind == "begin" or kind == "close":
@@ -217,10 +219,11 @@ def _word_matrix(tokens: list[Token], position: int, sign: Token, out: list[Toke
 
 @dataclass(slots=True)
 class _Group:
-    """A `{` that is open: where it stands among the tokens so far, and what its end becomes."""
+    """A `{` that is open: where it stands among the tokens so far, what its end becomes, how deep it is."""
 
     start: int
     closes_matrix: bool = False
+    depth: int = 0
 
 
 def _close_group(closing: Token, group: _Group, out: list[Token], following: str) -> None:
@@ -233,6 +236,8 @@ def _close_group(closing: Token, group: _Group, out: list[Token], following: str
         del out[start:]
     elif inside == 1 and (out[-1].kind in _SINGLE or out[-1].text in _FUNCTIONS):
         out[start:] = [out[-1]._replace(spaced=out[start].spaced)]
+    elif group.depth > MAX_NESTING:  # it will not be read, and looking through it would take for ever
+        out.append(closing)
     elif (bar := _bar(out, start)) > 0:
         _written_as_fraction(out, start, bar, closing)
     elif following not in ("^", "_", "raised", "'") and _only_sets_type(out, start):
