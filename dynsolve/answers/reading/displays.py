@@ -262,7 +262,8 @@ def _is_remark(piece: list[Token]) -> bool:
     return not _is_equation(piece) and any(_is_relation(t) for t in piece)
 
 
-_RELATIONS = frozenset("in ni notin subset forall exists neq ne geq ge leq le gt lt to mapsto < >".split())
+_MEMBERSHIPS = frozenset("in ni notin subset forall exists to mapsto".split())
+_RELATIONS = _MEMBERSHIPS | frozenset("neq ne geq ge leq le gt lt < >".split())
 
 
 def _is_relation(token: Token) -> bool:
@@ -300,12 +301,13 @@ def _members(piece: list[Token]) -> list[list[Token]]:
 
 
 def _without_remark(member: list[Token]) -> list[Token]:
-    r"""The member without what is said of it behind a sign of relation: `m_2 l_1 \neq 0`."""
+    r"""A member without what is said of it: `m_2 l_1 \neq 0`, `c \in \mathbb{R}`; `m_1 < m_2` is no value"""
     level = 0
     for position, token in enumerate(member):
         level += _OPENS.get(token.kind, 0)
         if level == 0 and position and _is_relation(token):
-            return member[:position]
+            said = [t.text for t in member[position + 1 :]]
+            return member[:position] if token.text in _MEMBERSHIPS or said[:1] == ["0"] else member
     return member
 
 
