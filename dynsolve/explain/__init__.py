@@ -24,7 +24,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     entry_formulas
                 energies, momenta and forces in the entries of D and g and the Christoffel symbols
     style       how a robot's formulas look: s_1 for sin θ_1
-    writing     references, sentences and pieces of formulas
+    citations   the books and their sections that steps refer to
+    writing     sentences and pieces of formulas
 
 Long models are written in names (`--abbreviate`):
 

@@ -145,7 +145,7 @@ def _total(context: Context, name: str, kind: str, letter: Letter, parts: list[L
         title=f"Total {kind} energy",
         why=("The sum over the bodies.",) if len(parts) > 1 else ("There is one body only.",),
         formula=equation(*members),
-        source=spong("7.2"),
+        source=spong("7.2.3" if name == "P" else "7.2.2"),
         result=(equation(letter, context.form(name)),),
         notes=notes,
         detail=Detail.BRIEF,

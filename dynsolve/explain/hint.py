@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from dynsolve.document import Block, Document, Fold, Formula, Heading, List, Prose, Table, Text
 from dynsolve.errors import UsageError
 from dynsolve.explain import explain
+from dynsolve.explain.citations import by_itself
 from dynsolve.explain.context import Context
 from dynsolve.explain.pitfalls import pitfalls
 from dynsolve.explain.step import Step
@@ -131,7 +132,7 @@ def _grouped(steps: Iterable[Step]) -> Iterator[_Task]:
         tasks[key] = _Task(step.title, why)
         formula = step.task or step.formula
         if formula is not None:
-            tasks[key].formulas.append((formula, step.source))
+            tasks[key].formulas.append((formula, by_itself(step.source)))
     yield from tasks.values()
 
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import inertia
 from dynsolve.document import Prose
+from dynsolve.explain.citations import LYNCH_PARK
 from dynsolve.explain.context import Context
 from dynsolve.explain.mass_centers import is_given_by, mass_center_step
 from dynsolve.explain.step import Detail, Step
@@ -47,10 +48,10 @@ _SHAPES = {
 
 _SOURCES = {
     "box": spong("7.2.1"),
-    **dict.fromkeys(("cylinder", "sphere"), "Lynch and Park 8.2.1"),
+    **dict.fromkeys(("cylinder", "sphere"), LYNCH_PARK.section("8.2.1")),
     **dict.fromkeys(("hollow_cylinder", "rod", "disk", "shell"), f"by the integrals of {spong('7.2.1')}"),
 }
-"""Where the moments of a shape stand; Lynch and Park is Modern Robotics, Cambridge, 2017."""
+"""Where the moments of a shape stand."""
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -190,7 +191,7 @@ def _rotation(context: Context, body: Body, tells: bool) -> Step:
         title=f"Orientation of {name_of(body)}",
         why=why,
         formula=None if formula is None else equation(rotation, formula),
-        source=spong("7.2"),
+        source=spong("7.2.1"),
         result=(equation(rotation, context.form(f"R{body.name}")),),
         notes=notes,
         uses=(),

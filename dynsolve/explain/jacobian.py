@@ -75,7 +75,7 @@ def _axes(context: Context) -> Step:
             Letter("z", Words(which), style="bold"),
             *_whose(context),
         ),
-        source=spong("4.6") if context.standard else craig("5.6"),
+        source=spong("4.6") if context.standard else craig("3.4"),
         result=tuple(pairs),
         uses=(),
     )

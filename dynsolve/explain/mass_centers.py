@@ -52,7 +52,7 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
         title=f"Mass centre of {name_of(body)}",
         why=why,
         formula=formula,
-        source=spong("7.2"),
+        source=spong("2.6"),
         working=working,
         result=(equation(r, context.form(f"rc{body.name}")),),
         notes=(_not_the_origin(body, H),) if tells else (),

@@ -140,7 +140,7 @@ def _inertia_direct(context: Context) -> Step:
             " It gives the same D, entry by entry." if same else " It does not give the same D.",
         ),
         formula=equation(letters.D, BigSum(total, i, Number(1), name)),
-        source=spong("7.3"),
+        source=spong("7.2.2"),
         working=(working,),
         hint=(
             "Another way to D, without the Lagrangian: a sum over the bodies. Use it to check what you "
@@ -170,7 +170,7 @@ def _part(context: Context, body: Body) -> Step:
         why=("Its linear part, and none of rotation: it is a point.",)
         if body.is_point
         else ("Its linear part and its rotational part.",),
-        source=spong("7.3"),
+        source=spong("7.2.2"),
         result=tuple(results),
         detail=Detail.FULL,
         is_task=False,

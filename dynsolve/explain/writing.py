@@ -6,22 +6,14 @@ from collections.abc import Sequence
 from itertools import islice
 
 from dynsolve.document import Inline, Prose
+from dynsolve.explain.citations import craig as craig  # what stages write, in one place
+from dynsolve.explain.citations import spong as spong
 from dynsolve.notation.tree import ZERO, Matrix, Node, Row, Sum, Words
 from dynsolve.notation.walk import walk
 from dynsolve.robot.model import Body, Coordinate, JointType
 
 LARGEST_WORKING = 260
 """Matrices whose entries have more parts than this are not put into a formula; it stays in letters."""
-
-
-def spong(section: str) -> str:
-    """A reference to Spong, Hutchinson, Vidyasagar, Robot Modeling and Control, Wiley, 2006."""
-    return f"Spong et al. {section}"
-
-
-def craig(section: str) -> str:
-    """A reference to Craig, Introduction to Robotics, 3rd edition, 2005."""
-    return f"Craig {section}"
 
 
 def turns(q: Coordinate) -> bool:

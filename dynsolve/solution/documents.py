@@ -8,6 +8,7 @@ from itertools import count
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Table, Text, Uses
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
+from dynsolve.explain.citations import cited
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Relation, equation
 from dynsolve.quantities.stages import Stage
@@ -30,9 +31,11 @@ def solution_document(
     `abbreviate` says whether long results are written in names, which are defined first.
     """
     stages = None if stages is None else tuple(stages)
+    short = solution.abbreviated(abbreviate)
+    steps = tuple(solution.explain(stages, short))
     return Document((
-        *_opening(solution),
-        *_stages(solution, detail, stages, solution.abbreviated(abbreviate)),
+        *_opening(solution, _sources(steps, detail)),
+        *_stages(solution, detail, steps, short),
         *_numbers(solution, detail, stages),
         *_closing(solution),
     ))  # fmt: skip
@@ -46,24 +49,34 @@ def _numbers(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -
         yield from blocks(solution.numbers, detail, stages)
 
 
-def _opening(solution: Dynamics) -> Iterator[Block]:
+def _sources(steps: Iterable[Step], detail: Detail) -> Iterator[str]:
+    """The references that stand beside the formulas that are shown."""
+    if detail > Detail.BRIEF:
+        yield from (step.source for step in steps if step.formula is not None and step.detail <= detail)
+
+
+def _opening(solution: Dynamics, sources: Iterable[str]) -> Iterator[Block]:
     problem = solution.problem
     yield Heading(problem.title, 1)
     facts = [problem.source] if problem.source else []
     facts.append(f"Convention: {CONVENTIONS[problem.convention.value]}.")
+    facts += [
+        f"{book.name + ' is' if book.name else 'The sections (§) are those of'} {book.full}."
+        for book in cited(sources)
+    ]
     for fact in facts:
         yield Text((fact,))
 
 
 def _stages(
-    solution: Dynamics, detail: Detail, stages: Iterable[str] | None, short: Abbreviated | None
+    solution: Dynamics, detail: Detail, steps: Iterable[Step], short: Abbreviated | None
 ) -> Iterator[Block]:
     """Stages and their steps, numbered as in the whole derivation."""
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     stage: Stage | None = None
     place, extra = 0, 0
     heading: Heading | None = None
-    for step in solution.explain(stages, short):
+    for step in steps:
         if step.stage != stage:
             if short is not None and step.stage is Stage.VECTORIZED:
                 yield from definition_blocks(short)

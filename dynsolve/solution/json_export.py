@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.document import Inline, Prose, Verbatim
+from dynsolve.explain.citations import by_itself
 from dynsolve.explain.step import Step
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
@@ -140,7 +141,7 @@ class _Exporter:
             "stage": step.stage,
             "title": step.title,
             "why": self.prose(step.why),
-            "source": step.source,
+            "source": by_itself(step.source),
             "latex": "\n".join(map(self.latex.text, formulas)),
             "text": "\n".join(map(self.unicode.text, formulas)),
             "notes": [self.prose(note) for note in step.notes],

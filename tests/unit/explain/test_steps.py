@@ -123,7 +123,7 @@ def test_the_convention_in_play_is_the_one_explained() -> None:
     assert "the axis of its own frame" in everything_said("rp-vertical")
     assert "the axis of the frame before it" not in everything_said("rp-vertical")
     assert "the axis of the frame before it" in everything_said("planar-2r")
-    assert step("rp-vertical", "A").source == "Craig 3.5"
+    assert step("rp-vertical", "A").source == "Craig §3.5"
 
 
 def test_a_point_mass_is_said_to_have_no_rotational_energy() -> None:
@@ -337,10 +337,10 @@ def test_a_shared_column_is_worked_out() -> None:
 def test_the_moments_of_a_shape_stand_where_they_are_said_to() -> None:
     sources = [step("box-cylinder-rod-sphere", f"I_body{b}").source for b in "1234"]
     assert sources == [
-        "Lynch and Park 8.2.1",
-        "Spong et al. 7.2.1",
-        "by the integrals of Spong et al. 7.2.1",
-        "Lynch and Park 8.2.1",
+        "Lynch and Park §8.2.1",
+        "§7.2.1",
+        "by the integrals of §7.2.1",
+        "Lynch and Park §8.2.1",
     ]
 
 

@@ -1,0 +1,133 @@
+"""The books that steps refer to, and the sections of them that are cited: the one table of sources.
+
+A report names each book once, in full, where it begins; a step then gives the section: `§7.2.2` of the
+course's book, `Craig §3.5` of another.  The titles of the sections are those of the tables of contents
+of these editions, so that a number can be checked against its title.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+SIGN = "§"
+"""What a section's number begins with: a bare 7.2 would read as the number of a step or an equation."""
+
+
+@dataclass(frozen=True, slots=True)
+class Book:
+    """A book: what a step calls it (nothing for the course's own), the edition in full, its sections."""
+
+    name: str
+    full: str
+    sections: Mapping[str, str]
+
+    def section(self, number: str) -> str:
+        """A reference to a section, as it stands beside a formula.
+
+        Raises KeyError for a section that is not in the table.
+        """
+        if number not in self.sections:
+            raise KeyError(f"{self.full}: section {number} is not in the table of citations")
+        return f"{self.name} {SIGN}{number}".strip()
+
+
+SPONG = Book(
+    name="",
+    full="M. W. Spong, S. Hutchinson, M. Vidyasagar, Robot Modeling and Control, 1st edition, Wiley, 2006",
+    sections={
+        "2.6": "Rigid Motions",
+        "2.7": "Homogeneous Transformations",
+        "3.1": "Kinematic Chains",
+        "3.2": "Forward Kinematics: The Denavit-Hartenberg Convention",
+        "4.6": "Derivation of the Jacobian",
+        "4.6.1": "Angular Velocity",
+        "4.6.2": "Linear Velocity",
+        "4.6.3": "Combining the Linear and Angular Velocity Jacobians",
+        "7.1": "The Euler-Lagrange Equations",
+        "7.2": "Kinetic and Potential Energy",
+        "7.2.1": "The Inertia Tensor",
+        "7.2.2": "Kinetic Energy for an n-Link Robot",
+        "7.2.3": "Potential Energy for an n-Link Robot",
+        "7.3": "Equations of Motion",
+        "7.4": "Some Common Configurations",
+        "7.5": "Properties of Robot Dynamic Equations",
+        "7.5.1": "Skew Symmetry and Passivity",
+        "7.5.2": "Bounds on the Inertia Matrix",
+        "7.5.3": "Linearity in the Parameters",
+        "7.6": "Newton-Euler Formulation",
+    },
+)
+
+CRAIG = Book(
+    name="Craig",
+    full=(
+        "J. J. Craig, Introduction to Robotics: Mechanics and Control, 3rd edition, "
+        "Pearson Prentice Hall, 2005"
+    ),
+    sections={
+        "3.4": "Convention for Affixing Frames to Links",
+        "3.5": "Manipulator Kinematics",
+        "5.6": "Velocity Propagation from Link to Link",
+        "5.7": "Jacobians",
+        "6.5": "Iterative Newton-Euler Dynamic Formulation",
+    },
+)
+
+LYNCH_PARK = Book(
+    name="Lynch and Park",
+    full="K. M. Lynch, F. C. Park, Modern Robotics, Cambridge University Press, 2017",
+    sections={"8.2.1": "Classical Formulation"},
+)
+
+KHALIL_DOMBRE = Book(
+    name="Khalil and Dombre",
+    full="W. Khalil, E. Dombre, Modeling, Identification and Control of Robots, Hermes Penton, 2002",
+    sections={"9.4": "Determination of the Base Inertial Parameters"},
+)
+
+BOOKS = (SPONG, CRAIG, LYNCH_PARK, KHALIL_DOMBRE)
+
+_IN_A_LIST = "Spong et al."
+"""What the course's own book is called where no report names it at its start."""
+
+
+def spong(section: str) -> str:
+    """A reference to the course's book.
+
+    >>> spong("7.2.2")
+    '§7.2.2'
+    """
+    return SPONG.section(section)
+
+
+def craig(section: str) -> str:
+    """A reference to Craig.
+
+    >>> craig("3.5")
+    'Craig §3.5'
+    """
+    return CRAIG.section(section)
+
+
+def by_itself(source: str) -> str:
+    """A reference that is understood without the beginning of a report.
+
+    >>> by_itself("§7.1"), by_itself("Craig §3.5"), by_itself("by the integrals of §7.2.1")
+    ('Spong et al. §7.1', 'Craig §3.5', 'by the integrals of Spong et al. §7.2.1')
+    """
+    named = any(book.name and book.name in source for book in BOOKS)
+    return source if named else source.replace(SIGN, f"{_IN_A_LIST} {SIGN}")
+
+
+def cited(sources: Iterable[str]) -> Iterator[Book]:
+    """The books that references name, in the order of the table."""
+    told = tuple(source for source in sources if SIGN in source)
+    for book in BOOKS:
+        others = [other.name for other in BOOKS if other.name]
+        if book.name:
+            found = any(book.name in source for source in told)
+        else:
+            found = any(not any(name in source for name in others) for source in told)
+        if found:
+            yield book
