@@ -10,13 +10,11 @@ without a problem the days hold for all of them.
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from dynsolve.errors import Finding, ProblemError
+from dynsolve.grading.listed import Fault, read_list
 from dynsolve.problem.fields import did_you_mean
 
 FILE = "extensions.csv"
@@ -42,31 +40,15 @@ class Extension:
 
 def read_extensions(folder: Path, stems: Collection[str]) -> tuple[Extension, ...]:
     """The extensions of a folder, none where it has no such file; raises ProblemError for a faulty one."""
-    path = folder / FILE
-    if not path.is_file():
-        return ()
-    text = path.read_text(encoding="utf-8-sig", errors="replace")
-    first = text.partition("\n")[0]
-    rows = csv.DictReader(io.StringIO(text, newline=""), delimiter=max(",;\t", key=first.count))
-    header = [name.strip().casefold() for name in rows.fieldnames or ()]
-    if not {"student", "days"} <= set(header) or not set(header) <= set(_KEYS):
-        message = f"the first line is `{first[:60].strip()}`, not the names of the columns"
-        raise ProblemError([Finding(message, f"write {','.join(_KEYS)}", str(path), 1, 1)])
-    rows.fieldnames = header
-    found, findings = [], []
-    for row in rows:
-        cells = {key: (row.get(key) or "").strip() for key in _KEYS}
+
+    def read(cells: dict[str, str]) -> Extension | Fault:
         fault = _fault(cells, stems)
-        if fault:
-            findings.append(Finding(*fault, str(path), rows.line_num, 1))
-        else:
-            found.append(Extension(cells["student"], int(cells["days"]), cells["problem"]))
-    if findings:
-        raise ProblemError(findings)
-    return tuple(found)
+        return fault or Extension(cells["student"], int(cells["days"]), cells["problem"])
+
+    return read_list(folder / FILE, _KEYS, ("student", "days"), read)
 
 
-def _fault(cells: dict[str, str], stems: Collection[str]) -> tuple[str, str] | None:
+def _fault(cells: dict[str, str], stems: Collection[str]) -> Fault | None:
     if not cells["student"]:
         return "no student is named", "write the name as in grades.csv"
     if not (cells["days"].isascii() and cells["days"].isdigit() and len(cells["days"]) < 5):

@@ -58,7 +58,7 @@ def causes(problems: ProblemSet, hand_in: HandIn, bounds: Bounds | None = None) 
     item = problems.item(hand_in.problem)
     files = [[file.name, file.digest, *file.others] for file in hand_in.files]
     found = {
-        "hand-in": short([files, hand_in.late, list(hand_in.left)]),
+        "hand-in": short([files, hand_in.late, list(hand_in.left), hand_in.group]),
         "problem": short(item.text),
         "marks": of_marks(item),
         "asked": short(sorted(item.problem.marks)),

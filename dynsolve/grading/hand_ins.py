@@ -11,7 +11,7 @@ import json
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 
 from dynsolve.answers.reading.answer_file import parsed
@@ -20,6 +20,7 @@ from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import InputError, ReadError
 from dynsolve.grading.extensions import days_late
+from dynsolve.grading.groups import Groups
 from dynsolve.grading.platforms.gradescope import METADATA, Submitters, exports, read_metadata
 from dynsolve.grading.platforms.owner import FileOwner
 from dynsolve.grading.platforms.owners import FileOwners
@@ -67,7 +68,8 @@ class File:
 class HandIn:
     """What one student handed in for one problem.
 
-    `late` are the days that it is late, `left` the copies that do not count.
+    `late` are the days that it is late, `left` the copies that do not count, `group` is the
+    group that handed it in.
     """
 
     student: str
@@ -75,20 +77,27 @@ class HandIn:
     files: tuple[File, ...]
     late: int = 0
     left: tuple[str, ...] = ()
+    group: str = ""
 
     @property
     def key(self) -> tuple[str, str]:
         """The student and the problem."""
         return self.student, self.problem
 
+    @property
+    def whose(self) -> str:
+        """Who stands over the page: the group, whose members read the same."""
+        return self.group or self.student
+
 
 @dataclass(frozen=True, slots=True)
 class Intake:
-    """All that was handed in; `students` are the rows, with the platform's id of each."""
+    """All that was handed in; `students` are the rows, with the platform's id of each, `groups` theirs."""
 
     students: dict[str, str]
     hand_ins: tuple[HandIn, ...]
     waiting: tuple[Waiting, ...]
+    groups: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,12 +120,19 @@ class _Piece:
         return self.owner.order, self.file.upload.order, str(self.file.upload.path)
 
 
-def take_in(problems: ProblemSet, uploads: Uploads, late: Mapping[str, int] | None = None) -> Intake:
+def take_in(
+    problems: ProblemSet,
+    uploads: Uploads,
+    late: Mapping[str, int] | None = None,
+    groups: Groups | None = None,
+) -> Intake:
     """Sort what was handed in by student and problem; `late` are the days by the platform's ids."""
     paths = [upload.path for upload in uploads.files]
     lists = {root / METADATA for root in (PurePosixPath(*parts) for parts in exports(paths))}
-    owners = FileOwners(paths, _metadata(uploads, lists), late, lambda stem: bool(_folded(stem, problems)))
+    metadata = _metadata(uploads, lists)
+    owners = FileOwners(paths, metadata, late, lambda stem: bool(_folded(stem, problems)), groups)
     students: dict[str, str] = {}
+    in_groups: dict[str, str] = {}
     waiting: set[Waiting] = set()
     pieces: dict[tuple[str, str], list[_Piece]] = {}
     for upload in uploads.files:
@@ -125,6 +141,8 @@ def take_in(problems: ProblemSet, uploads: Uploads, late: Mapping[str, int] | No
         for piece in _sorted(problems, uploads, owners, upload):
             student = piece.student
             students[student] = students.get(student) or piece.owner.id
+            if piece.owner.group:
+                in_groups[student] = piece.owner.group
             if isinstance(piece, _Piece):
                 pieces.setdefault((student, piece.problem), []).append(piece)
             else:
@@ -136,7 +154,7 @@ def take_in(problems: ProblemSet, uploads: Uploads, late: Mapping[str, int] | No
             waiting.add(Waiting(student, "", refused.name, refused.reason))
     counting = (_counting(student, problem, found) for (student, problem), found in sorted(pieces.items()))
     hand_ins = tuple(_extended(problems, hand_in, students[hand_in.student]) for hand_in in counting)
-    return Intake(dict(sorted(students.items())), hand_ins, tuple(sorted(waiting)))
+    return Intake(dict(sorted(students.items())), hand_ins, tuple(sorted(waiting)), in_groups)
 
 
 def _extended(problems: ProblemSet, hand_in: HandIn, id: str) -> HandIn:
@@ -374,4 +392,5 @@ def _counting(student: str, problem: str, pieces: Iterable[_Piece]) -> HandIn:
     left = sorted(
         printable(str(piece.file.upload.path)) for key in copies if key != newest for piece in copies[key]
     )
-    return HandIn(student, problem, tuple(piece.file for piece in files), newest[0], tuple(left))
+    group = files[0].owner.group
+    return HandIn(student, problem, tuple(piece.file for piece in files), newest[0], tuple(left), group)

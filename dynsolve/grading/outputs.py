@@ -69,6 +69,7 @@ def _answers(record: Record) -> Iterator[tuple[str, ...]]:
 
 def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
     written: set[Path] = set()
+    groups = record.groups()
     answers = groupby(record.answers(), key=lambda a: (a.student, a.problem))
     waiting = next(answers, None)
     for row in record.rows():
@@ -79,7 +80,9 @@ def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
         if row.html:
             html, markdown = unpack(row.html), unpack(row.markdown)
         elif any(answer.said for answer in own):
-            html, markdown = absent_page(problems.item(row.problem).problem.title, row.student)
+            html, markdown = absent_page(
+                problems.item(row.problem).problem.title, groups.get(row.student, row.student)
+            )
         else:
             continue
         place = folder / folder_name(row.student)

@@ -10,6 +10,7 @@ from pathlib import PurePath
 from dynsolve.answers.marking.policy import Policy, from_data, to_data
 from dynsolve.errors import UsageError
 from dynsolve.grading.extensions import Extension
+from dynsolve.grading.groups import Membership
 from dynsolve.grading.record import Record
 from dynsolve.problem.model import Problem
 from dynsolve.problem.reader import read_problem
@@ -36,6 +37,7 @@ class ProblemSet:
     items: tuple[Item, ...]
     policy: Policy = field(default_factory=Policy)
     extensions: tuple[Extension, ...] = ()
+    groups: tuple[Membership, ...] = ()
 
     @property
     def stems(self) -> tuple[str, ...]:

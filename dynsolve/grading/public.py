@@ -14,10 +14,11 @@ from dynsolve.errors import Finding, InputError, UsageError
 from dynsolve.grading.by_hand import read_by_hand
 from dynsolve.grading.cohort import standings
 from dynsolve.grading.fingerprints import changes
+from dynsolve.grading.groups import Groups
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.outputs import write_outputs
 from dynsolve.grading.platforms import canvas
-from dynsolve.grading.platforms.registry import PLATFORMS, chosen_roster, export, keep_platform, late
+from dynsolve.grading.platforms.registry import PLATFORMS, chosen_roster, export, keep_platform, late, people
 from dynsolve.grading.pool import Bounds, LocalPool
 from dynsolve.grading.problem_set import ProblemSet, store_set, stored_set
 from dynsolve.grading.record import FILE, Record, Waiting
@@ -106,7 +107,7 @@ def grade(
             unknown = _late_unknown(chosen, uploads, delays)
             if unknown and warn is not None:
                 warn(unknown)
-            intake = take_in(chosen, uploads, delays)
+            intake = take_in(chosen, uploads, delays, Groups(chosen.groups, people(record)))
             store_set(record, chosen)
             done = grade_all(chosen, uploads, intake, record, pool, progress)
         write_outputs(folder, chosen, record)

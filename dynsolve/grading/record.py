@@ -43,6 +43,7 @@ CREATE TABLE IF NOT EXISTS answers (
 CREATE TABLE IF NOT EXISTS waiting (
   student TEXT, problem TEXT, file TEXT, reason TEXT,
   PRIMARY KEY (student, problem, file, reason)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS groups (student TEXT PRIMARY KEY, name TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS overrides (
   student TEXT, problem TEXT, answer TEXT, marks TEXT NOT NULL, why TEXT NOT NULL,
   PRIMARY KEY (student, problem, answer)) WITHOUT ROWID;
@@ -192,13 +193,19 @@ class Record:
                 [(str(m.marks), str(m.of), m.why, *key, m.name) for m in marks],
             )
 
-    def set_intake(self, students: Mapping[str, str], waiting: tuple[Waiting, ...]) -> None:
-        """Who there is, and what waits for a human."""
+    def set_intake(
+        self,
+        students: Mapping[str, str],
+        waiting: tuple[Waiting, ...],
+        groups: Mapping[str, str] | None = None,
+    ) -> None:
+        """Who there is, what waits for a human, and for which group the files of a student are."""
         with self.db:
             self.db.execute("BEGIN")
-            self.db.execute("DELETE FROM students")
+            for table in ("students", "waiting", "groups"):
+                self.db.execute(f"DELETE FROM {table}")  # noqa: S608
             self.db.executemany("INSERT INTO students VALUES (?, ?)", students.items())
-            self.db.execute("DELETE FROM waiting")
+            self.db.executemany("INSERT INTO groups VALUES (?, ?)", (groups or {}).items())
             rows = [(w.student, w.problem, w.file, w.reason) for w in waiting]
             self.db.executemany("INSERT OR IGNORE INTO waiting VALUES (?, ?, ?, ?)", rows)
 
@@ -254,6 +261,10 @@ class Record:
     def students(self) -> dict[str, str]:
         """Every student, with the platform's id."""
         return dict(self.db.execute("SELECT student, id FROM students ORDER BY student"))
+
+    def groups(self) -> dict[str, str]:
+        """Of each student whose group handed in what the files call the group."""
+        return dict(self.db.execute("SELECT student, name FROM groups ORDER BY student"))
 
     def waiting(self) -> tuple[Waiting, ...]:
         """What waits for a human."""

@@ -92,7 +92,7 @@ def grade_all(
 
     Raises KeyboardInterrupt after what is done was written.
     """
-    record.set_intake(intake.students, intake.waiting)
+    record.set_intake(intake.students, intake.waiting, intake.groups)
     record.keep_only({(student, stem) for student in intake.students for stem in problems.stems})
     known, bounds = record.fingerprints(), pool.bounds
     changed = [h for h in intake.hand_ins if known.get(h.key) not in fingerprints(problems, h, bounds)]
@@ -153,7 +153,7 @@ def payload(problems: ProblemSet, uploads: Uploads, hand_in: HandIn) -> Data:
         "problem": {"file": Path(item.problem.file).name, "text": item.text},
         "marks": {name: str(of) for name, of in item.problem.marks.items()},
         "policy": to_data(problems.policy),
-        "student": hand_in.student,
+        "student": hand_in.whose,
         "late": hand_in.late,
         "files": [
             {"name": name, "content": base64.b64encode(content).decode()}

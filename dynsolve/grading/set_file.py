@@ -5,7 +5,7 @@
     marks: {in3140-rp: {P: 2, K: 4, tau: 6}}       # wins over the problem files' own `marks`
     policy: {follow: 1/2, caps: {energy: 5}, rounding: 0.5, late: 0.8, hints: 2}
 
-Beside it may lie an `extensions.csv` (`extensions`).
+Beside it may lie an `extensions.csv` (`extensions`) and a `groups.csv` (`groups`).
 
 Every fault of the file is reported at its place, as in problem files.
 """
@@ -22,6 +22,7 @@ from dynsolve.algebra.rationals import rational_value
 from dynsolve.answers.marking.policy import Policy, shown
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.grading.extensions import read_extensions
+from dynsolve.grading.groups import read_groups
 from dynsolve.grading.problem_set import Item, ProblemSet
 from dynsolve.grading.set_keys import CAPS, POLICY, SET
 from dynsolve.problem.cells import read_cell
@@ -83,7 +84,8 @@ def _folder(folder: Path) -> ProblemSet:
         raise ProblemError([*faults.found(), *findings])
     title = (free_text(faults, fields.get("title"), "title") if fields else "") or folder.resolve().name
     chosen = tuple(Item(_marked(r.problem, marks.get(s, {})), text) for s, (r, text) in readings.items())
-    return ProblemSet(title, chosen, policy, read_extensions(folder, list(readings)))
+    extensions, groups = read_extensions(folder, list(readings)), read_groups(folder)
+    return ProblemSet(title, chosen, policy, extensions, groups)
 
 
 def _fields(faults: Faults) -> Fields | None:

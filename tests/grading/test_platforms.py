@@ -199,6 +199,37 @@ def test_a_download_of_moodle(tmp_path: Path, problems: Path, kind: str, around:
     assert (again.computed, _totals(out)["Åse Ærlig-Øst_42"]) == (0, "3")
 
 
+GROUPS = """\
+Identifier,Full name,Email address,Status,Group,Grade,Maximum Grade,Last modified (grade),Feedback comments
+Participant 41,Ada Lovelace,a@x,Submitted for grading,Group A,,7.00,-,
+Participant 42,Åse Ærlig,b@x,Submitted for grading - 1 hour late,Group B,,7.00,-,
+Participant 43,Wei 王,c@x,Submitted for grading,Group A,,7.00,-,
+"""
+
+
+def test_what_a_group_handed_in_reaches_its_members(tmp_path: Path, problems: Path) -> None:
+    files: dict[str, str | bytes] = {
+        "Group A_77_assignsubmission_file/in3140-rp.yaml": RIGHT,
+        "Group A_77_assignsubmission_onlinetext/onlinetext.html":
+            MOODLE_PAGE.format(body="<h4>planar-2r</h4><p>\\(g_2 = m_2 g l_{c2} \\cos(q_1 + q_2)\\)</p>"),
+        "Group B_42_assignsubmission_file/in3140-rp.yaml": RIGHT,
+    }  # fmt: skip
+    roster, out = tmp_path / "Grades.csv", tmp_path / "out"
+    roster.write_text(GROUPS, encoding="utf-8")
+    archive = _zip(tmp_path / "a.zip", files)
+    grades = dynsolve.grade(problems, archive, out, lms="moodle", roster=roster, jobs=1)
+    assert _totals(out) == {"Ada Lovelace_41": "7", "Wei 王_43": "7", "Åse Ærlig_42": "3"}
+    assert [row["Grade"] for row in _rows(out / "moodle.csv")] == ["7", "3", "7"] and grades.warnings == ()
+    with zipfile.ZipFile(out / "moodle-feedback.zip") as packed:
+        folders = {name.partition("/")[0] for name in packed.namelist()}
+    assert folders == {"Group A_77_assignfeedback_file", "Group B_42_assignfeedback_file"}
+    page = (out / "feedback" / "Wei 王_43" / "in3140-rp.html").read_text()
+    assert "RP manipulator: Group A_77" in page
+    dynsolve.override(out, "Wei 王_43", "in3140-rp", "K", marks=1, why="did not take part")
+    with zipfile.ZipFile(out / "moodle-feedback.zip") as packed:  # a group's files reach all its members
+        assert {name.partition("/")[0] for name in packed.namelist()} == {"Group B_42_assignfeedback_file"}
+
+
 def test_an_export_of_gradescope(tmp_path: Path, problems: Path) -> None:
     metadata = (
         "submission_7:\n  :submitters:\n  - :name: Ada Lovelace\n    :sid: '0041'\n    :email: ada@x\n"

@@ -1,15 +1,16 @@
 """The learning platforms: one file each for what it hands out and what it imports.
 
-    owners      whose file it is, asking the platforms in turn
-    roster      the table of students that a platform exports
-    registry    the platforms by name
-    canvas, moodle, gradescope
+    owner, owners   whose file it is, asking the platforms in turn
+    roster          the table of students that a platform exports
+    archives        zips that a platform takes back
+    registry        the platforms by name
+    canvas, moodle, moodle_feedback, gradescope
 
 To add a platform, write a file like `canvas` with
 
 - `owner(parts)`: the `Owner` of a file from the parts of its path, None where the
   platform has not named it; enter it in `owners`;
 - `write(folder, problems, record, roster)`: the file that it imports, giving the warnings;
-  and, where its roster is needed or tells who was late, `check` and `late`; enter them
-  in `registry`, and the name in `cli.grade`.
+  and, where its roster is needed, tells who was late or names its students, `check`, `late`
+  and `people`; enter them in `registry`, and the name in `cli.grade`.
 """

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from dynsolve.grading.cohort import Standing, most, standings
 from dynsolve.grading.files import decimal
-from dynsolve.grading.platforms.owner import FileOwner
+from dynsolve.grading.platforms.owner import FileOwner, Person
 from dynsolve.grading.platforms.roster import Cells, Roster, not_judged, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
@@ -55,6 +55,20 @@ def owner(parts: tuple[str, ...]) -> FileOwner | None:
     name = found["name"] or _PAGES[found["page"]]
     order = int((found["file"] or "0")[:18])
     return FileOwner(f"{who}_{found['user']}", found["user"], "late" if late else "", name, late, order)
+
+
+def people(roster: Roster) -> Iterator[Person]:
+    """The students of a gradebook, as Canvas names their files: the letters of the name, then the number."""
+    header = roster.header
+    if "ID" not in header:
+        return
+    id, also = header.index("ID"), [place for place, name in enumerate(header) if name in _NAMES]
+    for row in roster.rows[1:]:
+        if len(row) <= id or not row[id].strip().isdigit():
+            continue
+        name = row[0] if header[0] == "Student" else ", ".join(row[:2])
+        student = re.sub(r"\W", "", f"{name.casefold()}_{row[id].strip()}")
+        yield Person(student, row[id].strip(), name, also=tuple(row[place] for place in also if row[place:]))
 
 
 def check(problems: ProblemSet, roster: Roster) -> int | None:

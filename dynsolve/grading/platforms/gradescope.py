@@ -13,7 +13,7 @@ from typing import Any
 from dynsolve.answers.marking.policy import points
 from dynsolve.grading.cohort import Standing, standings
 from dynsolve.grading.files import folder_name, remove_others
-from dynsolve.grading.platforms.owner import FileOwner
+from dynsolve.grading.platforms.owner import FileOwner, Person
 from dynsolve.grading.platforms.roster import Roster, not_judged
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
@@ -150,6 +150,20 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
         write_changed(path, told[path][1], durable=False)
     remove_others(folder / "gradescope", set(told), (".json",))
     yield from not_judged(all_of)
+
+
+def people(roster: Roster) -> Iterator[Person]:
+    """The students of the list of grades, each called by number, else by address, as in the export."""
+    header = roster.header
+    if not {"SID", "Email"} <= set(header):
+        return
+    names = [place for place, name in enumerate(header) if name in ("Name", "First Name", "Last Name")]
+    for row in roster.rows[1:]:
+        cells = dict(zip(header, row, strict=False))
+        sid, email = cells.get("SID", "").strip(), cells.get("Email", "").strip()
+        name = " ".join(row[place].strip() for place in names if row[place:])
+        if sid or email:
+            yield Person(sid or email, "", name, also=(email,))
 
 
 def late(roster: Roster) -> dict[str, int] | None:

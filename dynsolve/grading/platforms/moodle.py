@@ -1,4 +1,4 @@
-"""Moodle: the names of its files, the offline grading worksheet, and a zip of feedback files.
+"""Moodle: the names of its files, and the offline grading worksheet; `moodle_feedback` has the pages.
 
 Moodle finds a column by its header in the site's language, so the worksheet is given
 back as it came, with Grade and Feedback comments filled in.  Headers are known in some
@@ -8,22 +8,25 @@ languages; in others the columns are found by what stands in them.
 from __future__ import annotations
 
 import re
-import zipfile
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
 from dynsolve.grading.cohort import Standing, most, standings
-from dynsolve.grading.files import decimal, folder_name
-from dynsolve.grading.platforms.owner import FileOwner
+from dynsolve.grading.files import decimal
+from dynsolve.grading.platforms.moodle_feedback import write_feedback
+from dynsolve.grading.platforms.owner import FileOwner, Person
 from dynsolve.grading.platforms.roster import MOST_NAMED, Roster, not_judged, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
-from dynsolve.render.files import changed
 
-_NAMED = re.compile(r"(?P<who>.+?)_(?P<id>\d+)_assignsubmission_[a-z]+_?(?P<name>.*)", re.DOTALL)
+_NAMED = re.compile(r"(?P<who>.+?)(?:_(?P<id>\d+))?_assignsubmission_[a-z]+_?(?P<name>.*)", re.DOTALL)
 
 _GRADE = ("Grade", "Bewertung")
+_STATUS = (
+    "Status", "Statut", "Stato", "Estado", "Estat", "Tila", "Stav", "Stare", "Stanje", "Állapot", "Olek",
+    "Статус", "Состояние", "Състояние", "ステータス", "状态", "狀態", "상태",
+)  # fmt: skip
 _COMMENTS = ("Feedback comments", "Feedback als Kommentar")
 _NUMBER = re.compile(r"(\d+)\s*$")
 _DATE = re.compile(r"\d{4}|\d[:.h]\d{2}")
@@ -36,12 +39,19 @@ _TIME = re.compile(r"\d{1,2}[:.]\d{2}")
 
 
 def owner(parts: tuple[str, ...]) -> FileOwner | None:
-    """`<Full name>_<participant id>_assignsubmission_file[_]/<path>`, or the same without folders."""
+    """`<Full name>_<participant id>_assignsubmission_file[_]/<path>`, or the same without folders.
+
+    Where groups hand in, it is the name of the group and its number, without a number for those of no
+    group; before Moodle 4.1 `<Group>-<Full name>_<participant id>`, once for each member.
+    """
     found = _NAMED.fullmatch(parts[0])
     if found is None:
         return None
     rest = [piece for piece in (found["name"], *parts[1:]) if piece]
-    return FileOwner(f"{found['who']}_{found['id']}", found["id"], "", "/".join(rest) or "onlinetext.html")
+    id = found["id"] or ""
+    return FileOwner(
+        f"{found['who']}_{id}" if id else found["who"], id, "", "/".join(rest) or "onlinetext.html"
+    )
 
 
 def check(problems: ProblemSet, roster: Roster) -> int:
@@ -75,7 +85,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
                 cells[comments] = _comment(found, problems)
         out.append(tuple(cells))
     roster.write(folder / "moodle.csv", out, trusted=comments)
-    _write_feedback(folder, record)
+    yield from write_feedback(folder, record)
     maximum = next((number(row[grade + 1]) for row in roster.rows[1:] if len(row) > grade + 1), None)
     if maximum not in (None, of):
         assert maximum is not None
@@ -97,14 +107,31 @@ def _over(all_of: list[Standing], maximum: Fraction | None) -> Iterator[str]:
         yield f"over the maximum of {decimal(maximum)}, which Moodle refuses: {'; '.join(over[:MOST_NAMED])}"
 
 
+def people(roster: Roster) -> Iterator[Person]:
+    """The participants of a worksheet; where groups hand in, the column after the status names theirs.
+
+    Where names are hidden there is none, and the files are called as the identifiers are.
+    """
+    grade, status = _grade(roster), _status(roster)
+    for row in roster.rows[1:]:
+        digits = _NUMBER.search(row[0])
+        if digits is None or len(row) <= grade:
+            continue
+        hidden = status in (None, 1)
+        name = row[0][: digits.start()].strip() if hidden else row[1]
+        group = row[status + 1].strip() if status is not None and status + 1 < grade else ""
+        also = tuple(cell for cell in row[2:status] if cell) if not hidden else ()
+        yield Person(f"{name.replace('_', ' ')}_{digits[1]}", digits[1], name, group, also)
+
+
 def late(roster: Roster) -> dict[str, int] | None:
     """The days that participants are late by their status; None where the worksheet has no such column.
 
-    The status is the column before the grade.  Its parts are joined by ` - `, in every language;
-    one that holds a length of time and no date says how late it is.
+    The parts of a status are joined by ` - `, in every language; one that holds a length of time
+    and no date says how late it is.
     """
-    place = _grade(roster) - 1
-    if place < 1 or any("@" in row[place] for row in roster.rows[1:] if len(row) > place):
+    place = _status(roster)
+    if place is None:
         return None
     rows = ((_NUMBER.search(row[0]), _days(row[place])) for row in roster.rows[1:] if len(row) > place)
     return {digits[1]: days for digits, days in rows if digits and days}
@@ -125,6 +152,17 @@ def _days(status: str) -> int:
         (first, unit), more = numbers[0], len(numbers) > 1
         return int(first[:6]) + more if _DAY.fullmatch(unit.casefold()) else 1
     return 0
+
+
+def _status(roster: Roster) -> int | None:
+    """The column of the status: by its name, else the one after the addresses, else that before the grade."""
+    grade = _grade(roster)
+    for place, name in enumerate(roster.header[:grade]):
+        if name in _STATUS:
+            return place
+    addresses = [i for i in range(grade) if any("@" in row[i] for row in roster.rows[1:] if len(row) > i)]
+    found = addresses[-1] + 1 if addresses else grade - 1
+    return found if 1 <= found < grade else None
 
 
 def _grade(roster: Roster) -> int:
@@ -169,17 +207,3 @@ def _is_free(comment: str, problems: ProblemSet) -> bool:
 def _comment(standing: Standing, problems: ProblemSet) -> str:
     parts = [f"{stem}: {decimal(standing.marks.get(stem, Fraction(0)))}" for stem in problems.stems]
     return "; ".join(parts)
-
-
-def _write_feedback(folder: Path, record: Record) -> None:
-    """A folder a participant, named as Moodle names them, with the pages."""
-    with changed(folder / "moodle-feedback.zip") as stream, zipfile.ZipFile(stream, "w") as archive:
-        for student, id in record.students().items():
-            pages = sorted((folder / "feedback" / folder_name(student)).glob("*.html"))
-            for page in pages if id else ():
-                name = "feedback.html" if len(pages) == 1 else page.name
-                safe = re.sub(r"[/\\:*?\"<>|]", "_", student)
-                entry = zipfile.ZipInfo(f"{safe}_assignfeedback_file/{name}")  # dated 1980: the same bytes
-                entry.external_attr = 0o644 << 16
-                entry.compress_type = zipfile.ZIP_DEFLATED
-                archive.writestr(entry, page.read_bytes())

@@ -1,4 +1,4 @@
-"""Whose file it is, as a platform's name of it says."""
+"""Whose file it is, as a platform's name of it says, and who there is, as its list of students says."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class FileOwner:
     of the same student is another copy.  `late` are the
     days that it is late, begun ones counted.  `order` grows with the delivery; `name` is the
     file's own name.  A loose file's name is not `certain` to be a student's: what stands
-    in the file wins.
+    in the file wins.  `group` is whose it is in the names of the files where a group handed it in.
     """
 
     student: str
@@ -23,3 +23,28 @@ class FileOwner:
     late: int = 0
     order: int = 0
     certain: bool = True
+    group: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Person:
+    """A student of a platform's list: `student` as the names of the files have it, the platform's `id`.
+
+    `name` is what people call the student, `group` the group that the list puts them in; `also`
+    are other things that the list says of this student alone, such as an address.
+    """
+
+    student: str
+    id: str
+    name: str
+    group: str = ""
+    also: tuple[str, ...] = ()
+
+    def is_called(self, said: str) -> bool:
+        """Whether this is what the student is called.
+
+        >>> person = Person("Ada Lovelace_41", "41", "Ada Lovelace", also=("ada@uni.example",))
+        >>> [person.is_called(said) for said in ("41", "Ada Lovelace", "ada@uni.example", "Ada", "")]
+        [True, True, True, False, False]
+        """
+        return bool(said) and said in (self.student, self.id, self.name, *self.also)

@@ -12,6 +12,7 @@ from pathlib import PurePosixPath
 from unicodedata import normalize
 
 from dynsolve.answers.reading.files import ENDINGS
+from dynsolve.grading.groups import Groups
 from dynsolve.grading.platforms import canvas, gradescope, moodle
 from dynsolve.grading.platforms.gradescope import Submitters
 from dynsolve.grading.platforms.owner import FileOwner
@@ -28,7 +29,7 @@ class FileOwners:
 
     `metadata` is Gradescope's, `late` are the days that those were late, by the platform's ids,
     as far as it tells them elsewhere than in the names; `is_problem` tells whether a file's
-    name is that of a problem.
+    name is that of a problem; `groups` are those whose members are known.
     """
 
     def __init__(
@@ -37,12 +38,14 @@ class FileOwners:
         metadata: Submitters | None = None,
         late: Mapping[str, int] | None = None,
         is_problem: Callable[[str], bool] = lambda name: False,
+        groups: Groups | None = None,
     ) -> None:
         files = list(files)
         self.depth = _wrapping(files, is_problem)
         self.exports = gradescope.exports(files)
         self.submitters = metadata or {}
         self.late = late or {}
+        self.groups = groups or Groups()
 
     def of(self, path: PurePosixPath) -> tuple[FileOwner, ...]:
         """The owners of a file: one, or the members of a group."""
@@ -52,7 +55,8 @@ class FileOwners:
                 student=normalize("NFC", owner.student),
                 late=max(owner.late, self.late.get(owner.id, 0)),
             )
-            for owner in self._of(path)
+            for named in self._of(path)
+            for owner in self.groups.of(named)
         )
 
     def _of(self, path: PurePosixPath) -> tuple[FileOwner, ...]:

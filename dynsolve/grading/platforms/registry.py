@@ -8,6 +8,7 @@ from pathlib import Path
 
 from dynsolve.errors import UsageError
 from dynsolve.grading.platforms import canvas, gradescope, moodle
+from dynsolve.grading.platforms.owner import Person
 from dynsolve.grading.platforms.roster import Roster, from_text, read_roster, to_text
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
@@ -19,17 +20,19 @@ class Platform:
 
     A platform without a check needs no roster.  `late` tells the days that the
     platform's ids were late, None where the roster does not say; Canvas says it in the names of files.
+    `people` are the students of the roster.
     """
 
     write: Callable[[Path, ProblemSet, Record, Roster], Iterator[str]]
     check: Callable[[ProblemSet, Roster], object] | None = None
     late: Callable[[Roster], dict[str, int] | None] = lambda roster: None
+    people: Callable[[Roster], Iterator[Person]] = lambda roster: iter(())
 
 
 PLATFORMS = {
-    "canvas": Platform(canvas.write, canvas.check),
-    "moodle": Platform(moodle.write, moodle.check, moodle.late),
-    "gradescope": Platform(gradescope.write, late=gradescope.late),
+    "canvas": Platform(canvas.write, canvas.check, people=canvas.people),
+    "moodle": Platform(moodle.write, moodle.check, moodle.late, moodle.people),
+    "gradescope": Platform(gradescope.write, late=gradescope.late, people=gradescope.people),
 }
 
 _PLATFORM, _ROSTER = "platform", "roster"
@@ -64,6 +67,12 @@ def late(record: Record) -> dict[str, int] | None:
     """How many days late who was, by the roster that is kept; None where nothing says so."""
     platform = record.run(_PLATFORM)
     return PLATFORMS[platform].late(from_text(record.run(_ROSTER))) if platform else None
+
+
+def people(record: Record) -> tuple[Person, ...]:
+    """The students of the roster that is kept, none where there is none."""
+    platform = record.run(_PLATFORM)
+    return tuple(PLATFORMS[platform].people(from_text(record.run(_ROSTER)))) if platform else ()
 
 
 def export(folder: Path, problems: ProblemSet, record: Record) -> tuple[str, ...]:
