@@ -33,7 +33,7 @@ def read_list(
     for line, cells in _rows(path, columns, needed):
         entry = read(cells)
         if isinstance(entry, tuple):
-            findings.append(Finding(*entry, str(path), line, 1))
+            findings.append(Finding(entry[0], entry[1], str(path), line, 1))
         else:
             found.append(entry)
     if findings:
