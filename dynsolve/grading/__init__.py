@@ -14,7 +14,7 @@
     outputs, files          grades.csv, answers.csv and the students' pages, from the record
     cohort, teacher         the teacher's page
     by_hand                 a human's marks in bulk
-    extensions, groups      who was given more days, and whose a group's hand-in is
+    extensions, groups      who was given more days, and who the members of a group are
     listed                  reading these lists of the teacher's
     platforms/              what Canvas, Moodle and Gradescope hand out and import
     public                  `dynsolve.grade` and `dynsolve.override`

@@ -20,8 +20,8 @@ from dynsolve.answers.reading.files import ENDINGS
 from dynsolve.answers.reading.sources import decoded
 from dynsolve.errors import InputError, ReadError
 from dynsolve.grading.extensions import days_late
-from dynsolve.grading.groups import Groups
 from dynsolve.grading.platforms.gradescope import METADATA, Submitters, exports, read_metadata
+from dynsolve.grading.platforms.members import Groups
 from dynsolve.grading.platforms.owner import FileOwner
 from dynsolve.grading.platforms.owners import FileOwners
 from dynsolve.grading.problem_set import ProblemSet

@@ -14,10 +14,10 @@ from dynsolve.errors import Finding, InputError, UsageError
 from dynsolve.grading.by_hand import read_by_hand
 from dynsolve.grading.cohort import standings
 from dynsolve.grading.fingerprints import changes
-from dynsolve.grading.groups import Groups
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.outputs import write_outputs
 from dynsolve.grading.platforms import canvas
+from dynsolve.grading.platforms.members import Groups
 from dynsolve.grading.platforms.registry import PLATFORMS, chosen_roster, export, keep_platform, late, people
 from dynsolve.grading.pool import Bounds, LocalPool
 from dynsolve.grading.problem_set import ProblemSet, store_set, stored_set

@@ -12,9 +12,9 @@ from pathlib import PurePosixPath
 from unicodedata import normalize
 
 from dynsolve.answers.reading.files import ENDINGS
-from dynsolve.grading.groups import Groups
 from dynsolve.grading.platforms import canvas, gradescope, moodle
 from dynsolve.grading.platforms.gradescope import Submitters
+from dynsolve.grading.platforms.members import Groups
 from dynsolve.grading.platforms.owner import FileOwner
 
 _MOST_AROUND = 4

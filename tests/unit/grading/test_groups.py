@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 
 from dynsolve.errors import ProblemError
-from dynsolve.grading.groups import Groups, Membership, read_groups
+from dynsolve.grading.groups import Membership, read_groups
 from dynsolve.grading.platforms import canvas, gradescope, moodle
+from dynsolve.grading.platforms.members import Groups
 from dynsolve.grading.platforms.owner import FileOwner, Person
 from dynsolve.grading.platforms.roster import Roster, read_roster
 
