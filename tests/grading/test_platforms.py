@@ -242,7 +242,7 @@ def test_an_export_of_gradescope(tmp_path: Path, problems: Path) -> None:
     files: dict[str, str | bytes] = {
         f"{top}/submission_7/in3140-rp.yaml": RIGHT,
         f"{top}/submission_7/figures/plot.png": b"",
-        f"{top}/submission_8/work/in3140-rp.yaml": RIGHT,
+        f"{top}/submission_8/src/in3140-rp.yaml": RIGHT,
         f"{top}/submission_metadata.yml": metadata,
     }
     roster = tmp_path / "scores.csv"
