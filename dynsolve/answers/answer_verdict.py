@@ -2,7 +2,8 @@
 
     unreadable   it has no value (the reader or the ring refused it)
     correct      every entry is the key's
-    follows      every entry that is not is explained by the student's own earlier answers
+    follows      every entry that is not is explained by the student's own earlier answers,
+                 none of which keeps nothing of the key (`judging.content`)
     wrong        else; then each wrong entry is diagnosed
 
 A matrix has a verdict for each entry, C for each row of C q̇, and takes the worst.
@@ -31,6 +32,7 @@ from dynsolve.problem.model import Problem
 ROUNDED = "rounded"
 NOT_FROM_OWN = "not_from_own"
 NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's"
+FROM_NOTHING = "it is what follows from {}, where next to nothing is right"
 UNAFFECTED = "tau is unaffected"
 
 
@@ -80,7 +82,11 @@ class AnswerJudge:
             self._entry(base.name, compared, index, i, j, whole)
             for index, i, j in _entries(base.name, compared)
         )
-        return self._matrix(base, compared, entries) if entries else self._scalar(base, compared, whole)
+        judged = self._matrix(base, compared, entries) if entries else self._scalar(base, compared, whole)
+        nothing = self.explanations.of_nothing(compared) if judged.verdict is Verdict.WRONG else ()
+        if not nothing:
+            return judged
+        return replace(judged, loss=FROM_NOTHING.format(", ".join(in_order(self.hand_in.graph, nothing))))
 
     # -- correct -----------------------------------------------------------------------------------
 

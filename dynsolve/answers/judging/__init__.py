@@ -13,6 +13,7 @@ zero_height                   the zero of height that the student has chosen
 hand_in                       all of these for one hand-in
 student_values                the student's own values, where the next two start
 follow_through                the values that they lead to
+content                       what a wrong answer keeps of the key, so that inventions lead nowhere
 direction                     which way between τ and D, C, g, so that nothing explains itself
 explanation                   which of those explains an answer
 """

@@ -18,11 +18,15 @@ from dynsolve.quantities import families
 Explains = Callable[[str, Iterator[PossibleValue]], bool]
 """Whether values explain all that is not the key's in a node's answers."""
 
+_NEVER = (-1, False)
+"""Before everything that was written."""
+
 
 class Direction:
     """The values that lead to each node of a hand-in, none of which rests on what the node leads to.
 
     `order` tells when an answer was first written, `explain` whether values explain a node's answers.
+    Of one equation D q̈ + C q̇ + g = τ the matrices are written first, and τ is made of them.
     """
 
     def __init__(
@@ -36,10 +40,11 @@ class Direction:
         self.graph = graph
         self.students = students
         self._explain = explain
-        self._written: dict[str, int] = {}
+        self._written: dict[str, tuple[int, bool]] = {}
         for name, compared in comparisons.items():
             node = graph.node("C") if compared.target.node == "C" else compared.target.node
-            self._written[node] = min(order[name], self._written.get(node, order[name]))
+            when = order[name], node in self.forces
+            self._written[node] = min(when, self._written.get(node, when))
         self.values = FollowThrough(graph, students)
         self._without: dict[tuple[frozenset[str], bool], FollowThrough] = {}
         self._barred: dict[str, frozenset[str]] = {}
@@ -62,8 +67,8 @@ class Direction:
 
     def _later(self, node: str) -> frozenset[str]:
         """What was written after a node, of what may lead to it as well as come from it."""
-        written = self._written.get(node, -1)
-        return frozenset(o for o in self._other_side(node) if self._written.get(o, -1) > written)
+        written = self._written.get(node, _NEVER)
+        return frozenset(o for o in self._other_side(node) if self._written.get(o, _NEVER) > written)
 
     def is_assembled(self) -> bool:
         """Whether D, C or g was written before any torque."""
@@ -92,9 +97,9 @@ class Direction:
         assembled = node in self.forces and self._assembles and self._follow(frozenset(), True).touched(node)
         return assembled or self.values.touched(node)
 
-    def nearest_of_each_route(self, node: str) -> Iterator[PossibleValue]:
-        """The nearest value of each route to a node, by what was written before it."""
-        later = self._later(node)
+    def nearest_of_each_route(self, node: str, judged: str = "") -> Iterator[PossibleValue]:
+        """The nearest value of each route to a node, by what was written before it; `judged` as in `ways`."""
+        later = self._later(judged or node)
         follow = self._follow(later, node in self.forces and self._assembles)
         return follow.nearest_of_each_route(node) if follow.touched(node) else iter(())
 

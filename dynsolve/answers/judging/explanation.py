@@ -1,22 +1,28 @@
 """Which value that a student's own answers lead to explains an answer that differs from the key.
 
 An answer *follows* where it is not the key's and equals what the student's own earlier
-answers lead to (see `follow_through`).  One such value should explain the whole of a
-matrix; where none does, each entry is compared by itself.
+answers lead to (see `follow_through`), in one direction between τ and D, C, g (`direction`).
+One such value should explain the whole of a matrix; where none does, each entry is compared by
+itself.  Between two answers that keep nothing of the key (`content`) nothing follows: agreement
+is no work where neither holds any of this robot.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
 from itertools import islice
 from typing import Any
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.judging.content import Content
 from dynsolve.answers.judging.direction import Direction
-from dynsolve.answers.judging.follow_through import PossibleValue
+from dynsolve.answers.judging.follow_through import FollowThrough, PossibleValue, StudentValue
 from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
 from dynsolve.answers.judging.student_values import student_values
+from dynsolve.robot.model import Coordinate
 
 MOST_EXPECTED = 4
 """So many of the values that a student's own answers lead to are looked at for a slip."""
@@ -27,10 +33,48 @@ class Explanations:
 
     def __init__(self, hand_in: ComparedHandIn) -> None:
         self.hand_in = hand_in
-        students = student_values(hand_in.graph, hand_in.comparisons)
+        self._content = Content(hand_in.answer_ring.dimensions, hand_in.compare_entry.values)
+        self._students = student_values(hand_in.graph, hand_in.comparisons)
+        self.direction = self._direction(self._students)
+
+    def _keeps(self, compared: KeyComparison) -> bool:
+        """Whether an answer is right, or keeps some of what is."""
+        written = [entry.value.numerator for row in compared.rows for entry in row]
+        return compared.correct or self._content.is_kept(
+            written, _entries(self.hand_in.compare.key(compared.target))
+        )
+
+    @cached_property
+    def _empty(self) -> frozenset[str]:
+        """The nodes whose values keep nothing of the key."""
+        graph = self.hand_in.graph
+        return frozenset(
+            node
+            for node, own in self._students.items()
+            if not own.correct
+            and own.value is not None
+            and not self._content.is_kept(_entries(own.value), _entries(graph.key(node)))
+        )
+
+    def _direction(self, values: Mapping[str, StudentValue]) -> Direction:
+        hand_in = self.hand_in
         order = {name: chains[0][0].answer.occurrence[0] for name, chains in hand_in.chains.items()}
-        self.direction = Direction(hand_in.graph, students, hand_in.comparisons, order, self._explain_all)
-        self.values = self.direction.values
+        return Direction(hand_in.graph, values, hand_in.comparisons, order, self._explain_all)
+
+    @cached_property
+    def _from_substance(self) -> Direction:
+        """What the answers lead to that keep some of the key."""
+        kept = {node: own for node, own in self._students.items() if node not in self._empty}
+        return self._direction(kept) if self._empty else self.direction
+
+    @property
+    def values(self) -> FollowThrough:
+        """The values of the nodes, for a student who goes from τ to D, C and g."""
+        return self._from_substance.values
+
+    def _direction_to(self, compared: KeyComparison) -> Direction:
+        """What may lead to an answer: to one that keeps nothing only those that do."""
+        return self.direction if not self._empty or self._keeps(compared) else self._from_substance
 
     def of_whole(self, compared: KeyComparison) -> PossibleValue | None:
         """The first value that explains every entry that is not the key's."""
@@ -55,7 +99,7 @@ class Explanations:
         return any(self._explains(value, compared, i, j) for value in self._rests_on_answers(compared))
 
     def _rests_on_answers(self, compared: KeyComparison) -> Iterator[PossibleValue]:
-        return self.direction.ways(compared.target.node)
+        return self._direction_to(compared).ways(compared.target.node)
 
     def _explain_all(self, node: str, values: Iterator[PossibleValue]) -> bool:
         """Whether values explain all entries of a node's answers that are not the key's."""
@@ -76,15 +120,16 @@ class Explanations:
     def _of_force(self, compared: KeyComparison, i: int) -> PossibleValue | None:
         """The force that an entry of τ is taken from."""
         written = compared.rows[i][0]
-        forces = (v for v in self._forces(f"tau{i + 1}") if v.used and v.value is not None)
+        forces = (v for v in self._forces(f"tau{i + 1}", compared) if v.used and v.value is not None)
         return next((v for v in forces if self.hand_in.compare_entry(v.value, written) is not None), None)
 
-    def _forces(self, node: str) -> Iterator[PossibleValue]:
-        """A component of τ: the student's own, or what leads to it."""
-        own = self.direction.students.get(node)
+    def _forces(self, node: str, compared: KeyComparison) -> Iterator[PossibleValue]:
+        """A component of τ that may lead to an answer: the student's own, or what leads to it."""
+        direction = self._direction_to(compared)
+        own = direction.students.get(node)
         if own is not None:
             yield PossibleValue(own.value, 0, frozenset(own.names))
-        yield from self.direction.ways(node, judged="tau")
+        yield from direction.ways(node, judged="tau")
 
     def _explains(self, value: PossibleValue, compared: KeyComparison, i: int, j: int) -> bool:
         expected = entry_of(compared.target.of(value.value), i, j)
@@ -92,20 +137,51 @@ class Explanations:
 
     def expected(self, target: Target) -> Iterator[Any]:
         """The values that the student's own answers lead to, the nearest first; none where all are right."""
-        if self.direction.touched(target.node):
-            for value in islice(self.direction.ways(target.node), MOST_EXPECTED):
+        if self._from_substance.touched(target.node):
+            for value in islice(self._from_substance.ways(target.node), MOST_EXPECTED):
                 yield target.of(value.value)
+
+    def of_nothing(self, compared: KeyComparison) -> frozenset[str]:
+        """The answers that keep nothing of the key and lead to one that is wrong; none where others do."""
+        if self._direction_to(compared) is self.direction:
+            return frozenset()
+        empty = {name for node in self._empty for name in self._students[node].names}
+        for value in self.direction.ways(compared.target.node):
+            if all(
+                right is not None or self._explains(value, compared, i, j)
+                for i, row in enumerate(compared.right)
+                for j, right in enumerate(row)
+            ):
+                return value.used & empty
+        return frozenset()
 
     def lead_elsewhere(self, compared: KeyComparison) -> bool:
         """Whether an answer is the key's although the student's own wrong answers lead to other values."""
         node, robot = compared.target.node, self.hand_in.answer_ring.robot
         if node in ("Cqd", "C", "christoffel") and not robot.bodies:
             return False
-        key = self.hand_in.compare.key(compared.target)
-        led = [compared.target.of(value.value) for value in self.direction.nearest_of_each_route(node)]
-        return bool(led) and not any(value == key for value in led)
+        if node == "tau" and any(map(self._force_leads_elsewhere, robot.coordinates)):
+            return True
+        led = self.direction.nearest_of_each_route(node)
+        return self._differ(
+            (compared.target.of(v.value) for v in led), self.hand_in.compare.key(compared.target)
+        )
+
+    def _force_leads_elsewhere(self, coordinate: Coordinate) -> bool:
+        """Whether what leads to a component of τ, which is not given by itself, leads elsewhere."""
+        node = f"tau{coordinate.index}"
+        led = () if node in self._students else self.direction.nearest_of_each_route(node, judged="tau")
+        return self._differ((value.value for value in led), self.hand_in.graph.key(node))
+
+    def _differ(self, led: Iterable[Any], key: Any) -> bool:
+        values = list(led)
+        return bool(values) and key not in values
 
 
 def entry_of(value: Any, i: int, j: int) -> Any:
     """One entry of a matrix; a scalar is its own."""
     return value[i, j] if isinstance(value, Matrix) else value
+
+
+def _entries(value: Any) -> tuple[Expr, ...]:
+    return value.entries if isinstance(value, Matrix) else (value,)

@@ -72,7 +72,9 @@ class _Substance:
         loss, empty = (
             self._loss(compared, key) if following or answer.verdict is Verdict.WRONG else ("", False)
         )
-        return replace(answer, zero=zero, entries=entries, loss=loss if following else "", empty=empty)
+        return replace(
+            answer, zero=zero, entries=entries, loss=loss if following else answer.loss, empty=empty
+        )
 
     def _key(self, name: str) -> Any:
         """The key's value of an answer, None where there is none; of an entry of C that of its row of C q̇."""
