@@ -9,6 +9,8 @@ from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working import kinetic
+from dynsolve.explain.working.proved import SILENT
 from dynsolve.explain.writing import is_small, listed, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Function,
@@ -231,6 +233,7 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         if is_small(velocity, velocity):
             total = squares[0] if len(squares) == 1 else Sum(squares)
             working = (equation(Kv, Product((letters.HALF, mass, total))),)
+    way = kinetic.linear(context, body) if working else SILENT
     return Step(
         id=f"Kv{b}",
         stage=STAGE,
@@ -239,6 +242,8 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         formula=equation(Kv, Product((letters.HALF, context.mass(body), letters.transposed_product(v)))),
         source=spong("7.2"),
         working=working,
+        lines=way.lines,
+        concluding=way.concluding,
         result=(equation(Kv, form),),
         notes=tuple(_cancelling(context, body)) if working and tells else (),
         hint=(
@@ -298,6 +303,10 @@ def _rotational(context: Context, body: Body) -> Step:
     if not still and is_small(velocity, velocity, base):
         product = Product((letters.HALF, Matrix((tuple(row[0] for row in velocity.rows),)), base, velocity))
         working = (equation(Kw, product),)
+    shown = None if still else kinetic.rotational(context, body)
+    if shown is not None:
+        working = shown.working
+    way = SILENT if shown is None else shown.way
     return Step(
         id=f"Kw{b}",
         stage=STAGE,
@@ -308,6 +317,8 @@ def _rotational(context: Context, body: Body) -> Step:
         formula=equation(Kw, Product((letters.HALF, letters.transposed_product(w, tensor)))),
         source=spong("7.2"),
         working=working,
+        lines=way.lines,
+        concluding=way.concluding,
         result=(equation(Kw, form),),
         hint=("ω and the tensor, both in base coordinates.",),
     )

@@ -24,13 +24,22 @@ class Detail(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
+class Line:
+    """A line between the formula and the result: the operation, in words, and what it gives."""
+
+    by: Prose
+    formula: Node
+
+
+@dataclass(frozen=True, slots=True)
 class Step:
     """One step of a derivation.
 
     `id` is the name of what it gives (`A1`, `Jv2`, `tau1`), `also` the names of further
     results.  `formula` is general and stands in the textbook at `source`; `working` is the
-    same with this robot's quantities; `result` what comes out.  `uses` names the earlier
-    steps that it is computed from, unless these are the inputs of its rule.
+    same with this robot's quantities; `lines` lead on from there to the `result`, what comes
+    out, one operation after the other, the last one being said in `concluding`.  `uses` names the
+    earlier steps that it is computed from, unless these are the inputs of its rule.
 
     How it is shown: `entries` names the entries of a result that is a matrix too wide for
     the page; an `optional` result says nothing new, and is left out where it does not fit;
@@ -48,6 +57,8 @@ class Step:
     formula: Node | None = None
     source: str = ""
     working: tuple[Node, ...] = ()
+    lines: tuple[Line, ...] = ()
+    concluding: Prose = ()
     result: tuple[Node, ...] = ()
     notes: tuple[Prose, ...] = ()
     table: Table | None = None

@@ -137,12 +137,7 @@ def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Ite
     if step.table:
         yield Table(step.table.header, step.table.rows)
     if detail > Detail.BRIEF:
-        if step.formula is not None:
-            yield Formula(step.formula, step.source)
-        for working in step.working:
-            yield Formula(working, optional=True)
-        if inputs:
-            yield Uses(inputs)
+        yield from _way(step, inputs)
     if step.listed:
         yield Equations(step.result)
     labelled = () if step.listed else zip(step.result, _labels(step), strict=False)
@@ -151,6 +146,29 @@ def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Ite
     if detail > Detail.BRIEF:
         for note in step.notes:
             yield Note(note)
+
+
+def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
+    """The way to the result: the formula, this robot's quantities in it, and the lines that lead on.
+
+    What goes in is named where it goes in: before the working, the first line, or else the result.
+    """
+    uses = (Uses(inputs),) if inputs else ()
+    if step.formula is not None:
+        yield Formula(step.formula, step.source)
+    if step.lines and step.working:
+        yield from uses
+    for working in step.working:
+        yield Formula(working, optional=True)
+    for place, line in enumerate(step.lines):
+        yield Text(line.by)
+        if place == 0 and not step.working:
+            yield from uses
+        yield Formula(line.formula)
+    if step.concluding:
+        yield Text(step.concluding)
+    if not step.lines:
+        yield from uses
 
 
 def _labels(step: Step) -> Iterator[str]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from dynsolve.document import Inline, Prose, Verbatim
 from dynsolve.explain.citations import by_itself
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Line, Step
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Matrix, Node
@@ -145,6 +145,16 @@ class _Exporter:
             "latex": "\n".join(map(self.latex.text, formulas)),
             "text": "\n".join(map(self.unicode.text, formulas)),
             "notes": [self.prose(note) for note in step.notes],
+            **({"lines": list(map(self.line, step.lines))} if step.lines else {}),
+            **({"concluding": self.prose(step.concluding)} if step.concluding else {}),
+        }
+
+    def line(self, line: Line) -> dict[str, str]:
+        """A line between the formula and the result, with the operation that leads to it."""
+        return {
+            "by": self.prose(line.by),
+            "latex": self.latex.text(line.formula),
+            "text": self.unicode.text(line.formula),
         }
 
     def prose(self, parts: Prose) -> str:

@@ -1,0 +1,128 @@
+"""The derivative of a formula as a person writes it: term by term, product and chain rule.
+
+Nothing is collected or simplified afterwards; that is the next line's work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from dynsolve.notation.build import negated, times, total
+from dynsolve.notation.tree import (
+    ONE,
+    ZERO,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+from dynsolve.notation.walk import walk
+
+Rule = Callable[[Symbol], Node]
+"""The derivative of every symbol: ZERO for what is held fixed."""
+
+
+def by_time(coordinates: Sequence[str]) -> Rule:
+    """d/dt: a coordinate gives its rate, a rate its acceleration."""
+    names = frozenset(coordinates)
+    return lambda symbol: Symbol(symbol.name, symbol.dots + 1) if symbol.name in names else ZERO
+
+
+def by_symbol(variable: Symbol) -> Rule:
+    """∂/∂variable: everything else is held fixed, rates of the variable among it."""
+    return lambda symbol: ONE if symbol == variable else ZERO
+
+
+@dataclass(frozen=True, slots=True)
+class Differentiated:
+    """A derivative, and whether the product or the chain rule was more than a look: several factors vary."""
+
+    tree: Node
+    by_product_rule: bool
+
+
+def differentiated(node: Node, rule: Rule, *, decimal: bool = False) -> Differentiated:
+    """The derivative of a scalar tree; `decimal` says that numbers are decimals.
+
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> q = Symbol("q")
+    >>> found = differentiated(Product((Symbol("m"), Function("cos", q), Symbol("q", 1))), by_time(["q"]))
+    >>> to_unicode(found.tree), found.by_product_rule
+    ('m cos(q) q̈ - m sin(q) q̇²', True)
+    """
+    worker = _Worker(rule, decimal)
+    return Differentiated(worker.derivative(node), worker.by_product_rule)
+
+
+class _Worker:
+    def __init__(self, rule: Rule, decimal: bool) -> None:
+        self.rule = rule
+        self.decimal = decimal
+        self.by_product_rule = False
+
+    def derivative(self, node: Node) -> Node:
+        match node:
+            case Symbol():
+                return self.rule(node)
+            case Sum(terms):
+                return total([self.derivative(term) for term in terms])
+            case Negative(argument):
+                return negated(self.derivative(argument))
+            case Parenthesized(argument):
+                return self.derivative(argument)
+            case Product(factors):
+                return self._product(factors)
+            case Quotient(numerator, denominator):
+                if self._is_fixed(denominator):
+                    return self._times(1, (self.derivative(numerator), 1), (denominator, -1))
+            case Power(base, Number(p, 1)):
+                slope = self.derivative(base)
+                self.by_product_rule |= slope not in (ZERO, ONE) and not isinstance(base, Symbol)
+                return ZERO if slope == ZERO else self._times(p, (base, p - 1), (slope, 1))
+            case Function("sin", argument):
+                return self._times(1, (Function("cos", argument), 1), (self.derivative(argument), 1))
+            case Function("cos", argument):
+                return self._times(-1, (Function("sin", argument), 1), (self.derivative(argument), 1))
+        if self._is_fixed(node):
+            return ZERO
+        raise TypeError(f"no derivative of {type(node).__name__}")
+
+    def _is_fixed(self, node: Node) -> bool:
+        return all(self.rule(part) == ZERO for part in walk(node) if isinstance(part, Symbol))
+
+    def _product(self, factors: tuple[Node, ...]) -> Node:
+        slopes = [self.derivative(factor) for factor in factors]
+        varying = [k for k, slope in enumerate(slopes) if slope != ZERO]
+        self.by_product_rule |= len(varying) > 1
+        return total([
+            self._times(1, *((slopes[k] if j == k else factor, 1) for j, factor in enumerate(factors)))
+            for k in varying
+        ])  # fmt: skip
+
+    def _times(self, coefficient: int, *factors: tuple[Node, int]) -> Node:
+        """The product of factors with exponents; powers of one base are put together."""
+        merged: dict[Node, int] = {}
+        for node, exponent in factors:
+            for base, power in _flattened(node, exponent):
+                merged[base] = merged.get(base, 0) + power
+        kept = [(node, exponent) for node, exponent in merged.items() if exponent]
+        return times(coefficient, kept, decimal=self.decimal)
+
+
+def _flattened(node: Node, exponent: int) -> list[tuple[Node, int]]:
+    """The factors of a product that stands in a product, with their exponents."""
+    match node:
+        case Negative(argument) if exponent == 1:
+            return [(Negative(ONE), 1), *_flattened(argument, 1)]
+        case Product(factors) if exponent == 1:
+            return [pair for factor in factors for pair in _flattened(factor, 1)]
+        case Power(base, Number(p, 1)):
+            return [(base, p * exponent)]
+    return [(node, exponent)]

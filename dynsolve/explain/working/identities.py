@@ -1,0 +1,131 @@
+"""Which identities of sine and cosine lead from one line to the next.
+
+Found, not guessed: a sine or cosine of an angle that is new in the second line is the sum or the
+difference of two angles of the first; and where the two lines still differ as polynomials in
+sines and cosines, s² + c² = 1 of the angles that the difference holds has been used.  A line that
+does not equal the one before it has no identities at all: `identities` gives None.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
+from dynsolve.algebra.ring import Ring
+from dynsolve.document import Prose
+from dynsolve.errors import AlgebraError
+from dynsolve.explain.working.unreduced import unreduced
+from dynsolve.explain.writing import listed
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Relation,
+    Sum,
+    equation,
+)
+from dynsolve.notation.walk import walk
+
+
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """An identity in this robot's angles: c₁ c₁₂ + s₁ s₁₂ = c₂; s² + c² = 1 has no `name`."""
+
+    name: str
+    relation: Relation
+
+
+def said(used: Sequence[Identity]) -> Prose:
+    """s₁² + c₁² = 1 and the cosine of a difference, c₁ c₁₂ + s₁ s₁₂ = c₂"""
+    return listed([(f"{each.name}, ", each.relation) if each.name else each.relation for each in used])
+
+
+def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | None:
+    """The identities that are used on the way from one tree to an equal one; None if they are not equal.
+
+    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> q1, q2 = Symbol("q1"), Symbol("q2")
+    >>> both = Angle.of("q1") + Angle.of("q2")
+    >>> ring = build_ring([("q1", "revolute"), ("q2", "revolute")], [], [Angle.of("q1"), both])
+    >>> s, c = Function("sin", q1), Function("cos", q1)
+    >>> squares = Sum((Power(s, Number(2)), Power(c, Number(2))))
+    >>> [to_unicode(found.relation) for found in identities(ring, squares, Number(1))]
+    ['sin²(q₁) + cos²(q₁) = 1']
+    >>> identities(ring, squares, Number(2)) is None
+    True
+    """
+    try:
+        difference = unreduced(ring, before) - unreduced(ring, after)
+    except AlgebraError:
+        return None
+    if ring.reduce(difference):
+        return None
+    degrees = difference.degrees()
+    squares = [pair for pair in ring.pairs if degrees[pair.sine] > 1 or degrees[pair.cosine] > 1]
+    pythagoras = (_pythagoras(angle_node(pair.angle, ring.names)) for pair in squares)
+    return (*pythagoras, *_additions(ring, before, after))
+
+
+_FULL = {"sin": "sine", "cos": "cosine"}
+
+
+def _pythagoras(angle: Node) -> Identity:
+    """sin² + cos² = 1 of an angle."""
+    squares = tuple(Power(Function(name, angle), Number(2)) for name in ("sin", "cos"))
+    return Identity("", equation(Sum(squares), Number(1)))
+
+
+def _angles(node: Node) -> dict[Angle, set[str]]:
+    """The angles whose sines and cosines occur, and which of both."""
+    found: dict[Angle, set[str]] = {}
+    for part in walk(node):
+        if isinstance(part, Function) and part.name in ("sin", "cos"):
+            found.setdefault(angle_from_tree(part.argument), set()).add(part.name)
+    return found
+
+
+def _additions(ring: Ring, before: Node, after: Node) -> Iterator[Identity]:
+    """The addition theorems by which new angles come about."""
+    old = list(_angles(before))
+    for angle, names in _angles(after).items():
+        if angle in old or -angle in old:
+            continue
+        parts = _parts(angle, old)
+        for name in sorted(names) if parts else ():
+            assert parts is not None
+            yield _addition(ring, name, angle, *parts)
+
+
+def _parts(angle: Angle, old: list[Angle]) -> tuple[Angle, Angle, int] | None:
+    """(A, B, ±1) with angle = A ± B, both of them in `old`."""
+    for sign in (-1, 1):
+        for a in old:
+            for b in old:
+                if a + b * sign == angle:
+                    return a, b, sign
+    return None
+
+
+def _addition(ring: Ring, name: str, angle: Angle, a: Angle, b: Angle, sign: int) -> Identity:
+    """cos A cos B ∓ sin A sin B = cos(A ± B), sin A cos B ± cos A sin B = sin(A ± B), of these angles."""
+
+    def of(function: str, which: Angle) -> Node:
+        return Function(function, angle_node(which, ring.names))
+
+    other = {"sin": "cos", "cos": "sin"}[name]
+    if name == "cos" and len(b.terms) < len(a.terms):
+        a, b = b, a  # c₁ c₁₂ + s₁ s₁₂, as it stands in a line
+    first = Product((of(name, a), of("cos", b)))
+    second = Product((of(other, a), of("sin", b)))
+    plus = (sign > 0) == (name == "sin")
+    words = "twice an angle" if a == b else "a sum" if sign > 0 else "a difference"
+    left = Sum((first, second if plus else Negative(second)))
+    if a == b:
+        squares = Sum((Power(of("cos", a), Number(2)), Negative(Power(of("sin", a), Number(2)))))
+        left = squares if name == "cos" else Product((Number(2), of("sin", a), of("cos", a)))
+    return Identity(f"the {_FULL[name]} of {words}", equation(left, of(name, angle)))

@@ -1,0 +1,211 @@
+"""The lines from ½ m vᵀ v and from ½ ωᵀ 𝓘 ω to the kinetic energy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from dynsolve.algebra.angles import angle_node
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.step import Line
+from dynsolve.explain.working import squares
+from dynsolve.explain.working.identities import Identity, identities, said
+from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
+from dynsolve.explain.writing import sum_of
+from dynsolve.notation.build import negated, split_sign, times, total
+from dynsolve.notation.tree import (
+    Function,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Sum,
+    Symbol,
+    Transpose,
+    equation,
+)
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body
+
+_COLLECTED: Prose = ("Collected by the products of the rates:",)
+
+
+def linear(context: Context, body: Body) -> Way:
+    """From the sum of the squares of v to K_v."""
+    ring = context.robot.ring
+    components = [x for x in context.values[f"v{body.name}"].entries if not x.is_zero]
+    if context.robot.n > MOST_JOINTS or not components or body.mass.is_zero:
+        return SILENT
+    lines: list[tuple[Prose, Node]] = []
+    while (found := squares.turned(ring, components)) is not None:
+        components = _exchanged(components, found)
+        lines.append((_turn(context, found), _sum_of_squares(context, components)))
+    if all(len(x) == 1 for x in components):
+        concluding = lines.pop()[0] if lines else ()
+    else:
+        lines += _multiplied(context, components)
+        concluding = _COLLECTED
+    return _chain(context, body, lines, concluding)
+
+
+def _chain(context: Context, body: Body, lines: list[tuple[Prose, Node]], concluding: Prose) -> Way:
+    mass = context.show(body.mass)
+    name = letters.energy_part("v", body)
+    return chain(
+        context.values[f"Kv{body.name}"],
+        [(by, Product((letters.HALF, mass, tree))) for by, tree in lines],
+        lambda tree: equation(name, tree),
+        concluding,
+    )
+
+
+def _exchanged(components: Sequence[Expr], found: squares.Turned) -> list[Expr]:
+    """The components with a turned vector in place of two of them."""
+    rest = [x for k, x in enumerate(components) if k not in found.places]
+    return [x for x in found.parts if not x.is_zero] + rest
+
+
+def _turn(context: Context, found: squares.Turned) -> Prose:
+    """The identity by which a turned vector has the square of the vector."""
+    angle = angle_node(found.pair.angle, context.robot.ring.names)
+    s, c = Function("sin", angle), Function("cos", angle)
+    if any(part.is_zero for part in found.parts):
+        return "By ", equation(Sum((Power(s, Number(2)), Power(c, Number(2)))), Number(1)), ":"
+    A, B = Symbol("A"), Symbol("B")
+    first, second = Sum((Product((A, s)), Product((B, c)))), Sum((Product((A, c)), Negative(Product((B, s)))))
+    left = Sum(tuple(Power(Parenthesized(x), Number(2)) for x in (first, second)))
+    return "By ", equation(left, Sum((Power(A, Number(2)), Power(B, Number(2))))), ":"
+
+
+def _sum_of_squares(context: Context, components: Sequence[Expr]) -> Node:
+    """(...)² + (...)², without the signs inside that do not count."""
+    return sum_of([Power(_without_signs(context.show(x)), Number(2)) for x in components])
+
+
+def _without_signs(node: Node) -> Node:
+    """A base of a square with a plus in front where it has none but minus signs."""
+    inner = split_sign(node)[1]
+    if isinstance(inner, Sum) and all(isinstance(term, Negative) for term in inner.terms):
+        return total([negated(term) for term in inner.terms])
+    return inner
+
+
+def _multiplied(context: Context, components: Sequence[Expr]) -> list[tuple[Prose, Node]]:
+    """The squares multiplied out, and the brackets worked out."""
+    ring = context.robot.ring
+    alone, together = squares.separate(ring, components)
+    if not together:
+        return []
+    poly = sum((x.poly * x.poly for x in together), start=ring.zero.poly)
+    found = squares.groups(context.forms, poly)
+    first = [_sum_of_squares(context, alone)] if alone else []
+    multiplied = sum_of([*first, *(group.multiplied for group in found)])
+    reduced = sum_of([*first, *(group.reduced for group in found)])
+    lines: list[tuple[Prose, Node]] = [(("The squares multiplied out, and sorted:",), multiplied)]
+    used = identities(ring, multiplied, reduced)
+    if used:
+        lines.append((("By ", *said(used), ":"), reduced))
+    return lines
+
+
+# -- rotation --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Rotation:
+    """The way to K_ω: the working with ω and the tensor in one frame, and the lines from there."""
+
+    working: tuple[Node, ...] = ()
+    way: Way = SILENT
+
+
+def rotational(context: Context, body: Body) -> Rotation | None:
+    """From ½ ωᵀ 𝓘 ω to K_ω, along the axes in which it is shorter; None for longer arms."""
+    values, b = context.values, body.name
+    base, R = values[f"w{b}"], values[f"R{b}"]
+    if context.robot.n > MOST_JOINTS or base.is_zero:
+        return None
+    own = R.T @ base
+    in_base, in_body = (base, values[f"I{b}"]), (own, values[f"I_body{b}"])
+    if _terms_of(*in_base) <= _terms_of(*in_body):
+        return Rotation((_product(context, body, *in_base),), _multiplied_out(context, body, *in_base))
+    w = letters.of_body("omega", body, "bold")
+    turned = Product((Transpose(letters.of_body("R", body, "bold")), w))
+    multiplied = Product((Transpose(context.form(f"R{b}")), context.form(f"w{b}")))
+    why: Prose = (
+        "It is shorter along the axes of the body, where ω is ",
+        turned,
+        *_named(context, R, base, own),
+        ", since ",
+        equation(
+            letters.transposed_product(w, letters.of_body("I", body, "script")),
+            Product((Transpose(Parenthesized(turned)), letters.tensor(context.robot, body), turned)),
+        ),
+        ":",
+    )
+    lines = (
+        Line(why, equation(turned, multiplied, context.show(own))),
+        Line(("With the tensor in the body's own frame:",), _product(context, body, *in_body)),
+    )
+    rest = _multiplied_out(context, body, *in_body)
+    return Rotation((), Way((*lines, *rest.lines), rest.concluding))
+
+
+def _named(context: Context, R: Matrix, base: Matrix, own: Matrix) -> Prose:
+    """The identities by which Rᵀ ω becomes what is shown."""
+    used: dict[Identity, None] = {}
+    for column, entry in zip(R.T.rows, own.entries, strict=True):
+        products = [
+            Product((context.show(r), context.show(w)))
+            for r, w in zip(column, base.entries, strict=True)
+            if not (r.is_zero or w.is_zero)
+        ]
+        used |= dict.fromkeys(identities(context.robot.ring, sum_of(products), context.show(entry)) or ())
+    return (" (with ", *said(list(used)), ")") if used else ()
+
+
+def _terms_of(*matrices: Matrix) -> int:
+    return sum(len(entry) for matrix in matrices for entry in matrix.entries)
+
+
+def _product(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Node:
+    """K_ω = ½ [row] [tensor] [column]"""
+    row, middle, column = (context.show(matrix) for matrix in (w.T, tensor, w))
+    return equation(letters.energy_part("omega", body), Product((letters.HALF, row, middle, column)))
+
+
+def _multiplied_out(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:
+    """½ Σ I_ij ω_i ω_j, and how it becomes the result."""
+    value, result = context.values[f"Kw{body.name}"], context.form(f"Kw{body.name}")
+    ring, components = value.ring, w.entries
+    terms = []
+    for i in range(3):
+        for j in range(i, 3):
+            if not (tensor[i, j].is_zero or components[i].is_zero or components[j].is_zero):
+                square = i == j
+                first, second = context.show(components[i]), context.show(components[j])
+                rates = [(_without_signs(first), 2)] if square else [(first, 1), (second, 1)]
+                terms.append(_term(context, 1 if square else 2, tensor[i, j], rates))
+    if len(terms) < 2:
+        return SILENT
+    form = Product((letters.HALF, sum_of(terms)))
+    used = identities(ring, form, result)
+    name = letters.energy_part("omega", body)
+    return chain(
+        value,
+        [(("Multiplied out:",), form)],
+        lambda tree: equation(name, tree),
+        ("By ", *said(used), ":") if used else _COLLECTED,
+    )
+
+
+def _term(context: Context, count: int, moment: Expr, rates: Sequence[tuple[Node, int]]) -> Node:
+    """count · I_ij · rates"""
+    shown = context.show(moment)
+    return times(count, [(shown, 1), *rates], decimal=is_numeric(context.robot))

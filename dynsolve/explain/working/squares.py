@@ -1,0 +1,145 @@
+"""vᵀ v on paper: how the squares of the components of a velocity become the square of the speed.
+
+1. Two components that are one vector, turned by an angle, are exchanged for that vector:
+   (A s + B c)² + (A c - B s)² = A² + B².
+2. What is left is multiplied out and sorted by lengths and rates, the sines and cosines in
+   brackets: l₁ l_c2 (s₁ s₁₂ + c₁ c₁₂) q̇₁ (q̇₁ + q̇₂).  A square that shares no product of
+   rates with others stays as it is.
+3. The brackets become 1, or the cosine of a difference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+from flint import fmpq_mpoly
+
+from dynsolve.algebra.angles import angle_node
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Generator, Pair
+from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.ring import Ring
+from dynsolve.explain.forms import Forms, is_numeric
+from dynsolve.notation.build import times, total
+from dynsolve.notation.tree import Function, Node, Symbol
+
+
+@dataclass(frozen=True, slots=True)
+class Turned:
+    """Two components, by their places, that are (a, b) turned by the angle of a pair."""
+
+    pair: Pair
+    places: tuple[int, int]
+    parts: tuple[Expr, Expr]
+
+
+def turned(ring: Ring, components: Sequence[Expr]) -> Turned | None:
+    """The first two components that are a vector turned by a basic angle: a s + b c and ±(a c - b s)."""
+    for pair in ring.pairs:
+        linear = [(k, found) for k, x in enumerate(components) if (found := _parts(x, pair)) is not None]
+        for (i, (a, b)), (j, (x, y)) in combinations(linear, 2):
+            if (x == b and y == -a) or (x == -b and y == a):
+                return Turned(pair, (i, j), (a, b))
+    return None
+
+
+def _parts(x: Expr, pair: Pair) -> tuple[Expr, Expr] | None:
+    """(a, b) of a s + b c, the coefficients free of both; None for anything else, and for 0."""
+    poly = x.poly
+    a, b = poly.derivative(pair.sine), poly.derivative(pair.cosine)
+    if not (a or b) or any(p.degrees()[g] > 0 for p in (a, b) for g in (pair.sine, pair.cosine)):
+        return None
+    s, c = x.ring.generator(pair.sine).poly, x.ring.generator(pair.cosine).poly
+    return (Expr(x.ring, a), Expr(x.ring, b)) if poly == a * s + b * c else None
+
+
+def separate(ring: Ring, components: Sequence[Expr]) -> tuple[list[Expr], list[Expr]]:
+    """(components whose squares share no product of rates with the others, all others)"""
+    rates = [_rates(ring, x.poly * x.poly) for x in components]
+    alone: list[Expr] = []
+    together: list[Expr] = []
+    for k, x in enumerate(components):
+        others = {rate for j, held in enumerate(rates) if j != k for rate in held}
+        (together if rates[k] & others else alone).append(x)
+    return alone, together
+
+
+def _rates(ring: Ring, poly: fmpq_mpoly) -> set[tuple[int, ...]]:
+    """The products of rates that occur, as exponents."""
+    places = [ring.symbol_indices[(name, 1)] for name in ring.names]
+    return {tuple(e[i] for i in places) for e in poly.to_dict()}
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Terms with the same lengths and angles: as they stand, and with the brackets worked out."""
+
+    multiplied: Node
+    reduced: Node
+
+
+def groups(forms: Forms, poly: fmpq_mpoly) -> list[Group]:
+    """A polynomial before s² + c² = 1 is used, by lengths and by the angles of its sines and cosines."""
+    ring = forms.robot.ring
+    trig = [(pair.sine, pair.cosine) for pair in ring.pairs]
+    angular = {g for both in trig for g in both}
+    rates = {ring.symbol_indices[(name, 1)] for name in ring.names}
+    split: dict[tuple[tuple[int, ...], tuple[int, ...]], dict[tuple[int, ...], Any]] = {}
+    for e, factor in poly.to_dict().items():
+        angles = tuple(int(e[s] + e[c]) for s, c in trig)
+        lengths = tuple(int(x) for i, x in enumerate(e) if i not in angular and i not in rates)
+        split.setdefault((angles, lengths), {})[e] = factor
+    in_order = sorted(split, key=lambda key: (sum(map(bool, key[0])) > 1, [-a for a in key[0]]))
+    return [_group(forms, ring.ctx.from_dict(split[key]), angular, rates) for key in in_order]
+
+
+def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -> Group:
+    """The product of the factors: lengths, what is in brackets, rates."""
+    ring, decimal = forms.robot.ring, is_numeric(forms.robot)
+    content, factors = poly.factor()
+    lengths = Expr(ring, ring.one.poly)
+    brackets: list[tuple[fmpq_mpoly, int]] = []
+    velocities: list[tuple[fmpq_mpoly, int]] = []
+    for factor, exponent in factors:
+        held = {i for i, degree in enumerate(factor.degrees()) if degree > 0}
+        if held & angular:
+            brackets.append((factor, int(exponent)))
+        elif held & rates:
+            velocities.append((factor, int(exponent)))
+        else:
+            lengths = lengths * Expr(ring, factor) ** int(exponent)
+
+    def written(bracket: Callable[[fmpq_mpoly], Node]) -> Node:
+        inner = [(bracket(factor), exponent) for factor, exponent in brackets]
+        outer = [
+            (forms.of(Expr(ring, factor)), exponent) for factor, exponent in sorted(velocities, key=_length)
+        ]
+        return times(fraction(content), [(forms.of(lengths), 1), *inner, *outer], decimal=decimal)
+
+    return Group(
+        written(lambda factor: _terms(ring, factor)),
+        written(lambda factor: forms.of(Expr(ring, ring.reduce(factor)))),
+    )
+
+
+def _length(velocity: tuple[fmpq_mpoly, int]) -> int:
+    return len(velocity[0])
+
+
+def _terms(ring: Ring, poly: fmpq_mpoly) -> Node:
+    """A polynomial term by term, as it stands."""
+
+    def factors(powers: Sequence[int]) -> list[tuple[Node, int]]:
+        return [(_written(ring, ring.generators[i]), int(e)) for i, e in enumerate(powers) if e]
+
+    return total([times(fraction(factor), factors(powers)) for powers, factor in poly.to_dict().items()])
+
+
+def _written(ring: Ring, g: Generator) -> Node:
+    """A generator as a formula."""
+    if g.kind in ("sin", "cos"):
+        return Function(g.kind, angle_node(g.angle, ring.names))
+    return Symbol(g.name, g.dots) if g.node is None else g.node

@@ -1,0 +1,107 @@
+"""The lines between a formula and its result: each is true, and those that matter are there."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pytest
+from hypothesis import given, settings
+
+import dynsolve
+from dynsolve.document import Prose
+from dynsolve.explain.step import Step
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem.library import bundled
+from tests.robots import robots
+from tests.unit.explain.evaluated import members
+
+FAMILIAR = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+
+
+@lru_cache
+def solved(problem: str) -> dynsolve.Solution:
+    return dynsolve.solve(problem)
+
+
+def step(problem: str, id: str) -> Step:
+    (found,) = (step for step in solved(problem).steps if step.id == id)
+    return found
+
+
+def said(prose: Prose, problem: str) -> str:
+    style = solved(problem).style
+    return "".join(part if isinstance(part, str) else to_unicode(part, style) for part in prose)
+
+
+def lines(problem: str, id: str) -> list[str]:
+    """The lines of a step, each with its operation, and the last operation."""
+    found, style = step(problem, id), solved(problem).style
+    shown = [
+        text for line in found.lines for text in (said(line.by, problem), to_unicode(line.formula, style))
+    ]
+    return [*shown, said(found.concluding, problem)] if found.concluding else shown
+
+
+def assert_true(solution: dynsolve.Solution) -> None:
+    """Every line is an equation of equals; a line of one value that the step's result has, has that one."""
+    ring = solution.robot.ring
+    for each in solution.steps:
+        for line in each.lines:
+            values = members(ring, line.formula)
+            assert values, (each.id, line)
+            assert all(value == values[0] for value in values), (each.id, line)
+            if each.id.startswith(("Kv", "ddt", "dLdq")):
+                assert values[0] in members(ring, each.result[0]), (each.id, line)
+
+
+@pytest.mark.parametrize("problem", FAMILIAR)
+def test_every_line_is_true(problem: str) -> None:
+    assert_true(solved(problem))
+
+
+@settings(max_examples=8, deadline=None)
+@given(robots(max_joints=3))
+def test_every_line_of_any_robot_is_true(problem: str) -> None:
+    assert_true(dynsolve.solve(problem))
+
+
+def test_squares_of_absolute_angles_by_the_cosine_of_a_difference() -> None:
+    assert lines("planar-2r", "Kv2") == [
+        "The squares multiplied out, and sorted:",
+        "K_v2 = ½ m₂ (l₁² (s₁² + c₁²) q̇₁² + l_c2² (s₁₂² + c₁₂²)(q̇₁ + q̇₂)² "
+        "+ 2l₁ l_c2 (s₁ s₁₂ + c₁ c₁₂) q̇₁ (q̇₁ + q̇₂))",
+        "By s₁² + c₁² = 1, s₁₂² + c₁₂² = 1 and the cosine of a difference, c₁ c₁₂ + s₁ s₁₂ = c₂:",
+        "K_v2 = ½ m₂ (l₁² q̇₁² + l_c2² (q̇₁ + q̇₂)² + 2l₁ l_c2 c₂ q̇₁ (q̇₁ + q̇₂))",
+        "Collected by the products of the rates:",
+    ]
+
+
+def test_a_velocity_turned_with_the_waist_has_the_square_of_the_velocity() -> None:
+    assert lines("elbow-3r", "Kv3")[:2] == [
+        "By (A s₁ + B c₁)² + (A c₁ - B s₁)² = A² + B²:",
+        "K_v3 = ½ m₃ (((L₂ c₂ + l_c3 c₂₃) θ̇₁)² + (L₂ s₂ θ̇₂ + l_c3 s₂₃ (θ̇₂ + θ̇₃))² "
+        "+ (L₂ c₂ θ̇₂ + l_c3 c₂₃ (θ̇₂ + θ̇₃))²)",
+    ]
+
+
+def test_where_one_identity_does_all_it_is_named_and_no_line_is_spent() -> None:
+    assert lines("planar-2r", "Kv1") == ["By s₁² + c₁² = 1:"]
+    assert lines("in3140-rp", "Kv2") == ["By (A s₁ + B c₁)² + (A c₁ - B s₁)² = A² + B²:"]
+
+
+def test_the_rotation_along_the_axes_of_the_body_where_that_is_shorter() -> None:
+    found = lines("elbow-3r", "Kw2")
+    assert found[0].startswith(
+        "It is shorter along the axes of the body, where ω is R₂ᵀ ω₂ (with s₁² + c₁² = 1)"
+    )
+    assert found[1].endswith(" = [[s₂ θ̇₁], [c₂ θ̇₁], [θ̇₂]]")
+    assert found[-3:] == [
+        "Multiplied out:",
+        "K_ω2 = ½ (I_2xx (s₂ θ̇₁)² + I_2yy (c₂ θ̇₁)² + I_2zz θ̇₂²)",
+        "Collected by the products of the rates:",
+    ]
+    assert not lines("planar-2r", "Kw2")
+
+
+def test_longer_arms_stay_as_short_as_they_are() -> None:
+    assert not any(each.lines for each in solved("scara-rrpr").steps)
