@@ -124,7 +124,7 @@ def _addition(ring: Ring, name: str, angle: Angle, a: Angle, b: Angle, sign: int
     second = Product((of(other, a), of("sin", b)))
     plus = (sign > 0) == (name == "sin")
     words = "twice an angle" if a == b else "a sum" if sign > 0 else "a difference"
-    left = Sum((first, second if plus else Negative(second)))
+    left: Node = Sum((first, second if plus else Negative(second)))
     if a == b:
         squares = Sum((Power(of("cos", a), Number(2)), Negative(Power(of("sin", a), Number(2)))))
         left = squares if name == "cos" else Product((Number(2), of("sin", a), of("cos", a)))
