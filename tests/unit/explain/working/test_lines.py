@@ -13,7 +13,7 @@ from dynsolve.explain.step import Step
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem.library import bundled
 from tests.robots import robots
-from tests.unit.explain.evaluated import members
+from tests.unit.explain.working.evaluated import members
 
 FAMILIAR = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
 
