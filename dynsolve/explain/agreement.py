@@ -6,6 +6,7 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.agreement import agreement
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
+from dynsolve.explain.working.derivatives import inertia_rate
 from dynsolve.explain.writing import and_joined, is_small, spong
 from dynsolve.notation.tree import (
     Negative,
@@ -52,7 +53,8 @@ def skew_step(context: Context) -> Step:
     ring = robot.ring
     D, C = context.values["D"], context.values["C"]
     result: tuple[Node, ...] = ()
-    if is_small(context.form("D"), context.form("C")):
+    rate = inertia_rate(context)
+    if rate or is_small(context.form("D"), context.form("C")):
         N: algebra.Matrix = D.map(ring.time_derivative) - C.scale(ring.constant(2))
         result = (equation(letters.bold("N"), context.show(N)),)
     name = letters.bold("N")
@@ -66,6 +68,8 @@ def skew_step(context: Context) -> Step:
             " whatever the rates. Passivity rests on that.",
         ),
         formula=equation(name, SKEW),
+        lines=rate,
+        entries=letters.entries("n", robot.n, robot.n),
         source=spong("7.5.1"),
         result=(*result, equation(Sum((name, Transpose(name))), Number(0))),
         hint=(

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
+from dynsolve.explain.working import derivatives
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.tree import (
     Letter,
@@ -47,6 +48,7 @@ def christoffel_step(context: Context) -> Step:
         )),
     )  # fmt: skip
     results = tuple(_symbol(context, *indices) for indices in nonzero)
+    way = derivatives.slopes(context)
     return Step(
         id="christoffel",
         stage=STAGE,
@@ -54,6 +56,8 @@ def christoffel_step(context: Context) -> Step:
         why=_christoffel_why(n, len(nonzero)),
         formula=general,
         source=spong("7.3"),
+        lines=way.lines,
+        concluding=way.concluding,
         result=results,
         hint=(
             "They say how D changes as the arm moves: three partial derivatives of entries of D each. The "

@@ -25,10 +25,10 @@ class Detail(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line between the formula and the result: the operation, in words, and what it gives."""
+    """A line between the formula and the result: the operation, in words, and the formulas it gives."""
 
     by: Prose
-    formula: Node
+    formulas: tuple[Node, ...]
 
 
 @dataclass(frozen=True, slots=True)

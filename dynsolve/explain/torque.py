@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working import derivatives
 from dynsolve.explain.writing import listed, spong, turns
 from dynsolve.notation.tree import Negative, Node, Number, Sum, Symbol, equation
 from dynsolve.quantities import letters
@@ -45,6 +46,7 @@ def _partial(context: Context, by: Node, held: str, like: str) -> Prose:
 
 
 def _rate(context: Context, q: Coordinate) -> Step:
+    way = derivatives.momentum_rate(context, q)
     momentum = letters.partial_derivative(letters.L, letters.velocity(q))
     return Step(
         id=f"ddt{q.index}",
@@ -52,6 +54,8 @@ def _rate(context: Context, q: Coordinate) -> Step:
         title=f"Coordinate {q.index}: time derivative of the momentum",
         why=_rate_why(context, q),
         source=spong("7.1"),
+        lines=way.lines,
+        concluding=way.concluding,
         result=(equation(letters.time_derivative(momentum), context.form(f"ddt{q.index}")),),
         hint=(
             "Differentiate the momentum with respect to time. Each rate in it becomes an acceleration, "
@@ -79,12 +83,15 @@ def _slope(context: Context, q: Coordinate) -> Step:
     why: Prose = _partial(context, Symbol(q.name), "rate", "coordinate")
     if form == Number(0):
         why = (Symbol(q.name), " itself does not stand in L.")
+    way = derivatives.coordinate_derivative(context, q)
     return Step(
         id=f"dLdq{q.index}",
         stage=STAGE,
         title=f"Coordinate {q.index}: partial derivative of L",
         why=why,
         source=spong("7.1"),
+        lines=way.lines,
+        concluding=way.concluding,
         result=(equation(letters.partial_derivative(letters.L, Symbol(q.name)), form),),
         hint=(
             "Differentiate L with respect to the coordinate alone: the rates are held fixed, and a term "

@@ -9,6 +9,7 @@ from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
 from dynsolve.explain.christoffel import christoffel_step
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working.derivatives import coriolis_sums
 from dynsolve.explain.writing import is_small, spong
 from dynsolve.notation.tree import (
     BigSum,
@@ -195,6 +196,7 @@ def _coriolis(context: Context) -> Step:
         why=why,
         formula=equation(entry, BigSum(body, _I, Number(1), _N)),
         source=spong("7.3"),
+        lines=coriolis_sums(context),
         result=(equation(letters.C, context.form("C")),),
         hint=(
             "Row k, column j: a sum over i. Multiplied by the rates it must give what you read off from "

@@ -164,7 +164,7 @@ def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
         yield Text(line.by)
         if place == 0 and not step.working:
             yield from uses
-        yield Formula(line.formula)
+        yield Formula(line.formulas[0]) if len(line.formulas) == 1 else Equations(line.formulas)
     if step.concluding:
         yield Text(step.concluding)
     if not step.lines:

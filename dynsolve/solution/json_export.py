@@ -153,8 +153,8 @@ class _Exporter:
         """A line between the formula and the result, with the operation that leads to it."""
         return {
             "by": self.prose(line.by),
-            "latex": self.latex.text(line.formula),
-            "text": self.unicode.text(line.formula),
+            "latex": "\n".join(map(self.latex.text, line.formulas)),
+            "text": "\n".join(map(self.unicode.text, line.formulas)),
         }
 
     def prose(self, parts: Prose) -> str:

@@ -1,9 +1,17 @@
 """The lines between a formula and its result, each by one operation that is named.
 
-proved           a chain of lines, shown only where each is proved equal to its value
-kinetic          from ½ m vᵀ v and ½ ωᵀ 𝓘 ω to the kinetic energy
-squares          how the squares of a velocity's components become the square of the speed
-identities       which identities of sine and cosine lead from one line to the next
-unreduced        the value of a line before s² + c² = 1 is used
-differentiation  derivatives term by term, by product and chain rule
+The stages take their lines from here, a function for each kind of step:
+
+    kinetic          from ½ m vᵀ v and ½ ωᵀ 𝓘 ω to the kinetic energy
+    derivatives      d/dt of a momentum, ∂L/∂q, the slopes of D, the entries of C, Ḋ
+
+and these are made of:
+
+    proved           a chain of lines, shown only where each is proved equal to its value
+    squares          how the squares of a velocity's components become the square of the speed
+    differentiation  derivatives term by term, by product and chain rule
+    identities       which identities of sine and cosine lead from one line to the next
+    unreduced        the value of a line before s² + c² = 1 is used
+
+To explain a further operation, return a `proved.Way` from a function here, and put it into the step.
 """

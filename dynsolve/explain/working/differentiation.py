@@ -113,7 +113,17 @@ class _Worker:
             for base, power in _flattened(node, exponent):
                 merged[base] = merged.get(base, 0) + power
         kept = [(node, exponent) for node, exponent in merged.items() if exponent]
-        return times(coefficient, kept, decimal=self.decimal)
+        return times(coefficient, sorted(kept, key=_place), decimal=self.decimal)
+
+
+def _place(factor: tuple[Node, int]) -> tuple[int, str]:
+    """Lengths and masses first, rates last; between them sines, cosines and sums as they stand."""
+    match factor[0]:
+        case Symbol(_, 0) | Number() | Negative(Number()):
+            return 0, ""
+        case Symbol(name, dots):
+            return 4 - dots, name
+    return 1, ""
 
 
 def _flattened(node: Node, exponent: int) -> list[tuple[Node, int]]:

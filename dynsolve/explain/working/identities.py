@@ -49,6 +49,7 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
 
     >>> from dynsolve.algebra.build import build_ring
     >>> from dynsolve.notation.unicode import to_unicode
+    >>> from dynsolve.notation.tree import Symbol
     >>> q1, q2 = Symbol("q1"), Symbol("q2")
     >>> both = Angle.of("q1") + Angle.of("q2")
     >>> ring = build_ring([("q1", "revolute"), ("q2", "revolute")], [], [Angle.of("q1"), both])

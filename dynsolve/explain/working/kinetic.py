@@ -150,8 +150,8 @@ def rotational(context: Context, body: Body) -> Rotation | None:
         ":",
     )
     lines = (
-        Line(why, equation(turned, multiplied, context.show(own))),
-        Line(("With the tensor in the body's own frame:",), _product(context, body, *in_body)),
+        Line(why, (equation(turned, multiplied, context.show(own)),)),
+        Line(("With the tensor in the body's own frame:",), (_product(context, body, *in_body),)),
     )
     rest = _multiplied_out(context, body, *in_body)
     return Rotation((), Way((*lines, *rest.lines), rest.concluding))

@@ -46,4 +46,4 @@ def chain(
     lines = tuple(lines)
     if not all(equals(tree, value) for _, tree in lines):
         return SILENT
-    return Way(tuple(Line(by, written(tree)) for by, tree in lines), concluding)
+    return Way(tuple(Line(by, (written(tree),)) for by, tree in lines), concluding)

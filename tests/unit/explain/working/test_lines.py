@@ -37,7 +37,9 @@ def lines(problem: str, id: str) -> list[str]:
     """The lines of a step, each with its operation, and the last operation."""
     found, style = step(problem, id), solved(problem).style
     shown = [
-        text for line in found.lines for text in (said(line.by, problem), to_unicode(line.formula, style))
+        text
+        for line in found.lines
+        for text in (said(line.by, problem), *(to_unicode(formula, style) for formula in line.formulas))
     ]
     return [*shown, said(found.concluding, problem)] if found.concluding else shown
 
@@ -47,11 +49,11 @@ def assert_true(solution: dynsolve.Solution) -> None:
     ring = solution.robot.ring
     for each in solution.steps:
         for line in each.lines:
-            values = members(ring, line.formula)
-            assert values, (each.id, line)
-            assert all(value == values[0] for value in values), (each.id, line)
-            if each.id.startswith(("Kv", "ddt", "dLdq")):
-                assert values[0] in members(ring, each.result[0]), (each.id, line)
+            for formula in line.formulas:
+                values = members(ring, formula)
+                assert all(value == values[0] for value in values), (each.id, line)
+                if each.id.startswith(("Kv", "ddt", "dLdq")):
+                    assert values[0] in members(ring, each.result[0]), (each.id, line)
 
 
 @pytest.mark.parametrize("problem", FAMILIAR)
@@ -105,3 +107,31 @@ def test_the_rotation_along_the_axes_of_the_body_where_that_is_shorter() -> None
 
 def test_longer_arms_stay_as_short_as_they_are() -> None:
     assert not any(each.lines for each in solved("scara-rrpr").steps)
+
+
+def test_a_derivative_term_by_term_where_several_factors_move() -> None:
+    assert lines("planar-2r", "ddt2") == [
+        "Term by term, by the product and the chain rule:",
+        "d/dt (∂𝓛/∂q̇₂) = m₂ l₁ l_c2 c₂ q̈₁ - m₂ l₁ l_c2 s₂ q̇₁ q̇₂ + (m₂ l_c2² + I₂)(q̈₁ + q̈₂)",
+        "Collected:",
+    ]
+    assert lines("in3140-rp", "ddt2") == lines("planar-2r", "dLdq2") == []
+
+
+def test_the_addition_theorem_of_a_derivative_is_named() -> None:
+    sine = "the sine of a sum, s₂ c₂₃ + c₂ s₂₃ = sin(2θ₂ + θ₃)"
+    assert lines("elbow-3r", "ddt1")[-1] == lines("elbow-3r", "dLdq2")[-1] == f"With {sine}, and collected:"
+    assert lines("elbow-3r", "christoffel")[0] == f"The derivatives that take the product rule, with {sine}:"
+
+
+def test_the_sums_of_the_entries_of_c() -> None:
+    shown = lines("planar-2r", "C")
+    assert shown[0] == "The sums, without what is zero:"
+    assert [text.split(" = ")[1] for text in shown[1:]] == ["c₂₁₁ q̇₂", "c₁₂₁ q̇₁ + c₂₂₁ q̇₂", "c₁₁₂ q̇₁"]
+
+
+def test_the_rate_of_d_in_the_check_of_skewness() -> None:
+    assert [text.partition(" = ")[2] for text in lines("planar-2r", "skew")[1:]] == [
+        "(∂d₁₁/∂q₂) q̇₂ = -2m₂ l₁ l_c2 s₂ q̇₂",
+        "ḋ₂₁ = (∂d₁₂/∂q₂) q̇₂ = -m₂ l₁ l_c2 s₂ q̇₂".replace("ḋ", "d\u0307"),
+    ]

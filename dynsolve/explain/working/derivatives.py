@@ -1,0 +1,146 @@
+"""The lines of derivatives: d/dt of a momentum, ∂L/∂q, the slopes of D, Ḋ.
+
+A line is spent where there is something to see: several factors vary, or an identity is used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.step import Line
+from dynsolve.explain.working.differentiation import Rule, by_symbol, by_time, differentiated
+from dynsolve.explain.working.identities import Identity, identities, said
+from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain, equals
+from dynsolve.explain.writing import sum_of
+from dynsolve.notation.tree import Node, Product, Symbol, equation
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Coordinate
+
+
+def momentum_rate(context: Context, q: Coordinate) -> Way:
+    """From ∂L/∂q̇ to its derivative with respect to time."""
+    left = letters.time_derivative(letters.partial_derivative(letters.L, letters.velocity(q)))
+    rule = by_time(context.robot.ring.names)
+    return _way(context, f"dLdqd{q.index}", rule, f"ddt{q.index}", left)
+
+
+def coordinate_derivative(context: Context, q: Coordinate) -> Way:
+    """From L to ∂L/∂q."""
+    left = letters.partial_derivative(letters.L, Symbol(q.name))
+    return _way(context, "L", by_symbol(Symbol(q.name)), f"dLdq{q.index}", left)
+
+
+def _way(context: Context, name: str, rule: Rule, result: str, left: Node) -> Way:
+    if context.robot.n > MOST_JOINTS:
+        return SILENT
+    value, form = context.values[result], context.form(result)
+    found = differentiated(context.form(name), rule, decimal=is_numeric(context.robot))
+    used = identities(value.ring, found.tree, form)
+    if not (found.by_product_rule or used) or found.tree == form:
+        return SILENT
+    by: Prose = ("Term by term, by the product and the chain rule:",)
+    if not found.by_product_rule:
+        by = ("Term by term:",)
+    return chain(value, [(by, found.tree)], lambda tree: equation(left, tree), _collected(used or ()))
+
+
+def _collected(used: Sequence[Identity]) -> Prose:
+    return ("With ", *said(used), ", and collected:") if used else ("Collected:",)
+
+
+# -- the derivatives of D --------------------------------------------------------------------------
+
+
+def slopes(context: Context) -> Way:
+    """The slopes ∂d_ij/∂q_k that ask for the product rule or for an identity, each in one equation."""
+    if context.robot.n > MOST_JOINTS:
+        return SILENT
+    shown: list[Node] = []
+    used: dict[Identity, None] = {}
+    for i, j, q in _varying(context):
+        value = context.robot.ring.diff(context.values["D"][i, j], q.index - 1)
+        form = context.show(value)
+        entry = context.matrix("D").rows[i][j]
+        found = differentiated(entry, by_symbol(Symbol(q.name)), decimal=is_numeric(context.robot))
+        named = identities(value.ring, found.tree, form)
+        if (found.by_product_rule or named) and found.tree != form and equals(found.tree, value):
+            shown.append(equation(_slope(i, j, q), found.tree, form))
+            used |= dict.fromkeys(named or ())
+    if not shown:
+        return SILENT
+    by: Prose = ("The derivatives that take the product rule",)
+    by += (", with ", *said(list(used)), ":") if used else (":",)
+    return Way((Line(by, tuple(shown)),), ("Put into the formula:",))
+
+
+def _slope(i: int, j: int, q: Coordinate) -> Node:
+    """∂d_ij/∂q"""
+    return letters.partial_derivative(letters.entry("d", i + 1, j + 1), Symbol(q.name))
+
+
+def _varying(context: Context) -> Iterator[tuple[int, int, Coordinate]]:
+    """(i, j, q) with i ≤ j and ∂d_ij/∂q not zero."""
+    ring, D = context.robot.ring, context.values["D"]
+    for i in range(context.robot.n):
+        for j in range(i, context.robot.n):
+            for q in context.robot.coordinates:
+                if not ring.diff(D[i, j], q.index - 1).is_zero:
+                    yield i, j, q
+
+
+def inertia_rate(context: Context) -> tuple[Line, ...]:
+    """ḋ_ij = Σ_k ∂d_ij/∂q_k q̇_k, for the entries of D that vary."""
+    if context.robot.n > MOST_JOINTS:
+        return ()
+    ring, D = context.robot.ring, context.values["D"]
+    rates: dict[tuple[int, int], list[Node]] = {}
+    for i, j, q in _varying(context):
+        rates.setdefault((i, j), []).append(Product((_slope(i, j, q), letters.velocity(q))))
+    if not rates:
+        return ()
+    shown = [
+        equation(*_rate_names(i, j), sum_of(terms), context.show(ring.time_derivative(D[i, j])))
+        for (i, j), terms in rates.items()
+    ]
+    count = context.robot.n * (context.robot.n + 1) // 2
+    by: Prose = ("The rate of D by the chain rule, entry by entry",)
+    by += ("; the other entries are constant:",) if len(rates) < count else (":",)
+    return (Line(by, tuple(shown)),)
+
+
+def _rate_names(i: int, j: int) -> tuple[Node, ...]:
+    """ḋ_ij, and ḋ_ji where it is another entry."""
+    both = dict.fromkeys(((i, j), (j, i)))
+    return tuple(replace(letters.entry("d", r + 1, c + 1), dots=1) for r, c in both)
+
+
+# -- the entries of C ------------------------------------------------------------------------------
+
+
+def coriolis_sums(context: Context) -> tuple[Line, ...]:
+    """C_kj = Σ_i c_ijk q̇_i, with the symbols that are not zero, for each entry that is not zero."""
+    n, robot = context.robot.n, context.robot
+    if n > MOST_JOINTS or context.values["C"].is_zero:
+        return ()
+    shown = []
+    for k in range(n):
+        for j in range(n):
+            moving = [i for i in range(n) if not _symbol(context, i, j, k).is_zero]
+            terms = [
+                Product((letters.entry("c", i + 1, j + 1, k + 1), letters.velocity(robot.coordinates[i])))
+                for i in moving
+            ]
+            if terms:
+                shown.append(equation(letters.entry("c", k + 1, j + 1), sum_of(terms)))
+    return (Line(("The sums, without what is zero:",), tuple(shown)),)
+
+
+def _symbol(context: Context, i: int, j: int, k: int) -> Expr:
+    """c_ijk, the same as c_jik."""
+    found: Expr = context.values["christoffel"][min(i, j), max(i, j), k]
+    return found
