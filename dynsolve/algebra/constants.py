@@ -43,6 +43,12 @@ class ConstantPlan:
     primes: tuple[int, ...] = ()
     pairs: tuple[Fraction, ...] = ()
 
+    def holds_root(self, value: Fraction) -> bool:
+        """Whether the root of a positive number is made of these generators."""
+        _, primes = square_free_primes(value.numerator * value.denominator)
+        delta = self.generator_degrees
+        return all(p in self.primes or (delta is not None and _in_field(p, delta)) for p in primes)
+
 
 def plan_constants(degrees: Iterable[Fraction], radicands: Iterable[Fraction]) -> ConstantPlan:
     """The smallest plan for these constant angles and these numbers under a root.
@@ -172,7 +178,8 @@ class ConstantAngles:
         found = self.root(p)
         if found is not None:
             return found
-        assert self.generator is not None
+        if self.generator is None:
+            raise AlgebraError(f"the root of {p} does not occur in the problem")
         ctx = self.generator.context()
         return {
             2: lambda: 2 * self._multiple(Fraction(45), ctx),

@@ -20,6 +20,7 @@ And the independent check, which shares no formula with any of these:
 
     newton_euler    recursive Newton-Euler on floating-point numbers
     verification    what is printed, evaluated at random states, against that
+    drawn_motion    a table that was made from a drawing, against the drawn joint axes
 
 A rule takes exact values and returns an exact value, and does nothing else: what a
 person reads of it is made in `dynsolve.explain`.  To add a quantity, write its record

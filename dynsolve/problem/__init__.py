@@ -8,6 +8,8 @@
       -> parsed      fields         the keys of a mapping, and what kind of value each holds
                      cells          an expression where it stands
                      table, linear  `dh`: rows, stars, coordinates
+                     drawing        `axes`, `tip`, `zero`: joint axes as they are drawn
+                     framing        the table and the base of a drawing
                      bodies         `masses`
                      base           `gravity`, `base`
                      rotations      `Rz(90deg) Rx(30deg)`

@@ -50,10 +50,11 @@ class MapOf:
 
 @dataclass(frozen=True, slots=True)
 class Keyed:
-    """A mapping with known keys, at least `least` of them."""
+    """A mapping with known keys, at least `least` of them, and exactly one of those of `one_of`."""
 
     keys: tuple[Key, ...]
     least: int = 0
+    one_of: tuple[str, ...] = ()
 
     def __getitem__(self, name: str) -> Key:
         """The key of this name."""

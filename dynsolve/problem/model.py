@@ -10,6 +10,7 @@ from pathlib import PurePath
 from re import compile as pattern
 
 from dynsolve.errors import Finding
+from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.model import Convention, Robot
 
 Path = tuple[str | int, ...]
@@ -47,6 +48,7 @@ class Problem:
     `find` and the keys of `marks` are names of answers in their canonical form
     (`D`, never `M`).  `values` are the numbers for numeric results, angles in radians;
     `written` are the same as they stand in the file, which is exact.
+    `normals` are those of a drawing, where the file has one in the place of a table.
     `places` tells where each part of the file stands; `warnings` are what deserves
     a look and is no error.
     """
@@ -61,6 +63,7 @@ class Problem:
     values: Mapping[str, Fraction] = field(default_factory=dict)
     written: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
+    normals: Normals | None = None
     places: Mapping[Path, FilePlace] = field(default_factory=dict)
     warnings: tuple[Finding, ...] = ()
 

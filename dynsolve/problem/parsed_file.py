@@ -12,6 +12,7 @@ from dynsolve.problem.cells import Cell
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.table import DHTable
 from dynsolve.quantities.index import Owners
+from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.model import AxesKind, Convention, Coordinate, JointType
 
 
@@ -24,6 +25,8 @@ class ParsedFile:
     gravity: tuple[Cell, ...] | None
     base: ParsedBase
     bodies: tuple[ParsedBody, ...]
+    normals: Normals | None = None
+    """Of a drawing, the normals that its table was made from."""
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:

@@ -15,8 +15,10 @@ from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.base import read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
+from dynsolve.problem.drawing import read_drawing
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.fields import Fields, describe, free_text, word
+from dynsolve.problem.framing import Framed, from_drawing
 from dynsolve.problem.model import FilePlace, Problem
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.source import MAX_BYTES, Faults, as_source
@@ -25,6 +27,8 @@ from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import read_table
 from dynsolve.problem.yaml_nodes import ListNode, MappingNode, YamlNode, read_nodes
 from dynsolve.robot.model import Convention
+
+_AXES = "delete it, or give the joint axes of a drawing in place of `dh`"
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +106,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         values=exercise.values,
         written=exercise.written,
         units=exercise.units,
+        normals=parsed.normals,
         places=dict(_places(faults, root)),
         warnings=tuple(faults.warnings),
     )
@@ -125,15 +130,28 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
         faults, fields.get("convention"), CONVENTION.choices, "convention", PROBLEM["convention"].help
     )
     convention = Convention(named or "standard")
-    table = read_table(faults, fields, convention is Convention.MODIFIED)
+    framed = _framed(faults, fields, convention)
+    table = framed.table
     coordinates = dict(table.coordinates)
     return ParsedFile(
         convention=convention,
         table=table,
         gravity=read_gravity(faults, fields, table.names),
-        base=read_base(faults, fields.get("base"), table.names),
+        base=framed.base,
         bodies=read_bodies(faults, fields.get("masses"), len(table.rows), coordinates),
+        normals=framed.normals,
     )
+
+
+def _framed(faults: Faults, fields: Fields, convention: Convention) -> Framed:
+    """The table and the base: as they are given, or found from a drawing."""
+    if "axes" in fields:
+        return from_drawing(faults, read_drawing(faults, fields), convention)
+    for key in ("tip", "zero"):
+        if key in fields:
+            faults.error(fields.key_span(key), f"`{key}` belongs to `axes`, and there are none", _AXES)
+    table = read_table(faults, fields, convention is Convention.MODIFIED)
+    return Framed(table, read_base(faults, fields.get("base"), table.names))
 
 
 def _places(faults: Faults, root: YamlNode | None) -> list[tuple[tuple[str | int, ...], FilePlace]]:

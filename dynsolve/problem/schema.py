@@ -19,8 +19,8 @@ _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 def schema() -> Schema:
     """The schema, as data that `json.dumps` prints.
 
-    >>> sorted(schema()["required"])
-    ['dh']
+    >>> schema()["oneOf"]
+    [{'required': ['dh']}, {'required': ['axes']}]
     """
     description = "One robot: its Denavit-Hartenberg table, its bodies, what the exercise asks for."
     return schema_of_file(PROBLEM, "dynsolve problem", description)
@@ -47,13 +47,16 @@ def _schema_of(kind: ValueKind, shared: dict[str, Schema]) -> Schema:
             return {"type": "array", "items": _schema_of(items, shared), **_given(bounds)}
         case MapOf(values):
             return {"type": "object", "additionalProperties": _schema_of(values, shared)}
-        case Keyed(keys, least):
+        case Keyed(keys, least, one_of):
             required = [key.name for key in kind.required]
+            one = [{"required": [name]} for name in one_of]
             return {
                 "type": "object",
                 "additionalProperties": False,
                 "properties": {key.name: _schema_of_key(key, shared) for key in keys},
-                **_given({"required": required or None, "minProperties": least or None}),
+                **_given(
+                    {"required": required or None, "minProperties": least or None, "oneOf": one or None}
+                ),
             }
         case OneOf(kinds):
             return {"anyOf": [_schema_of(one, shared) for one in kinds]}

@@ -62,6 +62,26 @@ ROW = Keyed(
     )
 )
 
+# -- a drawing in the table's place -----------------------------------------------------------------
+
+DRAWN_AXIS = Keyed(
+    (
+        Key("turn", NAME, "The coordinate of a revolute joint.", "theta1"),
+        Key("slide", NAME, "The coordinate of a prismatic joint.", "d3"),
+        Key("about", VECTOR, "The direction that it turns about.", "[0, 0, 1]"),
+        Key("along", VECTOR, "The direction that it slides along.", "[cos(30deg), 0, sin(30deg)]"),
+        Key("through", VECTOR, "A point of the axis; a sliding axis may be without.", "[0, 0, L1]"),
+    )
+)
+HAND = Keyed(
+    (
+        Key("at", VECTOR, "Where the hand is.", "[a2 + d3, 0, L1]", required=True),
+        Key("z", VECTOR, "The direction of its z.", "[1, 0, 0]"),
+        Key("x", VECTOR, "The direction of its x.", "[0, 0, 1]"),
+    )
+)
+ZERO = Word(("table", "drawn"))
+
 # -- a body ----------------------------------------------------------------------------------------
 
 AXIS = Word(AXES)
@@ -164,6 +184,7 @@ MAX_ROWS = 30
 MAX_BODIES = 100
 CONVENTION = Word(tuple(convention.value for convention in Convention))
 ROWS = ListOf(Shared("row", ROW, "a row"), "a list of rows", 1, MAX_ROWS)
+AXES_LIST = ListOf(Shared("axis", DRAWN_AXIS, "an axis"), "a list of joint axes", 1, MAX_ROWS)
 BODIES = ListOf(Shared("body", BODY, "a body"), "a list of bodies", 0, MAX_BODIES)
 BASE = Keyed((Key("rotate", ROTATION, example="Rz(90deg)"), Key("move", VECTOR, example="[0, 0, h]")))
 
@@ -218,11 +239,39 @@ PROBLEM = Keyed(
             "The Denavit-Hartenberg table, a row a frame; missing columns are 0.",
             "\n- {theta: theta1* + 90deg, d: L1,  a: 0, alpha: 90deg}"
             "\n- {theta: 0,               d: L2*, a: 0, alpha: 0}",
-            required=True,
+            "must be given, or `axes`",
             active=True,
             more="The star marks the joint variable: in theta the joint is revolute, in d prismatic; "
             "a row without a star is a fixed frame. Angles: 90deg, pi/2, beta.",
             remedy="a row is written {theta: theta1*, d: 0, a: l1, alpha: 0}",
+        ),
+        Key(
+            "axes",
+            AXES_LIST,
+            "In place of dh: the joint axes as a drawing shows them, from the base to the hand, in world "
+            "coordinates.",
+            "\n- {turn: theta1, about: [0, 0, 1], through: [0, 0, 0]}"
+            "\n- {turn: theta2, about: [0, -1, 0], through: [0, 0, L1]}"
+            "\n- {slide: d3, along: [1, 0, 0]}",
+            "none",
+            more="In points the letter of a slide is its value in that pose, 0 if it occurs nowhere.",
+            remedy="an axis is written {turn: theta1, about: [0, 0, 1], through: [0, 0, 0]} or "
+            "{slide: d3, along: [1, 0, 0]}",
+        ),
+        Key(
+            "tip",
+            OneOf((VECTOR, HAND)),
+            "The hand in the pose that is drawn: its place, or {at: [...], z: [...], x: [...]}.",
+            "[a2 + d3, 0, L1]",
+            "must be given with `axes`",
+            remedy="tip: [x, y, z], the place of the hand in world coordinates",
+        ),
+        Key(
+            "zero",
+            ZERO,
+            "Where turning joints of a drawing are 0: as drawn, or where the table has them (no offsets).",
+            "drawn",
+            "table",
         ),
         Key(
             "coordinates",
@@ -269,6 +318,7 @@ PROBLEM = Keyed(
             "`[tau, D, C, g]`",
             active=True,
         ),
-    )
+    ),
+    one_of=("dh", "axes"),
 )
 """The keys of a problem file, in the order of the documentation."""

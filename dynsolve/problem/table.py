@@ -78,7 +78,8 @@ class _Star:
 def read_table(faults: Faults, fields: Fields, modified: bool) -> DHTable:
     """The table under `dh:` with the order of `coordinates:`; everything wrong with it is reported."""
     if "dh" not in fields:
-        faults.error((0, 0), "the file has no `dh` table", f"add `dh:` with a row a frame; {_EXAMPLE}")
+        help = f"add `dh:` with a row a frame; {_EXAMPLE}; or the joint axes of a drawing with `axes:`"
+        faults.error((0, 0), "the file has no `dh` table", help)
     nodes = items(faults, fields.get("dh"), "dh", f"a row a frame; {_EXAMPLE}")
     if len(nodes) > MAX_ROWS:
         faults.error(
@@ -142,13 +143,18 @@ def _coordinates(faults: Faults, fields: Fields, raw: list[_Raw]) -> dict[str, s
     return _ordered(faults, fields, kinds, whole)
 
 
+def ordered_coordinates(faults: Faults, fields: Fields, kinds: dict[str, str]) -> tuple[tuple[str, str], ...]:
+    """(name, kind) of the coordinates, in their order or that of the key `coordinates`."""
+    return tuple(_ordered(faults, fields, kinds, whole=bool(kinds)).items())
+
+
 def _ordered(faults: Faults, fields: Fields, kinds: dict[str, str], whole: bool) -> dict[str, str]:
     if "coordinates" not in fields:
         return kinds
     example = f"write coordinates: [{', '.join(kinds)}]"
     order: dict[str, str] = {}
     for item in items(faults, fields.get("coordinates"), "coordinates", example):
-        name = _coordinate_name(faults, item, example)
+        name = coordinate_name(faults, item, example)
         if name is None:
             continue
         if name in order:
@@ -164,7 +170,8 @@ def _ordered(faults: Faults, fields: Fields, kinds: dict[str, str], whole: bool)
     return order | {name: kinds[name] for name in missing}
 
 
-def _coordinate_name(faults: Faults, node: YamlNode, example: str) -> str | None:
+def coordinate_name(faults: Faults, node: YamlNode, example: str) -> str | None:
+    """The name of a coordinate, with or without its star; None (reported) where it is none."""
     if isinstance(node, FaultyNode):
         return None
     if not isinstance(node, ScalarNode):

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 from dynsolve.derivation.agreement import Agreement, agreement
+from dynsolve.derivation.drawn_motion import verify_drawing
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules, derive
 from dynsolve.derivation.verification import Verification, verify
@@ -72,6 +73,8 @@ class Dynamics:
                     "what is read off from the forces differs from what is assembled directly"
                 )
         verification = verify(robot, _checked(robot, forms), states)
+        if problem.normals is not None:
+            verify_drawing(problem.normals, forms(f"H{len(robot.joints)}"), states)
         return cls(problem, values, forms, verification, agreed, warnings)
 
     @property

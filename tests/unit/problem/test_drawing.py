@@ -1,0 +1,267 @@
+"""Joint axes from a drawing: the tables that are found, and every fault where it stands.
+
+The tables of the exams are one admissible choice each; with these files the procedure comes to the
+same one, save where a comment says otherwise.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.notation.printing import Style
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem import Problem, read_problem
+from tests.unit.problem.marked import errors, places, unmarked
+
+STARRED = Style(star=True)
+
+# INF3480 (University of Oslo), exam 2013, exercise 2a
+PAINTING_ARM = """
+axes:
+  - {turn: theta1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {turn: theta2, about: [0, -1, 0], through: [L2/sqrt(2), 0, L1 + L2/sqrt(2)]}
+  - {slide: L3, along: [cos(45deg), 0, sin(45deg)]}
+tip: [(L2 + L3)/sqrt(2), 0, L1 + (L2 + L3)/sqrt(2)]
+"""
+# Sapienza Robotics 1, exam 12 July 2021, exercise 1a
+RRRP = """
+axes:
+  - {turn: q1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {turn: q2, about: [0, -1, 0], through: [B, 0, A]}
+  - {turn: q3, about: [0, -1, 0], through: [B + C, 0, A]}
+  - {slide: q4, along: [0, 0, -1], through: [B + C + D, 0, A]}
+tip: {at: [B + C + D, 0, A - q4], z: [0, 0, -1]}
+"""
+# Sapienza Robotics 1, exam 21 October 2022, exercise 1a
+RPR = """
+axes:
+  - {turn: q1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {slide: q2, along: [0, -1, 0], through: [0, 0, d1]}
+  - {turn: q3, about: [1, 0, 0], through: [0, -q2, d1]}
+tip: [0, -q2, d1 + a3]
+"""
+# INF3480 (University of Oslo), exam 2018, task 2a; there the last row has θ = 90°, for another x of the hand
+OFFSET_ARM = """
+axes:
+  - {turn: theta1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {turn: theta2, about: [0, 1, 0], through: [0, Loff, L1]}
+  - {slide: L3, along: [1, 0, 0], through: [0, Loff, L1 + L2]}
+tip: [L3, Loff, L1 + L2]
+"""
+# INF3480 (University of Oslo), exam 2009, exercise 2; there l1 stands in row 1: axes 1 and 2 are one line
+FOUR_JOINTS = """
+axes:
+  - {turn: q1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {slide: q2, along: [0, 0, 1]}
+  - {turn: q3, about: [1, 0, 0], through: [0, 0, l1 + l2]}
+  - {turn: q4, about: [0, 1, 0], through: [loff, 0, l1 + l2]}
+tip: [loff, l3 + l4, l1 + l2]
+"""
+PLANAR = """
+axes:
+  - {turn: q1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {turn: q2, about: [0, 0, 1], through: [l1, 0, 0]}
+tip: [l1 + l2, 0, 0]
+"""
+
+
+def table(text: str) -> list[str]:
+    """The rows of a file's table, a text each: θ d a α."""
+    return [
+        " ".join(to_unicode(cell, STARRED).replace(" ", "") for cell in joint.written)
+        for joint in read(text).robot.joints
+    ]
+
+
+def read(text: str) -> Problem:
+    return read_problem(text, "drawn.yaml")
+
+
+TABLES = [
+    (PAINTING_ARM, "drawn", ["θ₁⋆ √2L₂/2+L₁ √2L₂/2 90°", "θ₂⋆-45° 0 0 -90°", "0 L₃⋆ 0 0"]),
+    (PAINTING_ARM, "table", ["θ₁⋆ √2L₂/2+L₁ √2L₂/2 90°", "θ₂⋆ 0 0 -90°", "0 L₃⋆ 0 0"]),
+    (RRRP, "drawn", ["q₁⋆ A B 90°", "q₂⋆ 0 C 0", "q₃⋆ 0 D 90°", "0 q₄⋆ 0 0"]),
+    (RPR, "drawn", ["q₁⋆ d₁ 0 90°", "90° q₂⋆ 0 90°", "q₃⋆ 0 a₃ 0"]),
+    (OFFSET_ARM, "drawn", ["θ₁⋆ L₁ 0 -90°", "θ₂⋆-90° Loff L₂ -90°", "0 L₃⋆ 0 0"]),
+    (FOUR_JOINTS, "drawn", ["q₁⋆ 0 0 0", "90° q₂⋆+l₁+l₂ 0 90°", "q₃⋆+90° loff 0 90°", "q₄⋆ l₃+l₄ 0 0"]),
+    (FOUR_JOINTS, "table", ["q₁⋆ 0 0 0", "90° q₂⋆ 0 90°", "q₃⋆ loff 0 90°", "q₄⋆ l₃+l₄ 0 0"]),
+]
+
+
+@pytest.mark.parametrize(("text", "zero", "rows"), TABLES)
+def test_the_table_is_that_of_the_exercise(text: str, zero: str, rows: list[str]) -> None:
+    assert table(f"{text}zero: {zero}") == rows
+
+
+MODIFIED = [
+    # α and a are those of the row before, and the hand takes a fixed row where it is off the last axis
+    (PLANAR, ["q₁⋆ 0 0 0", "q₂⋆ 0 l₁ 0", "0 0 l₂ 0"]),
+    (RRRP, ["q₁⋆ A 0 0", "q₂⋆ 0 B 90°", "q₃⋆ 0 C 0", "0 q₄⋆ D 90°"]),
+    (RPR, ["q₁⋆ d₁ 0 0", "90° q₂⋆ 0 90°", "q₃⋆ 0 0 90°", "0 0 a₃ 0"]),
+]
+
+
+@pytest.mark.parametrize(("text", "rows"), MODIFIED)
+def test_craigs_table_shifts_the_same_lengths_and_angles(text: str, rows: list[str]) -> None:
+    assert table(f"convention: modified\n{text}zero: drawn") == rows
+
+
+def drawn(axes: str, tip: str, more: str = "zero: drawn") -> str:
+    return f"axes:\n{axes}tip: {tip}\n{more}\n"
+
+
+def then(about: str, through: str) -> str:
+    """A vertical axis at the origin, and another."""
+    first = "  - {turn: q1, about: [0, 0, 1], through: [0, 0, 0]}\n"
+    return f"{first}  - {{turn: q2, about: {about}, through: {through}}}\n"
+
+
+RELATIONS = {
+    "a skew pair": ("[0, 1, 0]", "[B, 0, A]", "skew", "q₁⋆ A B -90°"),
+    "a skew pair seen from behind": (
+        "[0, 1, 0]",
+        "[-B, 0, A]",
+        "skew",
+        "q₁⋆+180° A B 90°",
+    ),
+    "an intersecting pair": (
+        "[0, cos(30deg), sin(30deg)]",
+        "[0, 0, A]",
+        "intersecting",
+        "q₁⋆ A 0 -60°",
+    ),
+    "a symbolic angle": (
+        "[0, sin(beta), cos(beta)]",
+        "[0, 0, A]",
+        "intersecting",
+        "q₁⋆ A 0 -β",
+    ),
+    "a direction of any length": (
+        "[0, -2, 2]",
+        "[0, 0, A]",
+        "intersecting",
+        "q₁⋆ A 0 45°",
+    ),
+    "a parallel pair": ("[0, 0, 1]", "[0, B, A]", "parallel", "q₁⋆+90° 0 B 0"),
+    "an opposite pair": ("[0, 0, -1]", "[B, 0, A]", "parallel", "q₁⋆ 0 B 180°"),
+    "a pair on one line": ("[0, 0, 1]", "[0, 0, A]", "coincident", "q₁⋆ 0 0 0"),
+    "letters that could be equal": (
+        "[0, 1, 0]",
+        "[B - C, 0, 0]",
+        "skew",
+        "q₁⋆ 0 B-C -90°",
+    ),
+}
+
+
+@pytest.mark.parametrize(("about", "through", "relation", "row"), RELATIONS.values(), ids=RELATIONS)
+def test_two_axes_lie_in_one_of_four_ways(about: str, through: str, relation: str, row: str) -> None:
+    text = drawn(then(about, through), f"{{at: {through}, z: {about}}}")
+    normals = read(text).normals
+    assert normals is not None and normals.all[1].relation.value == relation
+    assert table(text)[0] == row
+
+
+def test_a_length_may_be_the_root_of_letters() -> None:
+    axes = then("[0, 0, 1]", "[B, C, 0]")
+    assert table(drawn(axes, "[B, C, A]", "zero: table")) == ["q₁⋆ 0 √(B²+C²) 0", "q₂⋆ A 0 0"]
+
+
+def test_a_length_may_be_the_root_of_numbers() -> None:
+    axes = then("[0, 0, 1]", "[2, 1, 0]")
+    assert table(drawn(axes, "[2, 1, A]", "zero: table")) == ["q₁⋆ 0 √5 0", "q₂⋆ A 0 0"]
+
+
+def test_frame_0_is_moved_and_turned_where_the_first_axis_is_not_the_worlds() -> None:
+    robot = read(drawn("  - {turn: q1, about: [0, -1, 0], through: [B, 0, h]}\n", "[B + l, 0, h]")).robot
+    ring = robot.ring
+    assert robot.base_position.entries == (ring.symbol("B"), ring.zero, ring.symbol("h"))
+    assert [entry.number for entry in robot.base_rotation.entries] == [1, 0, 0, 0, 0, -1, 0, 1, 0]
+
+
+def test_the_hands_own_axes_may_take_a_row_more() -> None:
+    hand = "{at: [l1 + l2, 0, 0], z: [1, 0, 0], x: [0, 0, 1]}"
+    assert table(PLANAR.replace("[l1 + l2, 0, 0]", hand) + "zero: drawn") == [
+        "q₁⋆ 0 l₁ 0",
+        "q₂⋆+90° 0 0 90°",
+        "90° l₂ 0 0",
+    ]
+
+
+def test_coordinates_may_be_in_another_order() -> None:
+    names = [q.name for q in read(PLANAR + "coordinates: [q2, q1]").robot.coordinates]
+    assert names == ["q2", "q1"]
+
+
+ONE = "{turn: q1, about: [0, 0, 1], through: [0, 0, 0]}"
+SLIDE, BEND = "{slide: d, along: [0, 0, 1]}", "{turn: q, about: [0, 1, 0]"
+FAULTS = {
+    "no hand": (f"«axes»: [{ONE}]", "no place", "tip: [x, y, z]"),
+    "no axes": ("«axes»: []\ntip: [0, 0, 0]", "no joint axes", "{turn: theta1"),
+    "a table too": (f"«dh»: [{{theta: q1*}}]\naxes: [{ONE}]\ntip: [l, 0, 0]", "both given", "delete `dh`"),
+    "a base too": (f"«base»: Rx(90deg)\naxes: [{ONE}]\ntip: [l, 0, 0]", "both given", "delete `base`"),
+    "a tip without axes": ("«tip»: [0, 0, 0]\ndh: [{theta: q1*, a: l}]", "belongs to `axes`", "delete it"),
+    "neither": ("axes: [«{about: [0, 0, 1]}»]\ntip: [l, 0, 0]", "neither `turn` nor `slide`", "{turn:"),
+    "both": ("axes: [«{turn: q1, slide: q2}»]\ntip: [l, 0, 0]", "both turns and slides", "two axes"),
+    "no point": ("axes: [«{turn: q1, about: [0, 0, 1]}»]\ntip: [l, 0, 0]", "no `through`", "{turn: theta1"),
+    "no direction": ("axes: [«{slide: q1}»]\ntip: [l, 0, 0]", "no `along`", "{turn: theta1"),
+    "about of a slide": (
+        "axes: [{slide: q1, «about»: [0, 0, 1]}]\ntip: [l, 0, 0]",
+        "belongs to `turn`",
+        "along: [x, y, z]",
+    ),
+    "two components": ("axes: [{slide: q1, along: «[0, 1]»}]\ntip: [l, 0, 0]", "2 components", "[x, y, z]"),
+    "no direction at all": ("axes: [{slide: q1, along: [«0, 0, 0»]}]\ntip: [l, 0, 0]", "is 0", "[0, 0, 1]"),
+    "a name twice": (
+        f"axes: [{ONE}, «{{turn: q1, about: [0, 1, 0], through: [0, 0, 0]}}»]\ntip: [l, 0, 0]",
+        "another axis already",
+        "a coordinate of its own",
+    ),
+    "an angle in the drawing": (f"axes: [{ONE}]\ntip: [«q1», 0, 0]", "the coordinate q1", "one pose"),
+    "a slide in a direction": (
+        "axes: [{slide: d, along: [0, 0, 1]}, {slide: e, along: [«d», 1, 0]}]\ntip: [l, e, d]",
+        "contains the coordinate d",
+        "one pose",
+    ),
+    "the tip stays behind": (
+        f"axes: [{SLIDE}, {BEND}, through: [0, 0, d]}}]\ntip: [«l, 0, h»]",
+        "the tip does not move with the slide d",
+        "add d times",
+    ),
+    "an axis stays behind": (
+        f"axes: [{SLIDE}, {BEND}, through: [«0, 0, h»]}}]\ntip: [l, 0, d]",
+        "axis 2 does not move with the slide d",
+        "add d times",
+    ),
+    "an axis moves with what follows": (
+        f"axes: [{BEND}, through: [«0, 0, d»]}}, {SLIDE}]\ntip: [l, 0, d]",
+        "axis 1 comes before the slide d",
+        "leave d out",
+    ),
+    "an angle that is no number of degrees": (
+        f"axes: [{ONE}, «{{turn: q2, about: [3, 0, 4], through: [0, 0, h]}}»]\ntip: [l, 0, h]",
+        "the angle between two axes",
+        "name it",
+    ),
+    "an offset that is no number of degrees": (
+        f"zero: drawn\naxes: [«{ONE}», {{turn: q2, about: [0, 0, 1], through: [B, C, 0]}}]\ntip: [B, C, 0]",
+        "at the joint of q1",
+        "zero: table",
+    ),
+    "x of the hand not across": (
+        f"axes: [{ONE}]\ntip: {{at: [l, 0, 0], z: [0, 0, 1], x: [«0, 1, 1»]}}",
+        "not perpendicular",
+        "mend",
+    ),
+    "x without z": (f"axes: [{ONE}]\ntip: {{at: [l, 0, 0], «x»: [0, 1, 1]}}", "an x and no z", "its z too"),
+    "another zero": (f"axes: [{ONE}]\ntip: [l, 0, 0]\nzero: «here»", "one of table, drawn", "drawn"),
+}
+
+
+@pytest.mark.parametrize(("marked", "message", "help"), FAULTS.values(), ids=FAULTS)
+def test_a_fault_is_told_where_it_stands(marked: str, message: str, help: str) -> None:
+    text, expected = unmarked(marked)
+    found = errors(text)
+    assert places(found) == expected
+    assert message in found[0].message
+    assert help in found[0].help
