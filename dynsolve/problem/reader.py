@@ -22,7 +22,7 @@ from dynsolve.problem.framing import Framed, from_drawing
 from dynsolve.problem.model import FilePlace, Problem
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.source import MAX_BYTES, Faults, as_source
-from dynsolve.problem.specification import CONVENTION, PROBLEM
+from dynsolve.problem.specification import CONVENTION, DRAWING, PROBLEM
 from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import read_table
 from dynsolve.problem.yaml_nodes import ListNode, MappingNode, YamlNode, read_nodes
@@ -147,7 +147,7 @@ def _framed(faults: Faults, fields: Fields, convention: Convention) -> Framed:
     """The table and the base: as they are given, or found from a drawing."""
     if "axes" in fields:
         return from_drawing(faults, read_drawing(faults, fields), convention)
-    for key in ("tip", "zero"):
+    for key in DRAWING:
         if key in fields:
             faults.error(fields.key_span(key), f"`{key}` belongs to `axes`, and there are none", _AXES)
     table = read_table(faults, fields, convention is Convention.MODIFIED)

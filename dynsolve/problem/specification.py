@@ -81,6 +81,8 @@ HAND = Keyed(
     )
 )
 ZERO = Word(("table", "drawn"))
+DRAWING = ("axes", "tip", "zero")
+"""The keys that stand for `dh` and `base`."""
 
 # -- a body ----------------------------------------------------------------------------------------
 

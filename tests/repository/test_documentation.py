@@ -52,8 +52,23 @@ def _folder(folder: Path) -> None:
 
 
 def test_there_are_examples() -> None:
-    assert {"rp.yaml", "answer.yaml", "report.md", "slips.yaml", "spellings.yaml", "set.yaml"} == FILES.keys()
-    assert {"Solution JSON", "Answer file", "Verdicts", "Grading", "Commands"} == EXAMPLES.keys()
+    assert {
+        "rp.yaml",
+        "drawn.yaml",
+        "answer.yaml",
+        "report.md",
+        "slips.yaml",
+        "spellings.yaml",
+        "set.yaml",
+    } == FILES.keys()
+    assert {
+        "Problem file",
+        "Solution JSON",
+        "Answer file",
+        "Verdicts",
+        "Grading",
+        "Commands",
+    } == EXAMPLES.keys()
     assert len(PROBLEMS) >= 5
 
 

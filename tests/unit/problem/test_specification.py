@@ -13,7 +13,7 @@ from dynsolve.problem.documentation import template
 from dynsolve.problem.kinds import Key
 from dynsolve.problem.lint import lint_text
 from dynsolve.problem.schema import schema
-from dynsolve.problem.specification import BODY, PROBLEM, ROW, dimensions
+from dynsolve.problem.specification import BODY, DRAWING, PROBLEM, ROW, dimensions
 from dynsolve.robot.shapes import KINDS
 from tests.unit.problem.marked import RP, errors
 
@@ -41,8 +41,15 @@ def test_what_new_writes_has_every_key_and_its_meaning() -> None:
 
 
 def test_what_new_writes_as_a_comment_can_be_uncommented() -> None:
-    whole = re.sub(rf"^# (?=(?:{'|'.join(PROBLEM.names)}):)", "", template(), flags=re.MULTILINE)
-    assert list(yaml.safe_load(whole)) == list(PROBLEM.names)
+    beside_a_table = [name for name in PROBLEM.names if name not in DRAWING]
+    whole = re.sub(rf"^# (?=(?:{'|'.join(beside_a_table)}):)", "", template(), flags=re.MULTILINE)
+    assert list(yaml.safe_load(whole)) == beside_a_table
+    holds(whole)
+    assert not lint_text(whole)
+
+
+def test_the_examples_of_a_drawing_hold_in_the_place_of_a_table() -> None:
+    whole = "\n".join(f"{name}: {PROBLEM[name].example}" for name in DRAWING)
     holds(whole)
     assert not lint_text(whole)
 
