@@ -63,9 +63,13 @@ class Formula:
 
 @dataclass(frozen=True, slots=True)
 class Equations:
-    """Short equations in one display, one under another and level at their equals signs."""
+    """Short equations in one display, one under another and level at their equals signs.
+
+    Many that do not follow from each other are set `in_columns` where there is room.
+    """
 
     nodes: tuple[Node, ...]
+    in_columns: bool = False
 
 
 @dataclass(frozen=True, slots=True)

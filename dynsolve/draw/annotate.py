@@ -144,11 +144,11 @@ def joint_angles(pose: Pose, written: Sequence[Node], notes: Notes) -> None:
 
 
 def _flat_angle(pose: Pose, part: JointBody, node: Node, notes: Notes) -> None:
-    """θ_i from the x axis before the joint to the one after it."""
+    """θ_i from the x axis before the joint to the one after it, turning as the joint's axis says."""
     view, leg = pose.view, pose.skeleton.legs[part.row - 1]
     center = view.point(part.center)
     first = view.direction(leg.before)
-    angle = math.remainder(leg.angle, 2 * math.pi)
+    angle = leg.angle % (2 * math.pi)
     if dot(leg.axis, view.toward) < 0:
         angle = -angle
     second = (first[1], -first[0])

@@ -28,6 +28,9 @@ _FAR = 22.0
 _STRUCK = 25.0
 """What each cell under a label costs that something is drawn on."""
 
+_NEAR, _ROOM = 4.0, 2.5
+"""What each cell costs that something is drawn on, and that comes nearer to a label than this room."""
+
 _CLOSE, _BARRED = 5.0, 3.0
 """What each cell costs that bars the way from a label to what it names."""
 
@@ -132,7 +135,7 @@ def _options(label: Wanted, taken: Taken) -> list[_Place]:
                 turn = 0.0 if preferred is None else abs(math.remainder(angle - preferred, 2 * math.pi))
                 way = _way(anchor, box, label.radius + 3.0)
                 barred = taken.cells_on(*way) if away > _CLOSE else 0
-                cost = _STRUCK * taken.inside(box) + _BARRED * barred
+                cost = _STRUCK * taken.inside(box) + _NEAR * taken.inside(box.grown(_ROOM)) + _BARRED * barred
                 cost += 0.6 * away + 2.2 * turn + 1.5 * rank
                 places.append(_Place(box, way if away >= _FAR else None, round(cost, 6)))
     places.sort(key=lambda option: option.cost)

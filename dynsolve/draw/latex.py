@@ -12,6 +12,7 @@ from dynsolve.draw.labels import Label
 from dynsolve.draw.paths import Commands, Path
 from dynsolve.draw.scene import Scene
 from dynsolve.draw.svg import number
+from dynsolve.draw.typography import SIZE
 from dynsolve.notation.latex import to_latex
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Row, Words
@@ -20,8 +21,10 @@ WIDEST = 345.0
 """The width of a page's text, in big points."""
 
 _UNIT = 0.6
+_BIG_POINT = 72.27 / 72  # in points
 _OPERATORS = {"M": "m", "L": "l", "C": "c", "Z": "h"}
-_SIZES = ((0.57, r"\normalsize"), (0.5, r"\small"), (0.43, r"\footnotesize"), (0.0, r"\scriptsize"))
+_SIZES = (10, 9, 8, 7, 6, 5)
+"""The sizes in which TeX has its letters, in points."""
 
 _LITERAL = r"""\ifx\dynsolveink\undefined
 \def\dynsolveink#1{\special{pdf:content #1}}
@@ -36,9 +39,8 @@ def to_latex_picture(scene: Scene) -> str:
     box = scene.frame
     wide, high = box.right - box.left, box.bottom - box.top
     unit = min(_UNIT, WIDEST / wide)
-    size = next(command for least, command in _SIZES if unit >= least)
     lines = [
-        "{" + size,
+        rf"{{\fontsize{{{font_size(unit)}}}{{12}}\selectfont",
         _LITERAL,
         rf"\setlength{{\unitlength}}{{{unit:.3f}bp}}%",
         rf"\begin{{picture}}({number(wide)},{number(high)})%",
@@ -49,6 +51,12 @@ def to_latex_picture(scene: Scene) -> str:
         r"\end{picture}}",
     ]
     return "\n".join(lines)
+
+
+def font_size(unit: float) -> int:
+    """The largest letters, in points, that are no larger than a picture with this unit has room for."""
+    room = SIZE * unit * _BIG_POINT
+    return next((size for size in _SIZES if size <= room), _SIZES[-1])
 
 
 def _path(path: Path, left: float, bottom: float) -> Iterator[str]:

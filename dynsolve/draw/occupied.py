@@ -33,6 +33,10 @@ class Box:
         """Its middle."""
         return (self.left + self.right) / 2, (self.top + self.bottom) / 2
 
+    def grown(self, room: float) -> Box:
+        """The box with room around it."""
+        return Box(self.left - room, self.top - room, self.right + room, self.bottom + room)
+
     def overlaps(self, other: Box, beside: float = 0.0, above: float = 0.0) -> bool:
         """Whether two boxes come nearer to each other than this, beside or above one another."""
         return (

@@ -142,7 +142,7 @@ def taste(robot: Robot, pose: Pose, choice: Choice) -> float:
     if pose.view.flat:
         for leg in pose.skeleton.legs:
             if leg.type is JointType.REVOLUTE:
-                angle = abs(math.remainder(leg.angle, 2 * math.pi))
+                angle = leg.angle % (2 * math.pi)  # a negative one is the long way round
                 total += 12.0 * _shortfall(angle, 0.7) + 1.2 * abs(angle - 0.8)
     else:
         total += 0.5 * abs(choice[-2] - math.radians(35))

@@ -5,9 +5,10 @@ makes the PDF) are one format each, listed with their suffixes in `formats`.
 
 Words: `prose` finds the mathematics among them, `latex_text` writes any text for LaTeX.
 Formulas: `line_breaking` cuts them into pieces and these into lines, `typesetting` sets a
-displayed formula to a width, `matrices` gives one that is too wide entry by entry,
-`references` numbers them.  A terminal has cells in place of a font: `terminal_boxes`,
-`terminal_formulas`, `terminal_breaking`.  `files` writes a file whole or not at all.
+displayed formula to a width, `columns` sets many short equations beside each other,
+`matrices` gives a matrix that is too wide entry by entry, `references` numbers formulas.
+A terminal has cells in place of a font: `terminal_boxes`, `terminal_formulas`,
+`terminal_breaking`.  `files` writes a file whole or not at all.
 
 To add a format, derive its page from one in `page` and enter its name and suffixes in
 `formats`; `.github/CONTRIBUTING.md` lists what else a format of reports needs.

@@ -1,8 +1,8 @@
 """Documents -> one HTML file: MathML, no script, and nothing that is fetched.
 
 A displayed formula is a row of pieces between which the browser breaks lines, so that
-it fits a phone.  A matrix that needs a wide page is there a second time, entry by
-entry, and shown so where the page is narrow.
+it fits a phone.  A matrix stays one and is scrolled where the page is narrow; only one
+that no page shows whole is given entry by entry.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from importlib.resources import files
 from dynsolve.document import (
     Block,
     Document,
+    Equations,
     Fold,
     Formula,
     Heading,
@@ -42,7 +43,6 @@ PHONE = 16.5
 PAGE = 44.0
 """What fits the widest page."""
 
-_AROUND = 4.0
 _FINE = 6.0
 _WHOLE = 13.0
 _LEVELS = ("brief", "normal", "full")
@@ -60,7 +60,7 @@ def render(document: Document, style: Style = PLAIN, level: str = "normal") -> s
         "style-src 'unsafe-inline'; img-src data:\">\n"
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
-        f"<title>{escape(title)}</title>\n<style>\n{stylesheet()}{page.widths_css()}</style>\n</head>\n<body>\n"
+        f"<title>{escape(title)}</title>\n<style>\n{stylesheet()}</style>\n</head>\n<body>\n"
         f"{_switch(level) if page.has_levels() else ''}{page.contents()}"
         f"<main>\n{body}</main>\n</body>\n</html>\n"
     )
@@ -123,7 +123,6 @@ class _Page(MarkupPage):
         self.ruler = Ruler(style)
         self.splitter = FormulaSplitter(html_notation(printer), self.ruler, _FINE)
         self.entries: list[_Entry] = []
-        self.widths: set[int] = set()
 
     def document(self, blocks: Iterable[Block]) -> Iterator[str]:
         """The blocks, those under a heading in a section."""
@@ -145,9 +144,10 @@ class _Page(MarkupPage):
     def text(self, text: Text) -> Iterator[str]:
         yield f'<p class="why" dir="auto">{self.prose(text.parts)}</p>\n'
 
-    def equations(self, nodes: Sequence[Node]) -> Iterator[str]:
-        lines = "".join(map(self.broken, nodes))
-        yield f'<div class="formula work"><div class="box">{lines}</div></div>\n'
+    def equations(self, equations: Equations) -> Iterator[str]:
+        lines = "".join(map(self.broken, equations.nodes))
+        columns = " columns" if equations.in_columns else ""
+        yield f'<div class="formula work"><div class="box{columns}">{lines}</div></div>\n'
 
     def reference(self, label: str) -> str:
         return f'<a href="#eq-{label}">{super().reference(label)}</a>'
@@ -207,6 +207,8 @@ class _Page(MarkupPage):
     # -- displayed formulas ------------------------------------------------------------------------
 
     def formula(self, formula: Formula) -> Iterator[str]:
+        if formula.optional and self.is_too_wide(formula.node):
+            return
         number = self.labels.get(formula.label)
         kind = "result" if formula.label else "work"
         anchor = f' id="eq-{formula.label}"' if number else ""
@@ -218,7 +220,7 @@ class _Page(MarkupPage):
         yield f"</div>{beside}</div>\n"
 
     def lines(self, node: Node, formula: Formula) -> Iterator[str]:
-        """A formula on the page: whole, or in pieces, its matrices whole or entry by entry."""
+        """A formula on the page: whole, or in pieces; a matrix that no page shows whole, entry by entry."""
         width = self.ruler.width(node)
         if width <= PHONE:
             yield f'<div class="line">{math(self.printer.text(node), display=True)}</div>'
@@ -228,37 +230,29 @@ class _Page(MarkupPage):
         if widest > PHONE and isinstance(node, Row) and not formula.optional:
             for part in listed(node):
                 yield from self.lines(part, formula)
-        elif widest <= PHONE or (matrix is None and not formula.optional):
+        elif widest <= PAGE or matrix is None:
             yield self.broken(node)
-        elif matrix is None or formula.optional:
-            yield f'<div class="wide w{self.needed(widest)}">{self.broken(node)}</div>'
-        elif self.ruler.width(matrix) > PAGE:
-            yield from self.entry_by_entry(node, matrix, formula)
         else:
-            needed = self.needed(widest)
-            yield f'<div class="wide w{needed}">{self.broken(node)}</div>'
-            yield f'<div class="narrow n{needed}">'
             yield from self.entry_by_entry(node, matrix, formula)
-            yield "</div>"
+
+    def is_too_wide(self, node: Node) -> bool:
+        """Whether a part that cannot be broken is wider than the widest page."""
+        return max(piece.width for piece in self.splitter.pieces(node)) > PAGE
 
     def broken(self, node: Node) -> str:
         parts = together(self.splitter.pieces(node), _WHOLE, "".join)
         pieces = "<wbr>".join(math(part.text, display=True) for part in parts)
         return f'<div class="line">{pieces}</div>'
 
-    def needed(self, width: float) -> int:
-        """The page width that a formula of this width needs, with its surroundings."""
-        needed = int(width * 1.1 + _AROUND) + 1
-        self.widths.add(needed)
-        return needed
-
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:
         left = node.parts[0] if isinstance(node, Relation) else None
         if isinstance(node, Relation) and len(node.parts) > 2 and not any(map(holds_matrix, node.parts[:-1])):
             yield self.broken(Relation(node.parts[:-1], node.signs[:-1]))
+        yield '<div class="columns">'
         for value, places in entries_by_value(matrix):
             names = [entry_name(i, j, matrix, left, formula) for i, j in places]
             yield self.broken(equation(*names, value))
+        yield "</div>"
 
     def has_levels(self) -> bool:
         """Whether there are steps of different levels of detail to choose between."""
@@ -279,13 +273,6 @@ class _Page(MarkupPage):
             '<nav aria-label="Contents"><h2>Contents</h2><ul>' + "\n".join(items) + "</ul></nav>\n"
             if items
             else ""
-        )
-
-    def widths_css(self) -> str:
-        """The page widths from which on each matrix is shown whole."""
-        return "".join(
-            f"@container (min-width:{width}em){{.w{width}{{display:block}}.n{width}{{display:none}}}}\n"
-            for width in sorted(self.widths)
         )
 
 

@@ -9,6 +9,7 @@ from itertools import chain, groupby
 from dynsolve.document import (
     Block,
     Document,
+    Equations,
     Formula,
     Heading,
     Picture,
@@ -20,14 +21,15 @@ from dynsolve.document import (
 from dynsolve.notation.latex import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Words
+from dynsolve.render.columns import Cell, Columns
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import TypesetPage
-from dynsolve.render.references import numbered, slug
+from dynsolve.render.references import is_long, numbered, running_title, slug
 from dynsolve.render.typesetting import Line
 
-PAGE = 42.8
-"""The width of our own page, in em."""
+PAGE = 46.9
+"""The width of our own page, in em of its letters of ten points."""
 
 FRAGMENT_PAGE = 32.8
 """The narrowest page of the standard classes, which a fragment must fit."""
@@ -37,25 +39,37 @@ _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 _TALL = (r"\frac", r"\sum", r"\begin")
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
 
-_PREAMBLE = r"""\documentclass[a4paper,11pt]{article}
+_PREAMBLE = r"""\documentclass[a4paper]{article}
 \usepackage{amsmath}
 \setlength{\textwidth}{469pt}
 \setlength{\oddsidemargin}{-8pt}
 \setlength{\evensidemargin}{-8pt}
-\setlength{\topmargin}{-30pt}
-\setlength{\textheight}{680pt}
+\setlength{\topmargin}{-40pt}
+\setlength{\textheight}{700pt}
 \setlength{\parindent}{0pt}
-\setlength{\parskip}{5pt plus 2pt}
+\setlength{\parskip}{3pt plus 1pt}
 \setlength{\emergencystretch}{4em}
+\setlength{\jot}{2pt}
 \setcounter{tocdepth}{1}
 \setcounter{MaxMatrixCols}{30}
 \allowdisplaybreaks[3]
-\AtBeginDocument{\setlength{\abovedisplayskip}{7pt plus 3pt}\setlength{\belowdisplayskip}{7pt plus 3pt}}
+\clubpenalty=9000 \widowpenalty=9000
+\AtBeginDocument{\setlength{\abovedisplayskip}{5pt plus 2pt}\setlength{\belowdisplayskip}{5pt plus 2pt}}
+\makeatletter
+\renewcommand\section{\@startsection{section}{1}{0pt}{-14pt plus -4pt}{5pt}{\Large\bfseries}}
+\renewcommand\subsection{\@startsection{subsection}{2}{0pt}{-9pt plus -3pt}{2pt}{\normalsize\bfseries}}
+\renewcommand\l@section{\@dottedtocline{1}{0pt}{1.6em}}
+\newcommand\reportcontents{{\medskip\parskip=0pt\@starttoc{toc}\par}}
+\makeatother
+\pagestyle{myheadings}
 """
 
-# A source stands at the end of its line, or of the next where it does not fit.
-_MACROS = r"""\providecommand{\formulasource}[1]{\unskip\nobreak
-  \hfill\penalty50\hskip1em\hbox{}\nobreak\hfill\mbox{\footnotesize #1}}
+# The source of a formula; equations in columns: a row, a cell of a width with its name and the rest.
+_MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
+\providecommand{\equationrow}[1]{\par\noindent\strut#1}
+\providecommand{\equationcell}[4]{\makebox[#1\dimexpr\linewidth-3.4em\relax][l]{%
+  \makebox[#2em][r]{$\displaystyle #3$}$\displaystyle {}#4$}}
+\providecommand{\equationnumber}[1]{\hfill\refstepcounter{equation}(\theequation)#1}
 """
 
 
@@ -66,12 +80,13 @@ _NEEDS = r"""% Needs \usepackage{amsmath}, and where a matrix has more than ten 
 
 def render(document: Document, style: Style = PLAIN) -> str:
     """A complete document."""
-    page = _Page(style, PAGE, document)
+    page = _Page(style, PAGE, document, contents=is_long(document))
     title = next((block.text for block in document.blocks if isinstance(block, Heading)), "")
     body = "\n".join(page.blocks(b for b in document.blocks if not _is_title(b)))
+    words = page.words(title)
     return (
-        f"{_PREAMBLE}{_MACROS}\\begin{{document}}\n"
-        f"{{\\LARGE\\bfseries\\raggedright {page.words(title)}\\par}}\n\\bigskip\n{body}\n\\end{{document}}\n"
+        f"{_PREAMBLE}{_MACROS}\\begin{{document}}\n\\markright{{{page.words(running_title(title))}}}\\thispagestyle{{plain}}\n"
+        f"{{\\LARGE\\bfseries\\raggedright {words}\\par}}\n\\medskip\n{body}\n\\end{{document}}\n"
     )
 
 
@@ -127,10 +142,11 @@ class _Printer(LatexPrinter):
 class _Page(TypesetPage):
     """Turns blocks into LaTeX."""
 
-    def __init__(self, style: Style, width: float, document: Document) -> None:
+    def __init__(self, style: Style, width: float, document: Document, contents: bool = False) -> None:
         printer = _Printer(style)
         super().__init__(printer, latex_notation(printer), numbered(document), width, _NUMBER)
         self.prefix = slug(document)
+        self.has_contents = self.contents_are_due = contents
 
     def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
         """The blocks one after the other, formulas that follow each other in one display."""
@@ -151,11 +167,15 @@ class _Page(TypesetPage):
         command = ("section", "section", "subsection")[heading.level - 1]
         found = _NUMBERED.fullmatch(heading.text)
         words = f"{found[1]}\\quad {self.words(found[2])}" if found else self.words(heading.text)
+        if heading.level == 2 and self.contents_are_due:
+            self.contents_are_due = False
+            yield "\\reportcontents"
         yield f"\\{command}*{{{words}}}"
+        if command == "section" and self.has_contents:
+            yield f"\\addcontentsline{{toc}}{{section}}{{{words}}}"
 
     def text(self, text: Text) -> Iterator[str]:
-        source = f"\\formulasource{{{self.words(text.source)}}}" if text.source else ""
-        yield self.prose(text.parts) + source
+        yield self.prose(text.parts)
 
     def formula(self, formula: Formula) -> Iterator[str]:
         yield from self.formulas([formula])
@@ -164,25 +184,38 @@ class _Page(TypesetPage):
         """Displays: formulas of one line together, one that is broken alone."""
         rows: list[tuple[Line, str]] = []
         for formula in formulas:
-            lines = self.typesetter(formula).set(formula)
-            is_numbered = formula.label in self.labels
-            label = f"\\label{{{self.prefix}:{formula.label}}}" if is_numbered else ""
+            columns = self.columns(formula)
+            lines = [] if columns else self.typesetter(formula).set(formula)
+            label = self.label(formula)
             if len(lines) == 1:
                 rows.append((lines[0], label))
+                continue
+            yield from _gathered(rows)
+            rows = []
+            if columns:
+                yield from _in_columns(columns, label)
             elif lines:
-                yield from _gathered(rows)
-                rows = []
                 yield from _aligned(lines, label)
         yield from _gathered(rows)
 
-    def equations(self, nodes: Sequence[Node]) -> Iterator[str]:
-        yield from _aligned(self.unnumbered.equations(nodes), "")
+    def label(self, formula: Formula) -> str:
+        """What stands beside a formula: its number, or its source."""
+        if formula.label in self.labels:
+            return f"\\label{{{self.prefix}:{formula.label}}}"
+        return f"\\tag*{{\\formulasource{{{self.words(formula.source)}}}}}" if formula.source else ""
+
+    def equations(self, equations: Equations) -> Iterator[str]:
+        columns = self.equation_columns(equations)
+        if columns is not None:
+            yield from _in_columns(columns, "")
+        else:
+            yield from _aligned(self.unnumbered.equations(equations.nodes), "")
 
     def reference(self, label: str) -> str:
         return f"\\eqref{{{self.prefix}:{label}}}"
 
     def uses(self, sentence: str) -> Iterator[str]:
-        yield sentence
+        yield f"{sentence}\\nopagebreak"
 
     def list(self, items: Sequence[Prose]) -> Iterator[str]:
         yield "\\begin{itemize}"
@@ -212,6 +245,23 @@ class _Page(TypesetPage):
 
     def verbatim(self, text: str) -> str:
         return f"\\texttt{{{latex_text(text)}}}"
+
+
+def _in_columns(columns: Columns, label: str) -> Iterator[str]:
+    """Rows of equations between which a page may end, the number at the end of the last."""
+    yield "\\begingroup\\parskip=1pt\\lineskiplimit=2pt\\lineskip=3pt"
+    last = len(columns.rows) - 1
+    for place, row in enumerate(columns.rows):
+        cells = "".join(_cell(cell, columns) for cell in row)
+        number = f"\\equationnumber{{{label}}}" if label and place == last else ""
+        yield f"\\equationrow{{{cells}{number}}}"
+    yield "\\par\\endgroup"
+
+
+def _cell(cell: Cell, columns: Columns) -> str:
+    indent = r"\qquad " if cell.line.indented else ""
+    share = f"{cell.span / columns.count:.4f}"
+    return f"\\equationcell{{{share}}}{{{columns.name:.2f}}}{{{cell.line.left}}}{{{indent}{cell.line.right}}}"
 
 
 def _gathered(rows: Sequence[tuple[Line, str]]) -> Iterator[str]:

@@ -11,6 +11,8 @@ from collections.abc import Iterator, Sequence
 
 from dynsolve.document import (
     Document,
+    Equations,
+    Fold,
     Formula,
     Heading,
     Inline,
@@ -22,11 +24,11 @@ from dynsolve.document import (
 )
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Node, Words
+from dynsolve.notation.tree import Words
 from dynsolve.render.latex import latex_notation
 from dynsolve.render.page import TypesetPage
 from dynsolve.render.prose import visible
-from dynsolve.render.references import numbered
+from dynsolve.render.references import numbered, with_sources
 from dynsolve.render.typesetting import Line
 
 PAGE = 40.0
@@ -72,8 +74,17 @@ class _Page(TypesetPage):
         number = self.labels.get(formula.label)
         yield from _display(self.typesetter(formula).set(formula), rf" \tag{{{number}}}" if number else "")
 
-    def equations(self, nodes: Sequence[Node]) -> Iterator[str]:
-        yield from _display(self.unnumbered.equations(nodes))
+    def equations(self, equations: Equations) -> Iterator[str]:
+        yield from _display(self.unnumbered.equations(equations.nodes))
+
+    def beside(self, formula: Formula) -> float:
+        """A source stands in the text, not beside its formula."""
+        return self.number if formula.label in self.labels else 0.0
+
+    def fold(self, fold: Fold) -> Iterator[str]:
+        """The blocks of a fold, sources with the paragraphs that introduce their formulas."""
+        yield from self.heading(Heading(fold.title, 3))
+        yield from self.blocks(with_sources(fold.blocks))
 
     def uses(self, sentence: str) -> Iterator[str]:
         yield sentence + "\n"

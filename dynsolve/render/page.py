@@ -31,9 +31,10 @@ from dynsolve.document import (
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.tree import Node
+from dynsolve.render.columns import FEWEST, Columns, in_columns
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.prose import ProseWriter
-from dynsolve.render.references import with_sources
+from dynsolve.render.references import with_results
 from dynsolve.render.typesetting import Typesetter
 
 _Piece = TypeVar("_Piece")
@@ -59,8 +60,8 @@ class Page(ABC, Generic[_Piece]):
                 yield from self.text(block)
             case Formula():
                 yield from self.formula(block)
-            case Equations(nodes):
-                yield from self.equations(nodes)
+            case Equations():
+                yield from self.equations(block)
             case Uses(labels):
                 references = [self.reference(label) for label in labels if label in self.labels]
                 if references:
@@ -90,7 +91,7 @@ class Page(ABC, Generic[_Piece]):
         """A displayed formula."""
 
     @abstractmethod
-    def equations(self, nodes: Sequence[Node]) -> Iterator[_Piece]:
+    def equations(self, equations: Equations) -> Iterator[_Piece]:
         """Equations in one display."""
 
     def reference(self, label: str) -> str:
@@ -164,6 +165,10 @@ class MarkupPage(Page[str]):
         """Any text, so that nothing in it is markup."""
 
 
+_SOURCE_LETTER = 0.46  # small letters, in em
+_SOURCE_SPACE = 1.5
+
+
 class TypesetPage(MarkupPage):
     """A page of a certain width in em, of which `number` em are kept for the number of a formula."""
 
@@ -176,13 +181,31 @@ class TypesetPage(MarkupPage):
         number: float,
     ) -> None:
         super().__init__(printer, labels)
-        ruler = Ruler(printer.style)
-        self.unnumbered = Typesetter(notation, ruler, width)
-        self.numbered = Typesetter(notation, ruler, width - number)
+        self.notation, self.ruler = notation, Ruler(printer.style)
+        self.width, self.number = width, number
+        self.unnumbered = Typesetter(notation, self.ruler, width)
 
     def typesetter(self, formula: Formula) -> Typesetter:
-        """The typesetter of a formula; one with a number has less room."""
-        return self.numbered if formula.label in self.labels else self.unnumbered
+        """The typesetter of a formula; one with a number or its source beside it has less room."""
+        return Typesetter(self.notation, self.ruler, self.width - self.beside(formula))
+
+    def beside(self, formula: Formula) -> float:
+        """The room that stands beside a formula, in em."""
+        if formula.label in self.labels:
+            return self.number
+        return len(formula.source) * _SOURCE_LETTER + _SOURCE_SPACE if formula.source else 0.0
+
+    def columns(self, formula: Formula) -> Columns | None:
+        """The entries of a matrix in columns, where that is what a formula has to be."""
+        found = self.typesetter(formula).listed(formula)
+        return in_columns(found, self.width - self.number) if found and len(found) >= FEWEST else None
+
+    def equation_columns(self, equations: Equations) -> Columns | None:
+        """Equations in columns, where they may be and are many."""
+        if not equations.in_columns or len(equations.nodes) < FEWEST:
+            return None
+        room = self.width - self.number
+        return in_columns(Typesetter(self.notation, self.ruler, room).each(equations.nodes), room)
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence."""
@@ -191,4 +214,4 @@ class TypesetPage(MarkupPage):
     def fold(self, fold: Fold) -> Iterator[str]:
         """The blocks of a fold under its title, which cannot be folded away on paper."""
         yield from self.heading(Heading(fold.title, 3))
-        yield from self.blocks(with_sources(fold.blocks))
+        yield from self.blocks(with_results(fold.blocks))

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import zip_longest
+from textwrap import shorten
 
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Text, Uses
 
@@ -14,6 +15,25 @@ def numbered(document: Document) -> dict[str, int]:
     """The number of each labelled formula, from 1."""
     labels = dict.fromkeys(f.label for f in formulas(document.blocks) if f.label)
     return {label: number for number, label in enumerate(labels, start=1)}
+
+
+_MANY_SECTIONS = 5
+_LONGEST_HEADER = 60
+
+
+def is_long(document: Document) -> bool:
+    """Whether a document wants a table of contents: from five sections on."""
+    sections = [block for block in document.blocks if isinstance(block, Heading) and block.level == 2]
+    return len(sections) >= _MANY_SECTIONS
+
+
+def running_title(title: str) -> str:
+    """A title as it stands above every page: in one line.
+
+    >>> running_title("RP manipulator")
+    'RP manipulator'
+    """
+    return shorten(title, _LONGEST_HEADER, placeholder="…") if len(title) > _LONGEST_HEADER else title
 
 
 def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from dynsolve.document import (
     Document,
+    Equations,
     Fold,
     Formula,
     Heading,
@@ -120,8 +121,8 @@ class _Page(Page[StyledLine]):
             yield StyledLine(" " * max(min(self.columns, _PROSE) - len(source), 0) + source, "source")
         yield StyledLine("")
 
-    def equations(self, nodes: Sequence[Node]) -> Iterator[StyledLine]:
-        for node in nodes:
+    def equations(self, equations: Equations) -> Iterator[StyledLine]:
+        for node in equations.nodes:
             for line in set_formula(Formula(node), self.printer, self.columns - _INDENT):
                 yield StyledLine(" " * _INDENT + line.rstrip(), "formula")
         yield StyledLine("")

@@ -23,11 +23,16 @@ _LONGEST_LEFT = 0.3
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """`left` stands right-aligned before the place where lines are level, `right` after it."""
+    """`left` stands right-aligned before the place where lines are level, `right` after it.
+
+    `width` is that of both together in em, `name` that of `left`.
+    """
 
     left: str
     right: str
     indented: bool = False
+    width: float = 0.0
+    name: float = 0.0
 
     @property
     def alone(self) -> str:
@@ -106,26 +111,50 @@ class Typesetter:
 
     # -- matrices that are given entry by entry ----------------------------------------------------
 
+    def listed(self, formula: Formula) -> list[list[Line]] | None:
+        """The lines of each entry, of a formula that is no more than a matrix, and that too wide."""
+        node = formula.node
+        if formula.optional or not isinstance(node, Relation) or len(node.parts) != 2:
+            return None
+        left, matrix = node.parts
+        if not isinstance(matrix, Matrix) or self.ruler.width(node) <= self.room:
+            return None
+        return list(self._each_entry(matrix, left, formula))
+
+    def each(self, nodes: Sequence[Node]) -> list[list[Line]]:
+        """The lines of each of several equations."""
+        return [list(self._level(_members(node))) for node in nodes]
+
     def _entries(self, matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[Line]:
+        for lines_ in self._each_entry(matrix, left, formula):
+            yield from lines_
+
+    def _each_entry(self, matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[list[Line]]:
         """`d_12 = ...` for each entry; equal ones in one chain, those that are 0 last."""
         for value, places in entries_by_value(matrix):
             names = [entry_name(i, j, matrix, left, formula) for i, j in places]
-            yield from self._level([*names, value])
+            yield list(self._level([*names, value]))
 
     def equations(self, nodes: Sequence[Node]) -> list[Line]:
         """The lines of equations without matrices, level at their first equals sign."""
-        return [
-            line
-            for node in nodes
-            for line in self._level(node.parts if isinstance(node, Relation) else [node])
-        ]
+        return [line for node in nodes for line in self._level(_members(node))]
 
     def _level(self, members: Sequence[Node]) -> Iterator[Line]:
         """The lines of a = b = ..., level after a."""
         name, *rest = members
-        room = self.room - self.ruler.width(name)
+        width = self.ruler.width(name)
+        room = self.room - width
+        if not rest:
+            yield Line("", self.notation.text(name), width=width)
         for i, line in enumerate(lines(self.splitter.chain(rest), room, room - INDENT)):
-            yield Line("" if i else self.notation.text(name), self._text(line), i > 0)
+            text, whole = self._text(line), width + sum(piece.width for piece in line)
+            before = "" if i else self.notation.text(name)
+            yield Line(before, text, i > 0, whole, width)
+
+
+def _members(node: Node) -> Sequence[Node]:
+    """The members of a chain of equations."""
+    return node.parts if isinstance(node, Relation) else [node]
 
 
 def listed(row: Row) -> Iterator[Node]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 from dynsolve.document import (
     Document,
+    Equations,
     Formula,
     Heading,
     Picture,
@@ -17,10 +19,11 @@ from dynsolve.errors import UsageError
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
+from dynsolve.render.columns import Columns
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import TypesetPage
 from dynsolve.render.prose import visible
-from dynsolve.render.references import numbered
+from dynsolve.render.references import is_long, numbered, running_title
 from dynsolve.render.typesetting import Line
 
 PAGE = 45.0
@@ -32,20 +35,32 @@ _LAST_KNOWN = 0x2C00
 _MATHEMATICAL = range(0x1D400, 0x1D800)
 
 _PREAMBLE = """#set document(title: {title}, date: none)
-#set page(paper: "a4", margin: (x: 2.2cm, y: 2.2cm), numbering: "1")
+#set page(paper: "a4", margin: (x: 2.2cm, top: 2.2cm, bottom: 2cm), header-ascent: 40%, header: context {
+  if here().page() > 1 { text(8.5pt, fill: luma(90), [#emph({header}) #h(1fr) #counter(page).display()]) }
+})
 #set text(font: ("New Computer Modern", "Libertinus Serif", "DejaVu Sans Mono"), size: 10pt, lang: "en")
-#set par(justify: true, leading: 0.6em, spacing: 0.9em)
+#set par(justify: true, leading: 0.6em, spacing: 0.75em)
 #set math.mat(delim: "[", row-gap: 0.45em, column-gap: 0.9em)
-#set math.equation(numbering: none, number-align: end + bottom)
-#show math.equation: set block(breakable: true)
+#set math.equation(numbering: none)
 #show heading: set text(hyphenate: false)
 #show heading.where(level: 1): set text(size: 17pt)
-#show heading.where(level: 2): it => block(above: 2em, below: 1em, sticky: true, text(13pt, it.body))
-#show heading.where(level: 3): it => block(above: 1.6em, below: .8em, sticky: true, text(10.5pt, it.body))
+#show heading.where(level: 2): it => block(above: 1.6em, below: .8em, sticky: true, text(13pt, it.body))
+#show heading.where(level: 3): it => block(above: 1.2em, below: .6em, sticky: true, text(10.5pt, it.body))
 #show link: set text(fill: rgb("#1a5a96"))
-#let source(body) = {
-  [ ] + box[] + sym.wj + h(1fr) + sym.wj + box(text(size: 8.5pt, fill: luma(90), body))
+#let source(body) = text(size: 8.5pt, fill: luma(90), body)
+#let displayed(body, ..options) = {
+  set text(top-edge: "bounds", bottom-edge: "bounds")
+  block(above: 0.9em, below: 0.9em, width: 100%, ..options, body)
 }
+#let formula(body, side) = displayed(breakable: false,
+  grid(columns: (1fr, auto, 1fr), align: (left, center, right + horizon), [], body, side))
+#let formula-lines(..cells) = displayed(
+  grid(columns: (1fr, auto, auto, 1fr), row-gutter: 0.6em,
+    align: (left, right + horizon, left + horizon, right + horizon),
+    ..cells.pos().chunks(3).map(row => ([], ..row)).flatten()))
+#let columned(count, ..cells) = displayed(
+  grid(columns: (1fr,) * count + (3em,), row-gutter: 0.65em,
+    align: (x, y) => if x == count { right + horizon } else { left + horizon }, ..cells))
 #let note(body) = {
   block(inset: (left: 0.8em, y: 0.3em), stroke: (left: 1.5pt + luma(150)), text(9.3pt, body))
 }
@@ -69,8 +84,10 @@ def render(document: Document, style: Style = PLAIN) -> bytes:
 def to_typst_document(document: Document, style: Style = PLAIN) -> str:
     """The source of a complete Typst document."""
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
-    page = _Page(style, numbered(document))
-    return _PREAMBLE.replace("{title}", quoted(title)) + "\n".join(page.blocks(document.blocks)) + "\n"
+    page = _Page(style, numbered(document), contents=is_long(document))
+    texts = {"{title}": quoted(title), "{header}": quoted(_known(running_title(title)))}
+    preamble = re.sub("{title}|{header}", lambda found: texts[found[0]], _PREAMBLE)
+    return preamble + "\n".join(page.blocks(document.blocks)) + "\n"
 
 
 def typst_notation(printer: TypstPrinter) -> Notation:
@@ -98,29 +115,39 @@ def typst_notation(printer: TypstPrinter) -> Notation:
 class _Page(TypesetPage):
     """Turns blocks into Typst."""
 
-    def __init__(self, style: Style, labels: dict[str, int]) -> None:
+    def __init__(self, style: Style, labels: dict[str, int], contents: bool) -> None:
         printer = TypstPrinter(style)
         super().__init__(printer, typst_notation(printer), labels, PAGE, _NUMBER)
+        self.contents_are_due = contents
 
     def heading(self, heading: Heading) -> Iterator[str]:
+        if heading.level == 2 and self.contents_are_due:
+            self.contents_are_due = False
+            yield "#outline(title: none, target: heading.where(level: 2))"
         yield f"#heading(level: {heading.level})[{self.words(heading.text)}]"
 
     def text(self, text: Text) -> Iterator[str]:
-        source = f"#source[{self.words(text.source)}]" if text.source else ""
-        yield f"{self.prose(text.parts)}{source}\n"
+        yield f"{self.prose(text.parts)}\n"
 
     def formula(self, formula: Formula) -> Iterator[str]:
-        lines = self.typesetter(formula).set(formula)
-        if not lines:
-            return
-        display = f"$ {_rows(lines)} $"
-        if number := self.labels.get(formula.label):
-            numbering = f"#set math.equation(numbering: _ => [({number})])"
-            display = f"#[{numbering}\n{display} <eq-{formula.label}>]"
-        yield display
+        columns = self.columns(formula)
+        if columns is not None:
+            yield _in_columns(columns, self.side(formula))
+        elif lines := self.typesetter(formula).set(formula):
+            yield _display(lines, self.side(formula))
 
-    def equations(self, nodes: Sequence[Node]) -> Iterator[str]:
-        yield f"$ {_rows(self.unnumbered.equations(nodes))} $"
+    def side(self, formula: Formula) -> str:
+        """What stands beside a formula: its number, which others refer to, or its source."""
+        if number := self.labels.get(formula.label):
+            return f"({number})#metadata(none) <eq-{formula.label}>"
+        return f"#source[{self.words(formula.source)}]" if formula.source else ""
+
+    def equations(self, equations: Equations) -> Iterator[str]:
+        columns = self.equation_columns(equations)
+        if columns is not None:
+            yield _in_columns(columns, "")
+        else:
+            yield _display(self.unnumbered.equations(equations.nodes), "")
 
     def reference(self, label: str) -> str:
         return f"#link(<eq-{label}>)[{super().reference(label)}]"
@@ -156,10 +183,43 @@ class _Page(TypesetPage):
         return f"#raw({quoted(visible(text))});"
 
 
-def _rows(lines: Sequence[Line]) -> str:
+def _display(lines: Sequence[Line], side: str) -> str:
+    """A formula in the middle of the page, `side` at the end of its last line.
+
+    A page may end between two lines, and what stands at the side is there once.
+    """
     if len(lines) == 1:
-        return lines[0].alone
-    return " \\\n".join(line.aligned("#h(2em) ") for line in lines)
+        return f"#formula({_math(lines[0].alone)}, [{side}])"
+    last = len(lines) - 1
+    cells = (
+        f"{_math(line.left)}, {_math(_right(line))}, [{side if place == last else ''}]"
+        for place, line in enumerate(lines)
+    )
+    return f"#formula-lines({', '.join(cells)})"
+
+
+def _in_columns(columns: Columns, side: str) -> str:
+    """Equations in columns, `side` at the end of the last row."""
+    last = len(columns.rows) - 1
+    cells: list[str] = []
+    for place, row in enumerate(columns.rows):
+        for cell in row:
+            name = f"box(width: {columns.name:.2f}em, align(right, {_math(cell.line.left)}))"
+            body = _math(f"zws {_right(cell.line)}")
+            cells.append(f"grid.cell(colspan: {cell.span}, {name} + {body})")
+        if rest := columns.count - sum(cell.span for cell in row):
+            cells.append(f"grid.cell(colspan: {rest}, [])")
+        cells.append(f"[{side if place == last else ''}]")
+    return f"#columned({columns.count}, {', '.join(cells)})"
+
+
+def _right(line: Line) -> str:
+    return ("#h(2em) " if line.indented else "") + line.right
+
+
+def _math(text: str) -> str:
+    """A formula as large as in a display, though it does not stand in one by itself."""
+    return f"$display({text})$" if text else "none"
 
 
 def _known(text: str) -> str:

@@ -115,12 +115,12 @@ def _constant_blocks(short: Abbreviated) -> Iterator[Block]:
         "the combinations of masses, mass centres, moments of inertia and lengths that D and g are made "
         "of. What the arm does tells no more about its masses than their values.",
     ))  # fmt: skip
-    yield Equations(tuple(map(_defined, short.constants)))
+    yield Equations(tuple(map(_defined, short.constants)), in_columns=True)
 
 
 def _recurring_blocks(short: Abbreviated) -> Iterator[Block]:
     yield Text(("What stands in several places below, each made of those before it.",))
-    yield Equations(tuple(map(_defined, short.sums)))
+    yield Equations(tuple(map(_defined, short.sums)), in_columns=True)
 
 
 def _defined(definition: Definition) -> Relation:
@@ -139,7 +139,7 @@ def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Ite
     if detail > Detail.BRIEF:
         yield from _way(step, inputs)
     if step.listed:
-        yield Equations(step.result)
+        yield Equations(step.result, in_columns=True)
     labelled = () if step.listed else zip(step.result, _labels(step), strict=False)
     for result, label in labelled:
         yield Formula(result, entries=step.entries, optional=step.optional, label=label)

@@ -26,8 +26,10 @@ EMPTY = """
 """
 
 OVERFLOWING = """
-[document.documentElement, ...document.querySelectorAll('body, main, p, .box, .scroll, figure, nav, summary')]
+[document.documentElement,
+  ...document.querySelectorAll('body, main, p, .line, .box, .scroll, figure, nav, summary')]
   .filter(e => e.checkVisibility() && e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0)
+  .filter(e => !e.closest('.box, .scroll')?.querySelector('mtable, td'))  // a matrix and a table are scrolled
   .map(e => [e.scrollWidth, e.clientWidth, e.className, e.textContent.slice(0, 80)])
 """
 
@@ -74,6 +76,28 @@ def test_matrices_accents_and_fractions_are_set(page: Page, tmp_path: Path) -> N
     )
     assert dot["top"] < letter["top"] + 3
     assert letter["left"] - 3 < (dot["left"] + dot["right"]) / 2 < letter["right"] + 3
+
+
+def test_a_matrix_stays_one_on_a_phone_and_is_scrolled(page: Page, tmp_path: Path) -> None:
+    page.open(saved(next(p for p in LIBRARY if p.stem == "elbow-3r"), tmp_path), 400)
+    box = "document.querySelector('#eq-J .box')"
+    assert page.ask(f"{box}.querySelectorAll('mtr').length") == 3
+    assert page.ask(f"{box}.scrollWidth > {box}.clientWidth && getComputedStyle({box}).overflowX") == "auto"
+
+
+@pytest.mark.parametrize("letters", ["q", "theta"])
+def test_dots_stand_over_the_middle_of_their_letter(letters: str, page: Page, tmp_path: Path) -> None:
+    """A little to the right of the middle of its box: the letter is slanted."""
+    problem = f"dh: [{{theta: {letters}1*, a: l1}}]\nmasses: [{{mass: m1, link: 1, shape: point}}]\n"
+    page.open(saved(problem, tmp_path), 1200)
+    off = page.ask(
+        "[...document.querySelectorAll('mover')].filter(e => e.checkVisibility()).map(e => {"
+        " const [letter, dot] = [...e.children].map(c => c.getBoundingClientRect());"
+        " const ink = parseFloat(getComputedStyle(e.lastElementChild).paddingLeft);"
+        " return ((dot.left + ink + dot.right) / 2 - (letter.left + letter.right) / 2) / letter.width })"
+    )
+    assert len(off) > 3
+    assert all(-0.01 < share < 0.2 for share in off)
 
 
 def test_light_and_dark_differ_and_can_be_read(page: Page, tmp_path: Path) -> None:

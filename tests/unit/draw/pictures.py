@@ -7,7 +7,7 @@ from pathlib import Path
 
 from dynsolve.draw.labels import Label
 from dynsolve.draw.occupied import Box, Taken
-from dynsolve.draw.paths import WHITE, line
+from dynsolve.draw.paths import WHITE, flattened, line
 from dynsolve.draw.scene import Scene, scene
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import load, read_problem
@@ -50,3 +50,24 @@ def _hits(picture: Scene, label: Label) -> int:
     taken.add(p for p in picture.paths if p.commands != own and (p.fill or p.stroke != WHITE))
     box = label.box
     return taken.inside(Box(box.left + 1, box.top + 2, box.right - 1, box.bottom - 2))
+
+
+def touched(picture: Scene, room: float) -> list[str]:
+    """Labels to whose letters a line comes nearer than `room`, but for their own line."""
+    found = []
+    for label in picture.labels:
+        own = line(*label.lead) if label.lead else None
+        box = label.box
+        for path in picture.paths:
+            if path.commands == own or not path.stroke or path.stroke == WHITE:
+                continue
+            near = room + path.width / 2
+            letters = Box(box.left, box.top + _BLANK, box.right, box.bottom - _BLANK).grown(near)
+            if any(letters.meets(*piece) for piece in flattened(path.commands)):
+                found.append(to_unicode(label.node))
+                break
+    return found
+
+
+_BLANK = 2.0
+"""What a label's box has above and below its letters."""

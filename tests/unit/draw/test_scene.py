@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+import math
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from dynsolve.draw.paths import flattened
+from dynsolve.draw.drawn_lengths import numbers
+from dynsolve.draw.latex import font_size
+from dynsolve.draw.orientation import orientation
+from dynsolve.draw.paths import VARIABLE, flattened, line
+from dynsolve.draw.paths import Path as Drawn
+from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.scene import scene
 from dynsolve.draw.svg import to_svg
+from dynsolve.draw.typography import SIZE
+from dynsolve.draw.vectors import dot
 from dynsolve.problem import load
 from dynsolve.robot.model import JointType
 from tests.support import LIBRARY, TEXTBOOKS
-from tests.unit.draw.pictures import drawn, drawn_text, names, overlapping, struck_through
+from tests.unit.draw.pictures import drawn, drawn_text, names, overlapping, struck_through, touched
 
 ALL = [*LIBRARY, *TEXTBOOKS]
 
@@ -45,6 +54,48 @@ def test_no_label_lies_on_another(path: Path) -> None:
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
 def test_no_line_runs_through_a_label(path: Path) -> None:
     assert struck_through(drawn(path)) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
+def test_no_line_touches_a_label(path: Path) -> None:
+    assert touched(drawn(path), room=0.5) == []
+
+
+def test_a_line_that_touches_a_label_is_found() -> None:
+    picture = drawn(LIBRARY[0])
+    box = picture.labels[0].box
+    beside = line((box.right + 1.0, box.top), (box.right + 1.0, box.bottom))
+    assert len(touched(replace(picture, paths=(*picture.paths, Drawn(beside))), room=0.5)) == 1
+
+
+@pytest.mark.parametrize("unit", [0.2, 0.35, 0.41, 0.5, 0.55, 0.6])
+def test_letters_of_latex_are_as_large_as_their_places(unit: float) -> None:
+    """At every size of a picture, so that what is clear of lines in SVG is clear of them on paper."""
+    points = font_size(unit)
+    assert points <= max(SIZE * unit * 72.27 / 72, 5)
+    assert points > 0.8 * SIZE * unit
+
+
+@pytest.mark.parametrize("name", ["planar-2r", "planar-2r-remote", "numeric-2r"])
+def test_arrows_of_angles_turn_as_the_axes_say(name: str) -> None:
+    """z out of the page: each arrow goes on counterclockwise from its x axis, by less than half a turn."""
+    path = next(path for path in LIBRARY if path.stem == name)
+    problem = load(path)
+    values = numbers(problem)
+    pose = best_pose(problem.robot, values, orientation(problem.robot, values))
+    for leg in pose.skeleton.legs:
+        assert dot(leg.axis, pose.view.toward) == pytest.approx(1.0)
+        assert 0.0 < leg.angle % (2 * math.pi) < math.pi
+    arrows = [drawing for drawing in drawn(path).paths if drawing.stroke == VARIABLE and not drawing.fill]
+    for arrow in arrows:
+        points = [a for a, _ in flattened(arrow.commands)]
+        turn = sum(
+            (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
+            for a, b, c in zip(points, points[1:], points[2:], strict=False)
+        )
+        assert turn < 0.0, "y grows downwards on a screen"
+    assert len(arrows) == 2
 
 
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
@@ -88,18 +139,12 @@ def test_a_picture_is_the_same_every_time(name: str) -> None:
 def test_a_planar_arm_is_drawn_flat() -> None:
     """Seen from straight in front, z axes are points and x axes have their full length."""
     problem = load(next(path for path in LIBRARY if path.stem == "planar-2r"))
-    from dynsolve.draw.drawn_lengths import numbers
-    from dynsolve.draw.orientation import orientation
-
     world = orientation(problem.robot, numbers(problem))
     assert world.normal == pytest.approx((0.0, 0.0, 1.0)) and world.up == pytest.approx((0.0, 1.0, 0.0))
 
 
 @pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r", "scara-rrpr", "crustcrawler-2r"])
 def test_an_arm_that_leaves_its_plane_is_drawn_in_space(name: str) -> None:
-    from dynsolve.draw.drawn_lengths import numbers
-    from dynsolve.draw.orientation import orientation
-
     problem = load(next(path for path in LIBRARY if path.stem == name))
     assert orientation(problem.robot, numbers(problem)).normal is None
 
