@@ -95,8 +95,9 @@ def solve(
 ) -> int:
     """Derive a robot's dynamics step by step, verified.
 
-    The stages, in order: kinematics, jacobian, inertia, energy, lagrangian, torque,
-    vectorized. A robot without masses ends with the Jacobian.
+    The stages, in order: kinematics, jacobian, task, inertia, energy, lagrangian, torque,
+    vectorized. A robot without masses has those up to task; task is there where a file
+    asks for something of it.
     """
     view = _View(_stages(stage, first, last), detail, star, abbreviate, fragment, hint)
     options = {"json": json, "latex": latex, "pdf": pdf, "html": html, "markdown": markdown}

@@ -8,19 +8,23 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     energy          7.2   v = J_v q̇, ω = J_ω q̇, K_v, K_ω, P
     euler_lagrange  7.1   L, ∂L/∂q̇, d/dt ∂L/∂q̇, ∂L/∂q, τ (and where friction would go)
     vectorized      7.3   D, the Christoffel symbols, C, g
+    task            4.6, 4.8, 4.11   points, the task r(q), J_r, J̇: where a file asks for them
 
 What hangs together how:
 
     graph           a `Rule` computes one quantity from others, a `Derivation` evaluates rules
     rules           the rules of the textbook; `derive(robot)` gives the `Derivation` of a robot
+    kinematic_rules those of what a file asks of the kinematics
     link_frame      rules that give K and D faster, by Jacobians in each link's own frame
     agreement       whether D, C q̇ and g come out the same both ways
 
 And the independent check, which shares no formula with any of these:
 
     newton_euler    recursive Newton-Euler on floating-point numbers
+    arm_values      the robot put in numbers, as these want it
     verification    what is printed, evaluated at random states, against that
     drawn_motion    a table that was made from a drawing, against the drawn joint axes
+    kinematic_check points, the task and Jacobians, against the motion of the arm
 
 A rule takes exact values and returns an exact value, and does nothing else: what a
 person reads of it is made in `dynsolve.explain`.  To add a quantity, write its record

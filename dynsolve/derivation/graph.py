@@ -42,6 +42,22 @@ class Derivation(Mapping[str, Any]):
             self._values[name] = rule.compute(*(self[i] for i in rule.inputs))
         return self._values[name]
 
+    def leading_to(self, names: Iterable[str]) -> frozenset[str]:
+        """These quantities, and all that they are computed from.
+
+        >>> rules = [Rule("a", (), int), Rule("b", ("a",), int), Rule("c", ("a",), int)]
+        >>> sorted(Derivation(rules).leading_to(["b"]))
+        ['a', 'b']
+        """
+        found: set[str] = set()
+        waiting = [name for name in names if name in self.rules]
+        while waiting:
+            name = waiting.pop()
+            if name not in found:
+                found.add(name)
+                waiting += self.rules[name].inputs
+        return frozenset(found)
+
     def __iter__(self) -> Iterator[str]:
         return iter(self.rules)
 

@@ -15,6 +15,7 @@ from functools import partial
 from dynsolve.algebra.matrix import Matrix, vstack
 from dynsolve.derivation import energy, euler_lagrange, inertia, jacobian, kinematics, vectorized
 from dynsolve.derivation.graph import Derivation, Rule
+from dynsolve.derivation.kinematic_rules import frame_names, kinematic_rules
 from dynsolve.derivation.link_frame import link_frame_rules
 from dynsolve.robot.model import Body, Robot
 
@@ -32,6 +33,7 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
     """Every rule of the textbook's derivation; of a robot without masses those of the kinematics alone."""
     yield from _kinematics(robot)
     yield from _end_jacobian(robot)
+    yield from kinematic_rules(robot)
     if not robot.bodies:
         return
     for body in robot.bodies:
@@ -62,11 +64,6 @@ def _end_jacobian(robot: Robot) -> Iterator[Rule]:
     yield Rule("Jv", frames, linear)
     yield Rule("Jw", frames, angular)
     yield Rule("J", ("Jv", "Jw"), vstack)
-
-
-def frame_names(link: int) -> tuple[str, ...]:
-    """H0..H<link>"""
-    return tuple(f"H{i}" for i in range(link + 1))
 
 
 def _body(robot: Robot, body: Body) -> Iterator[Rule]:

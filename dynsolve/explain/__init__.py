@@ -1,9 +1,9 @@
 """Quantities -> steps: why, the formula with its source, the formula of this robot, the result.
 
 A stage of the course is a file with a function `steps`, which yields its steps in order:
-`kinematics`, `jacobian`, `inertia` (with `mass_centers`), `energy`, `lagrangian`, `torque`,
-`vectorized` (with `christoffel` and `agreement`).  To explain a further quantity, yield a
-`Step` in the file of its stage:
+`kinematics`, `jacobian`, `task` (where something of it is asked), `inertia` (with
+`mass_centers`), `energy`, `lagrangian`, `torque`, `vectorized` (with `christoffel` and
+`agreement`).  To explain a further quantity, yield a `Step` in the file of its stage:
 
     yield Step(
         id="K",                          # the quantity, by its name in an answer file
@@ -45,9 +45,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from dynsolve.explain import energy, inertia, jacobian, kinematics, lagrangian, torque, vectorized
+from dynsolve.explain import energy, inertia, jacobian, kinematics, lagrangian, task, torque, vectorized
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.quantities.index import stages_of
 from dynsolve.quantities.stages import Stage
 
 __all__ = ["Detail", "Step", "explain"]
@@ -55,6 +56,7 @@ __all__ = ["Detail", "Step", "explain"]
 _EXPLAINED: dict[Stage, Callable[[Context], Iterator[Step]]] = {
     Stage.KINEMATICS: kinematics.steps,
     Stage.JACOBIAN: jacobian.steps,
+    Stage.TASK: task.steps,
     Stage.INERTIA: inertia.steps,
     Stage.ENERGY: energy.steps,
     Stage.LAGRANGIAN: lagrangian.steps,
@@ -66,6 +68,6 @@ _EXPLAINED: dict[Stage, Callable[[Context], Iterator[Step]]] = {
 def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[Step]:
     """The steps of the given stages, or of all, in the order of the course."""
     wanted = set(Stage if stages is None else stages)
-    for stage, steps in _EXPLAINED.items():
-        if stage in wanted and (context.robot.bodies or not stage.needs_masses):
-            yield from steps(context)
+    for stage in stages_of(context.robot):
+        if stage in wanted:
+            yield from _EXPLAINED[stage](context)

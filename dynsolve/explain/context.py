@@ -25,6 +25,11 @@ class Context:
     agreement: Agreement | None = None
 
     @property
+    def wanted(self) -> frozenset[str]:
+        """What the exercise asks for beside the course's derivation, and what that is derived from."""
+        return self.values.leading_to(self.robot.questions.asked)
+
+    @property
     def standard(self) -> bool:
         """Whether the table is in the standard convention."""
         return self.robot.convention is Convention.STANDARD

@@ -22,6 +22,7 @@ from dynsolve.explain.step import Step
 from dynsolve.explain.writing import is_small, listed
 from dynsolve.notation.tree import Node, equation
 from dynsolve.quantities import letters
+from dynsolve.quantities.index import stages_of
 from dynsolve.quantities.stages import Stage
 
 
@@ -41,9 +42,11 @@ def hint_document(title: str, context: Context, stage: str) -> Document:
     Raises UsageError for a stage that a robot without masses does not have.
     """
     asked = Stage(stage)
-    if not context.robot.bodies and asked.needs_masses:
+    if asked not in stages_of(context.robot):
         raise UsageError(
-            f"no body has mass, so there is no stage {stage}: the derivation ends with the Jacobian"
+            f"this problem asks for nothing of the stage {stage}"
+            if asked.asked_for
+            else f"no body has mass, so there is no stage {stage}: the derivation ends with the Jacobian"
         )
     return Document((
         Heading(title, 1),
@@ -77,6 +80,7 @@ def _given(context: Context, stage: Stage) -> Iterator[Block]:
 
 _AT_HAND = {
     Stage.JACOBIAN: "You have the frames of the forward kinematics:",
+    Stage.TASK: "You have the frames of the forward kinematics:",
     Stage.INERTIA: "You have the frames of the forward kinematics, and what the problem says of each body:",
     Stage.ENERGY: (
         "You have the axes and origins of the joints, and of each body its mass centre and its tensor:"
@@ -90,7 +94,7 @@ _AT_HAND = {
 def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
     """The results that the stage starts from, by letter and name."""
     robot = context.robot
-    if stage in (Stage.JACOBIAN, Stage.INERTIA):
+    if stage in (Stage.JACOBIAN, Stage.TASK, Stage.INERTIA):
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)
     elif stage is Stage.ENERGY:
         for body in robot.bodies:

@@ -65,6 +65,26 @@ def _jacobian(robot: Robot) -> Iterator[Prose]:
         yield ("A fixed row has no column of its own.",)
 
 
+def _task(robot: Robot) -> Iterator[Prose]:
+    asked = robot.questions
+    last = max((joint.index for joint in robot.joints if joint.type), default=0)
+    inner = [point.name for point in asked.points if point.link < last]
+    if inner:
+        yield (
+            "Joints after its link do not move a point: their columns are zero, for ",
+            and_joined(inner),
+            ".",
+        )
+    if asked.task is not None and asked.task.rows != robot.n:
+        rows, columns = asked.task.rows, robot.n
+        yield (letters.J_TASK, f" has a row a component and a column a coordinate: {rows}×{columns} here.")
+    if any(name.endswith("_dot") for name in asked.asked):
+        yield (
+            "In the derivative by time every joint variable of an entry moves: one term for each, with its "
+            "rate.",
+        )
+
+
 def _inertia(robot: Robot) -> Iterator[Prose]:
     off = [body for body in robot.bodies if not body.center.is_zero]
     if off:
@@ -167,6 +187,7 @@ def _bodies(bodies: Sequence[Body]) -> Prose:
 _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.KINEMATICS: _kinematics,
     Stage.JACOBIAN: _jacobian,
+    Stage.TASK: _task,
     Stage.INERTIA: _inertia,
     Stage.ENERGY: _energy,
     Stage.LAGRANGIAN: _lagrangian,

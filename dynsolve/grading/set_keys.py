@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain
 from dynsolve.problem.schema import Schema, schema_of_file
-from dynsolve.problem.specification import NAME, TEXT
+from dynsolve.problem.value_kinds import NAME, TEXT
 from dynsolve.quantities.stages import Stage
 
 _POINTS = Plain("a number", {"type": ["string", "number"], "description": "4, 0.5 or 1/2"})

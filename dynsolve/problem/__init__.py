@@ -12,16 +12,22 @@
                      framing        the table and the base of a drawing
                      bodies         `masses`
                      base           `gravity`, `base`
+                     places         a point of a link: `center`, `at`
+                     questions      what is asked of the kinematics: `points`, `task`
                      rotations      `Rz(90deg) Rx(30deg)`
                      exercise       `find`, `marks`, `values`, `units`
                      parsed_file    all of them together
       -> checked     symbols        one name is one thing
       -> Robot       values         the ring that holds everything, and each cell in it
+                     positions      where the points of links are
                      build          joints and bodies
+                     questions_build
+                                    points and the task
       -> Problem     model          the robot, and what the exercise says about it
 
 `reader` goes this way; each step reports what it finds and goes on with what is sound.
-Which keys there are is said once, in `specification` (in terms of `kinds`); from there come
+Which keys there are is said once, in `specification` and `kinematic_keys` (in terms of
+`kinds` and `value_kinds`); from there come
 the reader's keys, the JSON Schema (`schema`), the file of `dynsolve new` and the tables of
 the documentation (`documentation`).  `lint` finds what is no fault but deserves a look,
 `library` the problems that come with dynsolve.

@@ -6,18 +6,17 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix, read_vector
-from dynsolve.problem.fields import Fields, describe, did_you_mean, items, whole_number, word
+from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix
+from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
+from dynsolve.problem.places import ParsedPlace, read_link, read_place
 from dynsolve.problem.rotations import ParsedRotation, check_moving, read_rotation
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import (
     ABOUT,
     AXIS,
     BODY,
-    CENTERS,
     FROM_BASE,
     MAX_BODIES,
-    MEASURED,
     NO_VALUE,
     PROBLEM,
     TENSOR,
@@ -30,15 +29,6 @@ from dynsolve.robot.shapes import AXES, KINDS
 _NAME = re.compile(r"[A-Za-uxyzXYZ]?[0-9]*")
 _EXAMPLE = PROBLEM["masses"].help
 _CENTER_HELP, _SHAPE_HELP, _TENSOR_HELP = (BODY[key].help for key in ("center", "shape", "inertia"))
-
-
-@dataclass(frozen=True, slots=True)
-class ParsedCenter:
-    """Where the mass centre is: `kind` is tip, origin, midpoint, along (one cell), near or at (three)."""
-
-    kind: str
-    span: Span
-    cells: tuple[Cell, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +73,7 @@ class ParsedBody:
     name: str
     mass: Cell | None
     link: int | None
-    center: ParsedCenter | None
+    center: ParsedPlace | None
     shape: ParsedShape | None
     tensor: ParsedTensor | None
     about: str
@@ -153,7 +143,7 @@ def _read_body(
         fields=fields,
         name=_read_name(faults, fields.get("name"), index),
         mass=read_cell(faults, fields.get("mass"), f"the mass of body {index}"),
-        link=_read_link(faults, fields.get("link"), rows),
+        link=read_link(faults, fields.get("link"), rows, "whose bodies do not move"),
         center=_read_center(faults, fields, index),
         shape=shape,
         tensor=tensor,
@@ -193,49 +183,14 @@ def _check_names(faults: Faults, bodies: tuple[ParsedBody, ...]) -> None:
             )
 
 
-def _read_link(faults: Faults, node: YamlNode | None, rows: int) -> int | None:
-    help = f"links are counted by the rows of the table, from 1 to {rows}" if rows else "write link: 1"
-    link = whole_number(faults, node, "link", help)
-    if node is None or link is None:
-        return None
-    if link == 0:
-        faults.error(node.span, "link 0 is the ground, whose bodies do not move", help)
-        return None
-    if rows and link > rows:
-        faults.error(node.span, f"there is no link {link}: the table has {rows} row{'s' * (rows > 1)}", help)
-        return None
-    return link
-
-
-def _read_center(faults: Faults, fields: Fields, index: int) -> ParsedCenter | None:
-    node, what = fields.get("center"), f"the centre of body {index}"
-    if node is None:
+def _read_center(faults: Faults, fields: Fields, index: int) -> ParsedPlace | None:
+    if fields.get("center") is None:
         if "inertia" in fields or isinstance(fields.get("shape"), MappingNode):
             if fields.lacks("center"):
                 faults.error(fields.span, f"body {index} is not a point and has no `center`", _CENTER_HELP)
             return None
-        return ParsedCenter("tip", fields.span)
-    if isinstance(node, ListNode):
-        cells = read_vector(faults, node, what)
-        return ParsedCenter("at", node.span, cells) if cells else None
-    if isinstance(node, MappingNode):
-        return _read_measured(faults, node, what)
-    kind = word(faults, node, CENTERS.choices, what, _CENTER_HELP)
-    return ParsedCenter(kind, node.span) if kind else None
-
-
-def _read_measured(faults: Faults, node: MappingNode, what: str) -> ParsedCenter | None:
-    fields = Fields(faults, node, MEASURED.names, what)
-    given = tuple(fields)
-    if len(given) == 2 or not node.entries:
-        faults.error(node.span, f"{what} takes one of along and near", _CENTER_HELP)
-    if len(given) != 1:
-        return None
-    if "along" in fields:
-        cell = read_cell(faults, fields.get("along"), f"along in {what}")
-        return ParsedCenter("along", node.span, (cell,)) if cell else None
-    cells = read_vector(faults, fields.get("near"), f"near in {what}")
-    return ParsedCenter("near", node.span, cells) if cells else None
+        return ParsedPlace("tip", fields.span)
+    return read_place(faults, fields.get("center"), f"the centre of body {index}", _CENTER_HELP)
 
 
 def _read_shape(faults: Faults, node: YamlNode | None, body: str) -> ParsedShape | None:

@@ -6,12 +6,12 @@ which axes.  What is wrong is reported at its place; nothing is built of it.
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.problem.bodies import ParsedBody, ParsedCenter, ParsedShape, ParsedTensor
+from dynsolve.problem.bodies import ParsedBody, ParsedShape, ParsedTensor
 from dynsolve.problem.parsed_file import ParsedFile
+from dynsolve.problem.positions import PlaceBuilder
+from dynsolve.problem.questions_build import named_point, with_questions
 from dynsolve.problem.source import Faults
 from dynsolve.problem.table import COLUMNS, DHRow
 from dynsolve.problem.values import CellValues, evaluate
@@ -19,14 +19,12 @@ from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
-_TIP_ROW = (
-    "add a fixed row for the tip, {theta: 0, d: 0, a: l, alpha: 0} with its length, "
-    "or give the centre as [x, y, z]"
-)
 
+def build_robot(faults: Faults, parsed: ParsedFile, asked: frozenset[str]) -> Robot | None:
+    """The robot of a file, None where something of it was reported.
 
-def build_robot(faults: Faults, parsed: ParsedFile) -> Robot | None:
-    """The robot of a file, None where something of it was reported."""
+    `asked` are the answers asked for that a derivation has only where they are.
+    """
     values = evaluate(faults, parsed)
     if values is None:
         return None
@@ -40,9 +38,10 @@ def build_robot(faults: Faults, parsed: ParsedFile) -> Robot | None:
     gravity = values.column(parsed.gravity) if parsed.gravity else None
     builder = BodyBuilder(faults, values, links)
     bodies = [builder.body(body) for body in parsed.bodies]
+    points = [named_point(builder.places, point) for point in parsed.questions.points]
     if faults.errors or gravity is None:
         return None
-    return Robot(
+    robot = Robot(
         ring=ring,
         convention=parsed.convention,
         coordinates=parsed.coordinates,
@@ -53,6 +52,7 @@ def build_robot(faults: Faults, parsed: ParsedFile) -> Robot | None:
         base_position=move or Matrix.zero(ring, 3, 1),
         parameters=tuple(name for name in ring.parameters if name != "pi"),
     )
+    return with_questions(robot, parsed.questions, [point for point in points if point], asked)
 
 
 def _joint(values: CellValues, parsed: ParsedFile, row: DHRow) -> Joint | None:
@@ -81,13 +81,17 @@ class BodyBuilder:
     def __init__(self, faults: Faults, values: CellValues, links: Links | None) -> None:
         self.faults, self.values, self.links = faults, values, links
         self.ring = values.ring
+        self.places = PlaceBuilder(faults, values, links)
 
     def body(self, parsed: ParsedBody) -> Body | None:
         """The `Body` of a parsed entry of `masses:`; None where a fault of it was reported."""
         mass = self._mass(parsed)
         axes = self._axes(parsed)
         tensor = self._tensor(parsed.tensor, parsed) if parsed.tensor else None
-        center = self._center(parsed.center, parsed) if parsed.center else None
+        written = self._written(parsed)
+        center = (
+            self.places.position(parsed.center, parsed.link, "center", written) if parsed.center else None
+        )
         about = self._about(parsed)
         shape = self._shape(parsed.shape, parsed, axes) if parsed.shape and not parsed.tensor else None
         if parsed.faulty or mass is None or axes is None or center is None or parsed.link is None:
@@ -104,7 +108,7 @@ class BodyBuilder:
             shape=shape,
             about=parsed.about,
             about_point=about,
-            center_written=self._written(parsed),
+            center_written=written,
         )
 
     def _mass(self, parsed: ParsedBody) -> Expr | None:
@@ -119,58 +123,6 @@ class BodyBuilder:
         if parsed.center is None or "center" not in parsed.fields:
             return "tip"
         return self.faults.source.text[slice(*parsed.center.span)]
-
-    # -- where the centre is -----------------------------------------------------------------------
-
-    def _center(self, center: ParsedCenter, parsed: ParsedBody) -> Matrix | None:
-        """The mass centre in frame `link`, 3×1."""
-        given = self.values.column(center.cells) if center.kind in ("near", "at") else None
-        fraction = self.values.expr(center.cells[0]) if center.kind == "along" else None
-        if center.kind == "at":
-            return given
-        if self.links is None or parsed.link is None:
-            return None
-        if center.kind == "origin":
-            return self.links.origin()
-        near, far = self.links.near_end(parsed.link), self.links.far_end(parsed.link)
-        if center.kind == "near":
-            point = near + given if given else None
-        elif far is None:
-            message = f"link {parsed.link} has no far end: the table has no row {parsed.link + 1}"
-            self.faults.error(center.span, message, _TIP_ROW)
-            return None
-        elif center.kind == "tip":
-            point = far
-        else:
-            half = self.ring.constant(Fraction(1, 2)) if center.kind == "midpoint" else fraction
-            point = near + (far - near).scale(half) if half is not None else None
-        if point is not None and not self.links.is_fixed(point):
-            self._report_moving(center, parsed)
-            return None
-        return point
-
-    def _report_moving(self, center: ParsedCenter, parsed: ParsedBody) -> None:
-        assert self.links is not None and parsed.link is not None
-        link = parsed.link
-        written = "tip" if center.kind == "tip" else self._written(parsed)
-        message = f"`{written}` would not be fixed in link {link}: "
-        if self.links.modified:
-            message += f"its far end moves with the prismatic joint {link + 1}"
-            help = f"add a fixed row for the tip before it, or give the centre in frame {link}: [x, y, z]"
-        else:
-            message += f"its near end slides along it, for joint {link} is prismatic"
-            help = f"measure from the tip, in frame {link}: center: {self._back(link)}"
-        self.faults.error(center.span, message, help)
-
-    def _back(self, link: int) -> str:
-        """The point a length lc back from the tip of a prismatic link, as a list."""
-        assert self.links is not None
-        joint = self.links.joints[link - 1]
-        entries = [self.ring.zero, -self.ring.sin(joint.alpha), -self.ring.cos(joint.alpha)]
-        words = {0: "0", 1: f"lc{link}", -1: f"-lc{link}"}
-        if all(entry.is_number and entry.number in words for entry in entries):
-            return "[" + ", ".join(words[int(entry.number)] for entry in entries) + "]"
-        return "[x, y, z]"
 
     def _about(self, parsed: ParsedBody) -> Matrix | None:
         """The point that a given tensor is about, 3×1; None for the mass centre."""

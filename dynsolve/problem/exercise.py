@@ -36,6 +36,8 @@ class Exercise:
     values: Mapping[str, Fraction]
     written: Mapping[str, str]
     units: Mapping[str, str]
+    asked: frozenset[str] = frozenset()
+    """The answers asked for that a derivation has only where they are."""
 
 
 def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercise:
@@ -45,12 +47,17 @@ def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercis
     if is_sound and ("find" in fields or "marks" in fields):
         names = Quantities(parsed.owners)
     values, written = _read_values(faults, fields.get("values"))
+    find = _read_find(faults, fields.get("find"), names)
+    marks = _read_marks(faults, fields.get("marks"), names)
     return Exercise(
-        find=_read_find(faults, fields.get("find"), names) or FIND,
-        marks=_read_marks(faults, fields.get("marks"), names),
+        find=find or FIND,
+        marks=marks,
         values=values,
         written=written,
         units=_read_units(faults, fields.get("units")),
+        asked=frozenset(
+            name for name in (*find, *marks) if names is not None and names[name].family.stage.asked_for
+        ),
     )
 
 

@@ -9,9 +9,11 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.problem.base import ParsedBase
 from dynsolve.problem.bodies import ParsedBody
 from dynsolve.problem.cells import Cell
+from dynsolve.problem.questions import ParsedQuestions
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.table import DHTable
 from dynsolve.quantities.index import Owners
+from dynsolve.quantities.stages import ASKED_FOR
 from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.model import AxesKind, Convention, Coordinate, JointType
 
@@ -25,6 +27,7 @@ class ParsedFile:
     gravity: tuple[Cell, ...] | None
     base: ParsedBase
     bodies: tuple[ParsedBody, ...]
+    questions: ParsedQuestions
     normals: Normals | None = None
     """Of a drawing, the normals that its table was made from."""
 
@@ -38,10 +41,16 @@ class ParsedFile:
 
     @property
     def owners(self) -> Owners:
-        """What the answers to this problem can belong to."""
-        names = tuple(body.name for body in self.bodies)
-        points = frozenset(body.name for body in self.bodies if body.is_point)
-        return Owners(len(self.table.rows), self.coordinates, names, points)
+        """What the answers to this problem can belong to, whatever of it is asked for."""
+        return Owners(
+            rows=len(self.table.rows),
+            coordinates=self.coordinates,
+            bodies=tuple(body.name for body in self.bodies),
+            points=frozenset(body.name for body in self.bodies if body.is_point),
+            named=self.questions.names,
+            stages=frozenset(ASKED_FOR),
+            is_twist=self.questions.task is not None and self.questions.task.is_twist,
+        )
 
     @property
     def rotations(self) -> Iterator[ParsedRotation]:
@@ -61,6 +70,7 @@ class ParsedFile:
         for body in self.bodies:
             if body.axes and body.axes.kind is AxesKind.BASE and body.axes.rotation:
                 yield from body.axes.rotation.entries
+        yield from self.questions.moving
 
     @property
     def constant(self) -> Iterator[Cell]:
@@ -74,6 +84,7 @@ class ParsedFile:
         yield from self.base.move or ()
         if self.base.rotation:
             yield from self.base.rotation.entries
+        yield from self.questions.constant
 
     @property
     def angles(self) -> Iterator[tuple[Cell, Angle]]:
@@ -95,3 +106,5 @@ class ParsedFile:
             yield from body.values
         yield from self.gravity or ()
         yield from self.base.move or ()
+        yield from self.questions.constant
+        yield from self.questions.moving

@@ -21,6 +21,7 @@ from dynsolve.problem.fields import Fields, describe, free_text, word
 from dynsolve.problem.framing import Framed, from_drawing
 from dynsolve.problem.model import FilePlace, Problem
 from dynsolve.problem.parsed_file import ParsedFile
+from dynsolve.problem.questions import read_questions
 from dynsolve.problem.source import MAX_BYTES, Faults, as_source
 from dynsolve.problem.specification import CONVENTION, DRAWING, PROBLEM
 from dynsolve.problem.symbols import check_size, check_symbols
@@ -92,7 +93,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
     exercise = read_exercise(faults, fields, parsed)
     title = free_text(faults, fields.get("title"), "title") or Path(file).stem
     source = free_text(faults, fields.get("source"), "source")
-    robot = build_robot(faults, parsed)
+    robot = build_robot(faults, parsed, exercise.asked)
     faults.raise_errors()
     assert robot is not None
     problem = Problem(
@@ -133,12 +134,15 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     framed = _framed(faults, fields, convention)
     table = framed.table
     coordinates = dict(table.coordinates)
+    rows = len(table.rows)
+    bodies = read_bodies(faults, fields.get("masses"), rows, coordinates)
     return ParsedFile(
         convention=convention,
         table=table,
         gravity=read_gravity(faults, fields, table.names),
         base=framed.base,
-        bodies=read_bodies(faults, fields.get("masses"), len(table.rows), coordinates),
+        bodies=bodies,
+        questions=read_questions(faults, fields, rows, coordinates, [body.name for body in bodies]),
         normals=framed.normals,
     )
 

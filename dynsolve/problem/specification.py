@@ -9,35 +9,17 @@ default.  From these records come
 - the commented file that `dynsolve new` writes (`documentation.py`),
 - the tables of keys in `problems/README.md` (`documentation.py`).
 
-To add a key, write its record here, read it with `Fields.get` in the module it belongs
-to, and give what was read a place in `Problem` or `Robot`.
+To add a key, write its record here (or in `kinematic_keys`), read it with `Fields.get` in
+the module it belongs to, and give what was read a place in `Problem` or `Robot`.
 """
 
 from __future__ import annotations
 
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, Word
+from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
+from dynsolve.problem.value_kinds import EXPRESSION, LINK, MATRIX, NAME, NUMBER, PLACE, ROTATION, TEXT, VECTOR
 from dynsolve.robot.model import Convention
 from dynsolve.robot.shapes import AXES, KINDS
-
-# -- kinds that many keys have ---------------------------------------------------------------------
-
-TEXT = Plain("a line of text", {"type": ["string", "number"]})
-NUMBER = Plain("a number", {"type": ["string", "number"]})
-NAME = Plain("a name", {"type": "string"})
-EXPRESSION = Shared(
-    "expression",
-    Plain("an expression", {"type": ["string", "number"]}),
-    "an expression",
-    "A number, a name or a formula: m1*lc1^2, 9.81, sqrt(3)/2, 90deg.",
-)
-VECTOR = Shared("vector", ListOf(EXPRESSION, "", 3, 3), "`[x, y, z]`")
-MATRIX = Shared("matrix", ListOf(VECTOR, "", 3, 3), "a 3×3 list")
-ROTATION = Shared(
-    "rotation",
-    OneOf((Plain("`Rz(90deg) Rx(30deg)`", {"type": "string", "pattern": "^R[xyz] ?\\("}), MATRIX)),
-    "a rotation",
-    "A product of rotations, left to right: Rz(90deg) Rx(30deg); or a 3×3 list.",
-)
 
 # -- a row of the table ----------------------------------------------------------------------------
 
@@ -87,11 +69,7 @@ DRAWING = ("axes", "tip", "zero")
 # -- a body ----------------------------------------------------------------------------------------
 
 AXIS = Word(AXES)
-CENTERS = Word(("tip", "origin", "midpoint"))
 ABOUT = Word(("center", "origin", "joint"))
-ALONG = Keyed((Key("along", EXPRESSION, example="1/2", required=True),))
-NEAR = Keyed((Key("near", VECTOR, example="[lc1, 0, 0]", required=True),))
-MEASURED = Keyed((*ALONG.keys, *NEAR.keys))
 TENSOR = Keyed(tuple(Key(name, EXPRESSION) for name in ("xx", "yy", "zz", "xy", "xz", "yz")), least=1)
 FROM_BASE = Keyed((Key("base", ROTATION, example="Rz(theta1)", required=True),))
 POINT = Word(("point",))
@@ -140,7 +118,7 @@ BODY = Keyed(
         ),
         Key(
             "link",
-            Plain("a whole number", {"type": "integer", "minimum": 1}),
+            LINK,
             "The row of the table that it moves with.",
             "1",
             required=True,
@@ -148,7 +126,7 @@ BODY = Keyed(
         ),
         Key(
             "center",
-            OneOf((CENTERS, ALONG, NEAR, VECTOR)),
+            PLACE,
             "The mass centre. Default tip, for a point.",
             "midpoint",
             "`tip`, for a point",
@@ -292,6 +270,7 @@ PROBLEM = Keyed(
             active=True,
             remedy="a body is written {mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}",
         ),
+        *KINEMATIC_KEYS,
         Key(
             "values",
             MapOf(NUMBER, "numbers by symbol"),

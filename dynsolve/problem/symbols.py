@@ -61,6 +61,9 @@ def _kinds(parsed: ParsedFile) -> Iterator[tuple[str, Cell]]:
             yield from (("a length", cell) for cell in body.shape.dimensions.values())
         if body.tensor:
             yield from (("a moment of inertia", cell) for row in body.tensor.rows for cell in row if cell)
+    for point in parsed.questions.points:
+        if point.place and point.place.kind != "along":
+            yield from (("a length", cell) for cell in point.place.cells)
     yield from (("a length", cell) for cell in parsed.base.move or ())
     yield from (("an acceleration", cell) for cell in parsed.gravity or ())
 

@@ -1,8 +1,10 @@
 """What the derivation names: A_1, J_v2, K_v1, ∂L/∂q̇_1, τ, D, c_121, C q̇, ..., one record a family.
 
-    stages      the stages of the derivation, with their headings
+    stages      the stages of a solution, with their headings
     family      what a record says: owner, shape, dimension, letter, spellings, parts
     families    the records, in the order of the derivation
+    kinematic_families
+                those of what exercises ask of the kinematics: points, tasks
     index       the quantities of one robot by name: which there are, what is part of what
     letters     what they are set with; the printers make every notation of it
     spelling    how students spell names

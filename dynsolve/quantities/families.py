@@ -11,32 +11,15 @@ Reading, judging, marks, numbers, JSON and NumPy take what they must know from t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from itertools import product
 
 from dynsolve.notation.tree import Node, Product, Symbol
-from dynsolve.quantities import letters
-from dynsolve.quantities.family import Family, LetterMaker, Owner
+from dynsolve.quantities import kinematic_families, letters
+from dynsolve.quantities.family import Family, Owner, of_body, of_coordinate, of_robot
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Body, Coordinate
-from dynsolve.robot.units import ENERGY, INERTIA, LENGTH, NONE, dimension, times
-
-PER_SECOND = dimension(time=-1)
-VELOCITY = times(LENGTH, PER_SECOND)
-MOMENTUM = times(INERTIA, PER_SECOND)
-
-
-def _of_robot(letter: Node) -> LetterMaker:
-    """The letter of a quantity that a robot has one of."""
-    return lambda robot: letter
-
-
-def _of_body(letter: Callable[[Body], Node]) -> LetterMaker:
-    return lambda robot, b: letter(robot.bodies[b - 1])
-
-
-def _of_coordinate(letter: Callable[[Coordinate], Node]) -> LetterMaker:
-    return lambda robot, i: letter(robot.coordinates[i - 1])
+from dynsolve.robot.model import Coordinate
+from dynsolve.robot.units import ENERGY, INERTIA, LENGTH, MOMENTUM, NONE, PER_SECOND, VELOCITY
 
 
 def _each(*pieces: str | Iterable[str]) -> tuple[str, ...]:
@@ -84,7 +67,7 @@ JV = Family(
     name="Jv",
     stage=Stage.JACOBIAN,
     shape=(3, "n"),
-    letter=_of_robot(letters.JV),
+    letter=of_robot(letters.JV),
     json="Jv",
     dimension=LENGTH,
     per=("column",),
@@ -97,7 +80,7 @@ JW = Family(
     name="Jw",
     stage=Stage.JACOBIAN,
     shape=(3, "n"),
-    letter=_of_robot(letters.JW),
+    letter=of_robot(letters.JW),
     json="Jw",
     dimension=NONE,
     dimension_is_told=False,
@@ -105,7 +88,11 @@ JW = Family(
     part_of="J",
 )
 
-J = Family(name="J", stage=Stage.JACOBIAN, shape=(6, "n"), letter=_of_robot(letters.J))
+J = Family(name="J", stage=Stage.JACOBIAN, shape=(6, "n"), letter=of_robot(letters.J))
+
+# -- what an exercise asks of the kinematics -------------------------------------------------------
+
+_ASKED_OF_KINEMATICS = kinematic_families.FAMILIES
 
 # -- the bodies: mass centres, velocities, inertia -------------------------------------------------
 
@@ -115,7 +102,7 @@ RC = Family(
     stage=Stage.INERTIA,
     capped_in=Stage.KINEMATICS,
     shape=(3, 1),
-    letter=_of_body(letters.rc),
+    letter=of_body(letters.rc),
     json="r_c",
     dimension=LENGTH,
     spellings=("pc{b}", "oc{b}", "rm{b}"),
@@ -126,7 +113,7 @@ R = Family(
     owner=Owner.BODY,
     stage=Stage.INERTIA,
     shape=(3, 3),
-    letter=_of_body(lambda body: letters.of_body("R", body, "bold")),
+    letter=of_body(lambda body: letters.of_body("R", body, "bold")),
     json="R",
     dimension=NONE,
     is_answer=False,
@@ -139,7 +126,7 @@ JV_BODY = Family(
     stage=Stage.ENERGY,
     capped_in=Stage.JACOBIAN,
     shape=(3, "n"),
-    letter=_of_body(letters.jv),
+    letter=of_body(letters.jv),
     json="Jv",
     dimension=LENGTH,
     per=("column",),
@@ -153,7 +140,7 @@ JW_BODY = Family(
     stage=Stage.ENERGY,
     capped_in=Stage.JACOBIAN,
     shape=(3, "n"),
-    letter=_of_body(letters.jw),
+    letter=of_body(letters.jw),
     json="Jw",
     dimension=NONE,
     dimension_is_told=False,
@@ -166,7 +153,7 @@ V = Family(
     stage=Stage.ENERGY,
     capped_in=Stage.JACOBIAN,
     shape=(3, 1),
-    letter=_of_body(lambda body: letters.of_body("v", body, "bold")),
+    letter=of_body(lambda body: letters.of_body("v", body, "bold")),
     json="v",
     dimension=VELOCITY,
     spellings=_V,
@@ -178,7 +165,7 @@ W = Family(
     stage=Stage.ENERGY,
     capped_in=Stage.JACOBIAN,
     shape=(3, 1),
-    letter=_of_body(lambda body: letters.of_body("omega", body, "bold")),
+    letter=of_body(lambda body: letters.of_body("omega", body, "bold")),
     json="w",
     dimension=PER_SECOND,
     unit="rad/s",
@@ -202,7 +189,7 @@ I = Family(  # noqa: E741  the book's symbol
     owner=Owner.BODY,
     stage=Stage.INERTIA,
     shape=(3, 3),
-    letter=_of_body(lambda body: letters.of_body("I", body, "script")),
+    letter=of_body(lambda body: letters.of_body("I", body, "script")),
     json="I_base",
     dimension=INERTIA,
     spellings=("I0{b}", "Ibase{b}", "I{b}base"),
@@ -215,7 +202,7 @@ P_BODY = Family(
     name="P{b}",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
-    letter=_of_body(lambda body: letters.of_body("P", body)),
+    letter=of_body(lambda body: letters.of_body("P", body)),
     json="P",
     dimension=ENERGY,
     unit="J",
@@ -227,7 +214,7 @@ KV = Family(
     name="Kv{b}",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
-    letter=_of_body(lambda body: letters.energy_part("v", body)),
+    letter=of_body(lambda body: letters.energy_part("v", body)),
     json="Kv",
     dimension=ENERGY,
     unit="J",
@@ -239,7 +226,7 @@ KW = Family(
     name="Kw{b}",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
-    letter=_of_body(lambda body: letters.energy_part("omega", body)),
+    letter=of_body(lambda body: letters.energy_part("omega", body)),
     json="Kw",
     dimension=ENERGY,
     unit="J",
@@ -252,7 +239,7 @@ K_BODY = Family(
     name="K{b}",
     owner=Owner.BODY,
     stage=Stage.ENERGY,
-    letter=_of_body(lambda body: letters.of_body("K", body)),
+    letter=of_body(lambda body: letters.of_body("K", body)),
     json="K",
     dimension=ENERGY,
     unit="J",
@@ -263,7 +250,7 @@ K_BODY = Family(
 P = Family(
     name="P",
     stage=Stage.ENERGY,
-    letter=_of_robot(letters.P),
+    letter=of_robot(letters.P),
     json="P",
     dimension=ENERGY,
     unit="J",
@@ -273,7 +260,7 @@ P = Family(
 K = Family(
     name="K",
     stage=Stage.ENERGY,
-    letter=_of_robot(letters.K),
+    letter=of_robot(letters.K),
     json="K",
     dimension=ENERGY,
     unit="J",
@@ -285,7 +272,7 @@ K = Family(
 L = Family(
     name="L",
     stage=Stage.LAGRANGIAN,
-    letter=_of_robot(letters.L),
+    letter=of_robot(letters.L),
     json="L",
     dimension=ENERGY,
     unit="J",
@@ -302,7 +289,7 @@ DLDQD = Family(
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
     capped_in=Stage.LAGRANGIAN,
-    letter=_of_coordinate(_momentum),
+    letter=of_coordinate(_momentum),
     json="dL_dqdot",
     dimension=MOMENTUM,
     per=("owner",),
@@ -314,7 +301,7 @@ DDT = Family(
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
     capped_in=Stage.LAGRANGIAN,
-    letter=_of_coordinate(lambda q: letters.time_derivative(_momentum(q))),
+    letter=of_coordinate(lambda q: letters.time_derivative(_momentum(q))),
     json="ddt",
     dimension=ENERGY,
     per=("owner",),
@@ -327,7 +314,7 @@ DLDQ = Family(
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
     capped_in=Stage.LAGRANGIAN,
-    letter=_of_coordinate(lambda q: letters.partial_derivative(letters.L, Symbol(q.name))),
+    letter=of_coordinate(lambda q: letters.partial_derivative(letters.L, Symbol(q.name))),
     json="dL_dq",
     dimension=ENERGY,
     per=("owner",),
@@ -340,7 +327,7 @@ FORCE = Family(
     rule="tau{i}",
     owner=Owner.COORDINATE,
     stage=Stage.TORQUE,
-    letter=_of_coordinate(letters.force),
+    letter=of_coordinate(letters.force),
     json="force",
     dimension=ENERGY,
     per=("owner",),
@@ -355,7 +342,7 @@ TAU = Family(
     name="tau",
     stage=Stage.TORQUE,
     shape=("n", 1),
-    letter=_of_robot(letters.TAU),
+    letter=of_robot(letters.TAU),
     json="tau",
     dimension=ENERGY,
     per=("row",),
@@ -369,7 +356,7 @@ D = Family(
     name="D",
     stage=Stage.VECTORIZED,
     shape=("n", "n"),
-    letter=_of_robot(letters.D),
+    letter=of_robot(letters.D),
     json="D",
     dimension=INERTIA,
     per=("row", "column"),
@@ -406,7 +393,7 @@ C = Family(
     name="C",
     stage=Stage.VECTORIZED,
     shape=("n", "n"),
-    letter=_of_robot(letters.C),
+    letter=of_robot(letters.C),
     json="C",
     dimension=MOMENTUM,
     per=("row", "column"),
@@ -429,7 +416,7 @@ G = Family(
     name="g",
     stage=Stage.VECTORIZED,
     shape=("n", 1),
-    letter=_of_robot(letters.G),
+    letter=of_robot(letters.G),
     json="g",
     dimension=ENERGY,
     per=("row",),
@@ -453,7 +440,7 @@ CQD = Family(
     name="Cqd",
     stage=Stage.VECTORIZED,
     shape=("n", 1),
-    letter=_of_robot(Product((letters.C, letters.QD))),
+    letter=of_robot(Product((letters.C, letters.QD))),
     dimension=ENERGY,
     per=("row",),
     unit="N m",
@@ -482,5 +469,10 @@ D_DIRECT = Family(
     is_answer=False,
 )
 
-FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
+FAMILIES: tuple[Family, ...] = tuple(
+    record
+    for value in tuple(vars().values())
+    for record in (value if value is _ASKED_OF_KINEMATICS else (value,))
+    if isinstance(record, Family)
+)
 """The records above, in their order."""

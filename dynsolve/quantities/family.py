@@ -4,6 +4,7 @@ Names and spellings are templates.  What stands in braces is the owner's:
 
     {i}                 the row's number, or the coordinate's place
     {b}                 the body's name
+    {p}                 the name of a point that the exercise names
     {i}{j}, {i}{j}{k}   the indices of an entry
     {force}             the coordinate's generalized force: tau1 of an angle, f1 of a length
     {q}                 each of the names of a coordinate: its own, q1, and theta1 or d1
@@ -19,7 +20,7 @@ from typing import Literal
 
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Robot
+from dynsolve.robot.model import Body, Coordinate, Robot
 from dynsolve.robot.units import Dimension
 
 
@@ -34,13 +35,35 @@ class Owner(Enum):
     """Two coordinates: the entries of an n×n matrix."""
     TRIPLE = 5
     """Three coordinates: the Christoffel symbols."""
+    POINT = 6
+    """A point that the exercise names."""
 
 
-Size = int | Literal["n"]
-"""Rows or columns; n is the number of coordinates."""
+Size = int | Literal["n", "m"]
+"""Rows or columns; n is the number of coordinates, m that of the components of the task."""
 
 LetterMaker = Callable[..., Node]
 """letter(robot, *index): what a quantity is set with; the printers make every notation of it."""
+
+
+def of_robot(letter: Node) -> LetterMaker:
+    """The letter of a quantity that a robot has one of."""
+    return lambda robot: letter
+
+
+def of_body(letter: Callable[[Body], Node]) -> LetterMaker:
+    """The letter of a body's quantity."""
+    return lambda robot, b: letter(robot.bodies[b - 1])
+
+
+def of_coordinate(letter: Callable[[Coordinate], Node]) -> LetterMaker:
+    """The letter of a coordinate's quantity."""
+    return lambda robot, i: letter(robot.coordinates[i - 1])
+
+
+def of_point(letter: Callable[[str], Node]) -> LetterMaker:
+    """The letter of the quantity of a point, made from its name."""
+    return lambda robot, p: letter(robot.questions.points[p - 1].name)
 
 
 def _no_letter(robot: Robot, *index: int) -> Node:

@@ -8,11 +8,13 @@ from functools import cached_property, lru_cache
 from itertools import groupby, product
 
 from dynsolve.notation.tree import Node
+from dynsolve.quantities import kinematic_families
 from dynsolve.quantities.families import FAMILIES
-from dynsolve.quantities.family import Family, Owner
+from dynsolve.quantities.family import Family, Owner, Size
 from dynsolve.quantities.spelling import key, open_index, other_names, subscripts
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType, Robot
+from dynsolve.robot.questions import Questions
 from dynsolve.robot.units import LENGTH, Dimension, times
 
 Shape = tuple[int, int] | None
@@ -24,26 +26,57 @@ MOST_INDEXED = 9
 
 @dataclass(frozen=True, slots=True)
 class Owners:
-    """The owners of a robot's quantities: rows of its table, coordinates, bodies by name.
+    """The owners of a robot's quantities: rows of its table, coordinates, bodies and points by name.
 
-    `points` are the bodies without inertia.
+    `points` are the bodies without inertia, `named` the points that the exercise names.
+    `stages` are those of which something is asked, `task_rows` the components of the task;
+    a twist is a task that is no function r(q).
     """
 
     rows: int
     coordinates: tuple[Coordinate, ...]
     bodies: tuple[str, ...]
     points: frozenset[str] = frozenset()
+    named: tuple[str, ...] = ()
+    stages: frozenset[Stage] = frozenset()
+    task_rows: int = 0
+    is_twist: bool = False
 
     @staticmethod
     def of(robot: Robot) -> Owners:
         """Those of a robot."""
         bodies = tuple(body.name for body in robot.bodies)
         points = frozenset(body.name for body in robot.bodies if body.is_point)
-        return Owners(len(robot.joints), robot.coordinates, bodies, points)
+        asked = robot.questions
+        return Owners(
+            rows=len(robot.joints),
+            coordinates=robot.coordinates,
+            bodies=bodies,
+            points=points,
+            named=tuple(point.name for point in asked.points),
+            stages=asked_stages(asked),
+            task_rows=asked.task.rows if asked.task else 0,
+            is_twist=asked.task is not None and asked.task.is_twist,
+        )
+
+    def has(self, family: Family) -> bool:
+        """Whether there are quantities of a family: those of the course, and of what is asked."""
+        if self.is_twist and family is kinematic_families.R:
+            return False
+        return not family.stage.asked_for or family.stage in self.stages
+
+    def size(self, size: Size) -> int:
+        """Rows or columns in numbers."""
+        return {"n": len(self.coordinates), "m": self.task_rows}[size] if isinstance(size, str) else size
 
     def indices(self, owner: Owner) -> Iterator[tuple[int, ...]]:
         """The index of every owner of a kind, from 1."""
-        count = {Owner.ROW: self.rows, Owner.BODY: len(self.bodies), Owner.COORDINATE: len(self.coordinates)}
+        count = {
+            Owner.ROW: self.rows,
+            Owner.BODY: len(self.bodies),
+            Owner.COORDINATE: len(self.coordinates),
+            Owner.POINT: len(self.named),
+        }
         if owner in count:
             return ((i,) for i in range(1, count[owner] + 1))
         repeat = {Owner.ROBOT: 0, Owner.PAIR: 2, Owner.TRIPLE: 3}[owner]
@@ -56,6 +89,8 @@ class Owners:
                 return {"i": str(index[0])}
             case Owner.BODY:
                 return {"b": self.bodies[index[0] - 1]}
+            case Owner.POINT:
+                return {"p": self.named[index[0] - 1]}
             case Owner.COORDINATE:
                 q = self.coordinates[index[0] - 1]
                 return {"i": str(q.index), "force": q.force}
@@ -106,7 +141,7 @@ class Quantities(Mapping[str, Quantity]):
     def __init__(self, owners: Owners) -> None:
         self.owners = owners
         self._by_name: dict[str, Quantity] = {}
-        for owner, families in groupby(FAMILIES, key=lambda family: family.owner):
+        for owner, families in groupby(filter(owners.has, FAMILIES), key=lambda family: family.owner):
             group = tuple(families)
             for index in owners.indices(owner):
                 values = owners.template_values(owner, index)
@@ -115,10 +150,8 @@ class Quantities(Mapping[str, Quantity]):
                     self._by_name.setdefault(quantity.name, quantity)
 
     def _made(self, family: Family, index: tuple[int, ...], values: dict[str, str]) -> Quantity:
-        n = len(self.owners.coordinates)
         name, whole = family.name.format(**values), family.part_of.format(**values)
-        shape = family.shape and (n if family.shape[0] == "n" else family.shape[0],
-                                  n if family.shape[1] == "n" else family.shape[1])  # fmt: skip
+        shape = family.shape and (self.owners.size(family.shape[0]), self.owners.size(family.shape[1]))
         return Quantity(name, family.rule.format(**values) or name, family, index, shape, whole,
                         self._entry(family, index))  # fmt: skip
 
@@ -312,6 +345,24 @@ class Quantities(Mapping[str, Quantity]):
             if stem:
                 found.setdefault(stem, set()).update(name for name in names if self[name].index)
         return {stem: tuple(sorted(names, key=self.position)) for stem, names in found.items() if names}
+
+
+def asked_stages(questions: Questions) -> frozenset[Stage]:
+    """The stages of which an exercise asks something."""
+    found = {family.stage for family in FAMILIES if family.stage.asked_for and family.name in questions.asked}
+    if questions.points or questions.task:
+        found.add(Stage.TASK)
+    return frozenset(found)
+
+
+def stages_of(robot: Robot) -> tuple[Stage, ...]:
+    """The stages of a robot's solution, in their order."""
+    asked = asked_stages(robot.questions)
+    return tuple(
+        stage
+        for stage in Stage
+        if (stage in asked if stage.asked_for else robot.bodies or not stage.needs_masses)
+    )
 
 
 @lru_cache(maxsize=64)  # asked for at every hand-in; 18 ms to make for a 7R arm, 0.01 ms to find

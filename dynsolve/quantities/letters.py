@@ -62,6 +62,8 @@ D = bold("D")
 C = bold("C")
 G = bold("g")
 TAU = bold("tau")
+TASK = bold("r")
+J_TASK = bold("J", Symbol("r"))
 K = Letter("K", style="script")
 P = Letter("P", style="script")
 L = Letter("L", style="script")
@@ -85,6 +87,21 @@ def rc(body: Body) -> Letter:
 def of_body(base: str, body: Body, style: str = "italic") -> Letter:
     """A letter with the body's index: P_1, v_1, 𝓘_1."""
     return Letter(base, index_of(body.name), None, style)
+
+
+def of_point(base: str, point: str) -> Letter:
+    """A letter with a point's name as its index: p_P, v_P."""
+    return bold(base, Symbol(point))
+
+
+def j_of_point(part: str, point: str) -> Letter:
+    """J_{v_P}, J_{ω_P}"""
+    return bold("J", Letter(part, Symbol(point)))
+
+
+def rate(matrix: Letter) -> Letter:
+    """The time derivative of a matrix: J̇_v."""
+    return Letter(matrix.base, matrix.sub, matrix.sup, matrix.style, matrix.dots + 1)
 
 
 def is_taken(robot: Robot, base: str, body: Body) -> bool:

@@ -1,4 +1,4 @@
-"""The stages of the derivation, in the order of the course: the one list of them."""
+"""The stages of a solution, in the order of the textbook: the one list of them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,10 @@ from enum import StrEnum
 
 
 class Stage(StrEnum):
-    """A part of the derivation; its value is what commands and files call it.
+    """A part of a solution; its value is what commands and files call it.
+
+    The stages of the course belong to every robot; those that are `asked_for` to a robot
+    of which a file asks something of theirs.
 
     >>> Stage.ENERGY, Stage("energy").heading, Stage.ENERGY == "energy"
     (<Stage.ENERGY: 'energy'>, 'Potential and kinetic energy', True)
@@ -15,27 +18,36 @@ class Stage(StrEnum):
     heading: str
     """What stands over it in a report."""
 
+    asked_for: bool
+    """Whether only a robot has it of which something of it is asked."""
+
     KINEMATICS = "kinematics", "Forward kinematics"
     JACOBIAN = "jacobian", "The Jacobian"
+    TASK = "task", "Points and tasks", True
     INERTIA = "inertia", "The bodies: mass centres and inertia"
     ENERGY = "energy", "Potential and kinetic energy"
     LAGRANGIAN = "lagrangian", "The Lagrangian"
     TORQUE = "torque", "The Euler-Lagrange equations"
     VECTORIZED = "vectorized", "The vectorized form"
 
-    def __new__(cls, value: str, heading: str = "") -> Stage:
+    def __new__(cls, value: str, heading: str = "", asked_for: bool = False) -> Stage:
         """The member of that value."""
         stage = str.__new__(cls, value)
         stage._value_ = value
         stage.heading = heading
+        stage.asked_for = asked_for
         return stage
-
-    @property
-    def number(self) -> int:
-        """Its place among the stages, from 1."""
-        return list(Stage).index(self) + 1
 
     @property
     def needs_masses(self) -> bool:
         """Whether it is left out where no body has mass."""
-        return self not in (Stage.KINEMATICS, Stage.JACOBIAN)
+        return self in _OF_BODIES
+
+
+_OF_BODIES = frozenset({Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED})
+
+COURSE = tuple(stage for stage in Stage if not stage.asked_for)
+"""The stages of the course's derivation, which every robot with masses has."""
+
+ASKED_FOR = tuple(stage for stage in Stage if stage.asked_for)
+"""The stages that only a robot has of which something of them is asked."""

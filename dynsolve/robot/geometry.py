@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
-from dynsolve.robot.model import Convention, Joint
+from dynsolve.robot.model import Convention, Joint, Robot
 from dynsolve.robot.parallel import moving_part
 
 
@@ -35,6 +35,25 @@ def is_rotation(matrix: Matrix) -> tuple[bool, bool]:
     (a, b, c), (d, e, f), (g, h, i) = matrix.rows
     determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
     return orthogonal, determinant == ring.one
+
+
+def last_origin(robot: Robot) -> Matrix:
+    """The origin of the last frame in the world, 3×1, by the elementary motions of the table."""
+    ring, rotation, origin = robot.ring, robot.base_rotation, robot.base_position
+    for joint in robot.joints:
+        about_z, about_x = elementary(ring, "z", joint.theta), elementary(ring, "x", joint.alpha)
+        along_z = Matrix.column(ring, (ring.zero, ring.zero, joint.d))
+        along_x = Matrix.column(ring, (joint.a, ring.zero, ring.zero))
+        if robot.convention is Convention.STANDARD:
+            rotation = rotation @ about_z
+            origin = origin + rotation @ (along_z + along_x)
+            rotation = rotation @ about_x
+        else:
+            rotation = rotation @ about_x
+            origin = origin + rotation @ along_x
+            rotation = rotation @ about_z
+            origin = origin + rotation @ along_z
+    return origin
 
 
 class Links:

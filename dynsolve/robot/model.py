@@ -16,6 +16,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import Node
+from dynsolve.robot.questions import Questions
 from dynsolve.robot.shapes import Shape
 
 
@@ -141,7 +142,8 @@ class Robot:
     """A manipulator.
 
     `base_rotation` (3×3) and `base_position` (3×1) place frame 0 in the world;
-    `gravity` (3×1, world) is the acceleration of gravity, pointing down.
+    `gravity` (3×1, world) is the acceleration of gravity, pointing down.  `questions` are
+    what the exercise asks around this model.
     """
 
     ring: Ring
@@ -153,6 +155,7 @@ class Robot:
     base_rotation: Matrix
     base_position: Matrix
     parameters: tuple[str, ...] = field(default=())
+    questions: Questions = field(default=Questions())
 
     @property
     def n(self) -> int:

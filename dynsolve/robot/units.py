@@ -28,7 +28,10 @@ NONE = dimension()
 MASS = dimension(mass=1)
 LENGTH = dimension(length=1)
 INERTIA = dimension(mass=1, length=2)
+PER_SECOND = dimension(time=-1)
+VELOCITY = dimension(length=1, time=-1)
 ACCELERATION = dimension(length=1, time=-2)
+MOMENTUM = dimension(mass=1, length=2, time=-1)
 ENERGY = dimension(mass=1, length=2, time=-2)
 
 

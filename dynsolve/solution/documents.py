@@ -11,6 +11,7 @@ from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
 from dynsolve.explain.citations import cited
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.tree import Relation, equation
+from dynsolve.quantities.index import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
 
@@ -73,6 +74,7 @@ def _stages(
 ) -> Iterator[Block]:
     """Stages and their steps, numbered as in the whole derivation."""
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
+    numbers = {stage: number for number, stage in enumerate(stages_of(solution.robot), 1)}
     stage: Stage | None = None
     place, extra = 0, 0
     heading: Heading | None = None
@@ -81,13 +83,13 @@ def _stages(
             if short is not None and step.stage is Stage.VECTORIZED:
                 yield from definition_blocks(short)
             stage, place, extra = step.stage, 0, 0
-            heading = Heading(f"{stage.number}. {stage.heading}", 2)
+            heading = Heading(f"{numbers[stage]}. {stage.heading}", 2)
         if step.detail is Detail.FULL:  # 7.3.1, so that the others have the same number in every detail
             extra += 1
-            number = f"{stage.number}.{place}.{extra}"
+            number = f"{numbers[stage]}.{place}.{extra}"
         else:
             place, extra = place + 1, 0
-            number = f"{stage.number}.{place}"
+            number = f"{numbers[stage]}.{place}"
         if step.detail <= detail:
             if heading:  # none over a stage of which nothing is shown
                 yield heading
@@ -181,7 +183,8 @@ def _closing(solution: Dynamics) -> Iterator[Block]:
     verification = solution.verification
     how = verification.method
     if not solution.robot.bodies:
-        yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
+        if not any(stage.asked_for for stage in stages_of(solution.robot)):
+            yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
         how = f"the last frame and the Jacobian by the outward half of {how}"
     yield Heading("Verification", 2)
     yield Text((

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Self
 from dynsolve.derivation.agreement import Agreement, agreement
 from dynsolve.derivation.drawn_motion import verify_drawing
 from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.kinematic_check import checked_names, verify_kinematics
 from dynsolve.derivation.rules import course_rules, derive
 from dynsolve.derivation.verification import Verification, verify
 from dynsolve.errors import Finding, VerificationError
@@ -75,6 +76,8 @@ class Dynamics:
         verification = verify(robot, _checked(robot, forms), states)
         if problem.normals is not None:
             verify_drawing(problem.normals, forms(f"H{len(robot.joints)}"), states)
+        wanted = values.leading_to(robot.questions.asked)
+        verify_kinematics(robot, {name: forms(name) for name in checked_names(robot, wanted)}, states)
         return cls(problem, values, forms, verification, agreed, warnings)
 
     @property

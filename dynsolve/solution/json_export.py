@@ -103,7 +103,7 @@ class _Exporter:
                 case Owner.COORDINATE:
                     _fill(results.setdefault("euler_lagrange", equations), family.json, values)
         results.setdefault("bodies", bodies)
-        return results
+        return results | {quantity.name: self.value(quantity) for quantity in _asked(robot)}
 
     def value(self, quantity: Quantity) -> Any:
         """A scalar as text, a matrix as its rows, a vector as its entries."""
@@ -174,6 +174,12 @@ def _exported(robot: Robot) -> Iterator[Family]:
     for family in FAMILIES:
         if family.json and (robot.bodies or not family.stage.needs_masses):
             yield family
+
+
+def _asked(robot: Robot) -> Iterator[Quantity]:
+    """What is exported only where it is asked for, under its own name."""
+    asked = robot.questions.asked
+    return (quantity for quantity in quantities(robot).values() if quantity.name in asked)
 
 
 def _fill(rows: list[dict[str, Any]], key: str, values: list[Any]) -> None:

@@ -11,7 +11,7 @@ import pytest
 import dynsolve as package
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem.library import bundled
-from dynsolve.quantities.stages import Stage
+from dynsolve.quantities.stages import COURSE
 from dynsolve.render.terminal import render
 from tests.cli.running import dynsolve
 
@@ -29,12 +29,12 @@ def hint(problem: str, stage: str) -> str:
     return "\n".join(line.text for line in lines)
 
 
-@pytest.mark.parametrize("stage", Stage)
+@pytest.mark.parametrize("stage", COURSE)
 @pytest.mark.parametrize("problem", SMALL)
 def test_no_result_of_the_stage_or_of_a_later_one(problem: str, stage: str) -> None:
     """What is to be done holds no formula that comes out; what there is came out of an earlier stage."""
     solution = solved(problem)
-    order = list(Stage)
+    order = list(COURSE)
     there_is, _, to_do = hint(problem, stage).partition("\n1. ")
     for result in _results(solution, order[order.index(stage) :]):
         assert result not in to_do, result
@@ -62,7 +62,7 @@ def _results(solution: package.Solution, stages: list[str]) -> set[str]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("stage", Stage)
+@pytest.mark.parametrize("stage", COURSE)
 def test_every_stage_says_what_there_is_what_to_do_and_what_to_look_out_for(stage: str) -> None:
     ran = dynsolve("solve", "in3140-rp", "--hint", stage)
     assert ran.code == 0 and not ran.err
@@ -82,7 +82,7 @@ def test_formulas_and_inputs_of_this_robot() -> None:
 
 def test_it_does_not_tell_what_is_zero() -> None:
     """The slope of P, Christoffel symbols that vanish, a mass centre that stands still are results."""
-    for stage in Stage:
+    for stage in COURSE:
         for problem in ("in3140-rp", "cartesian-pp"):
             text = " ".join(hint(problem, stage).split())
             for words in ("so g is zero", "does not move.", "Zero:", "is constant, so", "at rest here"):

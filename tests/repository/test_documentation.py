@@ -52,23 +52,10 @@ def _folder(folder: Path) -> None:
 
 
 def test_there_are_examples() -> None:
-    assert {
-        "rp.yaml",
-        "drawn.yaml",
-        "answer.yaml",
-        "report.md",
-        "slips.yaml",
-        "spellings.yaml",
-        "set.yaml",
-    } == FILES.keys()
-    assert {
-        "Problem file",
-        "Solution JSON",
-        "Answer file",
-        "Verdicts",
-        "Grading",
-        "Commands",
-    } == EXAMPLES.keys()
+    files = "rp drawn rrp answer slips spellings set".split()
+    assert {*(f"{name}.yaml" for name in files), "report.md"} == FILES.keys()
+    sections = {"Problem file", "Solution JSON", "Answer file", "Verdicts", "Grading", "Commands"}
+    assert sections == EXAMPLES.keys()
     assert len(PROBLEMS) >= 5
 
 

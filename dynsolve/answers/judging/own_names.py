@@ -21,10 +21,11 @@ from dynsolve.answers.submission import Answer
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Reference
 from dynsolve.quantities import families
+from dynsolve.quantities import kinematic_families as asked
 
 Rows = tuple[tuple[RationalExpr, ...], ...]
 
-_BY_RATES = {families.CQD: "C", families.V: "Jv", families.W: "Jw"}
+_BY_RATES = {families.CQD: "C", families.V: "Jv", families.W: "Jw", asked.V_POINT: "Jv"}
 """What is a matrix times q̇, and how the name of that matrix begins."""
 
 

@@ -14,10 +14,16 @@ from typing import TypeVar
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.quantities import families
+from dynsolve.quantities import kinematic_families as asked
 from dynsolve.quantities.index import Quantity, quantities
 
-_LINEAR = (families.RC, families.V, families.JV, families.JV_BODY)
-_ANGULAR = (families.W, families.JW, families.JW_BODY)
+_LINEAR = (
+    families.RC, families.V, families.JV, families.JV_BODY,
+    asked.P_POINT, asked.V_POINT, asked.JV_POINT, asked.JV_DOT,
+)  # fmt: skip
+_ANGULAR = (families.W, families.JW, families.JW_BODY, asked.JW_POINT, asked.JW_DOT)
+_BOTH = (families.J, asked.J_DOT)
+_POSITIONS = (families.RC, asked.P_POINT)
 
 Entry = TypeVar("Entry")
 
@@ -36,14 +42,14 @@ class Plane:
                 yield within
             elif quantity.family in _ANGULAR:
                 yield (axis,)
-            elif quantity.family is families.J:
+            elif quantity.family in _BOTH:
                 yield (*within, 3 + axis)
 
 
 def plane(answer_ring: AnswerRing) -> Plane | None:
     """The plane of a planar robot, None for all others."""
     named = quantities(answer_ring.robot)
-    found = [q for q in named.values() if q.family in (*_LINEAR, *_ANGULAR) and q.family is not families.RC]
+    found = [q for q in named.values() if q.family in (*_LINEAR, *_ANGULAR) and q.family not in _POSITIONS]
     keys = [(q, answer_ring.key(q.rule)) for q in found if q.rule in answer_ring.rules]
     moving = {i for q, key in keys if q.family in _LINEAR for i in _rows_that_move(key)}
     turning = {i for q, key in keys if q.family in _ANGULAR for i in _rows_that_move(key)}
@@ -61,7 +67,7 @@ def unfolded(
     answer_ring: AnswerRing, quantity: Quantity, rows: Sequence[Sequence[Entry]], zero: Entry
 ) -> tuple[tuple[Entry, ...], ...] | None:
     """Rows with those that are zero for every q put in again; None where they do not fit."""
-    if quantity.family not in (*_LINEAR, *_ANGULAR, families.J) or quantity.rule not in answer_ring.rules:
+    if quantity.family not in (*_LINEAR, *_ANGULAR, *_BOTH) or quantity.rule not in answer_ring.rules:
         return None
     key: Matrix = answer_ring.key(quantity.rule)
     height, width = key.shape

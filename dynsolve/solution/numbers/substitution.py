@@ -29,6 +29,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import mapped
 from dynsolve.robot.model import Body, Joint, Robot
+from dynsolve.robot.questions import Questions
 
 Replacements = Mapping[tuple[str, int], Node]
 """Constant formulas by (name, number of dots): ("theta1", 1) is a velocity."""
@@ -145,6 +146,17 @@ def robot_with(robot: Robot, values: Replacements) -> Robot:
         base_rotation=put.matrix(robot.base_rotation),
         base_position=put.matrix(robot.base_position),
         parameters=tuple(name for name in robot.parameters if (name, 0) not in values),
+        questions=_questions(robot.questions, put),
+    )
+
+
+def _questions(questions: Questions, put: Substitution) -> Questions:
+    """What is asked, with values in it."""
+    task = questions.task
+    return replace(
+        questions,
+        points=tuple(replace(point, position=put.matrix(point.position)) for point in questions.points),
+        task=task and replace(task, entries=tuple(replaced(entry, put.values) for entry in task.entries)),
     )
 
 

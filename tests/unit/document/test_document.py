@@ -12,7 +12,7 @@ import dynsolve
 from dynsolve import document
 from dynsolve.document import Block, Document, Fold, Formula, Heading, Text
 from dynsolve.explain.step import Detail
-from dynsolve.quantities.stages import Stage
+from dynsolve.quantities.stages import COURSE
 from dynsolve.solution.documents import solution_document
 
 
@@ -96,7 +96,7 @@ def test_no_heading_stands_over_nothing(solution: dynsolve.Solution) -> None:
 
 
 def test_in_brief_every_stage_has_its_result(solution: dynsolve.Solution) -> None:
-    for stage in Stage:
+    for stage in COURSE:
         assert any(
             isinstance(block, Formula)
             for block in blocks_of(solution_document(solution, Detail.BRIEF, [stage]))

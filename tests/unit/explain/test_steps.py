@@ -11,7 +11,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem.library import bundled
-from dynsolve.quantities.stages import Stage
+from dynsolve.quantities.stages import COURSE
 
 SMALL = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
 
@@ -43,7 +43,7 @@ def everything_said(problem: str) -> str:
 @pytest.mark.parametrize("problem", SMALL)
 def test_every_stage_in_the_order_of_the_course(problem: str) -> None:
     stages = list(dict.fromkeys(step.stage for step in solved(problem).steps))
-    assert stages == list(Stage)
+    assert stages == list(COURSE)
 
 
 @pytest.mark.parametrize("problem", SMALL)

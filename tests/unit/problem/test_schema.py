@@ -11,7 +11,8 @@ import yaml
 
 from dynsolve.problem.documentation import template
 from dynsolve.problem.schema import schema
-from dynsolve.problem.specification import ABOUT, BODY, CENTERS, PROBLEM, ROW, TENSOR
+from dynsolve.problem.specification import ABOUT, BODY, PROBLEM, ROW, TENSOR
+from dynsolve.problem.value_kinds import CENTERS
 from dynsolve.robot.shapes import KINDS
 from tests.support import LIBRARY, TEXTBOOKS
 

@@ -1,4 +1,4 @@
-"""The stages: in the order of the course, each called by one word, and numbered as in the README."""
+"""The stages: in the order of the textbook, each called by one word, and listed so in the README."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from dynsolve.quantities.stages import Stage
+from dynsolve.quantities.stages import COURSE, Stage
 from tests.support import ROOT
 
 
@@ -16,10 +16,6 @@ def test_the_readme_lists_them_in_their_order() -> None:
     assert listed.split(", ") == [str(stage) for stage in Stage]
 
 
-def test_numbers_count_from_one() -> None:
-    assert [stage.number for stage in Stage] == [1, 2, 3, 4, 5, 6, 7]
-
-
 @pytest.mark.parametrize("stage", Stage)
 def test_a_stage_is_its_word_and_has_a_heading(stage: Stage) -> None:
     assert Stage(str(stage)) is stage
@@ -27,4 +23,4 @@ def test_a_stage_is_its_word_and_has_a_heading(stage: Stage) -> None:
 
 
 def test_what_a_robot_without_masses_has() -> None:
-    assert [stage for stage in Stage if not stage.needs_masses] == ["kinematics", "jacobian"]
+    assert [stage for stage in COURSE if not stage.needs_masses] == ["kinematics", "jacobian"]

@@ -32,7 +32,9 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
         if name.startswith("rc") and form.dots == 1:
             names = vocabulary.named("v" + name[2:])
         else:
-            return None
+            names = vocabulary.named(name + "dot") if form.dots == 1 else ()
+            if not names:
+                return None
     if len(names) > 1 and not reader.naming and _has_rates(reader):
         names = tuple(n for n in names if vocabulary.shape(n) is not None) or names
     names, framed = _framed(vocabulary.quantities, form, names)

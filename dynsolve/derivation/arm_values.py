@@ -1,0 +1,136 @@
+"""A robot put in numbers: its `Arm` at a state, as the independent check wants it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from random import Random
+
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.newton_euler import (
+    ZERO,
+    Arm,
+    Mass,
+    Motion,
+    Rotation,
+    Vector,
+    dot,
+    elementary,
+    minus,
+    times,
+    transposed,
+)
+from dynsolve.errors import VerificationError
+from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
+
+_DRAWS = 200
+
+
+def draw(robot: Robot, random: Random) -> tuple[dict[str, float], Arm]:
+    """A random state with random parameters for which every root and quotient has a value."""
+    for _ in range(_DRAWS):
+        values = {name: random.uniform(0.4, 1.6) for name in robot.ring.parameters}
+        values["pi"] = math.pi
+        for q in robot.coordinates:
+            values[q.name] = random.uniform(-1.5, 1.5)
+            values[q.velocity] = random.uniform(-1.5, 1.5)
+            values[q.acceleration] = random.uniform(-1.5, 1.5)
+        try:
+            return values, arm_at(robot, values)
+        except (ValueError, ZeroDivisionError):
+            continue
+    raise VerificationError(
+        "no values of the parameters were found for which every root and quotient is real"
+    )
+
+
+def arm_at(robot: Robot, values: Mapping[str, float]) -> Arm:
+    """The robot at a state: `values` are those of its parameters, coordinates and their derivatives."""
+    at_rest = {**values, **dict.fromkeys((q.name for q in robot.coordinates), 0.0)}
+    numbers = RobotValues(robot, at_rest)
+    q = [values[c.name] for c in robot.coordinates]
+    rows = tuple(numbers.row(joint, q) for joint in robot.joints)
+    home = tuple(numbers.row(joint, [0.0] * robot.n) for joint in robot.joints)
+    base = (numbers.rotation(robot.base_rotation), numbers.vector(robot.base_position))
+    return Arm(
+        rows=rows,
+        masses=tuple(numbers.mass(body, home, base[0]) for body in robot.bodies),
+        base=base,
+        gravity=numbers.vector(robot.gravity),
+        qd=tuple(values[c.velocity] for c in robot.coordinates),
+        qdd=tuple(values[c.acceleration] for c in robot.coordinates),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class RobotValues:
+    """The values of the robot's formulas at q = 0."""
+
+    robot: Robot
+    values: Mapping[str, float]
+
+    def number(self, expr: Expr) -> float:
+        """The value of an expression."""
+        return self.robot.ring.evaluate(expr, self.values)
+
+    def vector(self, column: Matrix) -> Vector:
+        """The value of a column of three."""
+        x, y, z = map(self.number, column.entries)
+        return x, y, z
+
+    def rotation(self, matrix: Matrix) -> Rotation:
+        """The value of a 3×3 matrix."""
+        x, y, z = (tuple(map(self.number, row)) for row in matrix.rows)
+        return (x[0], x[1], x[2]), (y[0], y[1], y[2]), (z[0], z[1], z[2])
+
+    def angle(self, angle: Angle) -> float:
+        """An angle in radians."""
+        total = math.radians(float(angle.degrees))
+        for atom, rate in angle.terms:
+            total += float(rate) * math.prod(self.values[name] ** exponent for name, exponent in atom)
+        return total
+
+    def row(self, joint: Joint, q: Sequence[float]) -> tuple[Motion, ...]:
+        """The four elementary motions of a row of the table."""
+        rates = tuple((k, float(rate)) for k, rate in joint.rates)
+        moved = sum(rate * q[k] for k, rate in rates)
+        turn = joint.variable == "theta"
+        slide = joint.variable == "d"
+        along_z = (
+            Motion("z", True, self.angle(joint.theta) + moved * turn, rates if turn else ()),
+            Motion("z", False, self.number(joint.d) + moved * slide, rates if slide else ()),
+        )
+        a, alpha = Motion("x", False, self.number(joint.a)), Motion("x", True, self.angle(joint.alpha))
+        if self.robot.convention is Convention.STANDARD:
+            return (*along_z, a, alpha)
+        return (alpha, a, *along_z)
+
+    def mass(self, body: Body, home: Sequence[Sequence[Motion]], base: Rotation) -> Mass:
+        """The body with its tensor turned into its link and moved to its mass centre."""
+        mass, center = self.number(body.mass), self.vector(body.center)
+        if body.inertia is None:
+            return Mass(mass, body.link, center, (ZERO, ZERO, ZERO))
+        axes = self.rotation(body.axes.rotation)
+        if body.axes.kind is not AxesKind.LINK:
+            link = base
+            for motion in (motion for row in home[: body.link] for motion in row if motion.turns):
+                link = times(link, elementary(motion.axis, motion.amount))
+            axes = times(transposed(link), times(base, axes))
+        inertia = times(times(axes, self.rotation(body.inertia)), transposed(axes))
+        if body.about_point is not None:
+            inertia = _to_center(inertia, mass, minus(center, self.vector(body.about_point)))
+        return Mass(mass, body.link, center, inertia)
+
+
+def _to_center(inertia: Rotation, mass: float, offset: Vector) -> Rotation:
+    """The parallel-axis theorem: a tensor about a point, moved to the mass centre `offset` away from it."""
+    square = dot(offset, offset)
+
+    def entry(i: int, j: int) -> float:
+        return inertia[i][j] - mass * ((square if i == j else 0.0) - offset[i] * offset[j])
+
+    x, y, z = ((entry(i, 0), entry(i, 1), entry(i, 2)) for i in range(3))
+    return x, y, z

@@ -1,0 +1,74 @@
+"""What exercises ask of the kinematics as rules: points, the task, its Jacobian and their rates.
+
+A robot has the rules of those stages of which something is asked; the formulas are in
+`task`.  A point's quantities are called by its name: `pP`, `JvP`, `JwP`, `vP`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from dynsolve.algebra.matrix import Matrix, vstack
+from dynsolve.derivation import energy, jacobian, kinematics, task
+from dynsolve.derivation.graph import Rule
+from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
+
+
+def frame_names(link: int) -> tuple[str, ...]:
+    """H0..H<link>"""
+    return tuple(f"H{i}" for i in range(link + 1))
+
+
+def kinematic_rules(robot: Robot) -> Iterator[Rule]:
+    """The rules of what is asked of the kinematics; none of a robot of which nothing is."""
+    stages = asked_stages(robot.questions)
+    if Stage.TASK in stages:
+        for point in robot.questions.points:
+            yield from _point(robot, point)
+        yield Rule("Jv_dot", ("Jv",), task.rate)
+        yield Rule("Jw_dot", ("Jw",), task.rate)
+        yield Rule("J_dot", ("Jv_dot", "Jw_dot"), vstack)
+        if robot.questions.task is not None:
+            yield from _task(robot, robot.questions.task)
+
+
+def _point(robot: Robot, point: NamedPoint) -> Iterator[Rule]:
+    p, link = point.name, point.link
+
+    def linear(*values: Matrix) -> Matrix:
+        *frames, position = values
+        return jacobian.linear_jacobian(robot, frames, position, link)
+
+    def angular(*frames: Matrix) -> Matrix:
+        return jacobian.angular_jacobian(robot, frames, link)
+
+    yield Rule(f"p{p}", (f"H{link}",), lambda H: kinematics.point(H, point.position))
+    yield Rule(f"Jv{p}", (*frame_names(link), f"p{p}"), linear)
+    yield Rule(f"Jw{p}", frame_names(link), angular)
+    yield Rule(f"v{p}", (f"Jv{p}",), partial(energy.velocity, robot))
+
+
+def _task(robot: Robot, asked: Task) -> Iterator[Rule]:
+    if asked.is_twist:
+        yield Rule("Jr", ("J",), lambda J: J)
+    else:
+        used = points_of(asked)
+        inputs = tuple(_position_rule(robot, point) for point in used)
+
+        def value(*found: Matrix) -> Matrix:
+            positions = zip(used, found, strict=True)
+            at = {point: kinematics.origin(x) if point == TIP else x for point, x in positions}
+            return task.task_value(robot, asked, at)
+
+        yield Rule("r", inputs, value)
+        yield Rule("Jr", ("r",), partial(task.task_jacobian, robot))
+    yield Rule("Jr_dot", ("Jr",), task.rate)
+
+
+def _position_rule(robot: Robot, point: str) -> str:
+    """The quantity that holds a point's position: the last frame for the tip."""
+    return f"H{len(robot.joints)}" if point == TIP else f"p{point}"

@@ -1,0 +1,179 @@
+"""What a problem file asks around the model, as it is written: named points and the task."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
+
+from dynsolve.notation.tree import Function, Node, Reference, Symbol
+from dynsolve.notation.walk import mapped, names_in, walk
+from dynsolve.problem.cells import Cell, denominators, forbid, read_cell
+from dynsolve.problem.fields import Fields, did_you_mean, items
+from dynsolve.problem.kinematic_keys import MAX_POINTS, MAX_TASK, POINT, TWIST
+from dynsolve.problem.places import ParsedPlace, read_link, read_place
+from dynsolve.problem.source import Faults
+from dynsolve.problem.specification import PROBLEM
+from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode
+from dynsolve.robot.questions import TIP, coordinate_of
+
+_NAME = re.compile(r"[A-Za-z][0-9]{0,4}")
+_COORDINATE = re.compile(r"(?<![\w.])([A-Za-z]\w*)\.([xyz])(?!\w)")
+
+
+@dataclass(frozen=True, slots=True)
+class ParsedPoint:
+    """One entry of `points:`; None where a part of it was reported."""
+
+    name: str
+    link: int | None
+    place: ParsedPlace | None
+    written: str
+
+
+@dataclass(frozen=True, slots=True)
+class ParsedTask:
+    """`task:`: its components, in which a `Reference` stands for a point's coordinate; none of a twist."""
+
+    cells: tuple[Cell, ...]
+    is_twist: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ParsedQuestions:
+    """What a file asks around the model."""
+
+    points: tuple[ParsedPoint, ...] = ()
+    task: ParsedTask | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the points."""
+        return tuple(point.name for point in self.points)
+
+    @property
+    def constant(self) -> Iterator[Cell]:
+        """The values that are constant."""
+        for point in self.points:
+            yield from point.place.cells if point.place else ()
+
+    @property
+    def moving(self) -> Iterator[Cell]:
+        """The values that may hold coordinates."""
+        yield from self.task.cells if self.task else ()
+
+
+def read_questions(
+    faults: Faults, fields: Fields, rows: int, coordinates: Collection[str], bodies: Collection[str]
+) -> ParsedQuestions:
+    """The keys of a file that ask something of the kinematics; what is wrong with one is reported."""
+    points = tuple(_read_points(faults, fields.get("points"), rows, bodies))
+    for point in points:
+        forbid(
+            faults,
+            point.place.cells if point.place else (),
+            coordinates,
+            "it is fixed in the link: joint variables stand in the table",
+        )
+    task = _read_task(faults, fields.get("task"), [point.name for point in points], coordinates)
+    return ParsedQuestions(points, task)
+
+
+# -- points ----------------------------------------------------------------------------------------
+
+
+def _read_points(
+    faults: Faults, node: YamlNode | None, rows: int, bodies: Collection[str]
+) -> Iterator[ParsedPoint]:
+    if not isinstance(node, MappingNode):
+        if node is not None and not isinstance(node, FaultyNode):
+            faults.error(node.span, "points is a mapping from names to points", PROBLEM["points"].help)
+        return
+    if len(node.entries) > MAX_POINTS:
+        faults.error(
+            node.span, f"{len(node.entries)} points; at most {MAX_POINTS} are read", "leave some out"
+        )
+        return
+    for key, value in node.entries:
+        name = key.decoded
+        if not _NAME.fullmatch(name):
+            help = "a point's name is a letter, and digits after it: P, C, P1"
+            faults.error(key.span, f"`{name[:40]}` cannot be the name of a point", help)
+        elif name in bodies:
+            faults.error(key.span, f"{name} is the name of a body", "give the point another name")
+        else:
+            yield _read_point(faults, name, value, rows)
+
+
+def _read_point(faults: Faults, name: str, node: YamlNode, rows: int) -> ParsedPoint:
+    what = f"the point {name}"
+    if not isinstance(node, MappingNode):
+        if not isinstance(node, FaultyNode):
+            help = f"write {name}: {{link: 2, at: {{near: [lc2, 0, 0]}}}}"
+            faults.error(node.span, f"{what} is a mapping with its link and its place", help)
+        return ParsedPoint(name, None, None, "")
+    fields = Fields(faults, node, POINT.names, what)
+    if fields.lacks("link"):
+        faults.error(node.span, f"{what} has no `link`", f"add {POINT['link'].help}")
+    link = read_link(faults, fields.get("link"), rows, "whose points do not move")
+    if "at" not in fields:
+        return ParsedPoint(name, link, ParsedPlace("tip", node.span), "tip")
+    place = read_place(faults, fields.get("at"), f"the place of {name}", POINT["at"].help)
+    return ParsedPoint(name, link, place, faults.source.text[slice(*fields.span_of("at"))])
+
+
+# -- the task --------------------------------------------------------------------------------------
+
+
+def _read_task(
+    faults: Faults, node: YamlNode | None, points: Collection[str], coordinates: Collection[str]
+) -> ParsedTask | None:
+    if isinstance(node, ScalarNode) and node.text in TWIST.choices:
+        return ParsedTask((), is_twist=True)
+    listed = items(faults, node, "task", PROBLEM["task"].help)
+    if len(listed) > MAX_TASK and node:
+        faults.error(node.span, f"{len(listed)} components; at most {MAX_TASK} are read", "leave some out")
+        return None
+    if node is not None and not isinstance(node, FaultyNode) and not listed:
+        faults.error(node.span, "the task has no components", PROBLEM["task"].help)
+    cells = [_read_component(faults, item, i, points, coordinates) for i, item in enumerate(listed, 1)]
+    found = tuple(cell for cell in cells if cell)
+    return ParsedTask(found) if found and len(found) == len(cells) else None
+
+
+def _read_component(
+    faults: Faults, node: YamlNode, index: int, points: Collection[str], coordinates: Collection[str]
+) -> Cell | None:
+    """A component of the task: an expression in which P.x is a coordinate of a point."""
+    what = f"component {index} of the task"
+    dotted = list(_COORDINATE.finditer(node.text)) if isinstance(node, ScalarNode) else []
+    for found in dotted:
+        if found[1] not in (TIP, *points):
+            start = node.start + found.start() if isinstance(node, ScalarNode) else 0
+            help = did_you_mean(found[1], (TIP, *points)) or "points are the tip and those of `points:`"
+            faults.error((start, start + len(found[1])), f"there is no point {found[1]}", help)
+            return None
+    plain = replace(node, text=_COORDINATE.sub(r"\1_\2", node.text)) if isinstance(node, ScalarNode) else node
+    cell = read_cell(faults, plain, what)
+    if cell is None:
+        return None
+    places = {found.start() for found in dotted}
+    meant = {f"{found[1]}_{found[2]}": coordinate_of(found[1], "xyz".index(found[2])) for found in dotted}
+
+    def with_references(part: Node) -> Node:
+        return meant.get(part.name, part) if isinstance(part, Symbol) else part
+
+    names = tuple(name for name in cell.names if name.offset not in places)
+    sound = replace(cell, tree=mapped(cell.tree, with_references), names=names)
+    return sound if _is_polynomial(faults, sound, coordinates) else None
+
+
+def _is_polynomial(faults: Faults, cell: Cell, coordinates: Collection[str]) -> bool:
+    """Whether no coordinate, and no coordinate of a point, stands in a denominator or under a root."""
+    roots = [part for part in walk(cell.tree) if isinstance(part, Function) and part.name == "sqrt"]
+    for part in (*denominators(cell.tree), *roots):
+        if names_in(part) & set(coordinates) or any(isinstance(p, Reference) for p in walk(part)):
+            message = f"{cell.what}: a coordinate stands in a denominator or under a root"
+            faults.error(cell.span, message, "a task is made of sums, products, sines and cosines")
+            return False
+    return True

@@ -1,0 +1,47 @@
+"""What a file asks around the model -> the robot's `Questions`, with exact values."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from dynsolve.problem.positions import PlaceBuilder
+from dynsolve.problem.questions import ParsedPoint, ParsedQuestions, ParsedTask
+from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.geometry import last_origin
+from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import TIP, NamedPoint, Questions, Task, coordinate_of
+
+
+def named_point(places: PlaceBuilder, parsed: ParsedPoint) -> NamedPoint | None:
+    """The point of an entry of `points:`; None where a fault of it was reported."""
+    if parsed.place is None:
+        return None
+    position = places.position(parsed.place, parsed.link, "at", parsed.written)
+    if position is None or parsed.link is None:
+        return None
+    return NamedPoint(parsed.name, parsed.link, position, parsed.written)
+
+
+def with_questions(
+    robot: Robot, parsed: ParsedQuestions, points: Sequence[NamedPoint], asked: frozenset[str]
+) -> Robot:
+    """The robot with what its file asks of it; with a task of its own where one is needed and none given."""
+    questions = Questions(points=tuple(points), task=_task(parsed.task), asked=asked)
+    if questions.task is None and Stage.TASK in asked_stages(questions):
+        questions = replace(questions, task=_default_task(robot))
+    return replace(robot, questions=questions)
+
+
+def _task(parsed: ParsedTask | None) -> Task | None:
+    if parsed is None:
+        return None
+    return Task(tuple(cell.tree for cell in parsed.cells), is_twist=parsed.is_twist)
+
+
+def _default_task(robot: Robot) -> Task:
+    """The coordinates of the tip that move."""
+    tip = last_origin(robot)
+    moving = [axis for axis in range(3) if robot.ring.depends_on_coordinates(tip[axis, 0])]
+    return Task(tuple(coordinate_of(TIP, axis) for axis in moving), is_default=True)

@@ -1,0 +1,70 @@
+"""What an exercise asks of a manipulator around its model: points, a task, and which results it wants.
+
+A `Robot` carries its `Questions`, so that the quantities, the derivation and the judging of
+answers know them wherever they know the robot.  Formulas that may hold quantities of the
+derivation (the coordinates of a point) are kept as trees, in which a `Reference` to row i
+of `tip`, or of a point's name, stands for them; they have the same meaning in every ring.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.notation.tree import Node, Reference
+from dynsolve.notation.walk import walk
+
+TIP = "tip"
+"""The origin of the last frame, as a task names it."""
+
+
+@dataclass(frozen=True, slots=True)
+class NamedPoint:
+    """A point fixed in frame `link`: its `position` there, 3×1; `written` is how the file gave it."""
+
+    name: str
+    link: int
+    position: Matrix
+    written: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """What the arm is to do: r(q), m×1, or its twist, the six rates J q̇ of the last frame.
+
+    `entries` are the components of r, none of a twist.  `is_default` says that the file does
+    not give them: they are then the coordinates of the tip that move.
+    """
+
+    entries: tuple[Node, ...]
+    is_twist: bool = False
+    is_default: bool = False
+
+    @property
+    def rows(self) -> int:
+        """m, the number of components."""
+        return 6 if self.is_twist else len(self.entries)
+
+
+def coordinate_of(point: str, axis: int) -> Reference:
+    """x, y or z (axis 0, 1 or 2) of a point, as it stands in a task."""
+    return Reference(point, axis + 1, 1)
+
+
+def points_of(task: Task) -> tuple[str, ...]:
+    """The points whose coordinates stand in a task, each once."""
+    found = (part.quantity for part in walk(*task.entries) if isinstance(part, Reference))
+    return tuple(dict.fromkeys(found))
+
+
+@dataclass(frozen=True, slots=True)
+class Questions:
+    """Everything that a file asks beside the course's derivation.
+
+    `asked` are the names of the answers in `find` and `marks` that no derivation has unless
+    they are asked for; with them comes what they are derived from, and nothing else.
+    """
+
+    points: tuple[NamedPoint, ...] = ()
+    task: Task | None = None
+    asked: frozenset[str] = frozenset()

@@ -1,0 +1,82 @@
+"""The steps of points and the task: what is asked and what that needs, and nothing else."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+import dynsolve
+from dynsolve.explain.step import Step
+from dynsolve.notation.printing import PLAIN
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.quantities.index import quantities
+from dynsolve.render.terminal import render
+from dynsolve.solution.documents import solution_document
+
+ARM = """
+title: An arm
+dh:
+  - {theta: q1*, a: l1}
+  - {theta: q2* + 90deg, alpha: 90deg}
+  - {d: q3*}
+points: {P: {link: 1, at: {near: [lc1, 0, 0]}}, E: {link: 3}}
+"""
+TASK = "task: [tip.x, P.y, q1 + q2]\n"
+
+
+def steps(text: str) -> dict[str, Step]:
+    return {step.id: step for step in dynsolve.solve(text).steps if step.stage == "task"}
+
+
+@pytest.mark.parametrize(
+    ("asked", "shown"),
+    [
+        ("pP", ["pP"]),
+        ("vP", ["pP", "JvP", "vP"]),
+        ("JwE", ["JwE"]),
+        ("J_dot", ["Jv_dot", "Jw_dot", "J_dot"]),
+        ("r", ["pP", "r"]),
+        ("Jr_dot", ["pP", "r", "Jr", "Jr_dot"]),
+    ],
+)
+def test_what_is_asked_and_what_that_needs(asked: str, shown: list[str]) -> None:
+    assert list(steps(f"{ARM}{TASK}find: [{asked}]")) == shown
+
+
+def test_every_step_says_why_and_where_it_stands_in_the_book() -> None:
+    found = steps(f"{ARM}{TASK}find: [vP, JvP, JwP, vE, JvE, JwE, J_dot, Jr_dot]")
+    for step in found.values():
+        assert step.why and step.title and re.fullmatch(r"Spong et al\. \d\.\d+", step.source)
+
+
+def test_the_default_task_says_which_rows_it_leaves_out() -> None:
+    (note,) = steps(ARM + "find: [Jr]")["Jr"].notes
+    assert "without the row of " in "".join(part for part in note if isinstance(part, str))
+
+
+def test_the_stages_are_numbered_as_they_come() -> None:
+    bodies = "masses: [{mass: m1, link: 1}]\n"
+    document = solution_document(dynsolve.solve(ARM + TASK + bodies + "find: [Jr, tau]"))
+    lines = [line.text for line in render(document, 80)]
+    assert {"3. Points and tasks", "4. The bodies: mass centres and inertia"} <= set(lines)
+
+
+def test_a_hint_tells_no_result() -> None:
+    solution = dynsolve.solve(ARM + TASK + "find: [Jr_dot, vP]")
+    text = "\n".join(line.text for line in render(solution.hint("task"), 200, solution.style))
+    assert "J_r = ∂r/∂q" in text and "v_P = J_vP q̇" in text and "Look out:" in text
+    for name in ("r", "Jr", "Jr_dot", "JvP"):
+        assert to_unicode(solution.forms(name).rows[0][0], solution.style) not in text.partition("\n1. ")[2]
+
+
+def test_only_what_is_asked_is_exported() -> None:
+    results = dynsolve.solve(ARM + TASK + "find: [Jr_dot, vP]").to_json()["results"]
+    assert set(results) == {"A", "H", "Jv", "Jw", "bodies", "vP", "Jr_dot"}
+    assert len(results["vP"]) == 3 and isinstance(results["vP"][0], str)
+
+
+def test_every_quantity_has_its_letter() -> None:
+    robot = dynsolve.solve(ARM + TASK).robot
+    letters = [to_unicode(q.letter(robot), PLAIN) for q in quantities(robot).answers()]
+    assert {"p_P", "v_P", "J_vP", "J_ωE", "J̇_v", "J̇", "r", "J_r", "J̇_r"} <= set(letters)

@@ -1,0 +1,92 @@
+"""What a file asks of the kinematics: what becomes of it, and every fault with its place and remedy."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.notation.tree import Reference
+from dynsolve.problem import read_problem
+from tests.unit.problem.marked import PLANAR, errors, places, unmarked
+
+ELBOW = """
+dh: [{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, a: a2}]
+"""
+
+
+def asked(text: str, table: str = PLANAR):
+    return read_problem(table + text).robot.questions
+
+
+def test_a_file_without_questions_asks_nothing() -> None:
+    found = asked("find: [Jv]")
+    assert (found.points, found.task, found.asked) == ((), None, frozenset())
+
+
+def test_points_are_given_as_centres_are() -> None:
+    robot = read_problem(PLANAR + "points: {P: {link: 2, at: {near: [lc2, 0, 0]}}, E: {link: 1}}").robot
+    ring, (first, second) = robot.ring, robot.questions.points
+    assert (first.name, first.link) == ("P", 2)
+    assert first.position.entries == (ring.symbol("lc2") - ring.symbol("l2"), ring.zero, ring.zero)
+    assert (second.name, second.link, second.position.is_zero) == ("E", 1, True)
+
+
+@pytest.mark.parametrize(
+    ("table", "text", "entries"),
+    [
+        (PLANAR, "find: [Jr]", "xy"),
+        (ELBOW, "find: [Jr]", "xyz"),
+        ("convention: modified\ndh: [{theta: q1*}, {theta: q2*, a: l1}, {a: l2}]\n", "find: [r]", "xy"),
+        ("base: Rx(90deg)\n" + PLANAR, "marks: {r: 2}", "xz"),
+        ("dh: [{d: d1*}]\n", "find: [Jr_dot]", "z"),
+        (PLANAR, "find: [tau]", None),
+    ],
+)
+def test_the_task_is_by_default_what_moves_of_the_tip(table: str, text: str, entries: str | None) -> None:
+    task = asked(text, table).task
+    wanted = entries and tuple(Reference("tip", "xyz".index(axis) + 1, 1) for axis in entries)
+    assert (task and task.entries) == wanted
+
+
+def test_a_task_may_hold_coordinates_of_points_and_of_joints() -> None:
+    task = asked("points: {P: {link: 1}}\ntask: [P.x - tip.y, theta1 + 2*theta2, sin(theta1)]").task
+    assert task is not None and task.rows == 3 and not task.is_default
+    assert Reference("P", 1, 1) in task.entries[0].terms
+
+
+def test_a_twist_has_six_rates() -> None:
+    task = asked("task: twist").task
+    assert task is not None and (task.rows, task.entries) == (6, ())
+
+
+def test_only_what_is_asked_for_is_kept_in_mind() -> None:
+    assert asked("find: [tau, Jr, J_dot]\nmarks: {r: 1}").asked == {"Jr", "J_dot", "r"}
+    assert asked("points: {P: {link: 2}}\nfind: [pP, vP]").asked == {"pP", "vP"}
+
+
+FAULTS = {
+    "points as a list": ("points: «[P]»", "a mapping from names", "points: {P:"),
+    "a bad name": ("points: {«tip»: {link: 1}}", "cannot be the name of a point", "a letter, and digits"),
+    "a body's name": (
+        "masses: [{mass: m, name: p, link: 1}]\npoints: {«p»: {link: 1}}", "the name of a body", "another"
+    ),
+    "no link": ("points: {P: «{at: tip}»}", "no `link`", "link: 1"),
+    "link 0": ("points: {P: {link: «0»}}", "the ground", "from 1 to 2"),
+    "no such link": ("points: {P: {link: «3»}}", "there is no link 3", "from 1 to 2"),
+    "a coordinate": ("points: {P: {link: 1, at: [«theta1», 0, 0]}}", "contains the coordinate", "table"),
+    "a place": ("points: {P: {link: 1, at: «end»}}", "tip, origin, midpoint", "{near:"),
+    "an unknown point": ("task: [«R».x]", "there is no point R", "tip"),
+    "a misspelled tip": ("task: [«tp».x]", "there is no point tp", "did you mean `tip`?"),
+    "an empty task": ("task: «[]»", "no components", "task: [tip.x"),
+    "a denominator": ("task: [«1/tip.x»]", "stands in a denominator", "sums, products"),
+    "a root": ("task: [«sqrt(tip.x^2 + tip.y^2)»]", "under a root", "sums, products"),
+    "a root of a coordinate": ("task: [«sqrt(theta1)»]", "under a root", "sums, products"),
+    "no r of a twist": ("task: twist\nfind: [«r»]", "`r` is no answer of this problem", ""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("marked", "message", "help"), FAULTS.values(), ids=FAULTS)
+def test_faults(marked: str, message: str, help: str) -> None:
+    text, wanted = unmarked(PLANAR + marked)
+    found = errors(text)
+    assert places(found) == wanted
+    assert message in found[0].message and help in found[0].help
