@@ -47,7 +47,7 @@ def test_what_is_asked_and_what_that_needs(asked: str, shown: list[str]) -> None
 def test_every_step_says_why_and_where_it_stands_in_the_book() -> None:
     found = steps(f"{ARM}{TASK}find: [vP, JvP, JwP, vE, JvE, JwE, J_dot, Jr_dot]")
     for step in found.values():
-        assert step.why and step.title and re.fullmatch(r"Spong et al\. \d\.\d+", step.source)
+        assert step.why and step.title and re.fullmatch(r"§\d\.\d+", step.source)
 
 
 def test_the_default_task_says_which_rows_it_leaves_out() -> None:
