@@ -129,10 +129,10 @@ def _say(grades: Grades) -> None:
         typer.echo(f"refused: {len(grades.refused) - MOST_REFUSED} more, which the report names", err=True)
     for warning in grades.warnings:
         _warn(warning)
-    done, anew, waiting = grades.computed, grades.remarked, len(grades.waiting)
+    done, anew, waiting = grades.computed, grades.remarked, len(grades.queue)
     same = grades.hand_ins - done - anew
     parts = [f"{done} hand-in{'s' if done != 1 else ''} graded"]
     parts += [f"{anew} marked anew"] if anew else []
     parts += [f"{same} as before"] if same else []
-    parts += [f"{waiting} file{' waits' if waiting == 1 else 's wait'} for a human"] if waiting else []
+    parts += [f"{waiting} {'entry waits' if waiting == 1 else 'entries wait'} for a human"] if waiting else []
     typer.echo(f"{', '.join(parts)}: see {grades.folder / 'report.html'}", err=True)

@@ -3,7 +3,7 @@
     set_keys, set_file      `set.yaml`: its keys and its schema, reading it
     problem_set             what is graded, and how it is marked
     uploads -> hand_ins     files, safely read -> who handed in what for which problem
-    sections                a report on several problems, told apart by its headings
+    which_problem, sections for which problem a file is; a report on several, told apart by its headings
     run, fingerprints       what has to be computed; what has not is in the record
     rows                    what the record is told of a hand-in, judged or not
     pool, worker, cluster   bounded processes, on this machine or on a Dask scheduler
@@ -12,7 +12,10 @@
     pages                   the student's page
     record                  everything that is known, in SQLite
     outputs, files          grades.csv, answers.csv and the students' pages, from the record
-    cohort, teacher         the teacher's page
+    queue                   what waits for a human
+    cohort, item_analysis   what is counted of a course, and how well its answers tell students apart
+    teacher, histogram      the teacher's page
+    copies                  what was handed in, where that page links to it
     by_hand                 a human's marks in bulk
     extensions, groups      who was given more days, and who the members of a group are
     listed                  reading these lists of the teacher's

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import groupby
 
 from dynsolve.answers.marking.marks import maximum
 from dynsolve.answers.marking.policy import points
-from dynsolve.answers.unwritten import BY_PARTS
+from dynsolve.grading.item_analysis import Item
 from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.record import Record, RecordedAnswer
+from dynsolve.grading.queue import Entry, queue
+from dynsolve.grading.record import Key, Record, RecordedAnswer
 from dynsolve.quantities.index import quantities
 
 
@@ -78,80 +79,58 @@ class Alike:
     students: list[str]
 
 
-@dataclass(frozen=True, slots=True)
-class ForAHuman:
-    """Something for a human to look at."""
-
-    student: str
-    problem: str
-    what: str
-    why: str
-
-
 @dataclass
 class Cohort:
-    """What is counted; `marks` has a student's marks by problem, and all."""
+    """What is counted; `marks` has a student's marks by problem, and all.
+
+    `items` are the answers with marks, `names` what students are called where that is not their name
+    here, `pages` are the hand-ins with a page for the student, `judged` those that were, by whomever,
+    `uploads` where their files lay.
+    """
 
     marks: list[tuple[str, dict[str, Fraction], Fraction]] = field(default_factory=list)
     verdicts: dict[tuple[str, str], Counter[str]] = field(default_factory=dict)
+    items: dict[tuple[str, str], Item] = field(default_factory=dict)
     slips: Counter[Slip] = field(default_factory=Counter)
     examples: dict[Slip, SlipExample] = field(default_factory=dict)
     alike: dict[Slip, Alike] = field(default_factory=dict)
-    queue: list[ForAHuman] = field(default_factory=list)
+    queue: list[Entry] = field(default_factory=list)
     by_hand: list[RecordedAnswer] = field(default_factory=list)
-    pages: set[tuple[str, str]] = field(default_factory=set)
+    pages: set[Key] = field(default_factory=set)
+    judged: Set[Key] = frozenset()
+    uploads: Mapping[Key, tuple[str, ...]] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
 
 
-OVERTAKEN = "its marks were set by hand for an earlier hand-in"
-
-
-def to_fill(record: Record) -> Iterator[tuple[RecordedAnswer, str]]:
-    """The answers that wait for a human's marks, with the reason: those of the page to fill."""
-    unjudged, overtaken = record.unjudged(), record.overtaken()
-    for a in record.answers():
-        if a.of == "0":
-            continue
-        if (a.student, a.problem, a.answer) in overtaken:
-            yield a, OVERTAKEN
-        elif not a.said:
-            reason = unjudged.get(a.student, {}).get(a.problem, "") or _for_a_human(a)
-            if reason:
-                yield a, reason
-
-
-def counted(problems: ProblemSet, record: Record) -> Cohort:
+def counted(problems: ProblemSet, record: Record, names: Mapping[str, str] | None = None) -> Cohort:
     """Everything that the teacher's page shows."""
-    cohort = Cohort()
+    cohort = Cohort(queue=queue(record, problems.stems), uploads=record.uploads(), names=names or {})
     for item in problems.items:
         for name in item.problem.marks:
             cohort.verdicts[item.stem, name] = Counter()
-    told: set[tuple[str, str]] = set()
-    unjudged: dict[tuple[str, str], str] = {}
-    for w in record.waiting():
-        cohort.queue.append(ForAHuman(w.student, w.problem, w.file, w.reason))
-        told |= {(w.student, stem) for stem in ((w.problem,) if w.problem else problems.stems)}
-    for row in record.rows():
-        key = (row.student, row.problem)
-        if row.html:
-            cohort.pages.add(key)
-        if row.reason:
-            unjudged[key] = row.reason
-            if key not in told:
-                cohort.queue.append(ForAHuman(*key, ", ".join(row.files), row.reason))
-        if row.left:
-            left = ", ".join(row.left)
-            cohort.queue.append(ForAHuman(row.student, row.problem, left, "left aside: a newer copy counts"))
+    cohort.pages = {(row.student, row.problem) for row in record.rows() if row.html}
+    totals: dict[str, float | None] = {}
+    unjudged: set[Key] = set()
     for standing in standings(record):
         cohort.marks.append((standing.student, standing.marks, standing.total))
-    for student, problem, name in sorted(record.overtaken()):
-        cohort.queue.append(ForAHuman(student, problem, name, OVERTAKEN))
+        totals[standing.student] = None if standing.unjudged else float(standing.total)
+        unjudged |= {(standing.student, stem) for stem in standing.unjudged}
+    cohort.judged = frozenset(cohort.pages - unjudged)
     for answer in record.answers():
-        _count(cohort, answer, unjudged.get((answer.student, answer.problem), ""))
+        _count(cohort, answer)
+        if answer.of != "0" and ((answer.student, answer.problem) in cohort.judged or answer.said):
+            which = (answer.problem, answer.answer)
+            found = cohort.items.setdefault(which, Item(float(points(answer.of))))
+            found.add(float(points(answer.marks)), totals.get(answer.student), _is_right(answer))
+    cohort.pages |= {(answer.student, answer.problem) for answer in cohort.by_hand}
     return cohort
 
 
-def _count(cohort: Cohort, a: RecordedAnswer, unjudged: str) -> None:
-    """One answer; `unjudged` is why none of its hand-in could be judged, which is told once."""
+def _is_right(a: RecordedAnswer) -> bool:
+    return a.marks == a.of if a.said else a.verdict == "correct"
+
+
+def _count(cohort: Cohort, a: RecordedAnswer) -> None:
     cohort.verdicts.setdefault((a.problem, a.answer), Counter())[a.verdict] += 1
     if a.verdict == "wrong":
         for code, message in zip(a.diagnosis, a.message, strict=False):
@@ -164,22 +143,3 @@ def _count(cohort: Cohort, a: RecordedAnswer, unjudged: str) -> None:
         )
     if a.said:
         cohort.by_hand.append(a)
-        cohort.pages.add((a.student, a.problem))
-        return
-    reason = _for_a_human(a)
-    if reason and reason != unjudged:
-        cohort.queue.append(ForAHuman(a.student, a.problem, f"{a.answer} {a.label}".strip(), reason))
-
-
-def _for_a_human(a: RecordedAnswer) -> str:
-    """Why an answer should be looked at by a human, or an empty text.
-
-    A loss that costs no marks is none, nor is a wrong whole whose parts have a diagnosis.
-    """
-    if a.verdict == "unreadable":
-        return a.fault or "it could not be read"
-    if a.loss and a.of != "0":
-        return f"{a.verdict}, but {a.loss}"
-    if a.verdict == "wrong" and not a.diagnosis and BY_PARTS not in a.note:
-        return "it is wrong, and no slip was found that explains it"
-    return ""

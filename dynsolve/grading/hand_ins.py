@@ -7,18 +7,13 @@ what names no problem, waits for a human with its reason.
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 
-from dynsolve.answers.reading.answer_file import parsed
-from dynsolve.answers.reading.documents import EXTRA, FORMATS, as_report, pandoc
 from dynsolve.answers.reading.files import ENDINGS
-from dynsolve.answers.reading.sources import decoded
-from dynsolve.errors import InputError, ReadError
+from dynsolve.errors import InputError
 from dynsolve.grading.extensions import days_late
 from dynsolve.grading.platforms.gradescope import METADATA, Submitters, exports, read_metadata
 from dynsolve.grading.platforms.members import Groups
@@ -26,16 +21,18 @@ from dynsolve.grading.platforms.owner import FileOwner
 from dynsolve.grading.platforms.owners import FileOwners
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Waiting
-from dynsolve.grading.sections import Span, parts, titles
+from dynsolve.grading.sections import Span
 from dynsolve.grading.uploads import Upload, Uploads, digest, printable
-
-_HEAD = 20_000
-_IN_PARTS = (".md", ".markdown", ".tex", ".txt", ".html", ".htm", *FORMATS)
-_ANSWER_FILES = (".yaml", ".yml", ".json")
-_FIELD = r"(?m)^[ \t]{{0,3}}[\"']?{}[\"']?[ \t]{{0,9}}:[ \t]{{0,99}}(\S.{{0,300}}?)[ \t]*(?:#.*)?$"
-_STUDENT, _PROBLEM = (re.compile(_FIELD.format(key)) for key in ("student", "problem"))
-_FRONT, _BACK = ("---", "<!--"), ("---", "...", "-->")
-"""The lines that front matter stands between."""
+from dynsolve.grading.which_problem import (
+    also_named,
+    beginning,
+    by_name,
+    folded,
+    parts_of,
+    problem_of,
+    said_student,
+    within,
+)
 
 _KINDS = {
     ".pdf": "a PDF", ".doc": "a Word file", ".docx": "a Word file", ".odt": "a word processor's file",
@@ -85,6 +82,11 @@ class HandIn:
         return self.student, self.problem
 
     @property
+    def paths(self) -> tuple[str, ...]:
+        """Where its files lie in what was handed in, as it may be shown."""
+        return tuple(printable(str(file.upload.path)) for file in self.files)
+
+    @property
     def whose(self) -> str:
         """Who stands over the page: the group, whose members read the same."""
         return self.group or self.student
@@ -92,12 +94,17 @@ class HandIn:
 
 @dataclass(frozen=True, slots=True)
 class Intake:
-    """All that was handed in; `students` are the rows, with the platform's id of each, `groups` theirs."""
+    """All that was handed in.
+
+    `students` are the rows, with the platform's id of each, `groups` those of the students whose group
+    handed in, `files` all that can be opened, those that wait for a human too.
+    """
 
     students: dict[str, str]
     hand_ins: tuple[HandIn, ...]
     waiting: tuple[Waiting, ...]
     groups: dict[str, str] = field(default_factory=dict)
+    files: tuple[Upload, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,9 +137,10 @@ def take_in(
     paths = [upload.path for upload in uploads.files]
     lists = {root / METADATA for root in (PurePosixPath(*parts) for parts in exports(paths))}
     metadata = _metadata(uploads, lists)
-    owners = FileOwners(paths, metadata, late, lambda stem: bool(_folded(stem, problems)), groups)
+    owners = FileOwners(paths, metadata, late, lambda stem: bool(folded(stem, problems)), groups)
     students: dict[str, str] = {}
     in_groups: dict[str, str] = {}
+    files: dict[Upload, None] = {}
     waiting: set[Waiting] = set()
     pieces: dict[tuple[str, str], list[_Piece]] = {}
     for upload in uploads.files:
@@ -143,6 +151,9 @@ def take_in(
             students[student] = students.get(student) or piece.owner.id
             if piece.owner.group:
                 in_groups[student] = piece.owner.group
+            upload_of = piece.file.upload if isinstance(piece, _Piece) else piece.upload
+            if upload_of is not None:
+                files[upload_of] = None
             if isinstance(piece, _Piece):
                 pieces.setdefault((student, piece.problem), []).append(piece)
             else:
@@ -154,7 +165,7 @@ def take_in(
             waiting.add(Waiting(student, "", refused.name, refused.reason))
     counting = (_counting(student, problem, found) for (student, problem), found in sorted(pieces.items()))
     hand_ins = tuple(_extended(problems, hand_in, students[hand_in.student]) for hand_in in counting)
-    return Intake(dict(sorted(students.items())), hand_ins, tuple(sorted(waiting)), in_groups)
+    return Intake(dict(sorted(students.items())), hand_ins, tuple(sorted(waiting)), in_groups, tuple(files))
 
 
 def _extended(problems: ProblemSet, hand_in: HandIn, id: str) -> HandIn:
@@ -194,6 +205,7 @@ class _Left:
     problem: str
     file: str
     reason: str
+    upload: Upload | None = None
 
 
 def _sorted(
@@ -211,19 +223,19 @@ def _unzipped(
     problems: ProblemSet, uploads: Uploads, owner: FileOwner, upload: Upload
 ) -> Iterator[_Piece | _Left]:
     """The files of a zip that a student handed in; what is refused waits for a human."""
-    shown, named = printable(str(upload.path)), _by_name(problems, owner.name)
+    shown, named = printable(str(upload.path)), by_name(problems, owner.name)
     try:
         inner, refused = uploads.inside(upload)
     except InputError as error:
-        yield _Left(owner, owner.student, named, shown, f"an archive: {error.findings[0].message}")
+        yield _Left(owner, owner.student, named, shown, f"an archive: {error.findings[0].message}", upload)
         return
     for other in refused:
         yield _Left(owner, owner.student, named, f"{shown}/{other.name}", other.reason)
     if not inner and not refused:
-        yield _Left(owner, owner.student, named, shown, "an archive without a file in it")
+        yield _Left(owner, owner.student, named, shown, "an archive without a file in it", upload)
     for one in inner:
         name = str(one.path.relative_to(upload.path))
-        if not _within(name, problems):
+        if not within(name, problems):
             name = f"{PurePosixPath(owner.name).stem}/{name}"
         yield from _one(problems, uploads, replace(owner, name=name), one)
 
@@ -232,151 +244,35 @@ def _one(
     problems: ProblemSet, uploads: Uploads, owner: FileOwner, upload: Upload
 ) -> Iterator[_Piece | _Left]:
     """A file of one owner."""
-    shown, named = printable(str(upload.path)), _by_name(problems, owner.name)
+    shown, named = printable(str(upload.path)), by_name(problems, owner.name)
     ending = PurePosixPath(owner.name).suffix.lower()
     if ending not in ENDINGS:
         kind = _KINDS.get(ending, f"a file of an unknown kind ({ending or 'without an ending'})")
-        yield _Left(owner, owner.student, named, shown, f"{kind}: a human reads it")
+        yield _Left(owner, owner.student, named, shown, f"{kind}: a human reads it", upload)
         return
     try:
         content = uploads.read(upload)
     except InputError as error:
         yield _Left(owner, owner.student, named, shown, error.findings[0].message)
         return
-    text, reason = _beginning(content, ending)
+    text, reason = beginning(content, ending)
     if reason:
-        yield _Left(owner, owner.student, named, shown, f"{_KINDS[ending]}: {reason}")
+        yield _Left(owner, owner.student, named, shown, f"{_KINDS[ending]}: {reason}", upload)
         return
-    student = owner.student if owner.certain else _said_student(text, ending) or owner.student
-    problem, reason = _problem(problems, text, owner.name, ending)
+    student = owner.student if owner.certain else said_student(text, ending) or owner.student
+    problem, reason = problem_of(problems, text, owner.name, ending)
     if reason:
-        yield _Left(owner, student, problem, shown, reason)
+        yield _Left(owner, student, problem, shown, reason, upload)
         return
     file = File(upload, owner.name, digest(content))
-    told = _parts(problems, content, owner.name, text)
+    told = parts_of(problems, content, owner.name, text)
     for stem, others in told.items():
         yield _Piece(owner, student, stem, replace(file, others=others))
     if not told:
         yield _Piece(owner, student, problem, file)
-        for other in _also(problems, text, owner.name, ending):
+        for other in also_named(problems, text, owner.name, ending):
             reason = f"it was read as an answer to {problem}; its headings name {other}, too"
-            yield _Left(owner, student, other, shown, reason)
-
-
-def _beginning(content: bytes, ending: str) -> tuple[str, str]:
-    """The text that a file begins with, that of a notebook's first cells; or why a human has to read it."""
-    if ending in FORMATS:
-        return _document(content, ending)
-    text = decoded(content if ending == ".ipynb" else content[:_HEAD])
-    if ending == ".ipynb":
-        with suppress(ValueError, RecursionError):
-            book = json.loads(text)
-            cells = book.get("cells", ()) if isinstance(book, dict) else ()
-            sources = [cell.get("source") for cell in cells if isinstance(cell, dict)][:20]
-            text = "\n\n".join("".join(map(str, s)) if isinstance(s, list) else str(s) for s in sources)
-    return text[:_HEAD], ""
-
-
-def _document(content: bytes, ending: str) -> tuple[str, str]:
-    if pandoc() is None:
-        return "", f"a human reads it, or dynsolve after `{EXTRA}`"
-    try:
-        text, _ = as_report(content, ending)
-    except ReadError as error:
-        return "", f"a human reads it ({error.message})"
-    return text[:_HEAD], "" if "=" in text else "no formula stands in it, so a human reads it"
-
-
-def _front(text: str, ending: str) -> str:
-    """Where a file may say whose it is: an answer file's own keys, a report's front matter."""
-    if ending in _ANSWER_FILES:
-        return text
-    first, *lines = text.lstrip().split("\n")
-    last = next((i for i, line in enumerate(lines) if line.strip().startswith(_BACK)), None)
-    return "\n".join(lines[:last]) if first.strip() in _FRONT and last is not None else ""
-
-
-def _said(pattern: re.Pattern[str], text: str, ending: str) -> str:
-    if ending in _ANSWER_FILES and text.lstrip().startswith("{"):
-        file = parsed(text)
-        return printable(file.problem if pattern is _PROBLEM else file.student)
-    found = pattern.search(_front(text, ending))
-    return printable(found[1].strip("\"', ")[:200]) if found else ""
-
-
-def _said_student(text: str, ending: str) -> str:
-    return _said(_STUDENT, text, ending)
-
-
-def _problem(problems: ProblemSet, text: str, name: str, ending: str) -> tuple[str, str]:
-    """The problem that a file is for, or why none can be named."""
-    said = _said(_PROBLEM, text, ending)
-    if said:
-        found = _folded(said, problems)
-        if found:
-            return found, ""
-        return "", f"it says that it is for `{said[:60]}`, which is no problem of this set"
-    named = _by_name(problems, name)
-    if named:
-        return named, ""
-    for found in _headed(problems, text):
-        return found, ""
-    for found in parts(text, lambda title: _within(title, problems), problems.stems):
-        return found, ""
-    if len(problems.items) == 1:
-        return problems.items[0].stem, ""
-    return "", "neither its front matter, its name nor its heading says which problem it is for"
-
-
-def _headed(problems: ProblemSet, text: str) -> Iterator[str]:
-    """The problems that headings name."""
-    for _, title in titles(text):
-        found = _within(title, problems)
-        if found:
-            yield found
-
-
-def _parts(problems: ProblemSet, content: bytes, name: str, text: str) -> dict[str, tuple[Span, ...]]:
-    """The problems that a report is on, where they are several, each with what is for the others."""
-    ending = PurePosixPath(name).suffix.lower()
-    if ending not in _IN_PARTS or _said(_PROBLEM, text, ending) or _by_name(problems, name):
-        return {}
-    return parts(as_text(content, ending), lambda title: _within(title, problems), problems.stems)
-
-
-def as_text(content: bytes, ending: str) -> str:
-    """The text of a report whose parts are told apart; raises ReadError."""
-    return as_report(content, ending)[0] if ending in FORMATS else decoded(content)
-
-
-def _also(problems: ProblemSet, text: str, name: str, ending: str) -> list[str]:
-    """The further problems of a file whose problem is that of its first heading."""
-    if _said(_PROBLEM, text, ending) or _by_name(problems, name):
-        return []
-    return list(dict.fromkeys(_headed(problems, text)))[1:]
-
-
-def _by_name(problems: ProblemSet, name: str) -> str:
-    return _within(name, problems) or (problems.items[0].stem if len(problems.items) == 1 else "")
-
-
-def _fold(text: str) -> str:
-    return re.sub(r"[\W_]+", " ", text.casefold()).strip()
-
-
-def _folded(said: str, problems: ProblemSet) -> str:
-    """The problem of exactly this name, however it is spelled."""
-    said = PurePosixPath(said).stem if said.endswith((".yaml", ".yml")) else said
-    names = {_fold(name): item.stem for item in problems.items for name in (item.problem.title, item.stem)}
-    return names.get(_fold(said), "")
-
-
-def _within(text: str, problems: ProblemSet) -> str:
-    """The problem whose name or title occurs in a text, the longest where several do."""
-    folded = f" {_fold(text)} "
-    names = [(_fold(n), item.stem) for item in problems.items for n in (item.stem, item.problem.title)]
-    hits = sorted((name for name in names if f" {name[0]} " in folded), key=lambda n: -len(n[0]))
-    return hits[0][1] if hits else ""
+            yield _Left(owner, student, other, shown, reason, upload)
 
 
 def _counting(student: str, problem: str, pieces: Iterable[_Piece]) -> HandIn:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from html import escape
 from itertools import groupby
@@ -11,10 +11,12 @@ from pathlib import Path
 
 from dynsolve.answers.marking.policy import points, shown
 from dynsolve.grading.by_hand import COLUMNS
-from dynsolve.grading.cohort import most, standings, to_fill
+from dynsolve.grading.cohort import most, standings
+from dynsolve.grading.copies import FOLDER
 from dynsolve.grading.files import decimal, folder_name, remove_others, table, write
 from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
 from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.queue import queue
 from dynsolve.grading.record import Record, RecordedAnswer, RecordedHandIn
 from dynsolve.grading.teacher import teachers_page
 from dynsolve.render.markdown import escaped
@@ -26,13 +28,17 @@ _Explained = list[tuple[str, str, str]]
 _ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "diagnosis")
 
 
-def write_outputs(folder: Path, problems: ProblemSet, record: Record) -> None:
-    """Write everything but the record itself; files that are the same already are left alone."""
+def write_outputs(folder: Path, problems: ProblemSet, record: Record, names: Mapping[str, str]) -> None:
+    """Write everything but the record itself; files that are the same already are left alone.
+
+    `names` are what students are called, where the platform's list says it.
+    """
     write(folder / "grades.csv", table(_grades(problems, record)))
     write(folder / "answers.csv", table(_answers(record)))
-    write(folder / "queue.csv", table(_queue(record)))
+    write(folder / "queue.csv", table(_queue(problems, record)))
     _feedback(folder / "feedback", problems, record)
-    write(folder / "report.html", teachers_page(problems, record))
+    copies = {path.name for path in (folder / FOLDER).glob("*")}
+    write(folder / "report.html", teachers_page(problems, record, names, copies))
 
 
 def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
@@ -46,11 +52,17 @@ def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
         yield (standing.student, *cells, decimal(standing.total), of)
 
 
-def _queue(record: Record) -> Iterator[tuple[str, ...]]:
-    """The page to fill: `dynsolve override OUT --from` takes it back."""
+def _queue(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
+    """The page to fill: `dynsolve override OUT --from` takes it back.
+
+    What waits without an answer that waits for marks, such as a file of nobody, is a row to look at.
+    """
     yield (*COLUMNS, "of", "reason")
-    for a, reason in to_fill(record):
-        yield (a.student, a.problem, a.answer, "", "", decimal(points(a.of)), reason)
+    for entry in queue(record, problems.stems):
+        for a in entry.answers:
+            yield (a.student, a.problem, a.answer, "", "", decimal(points(a.of)), entry.why)
+        if not entry.answers:
+            yield (entry.student, entry.problem, "", "", "", "", f"{entry.what}: {entry.why}")
 
 
 def _answers(record: Record) -> Iterator[tuple[str, ...]]:

@@ -13,14 +13,24 @@ from dynsolve.answers.marking.policy import shown
 from dynsolve.errors import Finding, InputError, UsageError
 from dynsolve.grading.by_hand import read_by_hand
 from dynsolve.grading.cohort import standings
+from dynsolve.grading.copies import write_copies
 from dynsolve.grading.fingerprints import changes
 from dynsolve.grading.hand_ins import take_in
 from dynsolve.grading.outputs import write_outputs
 from dynsolve.grading.platforms import canvas
 from dynsolve.grading.platforms.members import Groups
-from dynsolve.grading.platforms.registry import PLATFORMS, chosen_roster, export, keep_platform, late, people
+from dynsolve.grading.platforms.registry import (
+    PLATFORMS,
+    chosen_roster,
+    export,
+    keep_platform,
+    late,
+    names,
+    people,
+)
 from dynsolve.grading.pool import Bounds, LocalPool
 from dynsolve.grading.problem_set import ProblemSet, store_set, stored_set
+from dynsolve.grading.queue import Entry, queue
 from dynsolve.grading.record import FILE, Record, Waiting
 from dynsolve.grading.run import Pool, grade_all
 from dynsolve.grading.set_file import load_set
@@ -34,10 +44,10 @@ class Grades:
 
     `totals` are the marks of each student, `hand_ins` how many hand-ins there are,
     `computed` how many of them had to be judged, and `remarked` how many had only to be
-    marked anew; the others stood in the record.  `waiting` is what a human
-    reads, `refused` are the files that were not taken.  `changes` are lines on whose
-    marks are not those of the last run, where they were asked for, and `warnings` lines
-    on the platform's file.
+    marked anew; the others stood in the record.  `waiting` are the files that no program can
+    judge, `queue` is all that waits for a human, `refused` are the files that were not taken.
+    `changes` are lines on whose marks are not those of the last run, where they were asked
+    for, and `warnings` lines on the platform's file.
     """
 
     folder: Path
@@ -49,6 +59,7 @@ class Grades:
     refused: tuple[Refused, ...]
     changes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    queue: tuple[Entry, ...] = ()
 
 
 def grade(
@@ -110,10 +121,12 @@ def grade(
             intake = take_in(chosen, uploads, delays, Groups(chosen.groups, people(record)))
             store_set(record, chosen)
             done = grade_all(chosen, uploads, intake, record, pool, progress)
-        write_outputs(folder, chosen, record)
+        write_copies(folder, uploads, intake.files)
+        write_outputs(folder, chosen, record, names(record))
         warnings = (*export(folder, chosen, record), *filter(None, (unknown,)))
         changed = tuple(changes(record)) if diff else ()
         record.finish()
+        waits = tuple(queue(record, chosen.stems))
         totals = {standing.student: standing.total for standing in standings(record)}
     return Grades(
         folder,
@@ -125,6 +138,7 @@ def grade(
         tuple(uploads.refused),
         changed,
         warnings,
+        waits,
     )
 
 
@@ -193,7 +207,7 @@ def _overriding(folder: Path) -> Iterator[Record]:
     with _opened(folder) as record:
         problems = stored_set(record)
         yield record
-        write_outputs(folder, problems, record)
+        write_outputs(folder, problems, record, names(record))
         export(folder, problems, record)
 
 

@@ -44,6 +44,8 @@ CREATE TABLE IF NOT EXISTS waiting (
   student TEXT, problem TEXT, file TEXT, reason TEXT,
   PRIMARY KEY (student, problem, file, reason)) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS groups (student TEXT PRIMARY KEY, name TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS uploads (
+  student TEXT, problem TEXT, paths TEXT NOT NULL, PRIMARY KEY (student, problem)) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS overrides (
   student TEXT, problem TEXT, answer TEXT, marks TEXT NOT NULL, why TEXT NOT NULL,
   PRIMARY KEY (student, problem, answer)) WITHOUT ROWID;
@@ -209,6 +211,14 @@ class Record:
             rows = [(w.student, w.problem, w.file, w.reason) for w in waiting]
             self.db.executemany("INSERT OR IGNORE INTO waiting VALUES (?, ?, ?, ?)", rows)
 
+    def set_uploads(self, paths: Mapping[Key, tuple[str, ...]]) -> None:
+        """Where the files of each hand-in lie in what was handed in."""
+        with self.db:
+            self.db.execute("BEGIN")
+            self.db.execute("DELETE FROM uploads")
+            rows = [(*key, _text(of_one)) for key, of_one in paths.items()]
+            self.db.executemany("INSERT INTO uploads VALUES (?, ?, ?)", rows)
+
     def keep_only(self, keys: set[tuple[str, str]]) -> None:
         """Remove the hand-ins that are not among these."""
         gone = [key for key in self.fingerprints() if key not in keys]
@@ -261,6 +271,11 @@ class Record:
     def students(self) -> dict[str, str]:
         """Every student, with the platform's id."""
         return dict(self.db.execute("SELECT student, id FROM students ORDER BY student"))
+
+    def uploads(self) -> dict[Key, tuple[str, ...]]:
+        """Where the files of each hand-in lie in what was handed in."""
+        found = self.db.execute("SELECT student, problem, paths FROM uploads ORDER BY student, problem")
+        return {(student, problem): tuple(json.loads(paths)) for student, problem, paths in found}
 
     def groups(self) -> dict[str, str]:
         """Of each student whose group handed in what the files call the group."""

@@ -26,7 +26,7 @@ from dynsolve.grading.fingerprints import (
     fingerprints,
     touches_marks_alone,
 )
-from dynsolve.grading.hand_ins import File, HandIn, Intake, as_text
+from dynsolve.grading.hand_ins import File, HandIn, Intake
 from dynsolve.grading.marking import rescored
 from dynsolve.grading.pool import Bounds
 from dynsolve.grading.problem_set import ProblemSet
@@ -34,6 +34,7 @@ from dynsolve.grading.record import Record
 from dynsolve.grading.rows import row_of_result, rows_of_absent
 from dynsolve.grading.sections import without
 from dynsolve.grading.uploads import Uploads, digest
+from dynsolve.grading.which_problem import as_text
 from dynsolve.quantities.index import quantities
 
 Data = dict[str, Any]
@@ -93,6 +94,7 @@ def grade_all(
     Raises KeyboardInterrupt after what is done was written.
     """
     record.set_intake(intake.students, intake.waiting, intake.groups)
+    record.set_uploads({hand_in.key: hand_in.paths for hand_in in intake.hand_ins})
     record.keep_only({(student, stem) for student in intake.students for stem in problems.stems})
     known, bounds = record.fingerprints(), pool.bounds
     changed = [h for h in intake.hand_ins if known.get(h.key) not in fingerprints(problems, h, bounds)]

@@ -2,41 +2,55 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Set
 from fractions import Fraction
 from html import escape
 from importlib.resources import files
-from math import floor
+from pathlib import PurePosixPath
 from urllib.parse import quote
 
 from dynsolve.answers.diagnosis.slips import SLIPS
 from dynsolve.answers.marking.policy import shown
 from dynsolve.grading.cohort import VERDICTS, Cohort, counted, most
+from dynsolve.grading.copies import FOLDER, copy_name
 from dynsolve.grading.files import decimal, folder_name
+from dynsolve.grading.histogram import histogram
+from dynsolve.grading.item_analysis import Item
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 from dynsolve.render.prose import visible
 
-BINS = 10
 MOST_SLIPS = 40
 MOST_ALIKE = 100
 MOST_WAITING = 5000
 MOST_NAMED = 20
 
+ITEM_REST = (
+    "Mean and share correct are of the hand-ins that were judged. Item-rest r is the correlation of the "
+    "marks for this answer with all other marks of the same student (the corrected item-total "
+    "correlation): near 1, it tells strong students from weak ones; near or below 0, look at the question "
+    "and its key. It stands where 3 students or more have all their marks, and not all the same."
+)
 
-def teachers_page(problems: ProblemSet, record: Record) -> str:
-    """The page; every table can be sorted by its header's buttons."""
-    cohort = counted(problems, record)
+
+def teachers_page(
+    problems: ProblemSet, record: Record, names: Mapping[str, str], copies: Set[str] = frozenset()
+) -> str:
+    """The page; every table can be sorted by its header's buttons.
+
+    `names` are what students are called, where the platform's list says it, `copies` the
+    files of what was handed in that the page can link to.
+    """
+    cohort = counted(problems, record, names)
     title = _text(problems.title)
     sections = {
         "Marks": _distribution(problems, cohort),
-        "For a human": _queue(cohort),
-        "Answers": _verdicts(problems, cohort),
+        "For a human": _queue(cohort, copies),
+        "Answers": _answers(problems, cohort),
         "Commonest slips": _slips(cohort),
         "The same wrong expression": _alike(cohort),
-        "Set by hand": _by_hand(cohort),
-        "Students": _students(problems, cohort),
+        "Set by hand": _by_hand(cohort, copies),
+        "Students": _students(problems, cohort, copies),
     }
     told = {name: body for name, body in sections.items() if body}
     links = " · ".join(f'<a href="#{_anchor(name)}">{name}</a>' for name in told)
@@ -71,14 +85,15 @@ def _text(text: object) -> str:
 # -- tables ------------------------------------------------------------------------------------------
 
 
-def _table(header: tuple[str, ...], rows: Iterable[str], note: str = "") -> str:
+def _table(caption: str, header: tuple[str, ...], rows: Iterable[str], note: str = "") -> str:
     body = "\n".join(rows)
     if not body:
         return ""
     head = "".join(f'<th scope="col"><button type="button">{_text(name)}</button></th>' for name in header)
     said = f"<p>{note}</p>\n" if note else ""
+    named = f"<caption>{_text(caption)}</caption>"
     return (
-        f'{said}<div class="wide" tabindex="0"><table class="sortable"><thead><tr>{head}</tr></thead>'
+        f'{said}<div class="wide" tabindex="0"><table class="sortable">{named}<thead><tr>{head}</tr></thead>'
         f"<tbody>\n{body}\n</tbody></table></div>\n"
     )
 
@@ -90,10 +105,32 @@ def _row(*cells: str) -> str:
 
 def _link(cohort: Cohort, student: str, problem: str, text: str = "") -> str:
     """A student, or another text, with the link to the page that the student reads."""
-    text = _text(text or student)
+    text = _text(text) if text else _called(cohort, student)
     if (student, problem) not in cohort.pages:
         return text
     return f'<a href="feedback/{quote(folder_name(student))}/{quote(problem)}.html">{text}</a>'
+
+
+def _called(cohort: Cohort, student: str) -> str:
+    name = cohort.names.get(student)
+    return _text(f"{name} ({student})" if name else student)
+
+
+def _file(copies: Set[str], path: str, text: str) -> str:
+    """A text with the link to the copy of a file that was handed in, where there is one."""
+    name = copy_name(path)
+    if name not in copies:
+        return _text(text)
+    return f'<a href="{FOLDER}/{quote(name)}">{_text(text)}</a>'
+
+
+def _hand_in(cohort: Cohort, copies: Set[str], student: str, problem: str) -> str:
+    """A problem with the links to what the student handed in for it."""
+    first, *others = cohort.uploads.get((student, problem), ("",))
+    if not first:
+        return _text(problem)
+    named = [(first, problem), *((path, PurePosixPath(path).name) for path in others)]
+    return " ".join(_file(copies, path, name) for path, name in named)
 
 
 def _short(text: str, most: int = 160) -> str:
@@ -105,47 +142,39 @@ def _short(text: str, most: int = 160) -> str:
 
 
 def _summary(problems: ProblemSet, cohort: Cohort) -> str:
+    """Who there is and how they did, with the one number for what waits."""
     totals = sorted(total for _, _, total in cohort.marks)
+    waits = f'<p class="waits">{_waiting(cohort)}.</p>\n'
     if not totals:
-        return "<p>Nothing was handed in.</p>\n"
+        return f"{waits}<p>Nothing was handed in.</p>\n"
     of = sum(most(problems).values(), Fraction(0))
     n = len(totals)
     median = (totals[(n - 1) // 2] + totals[n // 2]) / 2
     mean = sum(totals, Fraction(0)) / n
     who = "1 student" if n == 1 else f"{n} students"
-    waits = len(cohort.queue)
-    waiting = "1 entry waits" if waits == 1 else f"{waits or 'No'} entries wait"
     return (
-        f"<p>{who}; of {shown(of)} marks the mean is {float(mean):.2f}, the median "
-        f"{decimal(median)}, from {decimal(totals[0])} to {decimal(totals[-1])}. "
-        f"{waiting} for a human.</p>\n"
+        f"{waits}<p>{who}; of {shown(of)} marks the mean is {float(mean):.2f}, the median "
+        f"{decimal(median)}, from {decimal(totals[0])} to {decimal(totals[-1])}.</p>\n"
     )
 
 
 def _distribution(problems: ProblemSet, cohort: Cohort) -> str:
-    of = sum(most(problems).values(), Fraction(0))
-    if not of or not cohort.marks:
-        return ""
-    bins = Counter(min(floor(total / of * BINS), BINS - 1) for _, _, total in cohort.marks)
-    top = max(bins.values())
-    bars = []
-    told = []
-    for i in range(BINS):
-        height = 150 * bins[i] / top
-        label = f"{decimal(of * i / BINS)} to {decimal(of * (i + 1) / BINS)} marks: {bins[i]}"
-        told.append(label)
-        bars.append(
-            f'<g><title>{label}</title><rect x="{i * 44 + 4}" y="{170 - height:.1f}" width="36" '
-            f'height="{height:.1f}"/><text x="{i * 44 + 22}" y="{165 - height:.1f}">{bins[i] or ""}</text>'
-            f'<text x="{i * 44 + 22}" y="186">{100 * i // BINS} %</text></g>'
-        )
-    return (
-        f'<svg class="bars" viewBox="0 0 450 190" role="img" aria-label="{"; ".join(told)}">'
-        f"{''.join(bars)}</svg>\n"
-    )
+    """A histogram of each problem, and of all together where they are several."""
+    of = most(problems)
+    earned = {
+        stem: [marks[stem] for who, marks, _ in cohort.marks if (who, stem) in cohort.judged]
+        for stem in problems.stems
+    }
+    figures = [histogram(stem, earned[stem], of[stem]) for stem in problems.stems]
+    if len(problems.stems) > 1:
+        totals = [total for _, _, total in cohort.marks]
+        figures.insert(0, histogram("All problems", totals, sum(of.values(), Fraction(0))))
+    drawn = "".join(figures)
+    note = "Of a problem those are counted whose hand-in was judged."
+    return f'<p>{note}</p>\n<div class="figures">{drawn}</div>\n' if drawn else ""
 
 
-def _verdicts(problems: ProblemSet, cohort: Cohort) -> str:
+def _answers(problems: ProblemSet, cohort: Cohort) -> str:
     def rows() -> Iterator[str]:
         order = {stem: place for place, stem in enumerate(problems.stems)}
         for (problem, answer), counts in sorted(cohort.verdicts.items(), key=lambda kv: order[kv[0][0]]):
@@ -154,9 +183,21 @@ def _verdicts(problems: ProblemSet, cohort: Cohort) -> str:
                 f'<td class="heat {v}" style="--share:{counts[v] / total:.3f}">{counts[v]}</td>'
                 for v in VERDICTS
             )
-            yield f"<tr><td>{_text(problem)}</td><td>{_text(answer)}</td>{heat}</tr>"
+            found = cohort.items.get((problem, answer))
+            figures = "".join(f'<td class="number">{figure}</td>' for figure in _figures(found))
+            yield f"<tr><td>{_text(problem)}</td><td>{_text(answer)}</td>{figures}{heat}</tr>"
 
-    return _table(("problem", "answer", *VERDICTS), rows())
+    header = ("problem", "answer", "mean", "of", "% correct", "item-rest r", *VERDICTS)
+    return _table("How each answer did, and its verdicts", header, rows(), ITEM_REST)
+
+
+def _figures(item: Item | None) -> tuple[str, str, str, str]:
+    """The mean, the most, the share correct and the correlation of an answer; nothing where there is none."""
+    if item is None or item.mean is None or item.share_correct is None:
+        return ("", "", "", "")
+    r = item.item_rest
+    correlation = "" if r is None else f"{r:.2f}"
+    return f"{item.mean:.2f}", f"{item.of:g}", f"{100 * item.share_correct:.0f}", correlation
 
 
 def _slips(cohort: Cohort) -> str:
@@ -172,7 +213,8 @@ def _slips(cohort: Cohort) -> str:
             )  # fmt: skip
 
     header = ("problem", "answer", "slip", "times", "for example", "what is said of it")
-    return _table(header, rows(), _of(MOST_SLIPS, len(found), "commonest"))
+    note = _of(MOST_SLIPS, len(found), "commonest")
+    return _table("Slips that were found, the commonest first", header, rows(), note)
 
 
 def _of(most: int, count: int, which: str) -> str:
@@ -193,35 +235,52 @@ def _alike(cohort: Cohort) -> str:
 
     hint = "A hint and no accusation: a common slip leads many to the same expression."
     note = f"{hint} {_of(MOST_ALIKE, len(found), 'most frequent')}".strip()
-    return _table(("problem", "answer", "students", "expression", "who"), rows(), note)
+    header = ("problem", "answer", "students", "expression", "who")
+    return _table("Wrong answers of the same value, however they are written", header, rows(), note)
 
 
-def _queue(cohort: Cohort) -> str:
-    rows = (
-        _row(_link(cohort, e.student, e.problem), _text(e.problem), _text(e.what), _text(e.why))
-        for e in cohort.queue[:MOST_WAITING]
-    )
+def _queue(cohort: Cohort, copies: Set[str]) -> str:
+    def rows() -> Iterator[str]:
+        for e in cohort.queue[:MOST_WAITING]:
+            what = _file(copies, e.what, e.what)
+            who = _link(cohort, e.student, e.problem)
+            yield _row(who, _hand_in(cohort, copies, e.student, e.problem), what, _text(e.why))
+
     more = len(cohort.queue) - MOST_WAITING
-    note = f"{more} more are in grades.sqlite." if more > 0 else ""
-    return _table(("student", "problem", "what", "why"), rows, note)
+    note = "The problem leads to what was handed in."
+    note += f" {more} more are in queue.csv." if more > 0 else ""
+    return _table(_waiting(cohort), ("student", "problem", "what", "why"), rows(), note)
 
 
-def _by_hand(cohort: Cohort) -> str:
+def _waiting(cohort: Cohort) -> str:
+    count = len(cohort.queue)
+    return "1 entry waits for a human" if count == 1 else f"{count or 'No'} entries wait for a human"
+
+
+def _by_hand(cohort: Cohort, copies: Set[str]) -> str:
     def rows() -> Iterator[str]:
         for a in cohort.by_hand:
             marks = f"{shown(Fraction(a.marks))} of {shown(Fraction(a.of))}"
             who = _link(cohort, a.student, a.problem)
-            yield _row(who, _text(a.problem), _text(a.answer), marks, _text(a.why))
+            yield _row(
+                who, _hand_in(cohort, copies, a.student, a.problem), _text(a.answer), marks, _text(a.why)
+            )
 
-    return _table(("student", "problem", "answer", "marks", "why"), rows())
+    return _table("Marks that a teacher has set", ("student", "problem", "answer", "marks", "why"), rows())
 
 
-def _students(problems: ProblemSet, cohort: Cohort) -> str:
+def _students(problems: ProblemSet, cohort: Cohort, copies: Set[str]) -> str:
     def rows() -> Iterator[str]:
         for student, marks, total in cohort.marks:
             each = (
                 _link(cohort, student, stem, decimal(marks.get(stem, Fraction(0)))) for stem in problems.stems
             )
-            yield _row(_text(student), *each, decimal(total))
+            yield _row(_called(cohort, student), *each, decimal(total), " ".join(_handed_in(student)))
 
-    return _table(("student", *problems.stems, "total"), rows())
+    def _handed_in(student: str) -> Iterator[str]:
+        for stem in problems.stems:
+            if (student, stem) in cohort.uploads:
+                yield _hand_in(cohort, copies, student, stem)
+
+    caption = "The marks of each student lead to the page that the student reads"
+    return _table(caption, ("student", *problems.stems, "total", "handed in"), rows())

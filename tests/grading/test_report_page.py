@@ -70,8 +70,19 @@ def test_every_link_leads_to_a_page_that_is_there(page: Page, out: Path) -> None
     )
     assert page.ask(f"{lost}.length") == 0
     outside = {unquote(link) for link in links if not link.startswith("#")}
-    assert len(outside) == len(list((out / "feedback").glob("*/*.html")))
-    assert all((out / link).is_file() for link in outside)
+    pages, copies = (out / "feedback").glob("*/*.html"), (out / "hand-ins").glob("*")
+    assert outside == {str(path.relative_to(out)) for path in (*pages, *copies)}
+
+
+def test_every_table_and_every_histogram_says_what_it_is(page: Page, out: Path) -> None:
+    page.open(out / "report.html", 1200)
+    assert page.ask("[...document.querySelectorAll('table')].every(t => t.caption?.textContent)") is True
+    said = page.ask("[...document.querySelectorAll('figure figcaption')].map(f => f.textContent)")
+    assert [one.partition(":")[0] for one in said] == ["All problems", "in3140-rp", "planar-2r", "elbow-3r"]
+    labels = "[...document.querySelectorAll('svg[role=img]')].map(s => s.getAttribute('aria-label'))"
+    assert [label.startswith(one) for label, one in zip(page.ask(labels), said, strict=True)] == [True] * 4
+    counts = "[...document.querySelectorAll('svg')].map(s => [...s.querySelectorAll('g text:first-of-type')])"
+    assert page.ask(f"{counts}[0].reduce((sum, t) => sum + Number(t.textContent), 0)") == 13
 
 
 def test_a_header_sorts_numbers_as_numbers_by_mouse_and_keyboard(page: Page, out: Path) -> None:

@@ -75,6 +75,15 @@ def people(record: Record) -> tuple[Person, ...]:
     return tuple(PLATFORMS[platform].people(from_text(record.run(_ROSTER)))) if platform else ()
 
 
+def names(record: Record) -> dict[str, str]:
+    """What students are called, by the roster that is kept, where their names here do not say it."""
+    listed = people(record)
+    called = {person.student: person.name for person in listed}
+    called |= {person.id: person.name for person in listed if person.id}
+    found = {student: called.get(id) or called.get(student, "") for student, id in record.students().items()}
+    return {student: name for student, name in found.items() if name and name not in student}
+
+
 def export(folder: Path, problems: ProblemSet, record: Record) -> tuple[str, ...]:
     """Write the files of the platform that is kept, if one is; returns warnings."""
     platform = record.run(_PLATFORM)

@@ -1,0 +1,84 @@
+"""What waits for a human: one list, for the teacher's page, for `queue.csv` and for the terminal.
+
+An entry is a file that no program can judge, a hand-in that could not be judged, or an answer that
+should be looked at.  An answer leaves the list when a teacher has given it marks, a file beside a
+hand-in that was judged when a teacher has said a word on one of its answers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
+from itertools import groupby
+
+from dynsolve.answers.unwritten import BY_PARTS
+from dynsolve.grading.record import Key, Record, RecordedAnswer
+
+OVERTAKEN = "its marks were set by hand for an earlier hand-in"
+LEFT_ASIDE = "left aside: a newer copy counts"
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """Something for a human: `what` it is, a file or an answer, why, and the answers that wait for marks."""
+
+    student: str
+    problem: str
+    what: str
+    why: str
+    answers: tuple[RecordedAnswer, ...] = ()
+
+
+def queue(record: Record, stems: Collection[str]) -> list[Entry]:
+    """All that waits, files first; `stems` are the problems of the set."""
+    unjudged = {(s, p): why for s, found in record.unjudged().items() for p, why in found.items()}
+    judged_by_hand = {(s, p) for s, p, _ in record.overrides()}
+    answers = {
+        key: [a for a in found if a.of != "0" and not a.said]
+        for key, found in groupby(record.answers(), key=lambda a: (a.student, a.problem))
+        if key in unjudged
+    }
+    hand_ins = [replace(row, html=b"", markdown=b"") for row in record.rows()]
+    reasons = {(row.student, row.problem): row.reason for row in hand_ins}
+    found: list[Entry] = []
+    for w in record.waiting():
+        keys = [(w.student, stem) for stem in ((w.problem,) if w.problem else stems)]
+        open_ = [key for key in keys if key in unjudged]
+        settled = not open_ and any(reasons.get(key) or key in judged_by_hand for key in keys)
+        if not settled:
+            own = tuple(answer for key in open_ for answer in answers.pop(key, ()))
+            found.append(Entry(w.student, w.problem, w.file, w.reason, own))
+    for row in hand_ins:
+        key = (row.student, row.problem)
+        if key in answers:
+            found.append(Entry(*key, ", ".join(row.files), row.reason, tuple(answers[key])))
+        if row.left and key not in judged_by_hand:
+            found.append(Entry(*key, ", ".join(row.left), LEFT_ASIDE))
+    return found + list(_answers(record, unjudged))
+
+
+def _answers(record: Record, unjudged: Collection[Key]) -> Iterator[Entry]:
+    """The single answers that wait."""
+    overtaken = record.overtaken()
+    for a in record.answers():
+        what = f"{a.answer} {a.label}".strip()
+        if (a.student, a.problem, a.answer) in overtaken:
+            yield Entry(a.student, a.problem, what, OVERTAKEN, (a,))
+        elif a.of != "0" and not a.said and (a.student, a.problem) not in unjudged:
+            reason = for_a_human(a)
+            if reason:
+                yield Entry(a.student, a.problem, what, reason, (a,))
+
+
+def for_a_human(a: RecordedAnswer) -> str:
+    """Why an answer that was judged should be looked at by a human, or an empty text.
+
+    A wrong whole whose parts have a diagnosis need not be.
+    """
+    if a.verdict == "unreadable":
+        return a.fault or "it could not be read"
+    if a.loss:
+        return f"{a.verdict}, but {a.loss}"
+    if a.verdict == "wrong" and not a.diagnosis and BY_PARTS not in a.note:
+        return "it is wrong, and no slip was found that explains it"
+    return ""

@@ -1,0 +1,147 @@
+"""What a file says of itself: whose it is, and which problem of the set it is for.
+
+Its front matter or its keys say it, else its name, else its heading; a report on several problems is
+told apart by its headings (`sections`).
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import PurePosixPath
+
+from dynsolve.answers.reading.answer_file import parsed
+from dynsolve.answers.reading.documents import EXTRA, FORMATS, as_report, pandoc
+from dynsolve.answers.reading.sources import decoded
+from dynsolve.errors import ReadError
+from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.sections import Span, parts, titles
+from dynsolve.grading.uploads import printable
+
+_HEAD = 20_000
+_IN_PARTS = (".md", ".markdown", ".tex", ".txt", ".html", ".htm", *FORMATS)
+_ANSWER_FILES = (".yaml", ".yml", ".json")
+_FIELD = r"(?m)^[ \t]{{0,3}}[\"']?{}[\"']?[ \t]{{0,9}}:[ \t]{{0,99}}(\S.{{0,300}}?)[ \t]*(?:#.*)?$"
+_STUDENT, _PROBLEM = (re.compile(_FIELD.format(key)) for key in ("student", "problem"))
+_FRONT, _BACK = ("---", "<!--"), ("---", "...", "-->")
+"""The lines that front matter stands between."""
+
+
+def beginning(content: bytes, ending: str) -> tuple[str, str]:
+    """The text that a file begins with, that of a notebook's first cells; or why a human has to read it."""
+    if ending in FORMATS:
+        return _document(content, ending)
+    text = decoded(content if ending == ".ipynb" else content[:_HEAD])
+    if ending == ".ipynb":
+        with suppress(ValueError, RecursionError):
+            book = json.loads(text)
+            cells = book.get("cells", ()) if isinstance(book, dict) else ()
+            sources = [cell.get("source") for cell in cells if isinstance(cell, dict)][:20]
+            text = "\n\n".join("".join(map(str, s)) if isinstance(s, list) else str(s) for s in sources)
+    return text[:_HEAD], ""
+
+
+def _document(content: bytes, ending: str) -> tuple[str, str]:
+    if pandoc() is None:
+        return "", f"a human reads it, or dynsolve after `{EXTRA}`"
+    try:
+        text, _ = as_report(content, ending)
+    except ReadError as error:
+        return "", f"a human reads it ({error.message})"
+    return text[:_HEAD], "" if "=" in text else "no formula stands in it, so a human reads it"
+
+
+def _front(text: str, ending: str) -> str:
+    """Where a file may say whose it is: an answer file's own keys, a report's front matter."""
+    if ending in _ANSWER_FILES:
+        return text
+    first, *lines = text.lstrip().split("\n")
+    last = next((i for i, line in enumerate(lines) if line.strip().startswith(_BACK)), None)
+    return "\n".join(lines[:last]) if first.strip() in _FRONT and last is not None else ""
+
+
+def _said(pattern: re.Pattern[str], text: str, ending: str) -> str:
+    if ending in _ANSWER_FILES and text.lstrip().startswith("{"):
+        file = parsed(text)
+        return printable(file.problem if pattern is _PROBLEM else file.student)
+    found = pattern.search(_front(text, ending))
+    return printable(found[1].strip("\"', ")[:200]) if found else ""
+
+
+def said_student(text: str, ending: str) -> str:
+    """The student that a file names, or nothing."""
+    return _said(_STUDENT, text, ending)
+
+
+def problem_of(problems: ProblemSet, text: str, name: str, ending: str) -> tuple[str, str]:
+    """The problem that a file is for, or why none can be named."""
+    said = _said(_PROBLEM, text, ending)
+    if said:
+        found = folded(said, problems)
+        if found:
+            return found, ""
+        return "", f"it says that it is for `{said[:60]}`, which is no problem of this set"
+    named = by_name(problems, name)
+    if named:
+        return named, ""
+    for found in _headed(problems, text):
+        return found, ""
+    for found in parts(text, lambda title: within(title, problems), problems.stems):
+        return found, ""
+    if len(problems.items) == 1:
+        return problems.items[0].stem, ""
+    return "", "neither its front matter, its name nor its heading says which problem it is for"
+
+
+def _headed(problems: ProblemSet, text: str) -> Iterator[str]:
+    """The problems that headings name."""
+    for _, title in titles(text):
+        found = within(title, problems)
+        if found:
+            yield found
+
+
+def parts_of(problems: ProblemSet, content: bytes, name: str, text: str) -> dict[str, tuple[Span, ...]]:
+    """The problems that a report is on, where they are several, each with what is for the others."""
+    ending = PurePosixPath(name).suffix.lower()
+    if ending not in _IN_PARTS or _said(_PROBLEM, text, ending) or by_name(problems, name):
+        return {}
+    return parts(as_text(content, ending), lambda title: within(title, problems), problems.stems)
+
+
+def as_text(content: bytes, ending: str) -> str:
+    """The text of a report whose parts are told apart; raises ReadError."""
+    return as_report(content, ending)[0] if ending in FORMATS else decoded(content)
+
+
+def also_named(problems: ProblemSet, text: str, name: str, ending: str) -> list[str]:
+    """The further problems of a file whose problem is that of its first heading."""
+    if _said(_PROBLEM, text, ending) or by_name(problems, name):
+        return []
+    return list(dict.fromkeys(_headed(problems, text)))[1:]
+
+
+def by_name(problems: ProblemSet, name: str) -> str:
+    """The problem that a file's name names, or the only one."""
+    return within(name, problems) or (problems.items[0].stem if len(problems.items) == 1 else "")
+
+
+def _fold(text: str) -> str:
+    return re.sub(r"[\W_]+", " ", text.casefold()).strip()
+
+
+def folded(said: str, problems: ProblemSet) -> str:
+    """The problem of exactly this name, however it is spelled."""
+    said = PurePosixPath(said).stem if said.endswith((".yaml", ".yml")) else said
+    names = {_fold(name): item.stem for item in problems.items for name in (item.problem.title, item.stem)}
+    return names.get(_fold(said), "")
+
+
+def within(text: str, problems: ProblemSet) -> str:
+    """The problem whose name or title occurs in a text, the longest where several do."""
+    folded = f" {_fold(text)} "
+    names = [(_fold(n), item.stem) for item in problems.items for n in (item.stem, item.problem.title)]
+    hits = sorted((name for name in names if f" {name[0]} " in folded), key=lambda n: -len(n[0]))
+    return hits[0][1] if hits else ""
