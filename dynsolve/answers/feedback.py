@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from dynsolve.answers.submission import Place
+from dynsolve.answers.submission import NotRecognized, Place
 from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Report, Verdict
 from dynsolve.document import (
     Block,
@@ -124,10 +124,15 @@ def slips(report: Report, view: FeedbackView) -> Iterator[Block]:
 
 
 def not_recognized(report: Report) -> Iterator[Block]:
-    """Equations that name nothing known."""
+    """Equations that are no answers, each with the reason."""
     if report.not_recognized:
         yield Heading("Not recognized")
-        yield List(tuple((f"{n.place}: ", Verbatim(_short(n.text))) for n in report.not_recognized))
+        yield List(tuple(_listed(n) for n in report.not_recognized))
+
+
+def _listed(found: NotRecognized) -> Prose:
+    reason = f" ({found.why})" if found.why else ""
+    return (f"{found.place}: ", Verbatim(_short(found.text)), reason)
 
 
 def _number(value: object) -> str:

@@ -145,7 +145,9 @@ class Judge:
     def _not_recognized(self) -> tuple[NotRecognized, ...]:
         """What is none of the answers: equations that name nothing known, and definitions."""
         definitions = (
-            NotRecognized(f"{name} = {value.answer.text}", value.answer.label, value.answer.place)
+            NotRecognized(
+                f"{name} = {value.answer.text}", value.answer.label, value.answer.place, value.fault
+            )
             for name, chains in self.hand_in.definitions.items()
             for chain in chains
             for value in chain

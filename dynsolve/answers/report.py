@@ -18,7 +18,12 @@ def to_json(report: Report, *, level: int = 3, teacher: bool = False) -> dict[st
         "student": report.student,
         "answers": [_answer(a, level, teacher) for a in report.answers],
         "not_recognized": [
-            {"text": n.text, "label": n.label, "where": {"line": n.place.line, "column": n.place.column}}
+            {
+                "text": n.text,
+                "label": n.label,
+                "where": {"line": n.place.line, "column": n.place.column},
+                "why": n.why,
+            }
             for n in report.not_recognized
         ],
         "first_wrong": report.first_wrong,

@@ -66,16 +66,21 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class NotRecognized:
-    """An equation whose left-hand side names nothing known."""
+    """An equation that is no answer; `why` says what kept it from being one."""
 
     text: str
     label: str
     place: Place
+    why: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Submission:
-    """One file that was handed in, for one problem; `student` and `problem` as the file says, or empty."""
+    """One file that was handed in, for one problem; `student` and `problem` as the file says, or empty.
+
+    What is no answer is `not_recognized`, which the student is shown, or `left_alone`: definitions,
+    general formulas, and what a sentence says.  So every equation of the file is in one of the three.
+    """
 
     problem: str
     student: str
@@ -83,3 +88,4 @@ class Submission:
     answers: tuple[Answer, ...]
     not_recognized: tuple[NotRecognized, ...] = ()
     faults: tuple[Finding, ...] = ()
+    left_alone: tuple[NotRecognized, ...] = ()

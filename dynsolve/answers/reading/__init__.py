@@ -4,32 +4,38 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 
 1. `files` knows the format by the file's ending; `reports`, `answer_file`, `notebooks` or `web`
    finds the displayed equations, each a `displays.Display` (`report_text` leaves comments and
-   struck-out text away, `plain_lines` finds equations that are no displays, `documents` lets
+   struck-out text away, `plain_lines` and `tables` find equations that are no displays, `documents` lets
    pandoc read Word and its like).  `sources` keeps where every character stands in the file,
    `limits` says how much is read.
 2. `lexer` cuts the text of a display into tokens: letters, numbers, commands, signs.
 3. `prepare` writes the student's macros out and leaves out fonts, sizes and environments that
    only align, so that one thing has one spelling from here on.
 4. `displays` cuts the tokens into equations, and these at `=` into members.
-5. `equation_reader` takes the equations in order, and keeps what the student defines.
-   `left_side` finds which answers a member names (d11), `right_side` which value it has.
+5. `equation_reader` takes the equations in order, and keeps what the student defines;
+   `asides` are formulas in sentences, which define and answer nothing.  `left_side` finds which
+   answers a member names (d11), `right_side` which value it has.
 6. For both, `name_splitting` cuts runs of letters into the names of the problem (`m_2gL_1`), and
    `grammar` descends over the tokens; what a name means is looked up in the `vocabulary` of
    the problem.  A value is a tree, or a matrix of trees (`grids`); `size` bounds it.
 7. `answer_list` makes the record (`answers.submission.Answer`), under the name whose shape
-   the value has (`shapes`), and settles at the end what needs the whole file.
+   the value has (`shapes`), and settles at the end what needs the whole file: of what is given
+   twice, what cannot be read never takes the place of what can (`occurrences`).
+
+Every equation ends as an answer, in `not_recognized`, which the student is shown, or in
+`left_alone`, each with its reason: a path through `equation_reader` that leaves no record is a fault.
 
 `definitions` reads the names that an answer file declares under `symbols:` and `let:`;
 `own_coordinates` are those that count a coordinate the other way, `own_names` keeps what follows
-from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row.  The
-values of an answer file come from `yaml_values` (what YAML says) and `yaml_scalars` (what stands
+from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row,
+`matrix_parts` one row or column of a matrix, `index_order` what the indices of a Christoffel
+symbol mean.  The values of an answer file are read by `given_values`; they come from `yaml_values` (what YAML says) and `yaml_scalars` (what stands
 between quotes), or, where YAML refuses the file, from `answer_lines`; `placed_text` keeps where
 each character of a value stands.
 
 Modules import only those of earlier layers: text (`limits`, `sources`, `lexer`, `prepare`,
-`displays`), names (`grids`, `vocabulary`, `name_splitting`), `grammar`, equations (`size`,
-`shapes`, `own_names`, `left_side`, `right_side`, `vector_entries`, `answer_list`,
-`equation_reader`, `definitions`), formats (the rest).
+`displays`), names (`grids`, `index_order`, `vocabulary`, `name_splitting`), `grammar`, equations (`size`,
+`shapes`, `own_names`, `left_side`, `right_side`, `vector_entries`, `matrix_parts`, `occurrences`,
+`answer_list`, `equation_reader`, `asides`, `given_values`, `definitions`), formats (the rest).
 
 To read one more format, write a file that finds its displays, and name its ending in `files`; one
 more notation is a row or a module of `grammar`.

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from dynsolve.answers.reading import answer_lines, yaml_values
 from dynsolve.answers.reading.definitions import own_symbols
 from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.given_values import read_value
 from dynsolve.answers.reading.limits import MAX_ANSWERS
 from dynsolve.answers.reading.placed_text import PlacedText
 from dynsolve.answers.reading.sources import Source
@@ -58,7 +59,7 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
     for entry in file.answers[:MAX_ANSWERS]:
         if entry.value is not None:
             place = source.place(entry.at, len(entry.key))
-            reader.read_answer(entry.key, place, entry.value.display(source))
+            read_value(reader, entry.key, place, entry.value.display(source))
     return (file.problem, file.student), faults
 
 

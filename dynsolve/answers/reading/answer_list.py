@@ -6,8 +6,9 @@ from dataclasses import dataclass, field, replace
 
 from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.occurrences import readable
 from dynsolve.answers.reading.right_side import EXPECTED, RightSide
-from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown
+from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
 from dynsolve.answers.reading.vector_entries import Entry, VectorEntries
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.submission import Answer, NotRecognized
@@ -23,10 +24,14 @@ class Origin:
     label: str
     equation: int
 
-    def not_recognized(self, start: int, end: int) -> NotRecognized:
-        """The record of a stretch of the display that names nothing known."""
+    def not_recognized(self, start: int, end: int, why: str = "") -> NotRecognized:
+        """The record of a stretch of the display that is no answer."""
         text = self.display.text[start:end]
-        return NotRecognized(shown(text), self.label, self.display.locate(start, 1))
+        return NotRecognized(shown(text), self.label, self.display.locate(start, 1), why)
+
+    def of(self, members: list[list[Token]], why: str) -> NotRecognized:
+        """The record of an equation that is no answer."""
+        return self.not_recognized(members[0][0].start, members[-1][-1].end, why)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,12 +59,16 @@ class _Undecided:
 
 @dataclass(slots=True)
 class AnswerList:
-    """The answers of one hand-in, in the order of the file; `printer` writes how each was read."""
+    """The answers of one hand-in, in the order of the file; `printer` writes how each was read.
+
+    `not_recognized` and `left_alone` are what is no answer, as in a `Submission`.
+    """
 
     vocabulary: Vocabulary
     printer: UnicodePrinter
     answers: list[Answer] = field(default_factory=list)
     not_recognized: list[NotRecognized] = field(default_factory=list)
+    left_alone: list[NotRecognized] = field(default_factory=list)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
     _asides: list[tuple[tuple[str, ...], NotRecognized]] = field(default_factory=list)
@@ -102,6 +111,7 @@ class AnswerList:
             error = misfit(self.vocabulary, candidates, found.value, start, end)
             return self.unreadable(candidates, error, origin, member.index)
         name, node, note = fits[0]
+        node = with_own_entries(self.vocabulary, name, node)
         note = "" if display.plain and "row" in note else note
         return Answer(
             name=name,
@@ -133,7 +143,7 @@ class AnswerList:
         )
 
     def said_aside(self, candidates: tuple[str, ...], refused: NotRecognized) -> None:
-        """Keep what a sentence says of an answer: it is listed where no display gives that."""
+        """Keep what is said of an answer without giving it: it is listed where nothing else gives that."""
         self._asides.append((candidates, refused))
 
     def put_off(self, family: tuple[str, ...], answers: list[Answer], refused: NotRecognized) -> None:
@@ -160,5 +170,8 @@ class AnswerList:
             self.answers += self._models
         self.answers, lost = self._entries.settled(self.answers, self.printer)
         self.not_recognized += lost
+        self.answers, lost = readable(self.answers, self.vocabulary.quantities)
+        self.not_recognized += lost
         given = {answer.name for answer in self.answers}
-        self.not_recognized += [refused for names, refused in self._asides if not given & set(names)]
+        for names, refused in self._asides:
+            (self.left_alone if given & set(names) else self.not_recognized).append(refused)

@@ -12,9 +12,10 @@ import re
 from dataclasses import replace
 
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
-from dynsolve.answers.reading.displays import Display, Equation, chain, equations
+from dynsolve.answers.reading.displays import Display, Equation, equations, is_label
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import Abstract, Grid
+from dynsolve.answers.reading.index_order import defined_order
 from dynsolve.answers.reading.left_side import (
     LeftSide,
     NamedAnswers,
@@ -25,13 +26,14 @@ from dynsolve.answers.reading.left_side import (
 )
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
+from dynsolve.answers.reading.matrix_parts import MatrixPart, entries_of, part_of
 from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.prepare import Macro, prepared
-from dynsolve.answers.reading.right_side import RightSide, read_right_side
+from dynsolve.answers.reading.right_side import RightSide, read_right_side, why_no_value
 from dynsolve.answers.reading.shapes import fitted, is_gravity_vector, model_parts, shown
 from dynsolve.answers.reading.vector_entries import entry_of
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
-from dynsolve.answers.submission import Answer, NotRecognized, Place
+from dynsolve.answers.submission import NotRecognized
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
@@ -41,8 +43,8 @@ from dynsolve.quantities.spelling import key
 _CONTROL = re.compile(r"unknown (?:symbol `[Kk]_?\{?[pPdDiI]\}?`|command `\\tilde`)")
 """What a controller's gains and errors are told as: an equation that holds them is none of the answers."""
 
-_NEVER_DEFINED = frozenset({"t", "i", "j", "k", "n"})
-"""Letters of sentences that are no abbreviation: the time, running indices, the number of joints."""
+_DEFINITION = "it defines an abbreviation"
+_TOO_MANY_ANSWERS = f"more than {MAX_ANSWERS} values stand before it"
 
 
 class EquationReader:
@@ -61,6 +63,7 @@ class EquationReader:
         self.coordinates: list[Node] = []
         self._first: dict[str, Meaning] = {}
         self._ahead: dict[str, Meaning] = {}
+        self._orders = dict(vocabulary.orders)
 
     def define(self, name: str, value: RightSide) -> None:
         """Keep a name for what follows."""
@@ -77,10 +80,13 @@ class EquationReader:
         then to be read once more; a definition holds for what stands before the first one too.
         """
         late = {name: self._first[name] for name in self._first if name in self.vocabulary.missed}
-        if late.keys() <= self._ahead.keys():
+        orders = self.vocabulary.orders
+        if late.keys() <= self._ahead.keys() and orders == self._orders:
             return False
         self._ahead |= late
+        self._orders = orders
         self.vocabulary = self.vocabulary.fresh()
+        self.vocabulary.orders |= orders
         self.vocabulary.defined |= self._ahead
         self.found = AnswerList(self.vocabulary, self.found.printer)
         self.macros, self._first, self.equations = {}, {}, 0
@@ -89,23 +95,24 @@ class EquationReader:
     # Equations of a report
 
     def read_display(self, display: Display) -> None:
-        """Read the equations of one display."""
+        """Read the equations of one display; each becomes an answer, a definition, or is listed."""
         try:
-            found = equations(prepared(display.text, self.macros))
+            tokens = prepared(display.text, self.macros)
+            found = equations(tokens)
         except ReadError as error:
             self._display_without_tokens(display, error)
             return
-        if not found and "=" in display.text and not display.plain and not display.aside:
-            place = display.locate(0, len(display.text))
-            self.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place))
+        origin = Origin(display, display.label, self.equations)
+        if not found and not is_label(tokens):
+            why = "no name stands here for what this is" if "=" not in display.text else "no equation"
+            self.found.not_recognized.append(origin.not_recognized(0, len(display.text), why))
         for equation in found:
-            if display.aside:
-                self._aside(equation, Origin(display, "", self.equations))
-                continue
             if len(self.found.answers) < MAX_ANSWERS:
-                self._read_equation(equation, self._origin(display, equation.label or display.label))
+                self._read_equation(equation, self.origin(display, equation.label or display.label))
+            else:
+                self.found.not_recognized.append(origin.of(equation.members, _TOO_MANY_ANSWERS))
 
-    def _origin(self, display: Display, label: str) -> Origin:
+    def origin(self, display: Display, label: str) -> Origin:
         """Where the next equation stands."""
         self.equations += 1
         return Origin(display, label, self.equations)
@@ -118,19 +125,25 @@ class EquationReader:
         except ReadError:
             name = None
         if isinstance(name, NamedAnswers) and not display.among_prose:
-            origin = self._origin(display, display.label)
+            origin = self.origin(display, display.label)
             self.found.answers.append(self.found.unreadable(name.candidates, error, origin, 1))
         else:
             place = display.locate(error.offset, error.length)
-            self.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place))
+            refused = NotRecognized(shown(display.text), display.label, place, error.message)
+            self.found.not_recognized.append(refused)
 
     def _read_equation(self, equation: Equation, origin: Origin) -> None:
         """Read one chain a = b = c."""
         members = equation.members
-        start, end = members[0][0].start, members[-1][-1].end
         if len(members) > MAX_MEMBERS:
-            whole = origin.not_recognized(start, len(origin.display.text))
-            self.found.not_recognized.append(whole)
+            self.found.not_recognized.append(origin.of(members, f"more than {MAX_MEMBERS} members"))
+            return
+        if (order := defined_order(members)) is not None:
+            self.vocabulary.orders |= [order]
+            self.found.left_alone.append(origin.of(members, "it says what the indices mean"))
+            return
+        if (part := part_of(self.vocabulary, members[0])) is not None:
+            self._part(part, members, origin)
             return
         sides = read_left_sides(self.vocabulary, members)
         names = list(dict.fromkeys(side.candidates for side in sides if isinstance(side, NamedAnswers)))
@@ -145,13 +158,26 @@ class EquationReader:
             return
         if not names:
             self._without_name(sides[0], members, read, origin)
-        elif self._defines_own_letter(members[0], names, read):
-            first = next(member.found for member in read if isinstance(member.found, RightSide))
-            self.define(key(members[0][0].text), first)
+        elif own := self._own_letter(members, sides, names, read):
+            self.define(own, _values(read)[0])
+            self.found.left_alone.append(origin.of(members, _DEFINITION))
         elif self._states_constant(members, names, read):
-            self.found.not_recognized.append(origin.not_recognized(start, end))
+            self.found.not_recognized.append(origin.of(members, "this says what a symbol of the problem is"))
         else:
-            self._with_names(names, read, origin, origin.not_recognized(start, end))
+            self._with_names(names, members, read, origin)
+
+    def _part(self, part: MatrixPart, members: list[list[Token]], origin: Origin) -> None:
+        """The entries of one row or column of a matrix, each as an answer of its own."""
+        found = read_right_side(self.vocabulary, members[-1])
+        named = entries_of(part, found.value) if isinstance(found, RightSide) else []
+        for name, node in named:
+            assert isinstance(found, RightSide)
+            entry = Member(len(members) - 1, members[-1], replace(found, value=node))
+            self.found.answers.append(self.found.answer((name,), entry, origin))
+        if not named:
+            wanted = f"{len(part.entries)} entries are expected"
+            why = found.message if isinstance(found, ReadError) else wanted
+            self.found.not_recognized.append(origin.of(members, why))
 
     def _entry_of_vector(self, first: list[Token], read: list[Member], origin: Origin) -> bool:
         """Keep what may be one row of C q̇; whether its arguments say that it is nothing else."""
@@ -160,35 +186,11 @@ class EquationReader:
         if entry is None:
             return False
         end = max(token.end for token in values[-1].tokens)
-        self.found.entry(entry, values[-1], origin, origin.not_recognized(first[0].start, end))
+        refused = origin.not_recognized(first[0].start, end, "not all rows of this vector are given")
+        self.found.entry(entry, values[-1], origin, refused)
         return entry.is_sure and entry.letter != "V"
 
-    def _aside(self, equation: Equation, origin: Origin) -> None:
-        """Keep what a formula in a sentence says of a letter; it is no answer."""
-        members = equation.members
-        if len(members) > MAX_MEMBERS:
-            return
-        side = read_left_side(self.vocabulary, members[0])
-        own = members[0][0].text if len(members[0]) == 1 else ""
-        is_new = isinstance(side, UnknownSide) and side.is_name_alone and not side.family
-        value = read_right_side(self.vocabulary, members[-1])
-        if isinstance(value, ReadError):
-            if isinstance(side, UnknownSide):
-                self.vocabulary.broken[side.key] = value.message
-        elif isinstance(value.value, Abstract):
-            return
-        elif is_new and isinstance(side, UnknownSide) and side.key not in _NEVER_DEFINED:
-            self.define(side.key, value)
-        elif isinstance(side, NamedAnswers) and self._any_fits(side.candidates, [value]):
-            start, end = members[0][0].start, members[-1][-1].end
-            self.found.said_aside(side.candidates, origin.not_recognized(start, end))
-        elif isinstance(side, NamedAnswers):
-            if own in OWN_LETTERS:
-                self.define(own, value)
-        elif side is None:
-            self._in_passing(members[0], value)
-
-    def _in_passing(self, first: list[Token], found: RightSide) -> bool:
+    def defines_in_passing(self, first: list[Token], found: RightSide) -> bool:
         """Keep another meaning of what would be read as a coordinate; whether there was one."""
         name = name_alone(self.vocabulary, first)
         if not gives_new_meaning(self.vocabulary, name, found.value):
@@ -211,14 +213,21 @@ class EquationReader:
             return read
         return read[:-1]
 
-    def _defines_own_letter(
-        self, first: list[Token], names: list[tuple[str, ...]], read: list[Member]
-    ) -> bool:
-        """Whether `h = ...` defines an abbreviation, its value having no shape of what books call h."""
-        if len(names) > 1 or len(first) > 1 or self.vocabulary.is_answer(key(first[0].text)):
-            return False
+    def _own_letter(
+        self,
+        members: list[list[Token]],
+        sides: list[LeftSide],
+        names: list[tuple[str, ...]],
+        read: list[Member],
+    ) -> str:
+        """The letter that `h = ...` or `... =: h` defines, its value having no shape of what books call h."""
+        named = [m for m, side in zip(members, sides, strict=True) if isinstance(side, NamedAnswers)]
+        if len(names) > 1 or len(named) > 1 or len(named[0]) > 1:
+            return ""
+        own = key(named[0][0].text)
         values = _values(read)
-        return bool(values) and not self._any_fits(names[0], values)
+        is_own = bool(values) and not self.vocabulary.is_answer(own) and not self.any_fits(names[0], values)
+        return own if is_own else ""
 
     def _states_constant(
         self, members: list[list[Token]], names: list[tuple[str, ...]], read: list[Member]
@@ -233,7 +242,7 @@ class EquationReader:
             return False
         if any(token.kind in ("begin", "[") for member in members for token in member):
             return False
-        return bool(read) and not self._any_fits(names[0], _values(read))
+        return bool(read) and not self.any_fits(names[0], _values(read))
 
     def _is_input(self, values: list[RightSide]) -> bool:
         """Whether B is the matrix of the inputs, B u: one of constants, or of another shape than D."""
@@ -248,51 +257,75 @@ class EquationReader:
         """Whether a value is the vector of the acceleration of gravity, [0, 0, -g], and not its torques."""
         return any(is_gravity_vector(found.value, len(self.vocabulary.coordinates)) for found in values)
 
-    def _any_fits(self, candidates: tuple[str, ...], values: list[RightSide]) -> bool:
+    def any_fits(self, candidates: tuple[str, ...], values: list[RightSide]) -> bool:
+        """Whether one of the values has the shape of one of the answers."""
         return any(fitted(self.vocabulary, candidates, found.value) for found in values)
 
     def _with_names(
-        self, names: list[tuple[str, ...]], read: list[Member], origin: Origin, refused: NotRecognized
+        self, names: list[tuple[str, ...]], members: list[list[Token]], read: list[Member], origin: Origin
     ) -> None:
         """Every value is an answer to each name; what cannot be read is one where no value follows it."""
         values = [member.index for member in read if _is_value(member.found)]
+        said = ""
         for member in read:
-            if _is_value(member.found):
+            found = member.found
+            if _is_value(found):
                 self.found.answers += self.found.value(names, member, origin)
-            elif isinstance(member.found, ReadError) and _CONTROL.match(member.found.message):
-                self.found.not_recognized.append(refused)
-            elif origin.display.among_prose:
-                if isinstance(member.found, ReadError):
-                    whole = origin.not_recognized(0, len(origin.display.text))
-                    self.found.not_recognized.append(whole)
-            elif isinstance(member.found, ReadError) and (not values or member.index > values[-1]):
+            elif not isinstance(found, ReadError):
+                said = said or why_no_value(found)
+            elif _CONTROL.match(found.message) or origin.display.among_prose:
+                self.found.not_recognized.append(origin.of(members, found.message))
+            elif not values or member.index > values[-1]:
                 self.found.answers += [self.found.answer(candidates, member, origin) for candidates in names]
+            else:
+                self.found.left_alone.append(origin.of(members, found.message))
+        if not values:
+            self._left_alone(names, members, read, origin, said)
+
+    def _left_alone(
+        self,
+        names: list[tuple[str, ...]],
+        members: list[list[Token]],
+        read: list[Member],
+        origin: Origin,
+        said: str,
+    ) -> None:
+        """Keep a formula that gives its names no value; it is listed where the reason is a letter."""
+        refused = origin.of(members, said or "it says that two names are the same")
+        letters = any(isinstance(m.found, RightSide) and m.found.has_letters for m in read)
+        if letters:
+            self.found.said_aside(tuple(name for candidates in names for name in candidates), refused)
+        elif all(isinstance(member.found, RightSide) for member in read):
+            self.found.left_alone.append(refused)
 
     def _without_name(
         self, first: LeftSide, members: list[list[Token]], read: list[Member], origin: Origin
     ) -> None:
         """A chain that names no answer: a definition, a model, or what is not recognized."""
-        start, end = members[0][0].start, members[0][-1].end
-        place = origin.display.locate(start, max(end - start, 1))
-        whole = origin.display.text[start : members[-1][-1].end]
-        refused = NotRecognized(shown(whole), origin.label, place)
         if isinstance(first, UnknownSide):
-            self._unknown_side(first, read, refused, origin)
+            self._unknown_side(first, members, read, origin)
             return
         for member in read:
             if isinstance(member.found, RightSide) and model_parts(self.vocabulary, member.found.value):
                 self.found.answers += self.found.value([("tau",)], member, origin)
                 return
         for member in read[1:]:
-            if isinstance(member.found, RightSide) and self._in_passing(members[0], member.found):
+            if isinstance(member.found, RightSide) and self.defines_in_passing(members[0], member.found):
+                self.found.left_alone.append(origin.of(members, _DEFINITION))
                 return
         leading = read[0].found if read and read[0].index == 0 else None
-        is_definition = isinstance(leading, RightSide) and leading.is_definition
-        if not is_definition and (not origin.display.plain or _values(read)):
-            self.found.not_recognized.append(refused)
+        if isinstance(leading, RightSide) and leading.is_definition:
+            self.found.left_alone.append(origin.of(members, why_no_value(leading)))
+        else:
+            why = (
+                leading.message
+                if isinstance(leading, ReadError)
+                else "no side of it is the name of an answer"
+            )
+            self._refused(members, read, origin, why)
 
     def _unknown_side(
-        self, side: UnknownSide, read: list[Member], refused: NotRecognized, origin: Origin
+        self, side: UnknownSide, members: list[list[Token]], read: list[Member], origin: Origin
     ) -> None:
         """A left side that means nothing: an index that does not exist, or a name of the student's own."""
         values = [
@@ -305,73 +338,26 @@ class EquationReader:
             note = side.message.replace("unknown symbol ", "")
             made = [self.found.answer(side.family[:1], member, origin) for member in values[-1:]]
             made = [replace(answer, notes=(*answer.notes, note)) for answer in made]
-            self.found.put_off(side.family, made, refused)
+            self.found.put_off(side.family, made, origin.of(members, side.message))
         elif side.is_name_alone and values:
             found = values[-1].found
             assert isinstance(found, RightSide)
             self.define(side.key, found)
-        elif side.is_name_alone:
-            if faults:
-                self.vocabulary.broken[side.key] = faults[-1].message
-            if not origin.display.plain:
-                self.found.not_recognized.append(refused)
-        elif values or not origin.display.plain:
-            self.found.not_recognized.append(refused)
-
-    # Values of an answer file
-
-    def read_answer(self, name: str, place: Place, display: Display) -> None:
-        """Read the value that an answer file gives under a name."""
-        origin = self._origin(display, display.label)
-        side = self._key(name)
-        refused = NotRecognized(shown(f"{name}: {display.text}"), "", place)
-        if isinstance(side, NamedAnswers):
-            self.found.answers += self._given(side.candidates, origin)
-        elif isinstance(side, UnknownSide) and side.family:
-            made = self._given(side.family[:1], origin)
-            self.found.put_off(side.family, made, refused)
+            self.found.left_alone.append(origin.of(members, _DEFINITION))
         else:
-            self.found.not_recognized.append(refused)
+            if side.is_name_alone and faults:
+                self.vocabulary.broken[side.key] = faults[-1].message
+            why = faults[-1].message if faults else side.message or "it names nothing known"
+            self._refused(members, read, origin, why)
 
-    def _key(self, name: str) -> LeftSide:
-        """What a key of an answer file names."""
-        if name.startswith("I") and self.vocabulary.is_answer(name):
-            return NamedAnswers((name,))
-        try:
-            return read_left_side(self.vocabulary, prepared(name)[:-1])
-        except ReadError:
-            return None
-
-    def _given(self, candidates: tuple[str, ...], origin: Origin) -> list[Answer]:
-        """The answers that the members of a value are."""
-        try:
-            members = chain(prepared(origin.display.text, self.macros))
-            if len(members) > MAX_MEMBERS:
-                message = f"more than {MAX_MEMBERS} members of one chain"
-                raise ReadError(message, 0, 1, "write the value alone")
-        except ReadError as error:
-            return [self.found.unreadable(candidates, error, origin, 0)]
-        side = read_left_side(self.vocabulary, members[0]) if len(members) > 1 else None
-        if isinstance(side, NamedAnswers) and set(side.candidates) & set(candidates):
-            members = members[1:]
-        made: list[Answer] = []
-        for index, tokens in enumerate(members):
-            member = Member(index, tokens, self._given_value(candidates, tokens))
-            if isinstance(member.found, ReadError):
-                made.append(self.found.answer(candidates, member, origin))
-            else:
-                made += self.found.value([candidates], member, origin)
-        return made
-
-    def _given_value(self, candidates: tuple[str, ...], tokens: list[Token]) -> RightSide | ReadError:
-        """The value of a member, which is no value where it consists of letters of the derivation."""
-        if not tokens:
-            return ReadError("nothing stands on one side of this `=`", 0, 1, "write the value alone")
-        found = read_right_side(self.vocabulary, tokens, candidates)
-        if isinstance(found, RightSide) and isinstance(found.value, Abstract):
-            help = "write it in the symbols of the problem"
-            return ReadError(found.value.why, tokens[0].start, 1, help)
-        return found
+    def _refused(self, members: list[list[Token]], read: list[Member], origin: Origin, why: str) -> None:
+        """List what names nothing known; a sentence of a report without formulas is left alone."""
+        head = origin.display.text.partition("=")[0].strip()
+        is_sentence = origin.display.plain and not _values(read) and " " in head
+        if is_sentence:
+            self.found.left_alone.append(origin.of(members, "it is a sentence"))
+        else:
+            self.found.not_recognized.append(origin.of(members, why))
 
 
 def _is_value(found: RightSide | ReadError) -> bool:

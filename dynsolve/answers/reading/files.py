@@ -57,7 +57,9 @@ class FileReader:
         names = [q.name for q in self.vocabulary.coordinates]
         answers = tuple(with_own_coordinates(reader.found.answers, reader.coordinates, names))
         refused = tuple(reader.found.not_recognized)
-        return Submission(problem, student, file, answers, refused, tuple(faults))
+        return Submission(
+            problem, student, file, answers, refused, tuple(faults), tuple(reader.found.left_alone)
+        )
 
 
 def read_submission(problem: Problem, source: bytes | str, file: str) -> Submission:

@@ -10,7 +10,8 @@ _LONGEST_RUN = 60
 _FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
 _CALLS = frozenset(
     "sin cos tan sqrt cot sec csc Sin Cos Tan Sqrt SIN COS Derivative diff Diff Matrix matrix Rational "
-    "transpose Transpose MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix Integer deg array np".split()
+    "transpose Transpose MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix Integer deg array np "
+    "Vector vector".split()
 )
 """Words that are functions, never products of letters."""
 

@@ -15,9 +15,19 @@ _SAID = re.compile(r"[^\n=$]{1,150}:[ \t]+(?=[^\s:=]{1,40}[ \t]*=)")
 _WORDS = re.compile(r"(?:[^\W\d_]{2,30}[,.]?[ \t]+){1,20}(?=[^\s:=]{1,40}[ \t]*=)")
 """The words of a sentence before an equation: `The potential energy P = ...`."""
 
+_SIGN_BELOW = re.compile(r"\n[ \t]*=(?!=)")
+"""The next line begins with the sign of the equation: `K1` stands alone on this one."""
+
 _AND = re.compile(r"[ \t](?:and|og|und|et|y)[ \t](?=[ \t]{0,9}[^\s:=]{1,40}[ \t]*=)")
 _REMARK = re.compile(r"(?:(?<=\s)|(?<=[;)\]]))(?:#|//|%(?!pi\b))[^\n]*")
 _DOTS = re.compile(r"\.\.\.[ \t]*(?=\n)")
+FORMULA = "\0"
+"""What stands for each character of a formula that is read as such."""
+
+_BLANK_LINE = re.compile(r"\n[ \t]*(?=\n|\Z)")
+_ENTRY = re.compile(r"[ \t]*[^\s=\[#%:][^=\n:]*")
+"""A line that is one entry of a column, or one row of a matrix, as MATLAB prints it."""
+
 _TRAILING = frozenset("=+-*/,([{&\\")
 _LEADING = frozenset("=+-*/)][")
 
@@ -32,21 +42,25 @@ def plain_lines(
         stop = end if stop < 0 else stop
         first = _begins(text, position, stop, names_answer)
         if first >= 0:
-            stop = _whole(text, first, stop, end)
-            yield first, _formula(text[first:stop], names_answer)
+            head, stop = stop, _whole(text, first, stop, end)
+            if bottom := _column_end(text, first, head, stop, end):
+                yield first, _column(text[first:head], text[head:bottom])
+                stop = bottom
+            else:
+                yield first, _formula(text[first:stop], names_answer)
         position = stop + 1
 
 
 def _begins(text: str, start: int, stop: int, names_answer: Callable[[str], bool]) -> int:
     """Where the equation of a line begins, behind a list's mark or `Potential energy: `; -1 without one."""
-    if "$" in text[start:stop]:
+    if text.find(FORMULA, start, stop) >= 0:
         return -1
     lead = _LEAD.match(text, start, stop)
     first = lead.end() if lead else start
     if (named := _NAMED.match(text, first, stop)) is not None and names_answer(named[1]):
         return first
     if not _EQUATION.match(text, first, stop):
-        return -1
+        return first if _SIGN_BELOW.match(text, stop) and names_answer(text[first:stop].strip()) else -1
     said = _SAID.match(text, first, stop)
     first = said.end() if said else first
     words = _WORDS.match(text, first, stop)
@@ -86,6 +100,24 @@ def _whole(text: str, start: int, stop: int, end: int) -> int:
             break
         seen, stop = stop, below
     return stop
+
+
+def _column_end(text: str, first: int, head: int, stop: int, end: int) -> int:
+    """Where the lines end that MATLAB prints without brackets below `g =`; 0 where there is only one."""
+    if not text[first:head].rstrip().endswith("=") or not _BLANK_LINE.match(text, head, end):
+        return 0
+    blank = _BLANK_LINE.search(text, stop, end)
+    below = blank.start() if blank else end
+    lines = text[stop:below].split("\n")
+    is_column = len(lines) > 1 and all(_ENTRY.fullmatch(line) for line in lines[1:])
+    return below if is_column and _ENTRY.fullmatch(text[head:stop].strip("\n \t")) else 0
+
+
+def _column(head: str, lines: str) -> str:
+    """The lines as rows of a matrix: its brackets stand for the first line's end and behind the last."""
+    first = len(lines) - len(lines.lstrip())
+    blank, entries = lines[:first], lines[first:].rstrip()
+    return f"{head}{blank[:-1]}[{entries.replace(chr(10), ';')}]"
 
 
 def _skip_blank_lines(text: str, stop: int, end: int) -> int:

@@ -23,11 +23,14 @@ _FONTS = frozenset(
 )
 _SCRIPT = frozenset("mathcal mathscr mathfrak cal script".split())
 _ENVIRONMENTS = frozenset(
-    "cases dcases rcases drcases equation align aligned split gather gathered multline multlined eqnarray "
+    "equation align aligned split gather gathered multline multlined eqnarray "
     "alignat alignedat flalign xalignat displaymath math subequations dmath dgroup darray empheq "
     "IEEEeqnarray IEEEeqnarraybox lgathered rgathered".split()
 )
 """Environments that only align."""
+
+_SYSTEMS = frozenset({"cases", "dcases", "rcases", "drcases"})
+"""Environments with a brace at their side: around equations, or around the entries of a column."""
 
 _WITH_COLUMNS = ("array", "alignat", "alignedat", "xalignat", "IEEEeqnarray", "empheq")
 """Environments whose name is followed by an argument that is no formula."""
@@ -48,6 +51,7 @@ _SIGNS = frozenset({"+", "-", "="})
 _WORD_AS_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_\{?[A-Za-z0-9,]+\}?)?")
 _WORDS = frozenset("and og where hvor der with med so such or eller for då da".split())
 _FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
+_SYMMETRIC = frozenset({"sym", "symm", "symmetric"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +124,8 @@ def simplified(tokens: list[Token]) -> list[Token]:
     """Tokens without fonts, environments that only align, and groups around one token."""
     out: list[Token] = []
     groups: list[_Group] = []
-    position, last = 0, len(tokens) - 1
+    systems: list[list[int]] = []
+    position, last, angles = 0, len(tokens) - 1, 0
     while position <= last:
         token = tokens[position]
         position += 1
@@ -139,7 +144,7 @@ def simplified(tokens: list[Token]) -> list[Token]:
         elif kind == "command":
             position = _simplify_command(token, tokens, position, groups, out)
         elif kind == "begin" or kind == "close":
-            position = _simplify_environment(token, tokens, position, out)
+            position = _simplify_environment(token, tokens, position, out, systems)
         elif kind == "text":
             word = _word(token, out)
             if word is not None:
@@ -154,12 +159,24 @@ def simplified(tokens: list[Token]) -> list[Token]:
             out.append(token._replace(kind="separator"))
         elif kind == "name" and token.text in _MODULES and _is_qualified(tokens, position):
             position += 1
+        elif kind == "=" and systems:
+            systems[-1][1] = 1
+            out.append(token)
+        elif kind == "<" and out and out[-1].kind in _BEFORE_LIST:
+            angles += 1
+            out.append(token._replace(kind="⟨"))
+        elif kind == ">" and angles:
+            angles -= 1
+            out.append(token._replace(kind="⟩"))
         elif kind == "_" and out and (power := _power_before(out)):
             position = _index(tokens, position, token, power, out)
         else:
             out.append(token)
     return out
 
+
+_BEFORE_LIST = frozenset({"=", "⟨", ",", "|", "(", "+", "-", "*"})
+"""After which `<` begins a list, as Maple writes one, and compares nothing."""
 
 _UNITS = frozenset({"J", "N", "Nm", "rad", "kg"})
 
@@ -378,10 +395,25 @@ def _simplify_command(
     return position
 
 
-def _simplify_environment(token: Token, tokens: list[Token], position: int, out: list[Token]) -> int:
-    r"""`\begin` or `\end`, left out where the environment only aligns; gives where to go on."""
+def _simplify_environment(
+    token: Token, tokens: list[Token], position: int, out: list[Token], systems: list[list[int]]
+) -> int:
+    r"""`\begin` or `\end`, left out where the environment only aligns; gives where to go on.
+
+    `systems` are where the `cases` that are open begin, with 1 where they hold equations; a column
+    holds none.
+    """
     name = token.text.rstrip("*")
-    if name not in _ENVIRONMENTS:
+    if name in _SYSTEMS and token.kind == "begin":
+        systems.append([len(out), 0])
+    elif name in _SYSTEMS and systems:
+        start, holds_equations = systems.pop()
+        if systems:
+            systems[-1][1] |= holds_equations
+        if start and not holds_equations:
+            out.insert(start, token._replace(kind="begin", text="matrix"))
+            out.append(token._replace(text="matrix"))
+    elif name not in _ENVIRONMENTS:
         out.append(token)
     return _skip_arguments(tokens, position, name) if token.kind == "begin" else position
 
@@ -454,6 +486,8 @@ def _write_derivative(tokens: list[Token], position: int, command: Token, out: l
 def _word(token: Token, out: list[Token]) -> Token | None:
     r"""`\text{...}`: an index, a function, a word between equations, or nothing."""
     word = token.text
+    if word.strip(". ").lower() in _SYMMETRIC and out and out[-1].kind in ("&", "\\\\", "begin"):
+        return token._replace(kind="name", text="sym")
     if (
         out
         and not word.isdecimal()

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
 from operator import itemgetter
 
+from dynsolve.answers.reading.asides import read_aside
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.lexer import Token, closing_brace, tokenize
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
-from dynsolve.answers.reading.plain_lines import plain_lines
+from dynsolve.answers.reading.plain_lines import FORMULA, plain_lines
 from dynsolve.answers.reading.prepare import Macro, prepared
 from dynsolve.answers.reading.report_text import visible
+from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
-from dynsolve.answers.submission import Place
+from dynsolve.answers.reading.tables import with_equations
+from dynsolve.answers.submission import NotRecognized, Place
 from dynsolve.errors import ReadError
 
 _ENVIRONMENT = (
@@ -27,7 +30,7 @@ _ENVIRONMENT = (
 _OPENING = re.compile(
     rf"(?P<dollars>\$\$)|(?P<bracket>(?<!\\)\\\[)|(?P<double>\\\\\[)|\\begin\{{(?P<environment>(?:{_ENVIRONMENT})\*?)\}}"
     rf"(?:(?:\[[^\[\]\n]{{0,60}}\])?\{{(?:[0-9]{{1,2}}|[rclsCRLS?.'\" ]{{1,20}}|(?:{_ENVIRONMENT})\*?)\}})?"
-    r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])\$(?![\s$])|(?<!\\)\\\()",
+    r"|(?P<fence>^[ \t]{0,3}(?:```|~~~)[^\n]*$)|(?P<inline>(?<![\\$])(?<!,t)(?<!, t)\$(?![\s$])|(?<!\\)\\\()",
     re.MULTILINE,
 )
 _LABEL = re.compile(r"[ \t]*(?:\n[ \t]*){0,2}\(([0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?)\)[ \t]*(?=\n|$)")
@@ -41,9 +44,18 @@ _MOST_HEADS = 2_000
 """So many different beginnings of lines in plain text are looked at."""
 
 _MAYBE_LABEL = re.compile(r"[\s~]*[(\\]")
+_BLANK_LINE = re.compile(r"\n[ \t]*\n")
+_SAYS = re.compile(
+    r"(?<![\w$\\])(\$[^$\n=]{1,30}\$|(?!and |is |it |as )[^\W\d_]\w{0,9})[ \t\n]{1,3}"
+    r"(?:is|are|being|denotes|equals|means|stands for|er|ist)[ \t\n]{1,3}\Z"
+)
 _ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
 _MARGIN = 200
 """So far from an equation it is seen whether it stands alone on its line."""
+
+
+NamesAnswer = Callable[[str], bool]
+"""Whether the beginning of a line is the name of an answer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,23 +70,32 @@ class MacroDefinition:
 def read_report(reader: EquationReader, source: Source, latex: bool = False) -> None:
     """Read the displayed equations of a report, in order, with the macros that hold for each."""
     text, macros = _macros(visible(source.text, latex))
-    spans = list(islice(_displays(reader, text, source), 2 * MAX_EQUATIONS))
+    names_answer = _answer_names(reader)
+    text = text if latex else with_equations(text, names_answer)
+    spans = list(islice(_displays(text, source, names_answer), 2 * MAX_EQUATIONS))
     displays = _labelled([(start, display) for start, _, display in spans if display is not None])
     is_plain = all(display.aside for _, display in displays)
     if is_plain or not latex:
         rest = _without(text, [(start, end) for start, end, _ in spans])
-        lines = islice(_plain(reader, rest, source, 0, len(text), not is_plain), MAX_EQUATIONS)
+        lines = islice(_plain(rest, source, 0, len(text), names_answer, not is_plain), MAX_EQUATIONS)
         displays = sorted([*displays, *lines], key=itemgetter(0))
-    displays = continued(displays[:MAX_EQUATIONS])
+    displays, unread = continued(displays[:MAX_EQUATIONS]), displays[MAX_EQUATIONS:]
     while True:
         waiting = list(reversed(macros))
         for offset, display in displays:
             while waiting and waiting[-1].offset <= offset:
                 found = waiting.pop()
                 reader.macros[found.name] = found.macro
-            reader.read_display(display)
+            if display.aside:
+                read_aside(reader, display)
+            else:
+                reader.read_display(display)
         if not reader.begins_anew():
             break
+    for _, display in unread[:1]:
+        place = display.locate(0, 1)
+        why = f"only the first {MAX_EQUATIONS} equations of a file are read"
+        reader.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place, why))
 
 
 def _macros(text: str) -> tuple[str, list[MacroDefinition]]:
@@ -111,7 +132,9 @@ def _body(text: str) -> list[Token]:
     return tokens
 
 
-def _displays(reader: EquationReader, text: str, source: Source) -> Iterator[tuple[int, int, Display | None]]:
+def _displays(
+    text: str, source: Source, names_answer: NamesAnswer
+) -> Iterator[tuple[int, int, Display | None]]:
     """The displayed equations of a text with their spans; a span without one is a formula in a sentence."""
     position = 0
     exhausted: set[str] = set()
@@ -123,10 +146,13 @@ def _displays(reader: EquationReader, text: str, source: Source) -> Iterator[tup
         if end < 0:
             exhausted.add(closing)
             position = start
-            continue
+            if kind in ("fence", "inline"):
+                continue
+            end = _end_of_paragraph(text, start)
+            closing = ""
         position = end + len(closing)
         if kind == "fence":
-            for at, display in _fenced(reader, opening.group(), text, source, start, end):
+            for at, display in _fenced(opening.group(), text, source, start, end, names_answer):
                 yield at, at + len(display.text), display
             yield opening.start(), position, None
             continue
@@ -135,13 +161,32 @@ def _displays(reader: EquationReader, text: str, source: Source) -> Iterator[tup
                 position = start
                 continue
             if "=" not in text[start:end]:
-                yield opening.start(), position, None
+                said = _said_before(text, opening.start(), start, end)
+                display = _display(text, source, said.start(), end, "") if said else None
+                if said and display:
+                    name = said[1].replace("$", " ").rjust(said.end(1) - said.start())
+                    formula = text[start:end].rjust(end - said.end(1) - 1)
+                    display = replace(display, text=f"{name}={formula}", aside=True)
+                yield opening.start(), position, display
                 continue
             if not _stands_alone(text, opening.start(), position):
                 yield start, end, replace(_display(text, source, start, end, ""), aside=True)
                 continue
         label = _LABEL.match(text, position)
         yield start, end, _display(text, source, start, end, f"({label[1]})" if label else "")
+
+
+def _end_of_paragraph(text: str, start: int) -> int:
+    """Where a display ends that nothing closes."""
+    blank = _BLANK_LINE.search(text, start)
+    return blank.start() if blank else len(text)
+
+
+def _said_before(text: str, opening: int, start: int, end: int) -> re.Match[str] | None:
+    """The letter that a formula in a sentence is said to be: `where h is $...$`."""
+    if end - start < 2:
+        return None
+    return _SAYS.search(text, max(opening - 60, 0), opening)
 
 
 def _stands_alone(text: str, start: int, end: int) -> bool:
@@ -174,30 +219,37 @@ def _display(text: str, source: Source, start: int, end: int, label: str, plain:
 
 
 def _fenced(
-    reader: EquationReader, opening: str, text: str, source: Source, start: int, end: int
+    opening: str, text: str, source: Source, start: int, end: int, names_answer: NamesAnswer
 ) -> Iterator[tuple[int, Display]]:
     if "math" in opening or "latex" in opening or "tex" in opening:
         yield start, _display(text, source, start, end, "")
     else:
-        yield from _plain(reader, text, source, start, end, False)
+        yield from _plain(text, source, start, end, names_answer, False)
 
 
 def _without(text: str, spans: list[tuple[int, int]]) -> str:
-    """The text with dollars for its formulas: no line with one is an equation in plain text."""
+    """The text with a sign for its formulas: no line with one is an equation in plain text."""
     pieces: list[str] = []
     done = 0
     for start, end in sorted(spans):
         if end > done:
             start = max(start, done)
-            pieces += [text[done:start], _NOT_LINE_END.sub("$", text[start:end])]
+            pieces += [text[done:start], _NOT_LINE_END.sub(FORMULA, text[start:end])]
             done = end
     return "".join([*pieces, text[done:]])
 
 
 def _plain(
-    reader: EquationReader, text: str, source: Source, start: int, end: int, among_others: bool
+    text: str, source: Source, start: int, end: int, names_answer: NamesAnswer, among_others: bool
 ) -> Iterator[tuple[int, Display]]:
     """Equations in plain text; beside displayed ones a line that cannot be read may be a sentence."""
+    for at, formula in plain_lines(text, start, end, names_answer):
+        display = _display(text, source, at, at + len(formula), "", plain=True)
+        yield at, replace(display, text=formula, among_prose=among_others)
+
+
+def _answer_names(reader: EquationReader) -> NamesAnswer:
+    """Says of the beginning of a line whether it is the name of an answer."""
     known: dict[str, bool] = {}
 
     def names_answer(head: str) -> bool:
@@ -211,9 +263,7 @@ def _plain(
                 known[head] = False
         return known[head]
 
-    for at, formula in plain_lines(text, start, end, names_answer):
-        display = _display(text, source, at, at + len(formula), "", plain=True)
-        yield at, replace(display, text=formula, among_prose=among_others)
+    return names_answer
 
 
 def _labelled(displays: list[tuple[int, Display]]) -> list[tuple[int, Display]]:

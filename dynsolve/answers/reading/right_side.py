@@ -29,15 +29,25 @@ As it stands; a bare I_1 as the moment of inertia; blanks between entries; 0,5 a
 """
 
 
+_UNITS = frozenset("J N Nm kg rad m s".split())
+_PENDING = frozenset({"+", "-", "*", "/", "cdot", "times"})
+
+
 @dataclass(frozen=True, slots=True)
 class RightSide:
-    """A member that was read, with what its value is made of."""
+    """A member that was read, with what its value is made of.
+
+    `is_definition` says that names of the derivation alone stand in it, so that it has no value of its
+    own; `has_letters`, that some of these stand
+    in a scalar beside symbols of the problem: they may be the student's own, and mean nothing here.
+    """
 
     value: Value
     references: tuple[str, ...]
     notes: tuple[str, ...]
     free: tuple[str, ...]
     is_definition: bool
+    has_letters: bool = False
 
 
 def read_right_side(
@@ -49,7 +59,7 @@ def read_right_side(
     """
     if not member:
         return ReadError("there is nothing here", 0, 1, EXPECTED)
-    tokens = split_names(member, vocabulary)
+    tokens = _without_unit(split_names(member, vocabulary), vocabulary)
     first: RightSide | ReadError | None = None
     for options in _WAYS:
         if options and not _may_help(options, tokens):
@@ -64,6 +74,16 @@ def read_right_side(
     if isinstance(first, RightSide):
         return first
     return ReadError(first.message, max(first.offset, member[0].start), max(first.length, 1), first.help)
+
+
+def _without_unit(tokens: list[Token], vocabulary: Vocabulary) -> list[Token]:
+    """The tokens without the unit of plain text behind them: `... * cos(q1) Nm`."""
+    last = len(tokens)
+    while last > 1 and tokens[last - 1].text in _UNITS and tokens[last - 1].spaced:
+        if vocabulary.symbol(tokens[last - 1].text) is not None:
+            break
+        last -= 1
+    return tokens[:last] if last == len(tokens) or tokens[last - 1].kind not in _PENDING else tokens
 
 
 def _read(
@@ -84,7 +104,20 @@ def _read(
         return error
     except RecursionError:
         return ReadError("this is nested too deeply", 0, 1, "write it in fewer levels")
-    return RightSide(value, tuple(reader.references), tuple(reader.notes), tuple(reader.free), definition)
+    is_scalar = not any(vocabulary.shape(owner) for owner in owners)
+    return RightSide(
+        value,
+        tuple(reader.references),
+        tuple(reader.notes),
+        tuple(reader.free),
+        definition,
+        has_letters=bool(is_scalar and reader.letters and reader.symbols),
+    )
+
+
+def why_no_value(found: RightSide) -> str:
+    """Why a side that was read gives its name no value."""
+    return found.value.why if isinstance(found.value, Abstract) else "it holds names of the derivation alone"
 
 
 def _has_shape(vocabulary: Vocabulary, found: RightSide, owners: tuple[str, ...]) -> bool:

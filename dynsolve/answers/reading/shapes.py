@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from dynsolve.answers.reading.grids import Grid, Value, transposed
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
@@ -12,32 +14,70 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
+    Power,
+    Product,
+    Quotient,
+    Reference,
+    Sum,
     Symbol,
 )
 from dynsolve.notation.unicode import printable
+from dynsolve.notation.walk import walk
+from dynsolve.quantities import families
 
 _LONGEST_SHOWN = 2_000
 
 
 def model_parts(vocabulary: Vocabulary, value: Value) -> dict[str, Value]:
-    """D, C and g of a model [..][q̈] + [..][q̇] + [..]."""
+    """D, C or the vector C q̇, and g of a model [..][q̈] + [..][q̇] + [..], or [..][q̈] + [..] + [..]."""
     if not isinstance(value, Grid) or not value.terms:
         return {}
     n = len(vocabulary.coordinates)
     parts: dict[str, Value] = {}
     for term in value.terms:
-        if term.factors:
-            left, right = term.factors
-            name = {2: "D", 1: "C"}.get(right.is_rates, "")
-            if left.shape != (n, n):
-                return {}
-            part: Value = left
-        else:
-            name, part = "g", term
-        if not name or name in parts:
+        part: Value = term
+        if term.factors and term.factors[0].shape != (n, n):
             return {}
-        parts[name] = part
+        if term.factors:
+            part, right = term.factors
+            name = {2: "D", 1: "C"}.get(right.is_rates, "")
+        else:
+            name = _vector_name(term, parts)
+        if name in parts or (term.factors and not name):
+            return {}
+        if name:
+            parts[name] = part
     return parts if "D" in parts else {}
+
+
+def _vector_name(term: Grid, parts: Mapping[str, Value]) -> str:
+    """What a vector beside D q̈ is: C q̇ where it vanishes at rest, g where it holds no rates, else both."""
+    entries = [entry for row in term.rows for entry in row]
+    if not any(_has_rates(entry) for entry in entries):
+        return "g" if "g" not in parts else "Cqd"
+    return "Cqd" if all(_vanishes_at_rest(entry) for entry in entries) else ""
+
+
+def _has_rates(node: Node) -> bool:
+    return any(isinstance(part, Symbol) and part.dots for part in walk(node))
+
+
+def _vanishes_at_rest(node: Node) -> bool:
+    """Whether a velocity is a factor of every term, as the formula is written."""
+    match node:
+        case Sum(terms):
+            return all(_vanishes_at_rest(term) for term in terms)
+        case Product(factors):
+            return any(_vanishes_at_rest(factor) for factor in factors)
+        case Negative(argument):
+            return _vanishes_at_rest(argument)
+        case Quotient(numerator):
+            return _vanishes_at_rest(numerator)
+        case Power(base):
+            return _vanishes_at_rest(base)
+        case Symbol(_, dots):
+            return dots == 1
+    return node == ZERO
 
 
 def fitted(vocabulary: Vocabulary, candidates: tuple[str, ...], value: Value) -> list[tuple[str, Node, str]]:
@@ -60,11 +100,28 @@ def fitted(vocabulary: Vocabulary, candidates: tuple[str, ...], value: Value) ->
                 loose.append((name, value.node, ""))
         elif shape == (1, 1) and isinstance(value, Node):
             exact.append((name, Matrix(((value,),)), ""))
+        elif value != ZERO and vocabulary.quantities[name].family is families.W:
+            loose.append((name, Matrix(((value,),)), ""))  # of a planar robot, whose axis is known
         elif value == ZERO:
             rows, columns = shape
             zeros = Matrix(((ZERO,) * columns,) * rows)
             loose.append((name, zeros, "0 is read as the matrix of zeros"))
     return exact or loose
+
+
+def with_own_entries(vocabulary: Vocabulary, name: str, node: Node) -> Node:
+    """A matrix with its entries for their names: the d_12 below the diagonal of D."""
+    if not isinstance(node, Matrix) or not any(isinstance(e, Reference) for row in node.rows for e in row):
+        return node
+
+    def entry(found: Node) -> Node:
+        if isinstance(found, Reference):
+            whole, place = vocabulary.quantities.entry_of(found.quantity)
+            if whole == name and not isinstance(node.rows[place[0]][place[1]], Reference):
+                return node.rows[place[0]][place[1]]
+        return found
+
+    return Matrix(tuple(tuple(entry(found) for found in row) for row in node.rows))
 
 
 def is_gravity_vector(value: Value, coordinates: int) -> bool:

@@ -12,6 +12,7 @@ import re
 from dataclasses import dataclass, field
 
 from dynsolve.answers.reading.grids import Grid, Value
+from dynsolve.answers.reading.index_order import USUAL, in_usual_order
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Function, Node, Sum, Symbol
 from dynsolve.problem.model import Problem
@@ -40,7 +41,8 @@ class Vocabulary:
     `quantities` are what an answer may be given for;
     `derived` are derivatives that were defined on their own, `broken` definitions that
     could not be read, `angles` the student's own by subscript.
-    `missed` are names that were looked for before anything defined them.
+    `missed` are names that were looked for before anything defined them;
+    `orders` says for letters of Christoffel symbols which index counts the row (`index_order`).
     `masses` are the masses, the moments of inertia and g; `defined` is what the student defined.
     """
 
@@ -55,6 +57,7 @@ class Vocabulary:
     angles: dict[str, Node] = field(default_factory=dict)
     subscripts: dict[str, Coordinate] = field(default_factory=dict)
     missed: set[str] = field(default_factory=set)
+    orders: dict[str, int] = field(default_factory=lambda: dict(USUAL))
 
     def fresh(self) -> Vocabulary:
         """The names of the problem alone, for another hand-in."""
@@ -170,7 +173,7 @@ class Vocabulary:
 
     def named(self, name: str) -> tuple[str, ...]:
         """The answers that a name may stand for, by its key; several where the notation allows several."""
-        return self.quantities.spellings.get(name, ())
+        return self.quantities.spellings.get(in_usual_order(name, self.orders), ())
 
     def family(self, name: str) -> tuple[str, ...]:
         """The answers of the kind that a name with an unknown index belongs to."""

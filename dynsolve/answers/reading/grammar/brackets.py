@@ -15,13 +15,36 @@ _MATRICES = frozenset(
 )
 
 
+_MARKS = frozenset({"*", "cdot"})
+_SYMMETRIC = frozenset("sym symm symmetric".split())
+_ENTRY_ENDS = frozenset({"&", "\\\\", ",", ";", "]", "}", "close", "⟩", "|"})
+_MIRRORED = Abstract("the entry across the diagonal is such a mark, too")
+"""What stands for an entry that a symmetric matrix has across its diagonal: `*`, `sym.`"""
+
+
 def read(reader: Reader) -> Value:
     """A parenthesis or a matrix, whose bracket is looked at."""
     if reader.token.kind == "begin":
         return environment(reader)
     if reader.token.kind == "(":
         return parenthesis(reader)
+    if reader.token.kind == "⟨":
+        return angular(reader)
     return square(reader)
+
+
+def angular(reader: Reader) -> Value:
+    """Maple's `<a, b>`, a column, and `<<a | b>, <c | d>>`."""
+    opening = reader.take()
+    before, reader.bars_separate = reader.bars_separate, True
+    rows: list[list[Value]] = [[entry(reader)]]
+    while reader.token.kind in (",", "|") and len(rows) <= MAX_ENTRIES:
+        if reader.take().kind == ",":
+            rows.append([])
+        rows[-1].append(entry(reader))
+    reader.expect("⟩", opening)
+    reader.bars_separate = before
+    return finished(reader, rows, opening)
 
 
 def parenthesis(reader: Reader) -> Value:
@@ -103,7 +126,7 @@ def _square(reader: Reader) -> Value:
                 rows.append([])
         if reader.token.kind == "]":
             break
-        rows[-1].append(reader.sum())
+        rows[-1].append(entry(reader))
         count += 1
         if count > MAX_ENTRIES:
             raise ReadError(
@@ -141,7 +164,7 @@ def _rows_below(reader: Reader, first: Value, opening: Token) -> Value:
         bracket = reader.take()
         row: list[Value] = []
         while reader.token.kind != "]":
-            row.append(reader.sum())
+            row.append(entry(reader))
             if reader.token.kind == ",":
                 reader.take()
             elif reader.token.kind != "]":
@@ -173,7 +196,7 @@ def environment(reader: Reader) -> Value:
                 "an entry of this matrix is empty", missing.start, 1, "write 0 where nothing stands"
             )
         else:
-            rows[-1].append(reader.sum())
+            rows[-1].append(entry(reader))
             count += 1
             if reader.token.kind in ("&", ",") and count <= MAX_ENTRIES:
                 sign = reader.take()
@@ -195,10 +218,35 @@ def environment(reader: Reader) -> Value:
     return finished(reader, rows, opening)
 
 
+def entry(reader: Reader) -> Value:
+    """One entry of a matrix, which may be the mark of a symmetric one."""
+    ahead = 1 + (reader.peek().kind == ".")
+    is_mark = reader.token.kind in _MARKS or reader.token.text.lower() in _SYMMETRIC
+    if not is_mark or reader.peek(ahead).kind not in _ENTRY_ENDS:
+        return reader.sum()
+    for _ in range(ahead):
+        reader.take()
+    return _MIRRORED
+
+
+def _mirrored(reader: Reader, rows: list[list[Value]]) -> list[list[Value]]:
+    """The rows of a symmetric matrix, with the entry across the diagonal for each mark."""
+    size = len(rows)
+    if any(len(row) != size for row in rows):
+        return rows
+    reader.notes.setdefault("a mark in a symmetric matrix is read as the entry across the diagonal")
+    return [
+        [rows[j][i] if value is _MIRRORED else value for j, value in enumerate(row)]
+        for i, row in enumerate(rows)
+    ]
+
+
 def finished(reader: Reader, rows: list[list[Value]], opening: Token) -> Value:
     """The matrix of these rows; one of one entry is that entry."""
     if len(rows) == 1 and len(rows[0]) == 1:
         return rows[0][0]
+    if any(value is _MIRRORED for row in rows for value in row):
+        rows = _mirrored(reader, rows)
     found = reader.placed(opening.start, stacked, rows)
     return found if isinstance(found, Abstract) else _as_rates(reader, found)
 

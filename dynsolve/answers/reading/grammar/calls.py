@@ -8,9 +8,11 @@ from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Symbol
+from dynsolve.notation.tree import Number, Symbol
 
-_MATRICES = frozenset("Matrix matrix MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix array".split())
+_MATRICES = frozenset(
+    "Matrix matrix MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix array Vector vector".split()
+)
 _DERIVATIVES = frozenset({"Derivative", "diff", "Diff"})
 _OTHERS = frozenset({"Rational", "transpose", "Transpose", "Integer"})
 _DOTS = {"dot": 1, "ddot": 2}
@@ -71,6 +73,8 @@ def _matrix(reader: Reader, opening: Token) -> Value:
             break
         reader.take()
     reader.expect(")", opening)
+    while len(rows) > 1 and isinstance(rows[0][0], Number) and isinstance(rows[-1][0], Grid):
+        rows = rows[1:]  # Matrix(2, 2, [[a, b], [c, d]]) says its size first
     if len(rows) == 1:
         only = rows[0][0]
         if isinstance(only, Grid) and only.shape[0] == 1 and not _was_nested(reader, opening):
@@ -86,7 +90,7 @@ def _was_nested(reader: Reader, opening: Token) -> bool:
 
 
 def _derivative(reader: Reader, opening: Token) -> Value:
-    """diff(x, t), diff(x, t, 2), Derivative(x, (t, 2)), diff(L, x)."""
+    """diff(x, t), diff(x, t, 2), diff(x, t$2), Derivative(x, (t, 2)), diff(L, x)."""
     of = reader.sum()
     tokens = reader.until(")", opening)
     order, by_time, others = 0, False, []
@@ -95,7 +99,7 @@ def _derivative(reader: Reader, opening: Token) -> Value:
             order, by_time = order + 1, True
         elif token.kind == "number" and token.text in ("1", "2", "3") and by_time:
             order += int(token.text) - 1
-        elif token.kind not in (",", "(", ")", "[", "]", "{", "}"):
+        elif token.kind not in (",", "(", ")", "[", "]", "{", "}", "$"):
             others.append(token)
     if others or not by_time:
         return _partial(reader, of, tokens, opening)

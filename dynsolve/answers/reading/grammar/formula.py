@@ -43,6 +43,9 @@ from dynsolve.notation.tree import Node, Number, Power, Product, Quotient
 _PRODUCT_SIGNS = frozenset({"*", "cdot", "times"})
 _SMALL_POWERS = frozenset("23456789")
 _SCRIPTS = frozenset({"^", "raised", "'", "''", ".", "_"})
+_NOT_BARE = _SCRIPTS | {"("}
+"""What keeps a power from being the end of its factor: L_2^2(t) is the square of L_2(t)."""
+
 _AFTER_BARE_NAME = frozenset(
     {
         "+",
@@ -156,6 +159,8 @@ class FormulaReader(Reader):
                 return False
             if kind == "command" and token.text in brackets.STOPS:
                 return False
+            if kind == "|" and self.bars_separate:
+                return False
         elif kind not in _PRODUCT_SIGNS and not (kind == "'" and self._quote_follows()):
             return False
         return not (self.rows_by_line and token.broken)
@@ -189,7 +194,7 @@ class FormulaReader(Reader):
             return self.scripted(Quotient(Number(int(p)), Number(int(q))))
         if kind == "command":
             return self.command(token)
-        if kind in ("(", "[", "{", "begin"):
+        if kind in ("(", "[", "{", "begin", "⟨"):
             return self.bracketed()
         if kind == "√":
             self.enter()
@@ -234,7 +239,7 @@ class FormulaReader(Reader):
         value: Node = symbol
         if kind == "^":
             power = self.peek(2)
-            if power.kind != "number" or power.text not in _SMALL_POWERS or self.peek(3).kind in _SCRIPTS:
+            if power.kind != "number" or power.text not in _SMALL_POWERS or self.peek(3).kind in _NOT_BARE:
                 return None
             value = Power(symbol, Number(int(power.text)))
             self.position += 3

@@ -1,0 +1,70 @@
+"""What a formula in the midst of a sentence says: it defines letters, and answers nothing."""
+
+from __future__ import annotations
+
+from dynsolve.answers.reading.answer_list import Origin
+from dynsolve.answers.reading.displays import Display, Equation, equations
+from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.grammar.references import OWN_LETTERS
+from dynsolve.answers.reading.grids import Abstract
+from dynsolve.answers.reading.left_side import LeftSide, NamedAnswers, UnknownSide, read_left_side
+from dynsolve.answers.reading.limits import MAX_MEMBERS
+from dynsolve.answers.reading.prepare import prepared
+from dynsolve.answers.reading.right_side import RightSide, read_right_side
+from dynsolve.errors import ReadError
+
+_NEVER_DEFINED = frozenset({"t", "i", "j", "k", "n"})
+"""Letters of sentences that are no abbreviation: the time, running indices, the number of joints."""
+
+WHY = "it stands in a sentence"
+
+
+def read_aside(reader: EquationReader, display: Display) -> None:
+    """Keep what a formula in a sentence says of a letter; what it says of an answer may be listed."""
+    origin = Origin(display, "", reader.equations)
+    try:
+        found = equations(prepared(display.text, reader.macros))
+    except ReadError as error:
+        refused = origin.not_recognized(0, len(display.text), error.message)
+        reader.found.not_recognized.append(refused)
+        return
+    for equation in found:
+        _read_equation(reader, equation, origin)
+
+
+def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -> None:
+    members = equation.members
+    side = read_left_side(reader.vocabulary, members[0])
+    value = (
+        read_right_side(reader.vocabulary, members[-1])
+        if len(members) <= MAX_MEMBERS
+        else ReadError(f"more than {MAX_MEMBERS} members")
+    )
+    own = members[0][0].text if len(members[0]) == 1 else ""
+    gives = isinstance(value, RightSide) and not isinstance(value.value, Abstract)
+    if isinstance(side, NamedAnswers) and (
+        isinstance(value, ReadError) or (gives and reader.any_fits(side.candidates, [value]))
+    ):
+        why = value.message if isinstance(value, ReadError) else WHY
+        reader.found.said_aside(side.candidates, origin.of(members, why))
+        return
+    reader.found.left_alone.append(origin.of(members, WHY))
+    if isinstance(value, ReadError):
+        if isinstance(side, UnknownSide):
+            reader.vocabulary.broken[side.key] = value.message
+    elif gives:
+        _define(reader, side, own, value, equation)
+
+
+def _define(reader: EquationReader, side: LeftSide, own: str, value: RightSide, equation: Equation) -> None:
+    """Keep what a letter means."""
+    if isinstance(side, UnknownSide):
+        is_new = side.is_name_alone and not side.family and side.key not in _NEVER_DEFINED
+        if is_new:
+            reader.define(side.key, value)
+        return
+    if isinstance(side, NamedAnswers):
+        if own in OWN_LETTERS:
+            reader.define(own, value)
+        return
+    reader.defines_in_passing(equation.members[0], value)
