@@ -28,9 +28,9 @@ Every equation ends as an answer, in `not_recognized`, which the student is show
 `own_coordinates` are those that count a coordinate the other way, `own_names` keeps what follows
 from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row,
 `matrix_parts` one row or column of a matrix, `index_order` what the indices of a Christoffel
-symbol mean.  The values of an answer file are read by `given_values`; they come from `yaml_values` (what YAML says) and `yaml_scalars` (what stands
-between quotes), or, where YAML refuses the file, from `answer_lines`; `placed_text` keeps where
-each character of a value stands.
+symbol mean.  The values of an answer file are read by `given_values`; they come from `yaml_values`
+(what YAML says) and `yaml_scalars` (what stands between quotes), or, where YAML refuses the file,
+from `answer_lines`; `placed_text` keeps where each character of a value stands.
 
 Modules import only those of earlier layers: text (`limits`, `sources`, `lexer`, `prepare`,
 `displays`), names (`grids`, `index_order`, `vocabulary`, `name_splitting`), `grammar`, equations (`size`,

@@ -167,7 +167,9 @@ class AnswerList:
                 self.not_recognized.append(undecided.refused)
         forces = {q.force for q in self.vocabulary.coordinates}
         if self._models and "tau" not in given and not forces <= given:
-            self.answers += self._models
+            # the torques are put together from D, C and g: these come first, and do not follow from them
+            after = 1 + max(answer.occurrence[0] for answer in self._models + self.answers)
+            self.answers += [replace(m, occurrence=(after + i, 0)) for i, m in enumerate(self._models)]
         self.answers, lost = self._entries.settled(self.answers, self.printer)
         self.not_recognized += lost
         self.answers, lost = readable(self.answers, self.vocabulary.quantities)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from dynsolve.answers.reading.grammar.brackets import MIRRORED, SYMMETRIC_NOTE
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.names import unknown
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
@@ -13,6 +14,7 @@ from dynsolve.answers.reading.name_splitting import split_names
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO
+from dynsolve.notation.walk import walk
 
 EXPECTED = "a formula is made of numbers, the problem's symbols, + - * / ^, sin, cos, tan and sqrt"
 """What is said where a formula was expected and no better remedy is known."""
@@ -99,7 +101,10 @@ def _read(
         if not definition:
             _check_shape(vocabulary, value, owners)
         if not isinstance(value, Abstract):
-            check_size(value.node if isinstance(value, Grid) else value)
+            node = value.node if isinstance(value, Grid) else value
+            if SYMMETRIC_NOTE in reader.notes and any(part is MIRRORED for part in walk(node)):
+                raise ReadError("a mark stands here for no entry across the diagonal", help="write the entry")
+            check_size(node)
     except ReadError as error:
         return error
     except RecursionError:

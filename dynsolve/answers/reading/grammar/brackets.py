@@ -18,8 +18,10 @@ _MATRICES = frozenset(
 _MARKS = frozenset({"*", "cdot"})
 _SYMMETRIC = frozenset("sym symm symmetric".split())
 _ENTRY_ENDS = frozenset({"&", "\\\\", ",", ";", "]", "}", "close", "⟩", "|"})
-_MIRRORED = Abstract("the entry across the diagonal is such a mark, too")
+MIRRORED = Symbol("*")
 """What stands for an entry that a symmetric matrix has across its diagonal: `*`, `sym.`"""
+
+SYMMETRIC_NOTE = "a mark in a symmetric matrix is read as the entry across the diagonal"
 
 
 def read(reader: Reader) -> Value:
@@ -69,6 +71,8 @@ def _parenthesis(reader: Reader) -> Value:
             rows.append([reader.sum()])
         reader.expect(")", opening)
         return finished(reader, rows, opening)
+    if reader.token.kind == "end" and isinstance(first, Grid) and opening.text in ("\\{", "\\lbrace"):
+        return first  # the brace at the side of a column
     reader.expect(")", opening)
     return first
 
@@ -226,28 +230,28 @@ def entry(reader: Reader) -> Value:
         return reader.sum()
     for _ in range(ahead):
         reader.take()
-    return _MIRRORED
+    reader.notes.setdefault(SYMMETRIC_NOTE)
+    return MIRRORED
 
 
-def _mirrored(reader: Reader, rows: list[list[Value]]) -> list[list[Value]]:
-    """The rows of a symmetric matrix, with the entry across the diagonal for each mark."""
-    size = len(rows)
-    if any(len(row) != size for row in rows):
-        return rows
-    reader.notes.setdefault("a mark in a symmetric matrix is read as the entry across the diagonal")
-    return [
-        [rows[j][i] if value is _MIRRORED else value for j, value in enumerate(row)]
-        for i, row in enumerate(rows)
-    ]
+def _mirrored(found: Value) -> Value:
+    """A square matrix with the entry across the diagonal for each mark."""
+    if not isinstance(found, Grid) or found.shape[0] != found.shape[1]:
+        return found
+    rows = found.rows
+    size = range(len(rows))
+    return Grid(
+        tuple(tuple(rows[j][i] if rows[i][j] is MIRRORED else rows[i][j] for j in size) for i in size)
+    )
 
 
 def finished(reader: Reader, rows: list[list[Value]], opening: Token) -> Value:
     """The matrix of these rows; one of one entry is that entry."""
     if len(rows) == 1 and len(rows[0]) == 1:
         return rows[0][0]
-    if any(value is _MIRRORED for row in rows for value in row):
-        rows = _mirrored(reader, rows)
     found = reader.placed(opening.start, stacked, rows)
+    if SYMMETRIC_NOTE in reader.notes:
+        found = _mirrored(found)
     return found if isinstance(found, Abstract) else _as_rates(reader, found)
 
 

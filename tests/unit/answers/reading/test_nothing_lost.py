@@ -24,7 +24,7 @@ _ROW = re.compile(r"\\\\|\n\n")
 
 
 def equations(text: str) -> Iterator[tuple[int, int]]:
-    """The first and the last line of each equation: formulas with `=`, and lines with `=` outside of formulas."""
+    """The first and the last line of each equation: formulas with `=`, and other lines with `=`."""
     rest = text
     for found in _FORMULA.finditer(text):
         if "=" in found[0]:
@@ -32,7 +32,7 @@ def equations(text: str) -> Iterator[tuple[int, int]]:
         rest = rest.replace(found[0], re.sub(r"[^\n]", " ", found[0]), 1)
     for number, line in enumerate(rest.split("\n"), 1):
         if "=" in line and not line.lstrip().startswith(("=", "#", "\\")):
-            yield number, number + 1
+            yield number, number + (3 if line.endswith("=") else 1)
 
 
 def lost(text: str, found: Submission) -> list[str]:
