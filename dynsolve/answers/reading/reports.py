@@ -161,13 +161,8 @@ def _displays(
                 position = start
                 continue
             if "=" not in text[start:end]:
-                said = _said_before(text, opening.start(), start, end)
-                display = _display(text, source, said.start(), end, "") if said else None
-                if said and display:
-                    name = said[1].replace("$", " ").rjust(said.end(1) - said.start())
-                    formula = text[start:end].rjust(end - said.end(1) - 1)
-                    display = replace(display, text=f"{name}={formula}", aside=True)
-                yield opening.start(), position, display
+                said = _said_to_be(text, source, opening.start(), start, end)
+                yield opening.start(), position, said
                 continue
             if not _stands_alone(text, opening.start(), position):
                 yield start, end, replace(_display(text, source, start, end, ""), aside=True)
@@ -182,11 +177,15 @@ def _end_of_paragraph(text: str, start: int) -> int:
     return blank.start() if blank else len(text)
 
 
-def _said_before(text: str, opening: int, start: int, end: int) -> re.Match[str] | None:
-    """The letter that a formula in a sentence is said to be: `where h is $...$`."""
-    if end - start < 2:
+def _said_to_be(text: str, source: Source, opening: int, start: int, end: int) -> Display | None:
+    """What a formula in a sentence is said to be: `where h is $-m_2 l_1$` is h = -m_2 l_1."""
+    said = _SAYS.search(text, max(opening - 60, 0), opening)
+    if said is None:
         return None
-    return _SAYS.search(text, max(opening - 60, 0), opening)
+    name = said[1].replace("$", " ")
+    formula = text[start:end].rjust(end - said.end(1) - 1)
+    display = _display(text, source, said.start(1), end, "")
+    return replace(display, text=f"{name}={formula}", aside=True)
 
 
 def _stands_alone(text: str, start: int, end: int) -> bool:

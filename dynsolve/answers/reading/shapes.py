@@ -100,7 +100,7 @@ def fitted(vocabulary: Vocabulary, candidates: tuple[str, ...], value: Value) ->
                 loose.append((name, value.node, ""))
         elif shape == (1, 1) and isinstance(value, Node):
             exact.append((name, Matrix(((value,),)), ""))
-        elif value != ZERO and vocabulary.quantities[name].family is families.W:
+        elif isinstance(value, Node) and value != ZERO and vocabulary.quantities[name].family is families.W:
             loose.append((name, Matrix(((value,),)), ""))  # of a planar robot, whose axis is known
         elif value == ZERO:
             rows, columns = shape

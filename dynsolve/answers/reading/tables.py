@@ -28,7 +28,7 @@ def _lines(row: str, names_answer: Callable[[str], bool]) -> str:
     pieces = [row[: bars[0]]]
     at = 0
     while at < len(cells):
-        equation = _equation(*cells[at : at + 2], names_answer) if at + 2 < len(cells) else ""
+        equation = _equation(cells[at], cells[at + 1], names_answer) if at + 2 < len(cells) else ""
         pieces.append(equation or cells[at])
         at += 2 if equation else 1
     return "\n".join(pieces)
