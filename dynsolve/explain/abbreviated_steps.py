@@ -44,6 +44,9 @@ from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
 
+_DIRECT = "D_direct"
+"""The step that assembles D from the Jacobians."""
+
 LONGEST = 80
 """The operations up to which a result on the way to D, c_ijk and g is written out."""
 
@@ -88,10 +91,14 @@ def _exchanged(node: Node, named: Mapping[Node, Node]) -> Node:
 
 
 def _of_long_model(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
-    changes = _LongModel(context, short).changes()
+    steps = tuple(steps)
+    direct = next((step for step in steps if step.id == _DIRECT), None)
+    changes = _LongModel(context, short, direct).changes()
     known = quantities(context.robot)
     told: set[str] = set()
     for step in steps:
+        if step is direct:  # its formula is that of D itself
+            continue
         change = changes.get(step.id)
         if change is not None:
             yield change(step)
@@ -141,8 +148,8 @@ def _left_out(step: Step, first: bool, again: bool) -> Step:
 class _LongModel:
     """How the steps of a long model change: a method for each kind of step."""
 
-    def __init__(self, context: Context, short: Abbreviated) -> None:
-        self.context, self.short = context, short
+    def __init__(self, context: Context, short: Abbreviated, direct: Step | None) -> None:
+        self.context, self.short, self.direct = context, short, direct
         self.n, names = context.robot.n, context.robot.ring.names
         self.formulas = EntryFormulas(names, self._d, self._c, self._g, _with_number_in_front)
 
@@ -184,7 +191,7 @@ class _LongModel:
             step,
             equation(letters.K, _QUADRATIC, self.formulas.kinetic_energy()),
             " Collected by the rates, it is a quadratic form; its coefficients are the entries of D, which "
-            "the vectorized form gives.",
+            "the vectorized form gives as sums over the bodies.",
         )
 
     def lagrangian(self, step: Step) -> Step:
@@ -192,8 +199,7 @@ class _LongModel:
 
     def momentum(self, q: Coordinate, step: Step) -> Step:
         momentum = letters.partial_derivative(letters.L, letters.velocity(q))
-        result = equation(momentum, self.formulas.momentum(q.index - 1))
-        return _with(step, result, " The entries of D are given with the vectorized form.")
+        return _with(step, equation(momentum, self.formulas.momentum(q.index - 1)))
 
     def momentum_rate(self, q: Coordinate, step: Step) -> Step:
         """d_kj q̈_j + ḋ_kj q̇_j"""
@@ -227,7 +233,7 @@ class _LongModel:
 
     def force(self, q: Coordinate, step: Step) -> Step:
         result = equation(letters.force(q), self.formulas.force(q.index - 1))
-        why = " Collected by the accelerations and the rates; the factors follow below."
+        why = " Collected by the accelerations and the rates."
         return _with(step, result, why)
 
     def coriolis_forces(self, step: Step) -> Step:
@@ -236,7 +242,23 @@ class _LongModel:
         return replace(step, result=(), why=(*step.why, why))
 
     def inertia(self, step: Step) -> Step:
-        return replace(step, result=(equation(letters.D, self.short.D),))
+        """D from the Jacobians: the forces above are written in its entries, and give nothing new."""
+        assert self.direct is not None, "both are steps of one stage"
+        return replace(
+            step,
+            title="D, assembled from the Jacobians",
+            why=(
+                "The forces above are written in the entries of D. These come of the bodies: ",
+                equation(letters.K, _QUADRATIC),
+                " makes D a sum over them, here multiplied out. It is symmetric, and depends on the "
+                "coordinates, but on no rate.",
+            ),
+            formula=self.direct.formula,
+            source=self.direct.source,
+            working=self.direct.working,
+            result=(equation(letters.D, self.short.D),),
+            uses=self.direct.uses,
+        )
 
     def gravity(self, step: Step) -> Step:
         return replace(step, result=(equation(letters.G, self.short.g),))

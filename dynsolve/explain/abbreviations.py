@@ -57,6 +57,7 @@ class Abbreviated:
     """Definitions in the order in which they build on each other, and the forms that use them.
 
     `D`, `C` and `g` are matrices, `christoffel` holds c_ijk at (i, j, k) with i ≤ j and from 0.
+    `kept` are the base parameters that are a symbol of the problem already, and need no name.
     A `long` model is one whose constants have names, or would have if they were no numbers.
     """
 
@@ -67,6 +68,7 @@ class Abbreviated:
     g: tree.Matrix
     christoffel: Mapping[Index, Node]
     long: bool = False
+    kept: tuple[Symbol, ...] = ()
 
     def symbol(self, i: int, j: int, k: int) -> Node:
         """c_ijk, the same as c_jik."""
@@ -124,6 +126,7 @@ def _with_constants(forms: Forms) -> Abbreviated:
         compactor.matrix(D),
         compactor.matrix(g),
         _forms_of(symbols, compactor),
+        kept=tuple(map(Symbol, base.kept)),
         long=True,
     )
 
@@ -151,6 +154,7 @@ def _assembled(
     g: tree.Matrix,
     symbols: Mapping[Index, Node],
     long: bool,
+    kept: tuple[Symbol, ...] = (),
 ) -> Abbreviated:
     n = forms.robot.n
     upper = pairs(n)
@@ -170,6 +174,7 @@ def _assembled(
         g=tree.column(*used[len(upper) : len(upper) + n]),
         christoffel=short,
         long=long,
+        kept=kept,
     )
 
 

@@ -194,6 +194,15 @@ class BaseParameters:
         names = (name for k in count(1) if (name := f"{self.letter}{k}") not in taken)
         return tuple(next(names) if len(c) > 1 or sum(next(iter(c))) > 1 else None for c in self._found)
 
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """Those that are a symbol of the problem by themselves, and keep its name."""
+        generators = self.robot.ring.generators
+        alone = [c for c, name in zip(self._found, self.symbols, strict=True) if name is None]
+        return tuple(
+            g.name for c in alone for exponents in c for g, e in zip(generators, exponents, strict=True) if e
+        )
+
     @cached_property
     def ring(self) -> Ring:
         """The robot's ring with the base parameters as further symbols."""

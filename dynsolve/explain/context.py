@@ -56,6 +56,13 @@ class Context:
         return letters.of_body("m", body)
 
     @property
+    def end(self) -> str:
+        """The point that the last H and the Jacobian are of, in words."""
+        if self.robot.ends_in_a_joint:
+            return f"the origin of frame {len(self.robot.joints)}"
+        return "the end of the arm"
+
+    @property
     def ground(self) -> str:
         """The frame of reference in words: frame 0 (the base), or the world in which the problem turns it."""
         return "world" if letters.has_base(self.robot) else "base"

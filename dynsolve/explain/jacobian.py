@@ -156,7 +156,7 @@ def _column(context: Context, q: Coordinate) -> Step:
         id=f"J{q.index}",
         stage=STAGE,
         title=f"Column {q.index} of the Jacobian",
-        why=(Symbol(q.name), *_column_why(q, robot, joint)),
+        why=(Symbol(q.name), *_column_why(context, q, joint)),
         formula=equation(name, column(*in_letters)),
         source=spong("4.6.3"),
         working=_working(context, k, in_letters[0], linear),
@@ -192,7 +192,8 @@ def _lever(context: Context, joint: Joint) -> algebra.Matrix:
     return origin(end) - origin(start)
 
 
-def _column_why(q: Coordinate, robot: Robot, joint: Joint | None) -> Prose:
+def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
+    robot = context.robot
     if joint is None:
         joints = [j for j in robot.joints if any(i == q.index - 1 for i, _ in j.rates)]
         where = listed([str(j.index) for j in joints])
@@ -214,10 +215,16 @@ def _column_why(q: Coordinate, robot: Robot, joint: Joint | None) -> Prose:
         )
     if turns(q):
         return (
-            " turns everything after it about its axis z: the end moves with z × (the vector to it from the "
-            "axis), and turns with z.",
+            " turns everything after it about the axis ",
+            letters.z(joint_frame(robot, joint)),
+            f": {context.end} moves with the cross product of that and the vector to it from the axis, and "
+            "turns with the axis.",
         )
-    return (" slides everything after it along its axis z: the end moves with z, and does not turn.",)
+    z = letters.z(joint_frame(robot, joint))
+    return (
+        " slides everything after it along the axis ", z,
+        f": {context.end} moves with that, and does not turn.",
+    )  # fmt: skip
 
 
 def _whole(context: Context) -> Step:
@@ -225,7 +232,7 @@ def _whole(context: Context) -> Step:
     return Step(
         id="J",
         stage=STAGE,
-        title="The Jacobian of the end of the arm",
+        title=f"The Jacobian of {context.end}",
         why=(
             "Its columns side by side: ",
             equation(letters.bold("v"), Product((letters.JV, letters.QD))),
@@ -246,6 +253,6 @@ def _whole(context: Context) -> Step:
 def _notes(context: Context) -> Iterator[Prose]:
     if context.robot.bodies:
         yield (
-            "This Jacobian belongs to the end of the arm. Each body gets its own below, taken at its mass "
+            f"This Jacobian belongs to {context.end}. Each body gets its own below, taken at its mass "
             "centre.",
         )

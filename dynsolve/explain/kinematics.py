@@ -282,7 +282,7 @@ def _frame(context: Context, i: int) -> Step:
         id=f"H{i}",
         stage=STAGE,
         title=f"Frame {i} seen from the {context.ground}",
-        why=_frame_why(last),
+        why=_frame_why(context) if last else (_OUTWARDS,),
         formula=equation(name, Product(tuple(chain))) if len(chain) > 2 else None,
         source=_products(context),
         working=(equation(*members),),
@@ -297,8 +297,16 @@ def _products(context: Context) -> str:
     return spong("3.1") if context.standard else craig("3.5")
 
 
-def _frame_why(last: bool) -> Prose:
-    why: Prose = ("Each A takes one frame further out, so it is multiplied from the right.",)
-    if last:
-        why += (" The fourth column is where the end of the arm is, the first three how it is turned.",)
-    return why
+_OUTWARDS = "Each A takes one frame further out, so it is multiplied from the right."
+
+
+def _frame_why(context: Context) -> Prose:
+    """What the last frame tells, and of which point."""
+    why: Prose = (_OUTWARDS, f" The fourth column is where {context.end} is, the first three ")
+    if not context.robot.ends_in_a_joint:
+        return (*why, "how it is turned.")
+    return (
+        *why,
+        "how that frame is turned. In the modified convention it lies in the last joint: the end of the arm "
+        "would need a row of its own, without a star.",
+    )

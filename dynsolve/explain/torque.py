@@ -9,10 +9,10 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import derivatives
 from dynsolve.explain.writing import listed, spong, turns
-from dynsolve.notation.tree import Negative, Node, Number, Sum, Symbol, equation
+from dynsolve.notation.tree import Negative, Node, Number, Sum, Symbol, equation, number
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Coordinate
+from dynsolve.robot.model import Coordinate, JointType
 
 STAGE = Stage.TORQUE
 
@@ -108,14 +108,24 @@ def _force(context: Context, q: Coordinate) -> Step:
         id=f"tau{q.index}",
         stage=STAGE,
         title=f"Coordinate {q.index}: the {'torque' if turns(q) else 'force'}",
-        why=(
-            Symbol(q.name),
-            " is an angle, so what drives it is a torque."
-            if turns(q)
-            else " is a length, so what drives it is a force.",
-        ),
+        why=(Symbol(q.name), *_driven_by(context, q)),
         formula=equation(force, Sum((momentum, Negative(derivative)))),
         source=spong("7.1"),
         result=(equation(force, context.form(f"tau{q.index}")),),
         detail=Detail.BRIEF,
     )
+
+
+def _driven_by(context: Context, q: Coordinate) -> Prose:
+    """The kind of force that drives a coordinate, and of which joints it is made where they share it."""
+    kind = "torque" if turns(q) else "force"
+    moved = [(joint, rate) for joint in context.robot.joints for i, rate in joint.rates if i == q.index - 1]
+    if all(len(joint.rates) == 1 and rate == 1 for joint, rate in moved) and len(moved) == 1:
+        return (f" is {'an angle' if turns(q) else 'a length'}, so what drives it is a {kind}.",)
+    parts: Prose = ()
+    for joint, rate in moved:
+        sign = " minus " if rate < 0 else " plus " if parts else " "
+        factor: Prose = () if abs(rate) == 1 else (number(abs(rate)), " times ")
+        own = "torque" if joint.type is JointType.REVOLUTE else "force"
+        parts += (sign, *factor, f"the {own} of joint {joint.index}")
+    return (f" is not the variable of one joint alone. By virtual work its {kind} is", *parts, ".")

@@ -180,6 +180,17 @@ def moves_no_mass(reading: Reading) -> Iterator[Finding]:
             yield _finding(reading, _span(reading, cell), message, help, "moves-no-mass")
 
 
+def no_tool_row(reading: Reading) -> Iterator[Finding]:
+    """A table in the modified convention that ends with a revolute joint: the last link has no length."""
+    robot = reading.problem.robot
+    if robot.ends_in_a_joint:
+        last = len(robot.joints)
+        message = f"the table ends at joint {last}: H{last} and the Jacobian are of a point on its axis"
+        help = "for the end of the arm, add a fixed row: {theta: 0, d: 0, a: l, alpha: 0} with its length"
+        cell = reading.parsed.table.rows[-1].cells["theta"]
+        yield _finding(reading, _span(reading, cell), message, help, "no-tool-row")
+
+
 def _span(reading: Reading, cell: Cell) -> Span:
     return cell.span if cell.text else reading.fields.key_span("dh")
 
@@ -239,6 +250,7 @@ CHECKS: tuple[Callable[[Reading], Iterator[Finding]], ...] = (
     yaml_word,
     unstarred,
     moves_no_mass,
+    no_tool_row,
     ground_body,
     no_effect,
     unphysical,

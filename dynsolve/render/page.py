@@ -34,7 +34,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.render.columns import FEWEST, Columns, in_columns
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.prose import ProseWriter
-from dynsolve.render.references import with_results
+from dynsolve.render.references import runs, with_results
 from dynsolve.render.typesetting import Typesetter
 
 _Piece = TypeVar("_Piece")
@@ -63,8 +63,7 @@ class Page(ABC, Generic[_Piece]):
             case Equations():
                 yield from self.equations(block)
             case Uses(labels):
-                references = [self.reference(label) for label in labels if label in self.labels]
-                if references:
+                if references := [self.references(run) for run in runs(labels, self.labels)]:
                     last = " and " * (len(references) > 1) + references[-1]
                     yield from self.uses(f"With {', '.join(references[:-1])}{last}:")
             case List(items):
@@ -97,6 +96,12 @@ class Page(ABC, Generic[_Piece]):
     def reference(self, label: str) -> str:
         """A reference to a numbered formula."""
         return f"({self.labels[label]})"
+
+    def references(self, run: Sequence[str]) -> str:
+        """References to formulas whose numbers follow each other: (3) to (7)."""
+        if len(run) == 1:
+            return self.reference(run[0])
+        return f"{self.reference(run[0])} to {self.reference(run[-1])}"
 
     @abstractmethod
     def uses(self, sentence: str) -> Iterator[_Piece]:

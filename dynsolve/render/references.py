@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import zip_longest
 from textwrap import shorten
@@ -34,6 +34,21 @@ def running_title(title: str) -> str:
     'RP manipulator'
     """
     return shorten(title, _LONGEST_HEADER, placeholder="…") if len(title) > _LONGEST_HEADER else title
+
+
+def runs(labels: Iterable[str], numbers: Mapping[str, int]) -> list[list[str]]:
+    """Labels in the order of their numbers, three or more that follow each other together.
+
+    >>> runs(["c", "a", "b", "e"], {"a": 1, "b": 2, "c": 3, "d": 4, "e": 5})
+    [['a', 'b', 'c'], ['e']]
+    """
+    found: list[list[str]] = []
+    for label in sorted((label for label in labels if label in numbers), key=numbers.__getitem__):
+        if found and numbers[label] == numbers[found[-1][-1]] + 1:
+            found[-1].append(label)
+        else:
+            found.append([label])
+    return [part for run in found for part in ([run] if len(run) > 2 else [[label] for label in run])]
 
 
 def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:

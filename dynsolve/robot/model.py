@@ -161,3 +161,12 @@ class Robot:
     def n(self) -> int:
         """The number of degrees of freedom."""
         return len(self.coordinates)
+
+    @property
+    def ends_in_a_joint(self) -> bool:
+        """Whether the last frame lies in the last joint, and the table does not reach the end of the arm.
+
+        In the modified convention frame i lies on the axis of joint i, at the near end of link i.
+        """
+        modified = self.convention is Convention.MODIFIED
+        return modified and bool(self.joints) and self.joints[-1].type is JointType.REVOLUTE

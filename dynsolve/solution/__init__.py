@@ -8,6 +8,7 @@
     numeric         a result as a NumPy function
     json_export     everything as JSON
     documents       a solution as a document: stages, steps, numbers
+    earlier_results which of the equations before it a step uses
     reports         that document as text, LaTeX, PDF, HTML or Markdown
 
 `Solution` uses all of these; they take a `Dynamics`, and know nothing of `Solution`.

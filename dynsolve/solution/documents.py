@@ -3,17 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from itertools import count
 
 from dynsolve.derivation.rules import course_rules
-from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Table, Text, Uses
+from dynsolve.document import (
+    Block,
+    Document,
+    Equations,
+    Fold,
+    Formula,
+    Heading,
+    Note,
+    Prose,
+    Table,
+    Text,
+    Uses,
+)
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
-from dynsolve.explain.citations import cited
+from dynsolve.explain.citations import KHALIL_DOMBRE, cited
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import Relation, equation
 from dynsolve.quantities.index import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
+from dynsolve.solution.earlier_results import EarlierResults, labelled_results
 
 CONVENTIONS = {
     "standard": "standard Denavit-Hartenberg (Spong)",
@@ -35,7 +48,7 @@ def solution_document(
     short = solution.abbreviated(abbreviate)
     steps = tuple(solution.explain(stages, short))
     return Document((
-        *_opening(solution, _sources(steps, detail)),
+        *_opening(solution, _sources(steps, detail, short)),
         *_stages(solution, detail, steps, short),
         *_numbers(solution, detail, stages),
         *_closing(solution),
@@ -50,8 +63,10 @@ def _numbers(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -
         yield from blocks(solution.numbers, detail, stages)
 
 
-def _sources(steps: Iterable[Step], detail: Detail) -> Iterator[str]:
-    """The references that stand beside the formulas that are shown."""
+def _sources(steps: Iterable[Step], detail: Detail, short: Abbreviated | None) -> Iterator[str]:
+    """The references that a report makes."""
+    if short is not None and short.constants:
+        yield KHALIL_DOMBRE.section("9.4")
     if detail > Detail.BRIEF:
         yield from (step.source for step in steps if step.formula is not None and step.detail <= detail)
 
@@ -75,6 +90,7 @@ def _stages(
     """Stages and their steps, numbered as in the whole derivation."""
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     numbers = {stage: number for number, stage in enumerate(stages_of(solution.robot), 1)}
+    earlier = EarlierResults()
     stage: Stage | None = None
     place, extra = 0, 0
     heading: Heading | None = None
@@ -95,8 +111,9 @@ def _stages(
                 yield heading
                 heading = None
             uses = inputs.get(step.id, ()) if step.uses is None else step.uses
-            blocks = tuple(step_blocks(step, detail, uses))
+            blocks = tuple(step_blocks(step, detail, earlier.used(step, uses)))
             yield Fold(f"{number} {step.title}", blocks, step.detail)
+        earlier.add(step)
 
 
 def definition_blocks(short: Abbreviated) -> Iterator[Block]:
@@ -111,11 +128,15 @@ def definition_blocks(short: Abbreviated) -> Iterator[Block]:
 
 
 def _constant_blocks(short: Abbreviated) -> Iterator[Block]:
-    count = len(short.constants)
+    count = len(short.constants) + len(short.kept)
+    own: Prose = (", and ", *listed(short.kept)) if short.kept else ()
     yield Text((
-        f"The {count} base parameters: " if count > 1 else "The base parameter: ",
-        "the combinations of masses, mass centres, moments of inertia and lengths that D and g are made "
-        "of. What the arm does tells no more about its masses than their values.",
+        f"The arm has {count} base parameter{'s' if count > 1 else ''}: the fewest combinations of masses, "
+        "mass centres, moments of inertia and lengths of which D and g are made (",
+        KHALIL_DOMBRE.section("9.4"),
+        "). They are the constants below",
+        *own,
+        ". The motions and forces of the joints determine their values, and no others.",
     ))  # fmt: skip
     yield Equations(tuple(map(_defined, short.constants)), in_columns=True)
 
@@ -142,8 +163,7 @@ def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Ite
         yield from _way(step, inputs)
     if step.listed:
         yield Equations(step.result, in_columns=True)
-    labelled = () if step.listed else zip(step.result, _labels(step), strict=False)
-    for result, label in labelled:
+    for result, label in labelled_results(step):
         yield Formula(result, entries=step.entries, optional=step.optional, label=label)
     if detail > Detail.BRIEF:
         for note in step.notes:
@@ -171,12 +191,6 @@ def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
         yield Text(step.concluding)
     if not step.lines:
         yield from uses
-
-
-def _labels(step: Step) -> Iterator[str]:
-    """The names of a step's results; those without one are numbered."""
-    yield from (step.id, *step.also)
-    yield from (f"{step.id}-{place}" for place in count(2))
 
 
 def _closing(solution: Dynamics) -> Iterator[Block]:

@@ -379,3 +379,25 @@ def test_frame_i_is_before_the_mass_in_the_modified_convention() -> None:
 def test_a_frame_comes_after_the_mass_where_the_mass_is_on_the_link() -> None:
     assert "comes after the mass" in said(step("planar-2r", "R2").why, "planar-2r")
     assert "comes after the mass" not in said(step("spherical-rrp", "R2").why, "spherical-rrp")
+
+
+def test_a_table_without_a_row_for_the_tool_does_not_reach_the_end_of_the_arm() -> None:
+    """In the modified convention the last frame lies in the last joint, unless a fixed row follows."""
+    assert "the end of the arm" not in everything_said(CRAIG).replace(
+        "the end of the arm would need a row", ""
+    )
+    assert "The Jacobian of the origin of frame 3" in everything_said(CRAIG)
+    with_tool = CRAIG.replace("{theta: q3*, a: l2}]", "{theta: q3*, a: l2}, {a: l3}]")
+    assert "The Jacobian of the end of the arm" in everything_said(with_tool)
+    assert "The Jacobian of the end of the arm" in everything_said("planar-2r")
+
+
+def test_a_coordinate_that_joints_share_has_a_force_of_several_joints() -> None:
+    """p₁ and p₂ are absolute angles; joint 2 turns by p₂ - p₁, so τ₁ q̇₁ + τ₂ q̇₂ = τ₁ ṗ₁ + τ₂ (ṗ₂ - ṗ₁)."""
+    why = said(step("planar-2r-remote", "tau1").why, "planar-2r-remote")
+    assert why.endswith("its torque is the torque of joint 1 minus the torque of joint 2.")
+    why = said(step("planar-2r-remote", "tau2").why, "planar-2r-remote")
+    assert why.endswith("its torque is the torque of joint 2.")
+    assert (
+        said(step("planar-2r", "tau1").why, "planar-2r") == "q₁ is an angle, so what drives it is a torque."
+    )

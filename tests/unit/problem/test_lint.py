@@ -35,6 +35,7 @@ FINDINGS = {
     "yaml-word": body("mass: «null», link: 1"),
     "unstarred": "dh:\n  - {theta: q1*}\n  - {theta: «q2»}\n",
     "moves-no-mass": PLANAR.replace("theta2*", "«theta2*»") + "masses: [{mass: m1, link: 1}]",
+    "no-tool-row": "convention: modified\ndh: [{theta: q1*}, {theta: «q2*», a: l1}]\n",
     "ground-body": "dh:\n  - {d: h}\n  - {theta: q1*}\nmasses: [«{mass: m1, link: 1}», {mass: m2, link: 2}]",
     "no-effect": MASS + "  - «{mass: 0, link: 1, center: tip}»\n",
     "no-effect of a shape": body(
@@ -69,6 +70,8 @@ def test_the_library_and_the_textbooks_are_clean(path: Path) -> None:
         body("mass: C, link: 1"),
         body("mass: s, link: 1, center: [lc1, 0, 0]"),
         body("mass: 0.1, link: 1, center: tip, inertia: {zz: 5}"),
+        "convention: modified\ndh: [{theta: q1*}, {theta: q2*, a: l1}, {a: l2}]\n",
+        "convention: modified\ndh: [{theta: q1*}, {d: d2*, alpha: 90deg}]\n",
         "values: {theta1: 30deg, theta1_dot: 1, m2: 3}\n" + MASS,
     ],
 )

@@ -1,0 +1,71 @@
+"""References: every equation that a step uses, and no other."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+import pytest
+
+import dynsolve
+from dynsolve.document import Block, Fold, Formula, Uses
+from dynsolve.problem.library import bundled
+from dynsolve.render import markdown
+from dynsolve.render.references import numbered
+from dynsolve.solution.documents import solution_document
+
+SHORT = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+
+
+@lru_cache
+def folds(problem: str) -> tuple[Fold, ...]:
+    blocks: tuple[Block, ...] = solution_document(dynsolve.solve(problem)).blocks
+    return tuple(block for block in blocks if isinstance(block, Fold))
+
+
+def cited(problem: str, title: str) -> tuple[str, ...]:
+    """The labels that the step of a title refers to."""
+    (fold,) = (fold for fold in folds(problem) if fold.title.split(" ", 1)[1] == title)
+    return next((block.labels for block in fold.blocks if isinstance(block, Uses)), ())
+
+
+# title of the step -> the labels of what stands in its formula
+USED = [
+    ("Column 2 of the Jacobian", ("axes-2", "axes-4")),  # z₁ × (o₃ - o₁): z₁, o₁ are in the second
+    ("Jacobians of the mass centre of body 2", ("axes", "axes-2", "rc2")),
+    ("Linear kinetic energy of body 2", ("v2",)),
+    ("Rotational kinetic energy of body 2", ("w2", "I2")),
+    ("Coordinate 1: the torque", ("ddt1", "dLdq1")),
+    ("Christoffel symbols", ("D",)),
+    ("g, from the potential energy", ("P",)),
+]
+
+
+@pytest.mark.parametrize(("title", "labels"), USED)
+def test_every_equation_that_is_used_is_cited(title: str, labels: tuple[str, ...]) -> None:
+    assert cited("elbow-3r", title) == labels
+
+
+def test_c_is_made_of_all_christoffel_symbols() -> None:
+    labels = cited("elbow-3r", "C, from the Christoffel symbols")
+    assert labels == ("christoffel", *(f"christoffel-{k}" for k in range(2, 8)))
+
+
+@pytest.mark.parametrize("problem", SHORT)
+def test_a_reference_is_to_an_equation_before_it(problem: str) -> None:
+    document = solution_document(dynsolve.solve(problem))
+    numbers = numbered(document)
+    seen: set[str] = set()
+    for fold in folds(problem):
+        for block in fold.blocks:
+            if isinstance(block, Uses):
+                shown = [label for label in block.labels if label in numbers]
+                assert set(shown) <= seen, fold.title
+            elif isinstance(block, Formula) and block.label:
+                seen.add(block.label)
+    text = markdown.render(document)
+    tags = {int(number) for number in re.findall(r"\\tag\{(\d+)\}", text)}
+    cited_numbers = {
+        int(n) for line in re.findall(r"^With .*", text, re.M) for n in re.findall(r"\((\d+)\)", line)
+    }
+    assert cited_numbers <= tags
