@@ -13,7 +13,7 @@ process grow without end.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cached_property
 from math import prod
@@ -26,7 +26,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_plan import RingPlan
-from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.transfer import Transfer
 from dynsolve.answers.judging.evaluate import KnownValues
 from dynsolve.answers.judging.ring_extension import Known, extension_of
 from dynsolve.derivation.graph import Derivation
@@ -103,6 +103,7 @@ class AnswerRing:
         self.same = plan.is_the_problems
         self.ring: Ring = robot.ring if self.same else ring_of(robot.ring.coordinates, plan.plan)
         self._moved: dict[str, Any] = {}
+        self._expr = Transfer(self.base, self.ring)
         self.known_values = KnownValues()
 
     def refined(self, plan: AnswerRingPlan) -> AnswerRing:
@@ -161,44 +162,6 @@ class AnswerRing:
         if all(moved[f.name] is getattr(value, f.name) for f in fields(value)):
             return value
         return replace(value, **moved)
-
-    def _expr(self, expr: Expr) -> Expr:
-        if expr.ring is self.ring:
-            return expr
-        if not expr.poly:
-            return self.ring.zero
-        return Expr(self.ring, self.ring.reduce(expr.poly.compose(*self._images, ctx=self.ring.ctx)))
-
-    @cached_property
-    def _images(self) -> tuple[Any, ...]:
-        """What each generator of the problem's ring is in this one."""
-        return tuple(image.poly for image in self._make_images())
-
-    def _make_images(self) -> Iterator[Expr]:
-        ring = self.ring
-        waiting: list[int] = []
-        images: list[Expr] = []
-        for g in self.base.generators:
-            match g.kind:
-                case "sin":
-                    images.append(ring.sin(g.angle))
-                case "cos" | "constant":
-                    images.append(ring.cos(g.angle))
-                case "symbol":
-                    images.append(ring.symbol(g.name, g.dots))
-                case "root":
-                    assert g.node is not None
-                    images.append(ring.root(g.node, value_of(ring, g.node)))
-                case _:
-                    waiting.append(g.index)
-                    images.append(ring.zero)
-        for index in waiting:
-            inverted = self.base.inverses.get(index)
-            if inverted is not None:
-                polys = [image.poly for image in images]
-                value = Expr(ring, ring.reduce(inverted.compose(*polys, ctx=ring.ctx)))
-                images[index] = ring.inverse(value)
-        yield from images
 
 
 @dataclass

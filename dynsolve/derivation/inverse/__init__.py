@@ -1,0 +1,17 @@
+"""Inverse kinematics in closed form: from r(q) = r to every q, one coordinate after the other.
+
+The equations of the task are not solved all at once.  From them others are made in which
+fewer unknowns stand, as a textbook does: turned into the frame of a joint (Paul), squared
+and added.  Where one holds a single unknown in a known form, that unknown is solved for, and
+counts as known from then on.
+
+    unknowns      the ring of the search: one angle a coordinate, the task's values as symbols
+    equations     an equation left = right, and the ways in which others come from it
+    terms         an expression as A cos ψ + B sin ψ + C in the unknowns
+    subproblems   the forms that are solved, each with its solutions and when there are any
+    search        which unknown is solved for next, from which equations
+    branches      the sets of signs that solve the task, found by putting in
+
+Spong, Hutchinson, Vidyasagar, chapter 5; Craig, chapter 4; Paul, Robot Manipulators (1981).
+To add a form, add its class in `subproblems` and its recognition in `subproblems.recognized`.
+"""

@@ -1,0 +1,113 @@
+"""The sets of choices that solve the task: every solution is put into r(q), at random reachable points.
+
+An equation that was squared on the way may have solutions that the task has not.  A branch
+is kept where it solves the task wherever it exists; all of them together must hold the
+configuration that each point was made from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from math import cos, isclose, pi
+from random import Random
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate
+from dynsolve.derivation.inverse.search import Solving
+
+POINTS = 12
+"""So many random configurations are tried."""
+
+CLOSE = 1e-7
+"""What floating point may leave of 0 here; lengths and angles are about 1."""
+
+Choice = tuple[int, ...]
+"""Of each step of a solving which of its solutions is taken, from 0."""
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """One solution: `choice` says which value each step takes."""
+
+    choice: Choice
+
+
+def branches(solving: Solving) -> tuple[Branch, ...] | None:
+    """The branches that solve the task; None where some solve it at some points only, or one is not found."""
+    random = Random(2006)
+    candidates = [Branch(choice) for choice in product(*(range(step.count) for step in solving.solved))]
+    verdicts: dict[Branch, set[bool]] = {branch: set() for branch in candidates}
+    for _ in range(POINTS):
+        state = _random_state(solving, random)
+        reached = reach_of(solving, state)
+        found = False
+        for branch in candidates:
+            q = configuration(solving, branch, {**state, **reached})
+            if q is not None:
+                solves = solves_task(solving, q, reached)
+                verdicts[branch].add(solves)
+                found = found or (solves and _is_same(solving, q, state))
+        if not found:
+            return None
+    if any(len(seen) > 1 for seen in verdicts.values()):
+        return None
+    return tuple(branch for branch, seen in verdicts.items() if seen == {True})
+
+
+def reach_of(solving: Solving, state: Mapping[str, float]) -> dict[str, float]:
+    """r(q) by the names of its values."""
+    return {name: evaluate(e, state) for name, e in zip(solving.values, solving.task.entries, strict=True)}
+
+
+def configuration(solving: Solving, branch: Branch, given: Mapping[str, float]) -> dict[str, float] | None:
+    """q on a branch, with the parameters, at the `given` values of the task; None where it does not exist."""
+    values = dict(given)
+
+    def at(expr: Expr) -> float:
+        return evaluate(expr, values)
+
+    for step, index in zip(solving.solved, branch.choice, strict=True):
+        found = step.values(at)
+        if not found:
+            return None
+        values[step.coordinate] = found[index]
+    return values
+
+
+def solves_task(solving: Solving, q: Mapping[str, float], reached: Mapping[str, float]) -> bool:
+    """Whether r(q) is what was asked for; angles modulo 2π."""
+    for name, entry in zip(solving.values, solving.task.entries, strict=True):
+        difference = evaluate(entry, q) - reached[name]
+        if name in solving.angles:
+            if 1 - cos(difference) > CLOSE**2:
+                return False
+        elif abs(difference) > CLOSE * max(1.0, abs(reached[name])):
+            return False
+    return True
+
+
+def _is_same(solving: Solving, q: Mapping[str, float], state: Mapping[str, float]) -> bool:
+    """Whether two configurations are the same, angles modulo 2π."""
+    for name, kind in solving.ring.coordinates:
+        difference = q[name] - state[name]
+        if kind == "revolute":
+            difference = (difference + pi) % (2 * pi) - pi
+        if not isclose(difference, 0, abs_tol=1e-6):
+            return False
+    return True
+
+
+def _random_state(solving: Solving, random: Random) -> dict[str, float]:
+    """Values of the coordinates and of the parameters, lengths positive."""
+    return dict(_values(solving, random))
+
+
+def _values(solving: Solving, random: Random) -> Iterator[tuple[str, float]]:
+    ring = solving.ring
+    for name, kind in ring.coordinates:
+        yield name, random.uniform(-3, 3) if kind == "revolute" else random.uniform(-2, 2)
+    for name in ring.parameters:
+        if name not in solving.values:
+            yield name, random.uniform(0.5, 1.5)

@@ -1,0 +1,110 @@
+"""Equations between what the task gives and what the unknowns make, and how others come from them.
+
+An equation is kept as `left = right`: to the right stands what holds unknowns and no value
+of the task, to the left everything else.  A system is a list of such equations that are
+components of one vector, so that they may be turned about an axis and their squares added:
+
+    turned by ψ     c lᵢ + s lⱼ = c rᵢ + s rⱼ,   -s lᵢ + c lⱼ = -s rᵢ + c rⱼ
+    squared         Σ lᵢ² = Σ rᵢ²
+
+Both hold wherever the equations do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations, permutations
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.derivation.inverse.unknowns import Unknowns
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """Component `index` (from 0) of the task."""
+
+    index: int
+
+
+@dataclass(frozen=True, slots=True)
+class Turned:
+    """The first (cos, sin) or second (-sin, cos) component of two equations turned by a coordinate."""
+
+    first: Origin
+    second: Origin
+    coordinate: str
+    is_second: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Squared:
+    """The sum of the squares of some equations."""
+
+    parts: tuple[Origin, ...]
+
+
+Origin = Given | Turned | Squared
+"""Where an equation comes from."""
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """left = right."""
+
+    left: Expr
+    right: Expr
+    origin: Origin
+
+    @property
+    def expr(self) -> Expr:
+        """right - left, which is 0."""
+        return self.right - self.left
+
+
+System = tuple[Equation, ...]
+"""Components of one vector, in the order of the task."""
+
+
+def arranged(equation: Equation, unknowns: Unknowns) -> Equation:
+    """The equation with all terms without an unknown on the left."""
+    known, unknown = unknowns.split(equation.right)
+    if known.is_zero:
+        return equation
+    return Equation(equation.left - known, unknown, equation.origin)
+
+
+def turned_systems(system: System, unknowns: Unknowns) -> Iterator[System]:
+    """The systems in which two components are turned by a coordinate that then stands on the left alone."""
+    for name in unknowns.turning:
+        c, s = unknowns.cosine(name), unknowns.sine(name)
+        for i, j in permutations(range(len(system)), 2):
+            a, b = system[i], system[j]
+            if not (unknowns.has(a.right, name) and unknowns.has(b.right, name)):
+                continue
+            right = (c * a.right + s * b.right, c * b.right - s * a.right)
+            if any(unknowns.has(value, name) for value in right):
+                continue
+            left = (c * a.left + s * b.left, c * b.left - s * a.left)
+            pair = [
+                arranged(Equation(x, y, Turned(a.origin, b.origin, name, k == 1)), unknowns)
+                for k, (x, y) in enumerate(zip(left, right, strict=True))
+            ]
+            replaced = {i: pair[0], j: pair[1]}
+            yield tuple(replaced.get(k, equation) for k, equation in enumerate(system))
+
+
+def squared_sums(system: System) -> Iterator[Equation]:
+    """Σ left² = Σ right² over every choice of at least two components that hold unknowns."""
+    moving = [equation for equation in system if not equation.right.is_zero]
+    for size in range(2, len(moving) + 1):
+        for chosen in combinations(moving, size):
+            yield Equation(
+                _squares([e.left for e in chosen]),
+                _squares([e.right for e in chosen]),
+                Squared(tuple(e.origin for e in chosen)),
+            )
+
+
+def _squares(values: Sequence[Expr]) -> Expr:
+    return values[0].ring.dot(values, values)

@@ -1,0 +1,217 @@
+"""The forms in which an unknown is solved for, each with its solutions and when there are any.
+
+Each form is a record of exact expressions in what is known; `values` gives its solutions
+in numbers, in the order in which `explain.inverse` writes them.
+
+    TwoLines      A c + B s = X and A' c + B' s = X'        one angle
+    OneLine       A c + B s = X                             two angles, two where X² < A² + B²
+    Length        M d = N                                   one length
+    RootLength    A d² + B d + C = 0                        two lengths
+    Remainder     q = (value - other angles) / rate         one angle
+
+Craig, section 4.4 and appendix C; Spong, section 5.3; Paul (1981), chapter 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from math import atan2, sqrt
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.positivity import is_positive
+from dynsolve.derivation.inverse.equations import Equation
+from dynsolve.derivation.inverse.terms import Harmonic, harmonic, quadratic
+from dynsolve.derivation.inverse.unknowns import Unknowns
+
+Numbers = Callable[[Expr], float]
+"""The value of an expression where everything known has a number."""
+
+NEARLY = 1e-9
+"""What rounding may make of 0, relative to the size of what was added up."""
+
+
+@dataclass(frozen=True, slots=True)
+class TwoLines:
+    """A c + B s = X and A' c + B' s = X': the angle of the point where two lines meet."""
+
+    coordinate: str
+    first: tuple[Expr, Expr, Expr]
+    second: tuple[Expr, Expr, Expr]
+    equations: tuple[Equation, ...]
+    count = 1
+    rank = 0
+
+    @property
+    def determinant(self) -> Expr:
+        """A B' - A' B; where it is 0 the angle is free or there is none."""
+        (a, b, _), (c, d, _) = self.first, self.second
+        return a * d - c * b
+
+    @property
+    def size(self) -> int:
+        """How much there is to write."""
+        return sum(map(len, (*self.first, *self.second)))
+
+    def values(self, at: Numbers) -> tuple[float, ...]:
+        """The angle; none where the determinant is 0."""
+        (a, b, x), (c, d, y) = (tuple(map(at, line)) for line in (self.first, self.second))
+        determinant = a * d - c * b
+        if abs(determinant) <= NEARLY * (abs(a * d) + abs(c * b)):
+            return ()
+        return (atan2((a * y - c * x) / determinant, (d * x - b * y) / determinant),)
+
+
+@dataclass(frozen=True, slots=True)
+class OneLine:
+    """A c + B s = X: the two angles at which a circle meets a line."""
+
+    coordinate: str
+    cosine: Expr
+    sine: Expr
+    value: Expr
+    equations: tuple[Equation, ...]
+    count = 2
+
+    @property
+    def rank(self) -> int:
+        """A direction (X = 0) before a single sine or cosine before both."""
+        return 1 if self.value.is_zero else 2 + (not self.cosine.is_zero and not self.sine.is_zero)
+
+    @property
+    def size(self) -> int:
+        """How much there is to write."""
+        return len(self.cosine) + len(self.sine) + len(self.value)
+
+    def values(self, at: Numbers) -> tuple[float, ...]:
+        """Both angles, the one with the positive root first; none beyond reach."""
+        a, b, x = at(self.cosine), at(self.sine), at(self.value)
+        square = a * a + b * b
+        height = square - x * x
+        if square == 0 or height < -NEARLY * square:
+            return ()
+        root = sqrt(max(height, 0.0))
+        middle = atan2(b, a)
+        return middle + atan2(root, x), middle - atan2(root, x)
+
+
+@dataclass(frozen=True, slots=True)
+class Length:
+    """M d = N."""
+
+    coordinate: str
+    factor: Expr
+    value: Expr
+    equations: tuple[Equation, ...]
+    count = 1
+
+    @property
+    def rank(self) -> int:
+        """At once where nothing is divided by that may vanish."""
+        return 0 if is_positive(self.factor) or is_positive(-self.factor) else 4
+
+    @property
+    def size(self) -> int:
+        """How much there is to write."""
+        return len(self.factor) + len(self.value)
+
+    def values(self, at: Numbers) -> tuple[float, ...]:
+        """The length; none where M is 0."""
+        factor = at(self.factor)
+        return (at(self.value) / factor,) if factor else ()
+
+
+@dataclass(frozen=True, slots=True)
+class RootLength:
+    """A d² + B d + C = 0."""
+
+    coordinate: str
+    square: Expr
+    linear: Expr
+    constant: Expr
+    equations: tuple[Equation, ...]
+    count = 2
+    rank = 2
+
+    @property
+    def size(self) -> int:
+        """How much there is to write."""
+        return len(self.square) + len(self.linear) + len(self.constant)
+
+    def values(self, at: Numbers) -> tuple[float, ...]:
+        """Both lengths, the one with the positive root first; none beyond reach."""
+        a, b, c = at(self.square), at(self.linear), at(self.constant)
+        radicand = b * b - 4 * a * c
+        if a == 0 or radicand < -NEARLY * (b * b + abs(4 * a * c)):
+            return ()
+        root = sqrt(max(radicand, 0.0))
+        return (-b + root) / (2 * a), (-b - root) / (2 * a)
+
+
+@dataclass(frozen=True, slots=True)
+class Remainder:
+    """q = (value - Σ rateₖ qₖ - rest) / rate, where the task gives a sum of angles; in radians."""
+
+    coordinate: str
+    rate: Fraction
+    value: str
+    others: tuple[tuple[str, Fraction], ...]
+    rest: Expr
+    equations: tuple[Equation, ...] = ()
+    count = 1
+    rank = 0
+
+    @property
+    def size(self) -> int:
+        """How much there is to write."""
+        return 1 + len(self.others)
+
+    def values(self, at: Numbers) -> tuple[float, ...]:
+        """The angle."""
+        symbol = self.rest.ring.symbol
+        others = sum(float(rate) * at(symbol(name)) for name, rate in self.others)
+        return ((at(symbol(self.value)) - others - at(self.rest)) / float(self.rate),)
+
+
+Solved = TwoLines | OneLine | Length | RootLength | Remainder
+"""An unknown with its solutions."""
+
+
+def recognized(equations: Sequence[Equation], unknowns: Unknowns) -> Iterator[Solved]:
+    """Every unknown that some of these equations give, in a known form."""
+    harmonics: list[tuple[Harmonic, Equation]] = []
+    for equation in equations:
+        expr = equation.expr
+        if len(unknowns.within(expr)) != 1:
+            continue
+        wave = harmonic(expr, unknowns)
+        if wave is not None and wave.coordinate is not None:
+            harmonics.append((wave, equation))
+            yield OneLine(wave.coordinate, wave.cosine, wave.sine, -wave.constant, (equation,))
+        yield from _lengths(equation, unknowns)
+    yield from _pairs(harmonics)
+
+
+def _lengths(equation: Equation, unknowns: Unknowns) -> Iterator[Solved]:
+    found = quadratic(equation.expr, unknowns)
+    if found is None:
+        return
+    if found.square.is_zero:
+        yield Length(found.coordinate, found.linear, -found.constant, (equation,))
+    else:
+        yield RootLength(found.coordinate, found.square, found.linear, found.constant, (equation,))
+
+
+def _pairs(harmonics: Iterable[tuple[Harmonic, Equation]]) -> Iterator[Solved]:
+    for (one, first), (two, second) in combinations(harmonics, 2):
+        if one.coordinate == two.coordinate and one.coordinate is not None:
+            lines = TwoLines(
+                one.coordinate,
+                (one.cosine, one.sine, -one.constant),
+                (two.cosine, two.sine, -two.constant),
+                (first, second),
+            )
+            if not lines.determinant.is_zero:
+                yield lines
