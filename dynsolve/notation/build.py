@@ -13,6 +13,7 @@ from math import prod
 from dynsolve.notation.tree import (
     ONE,
     ZERO,
+    Arguments,
     Degrees,
     Function,
     Negative,
@@ -56,6 +57,8 @@ def _count(node: Node, known: dict[int, tuple[Node, int]]) -> int:
             return sum(cost(f, known) for f in factors) + len(factors) - 1
         case Power(left, right) | Quotient(left, right):
             return cost(left, known) + cost(right, known) + 1
+        case Arguments(parts):
+            return sum(cost(part, known) for part in parts)
         case Negative(argument) | Function(_, argument):
             return cost(argument, known) + 1
         case Degrees():

@@ -11,6 +11,7 @@ from dynsolve.notation.characters import GREEK
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import PLAIN, Style, decimal_text, shorthand
 from dynsolve.notation.tree import (
+    Arguments,
     BigSum,
     Cross,
     Degrees,
@@ -116,6 +117,8 @@ class Ruler:
                 return self._factor(base) + self.index(exponent)
             case Function():
                 return self._function(node)
+            case Arguments(parts):
+                return sum(map(self.width, parts)) + BINARY * (len(parts) - 1)
             case Matrix(rows):
                 return self.matrix(rows)
             case _:

@@ -26,6 +26,7 @@ from dynsolve.notation.printing import (
     shorthand,
 )
 from dynsolve.notation.tree import (
+    Arguments,
     BigSum,
     Cross,
     Derivative,
@@ -48,6 +49,7 @@ from dynsolve.notation.tree import (
 )
 
 _RUN = re.compile(r"[A-Za-z]+|[^A-Za-z]+")
+_INVERSES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan"}
 _SUMS = frozenset({Sum, Cross, Relation})
 
 
@@ -71,6 +73,9 @@ class FormulaPrinter(Printer):
 
     transposition: ClassVar[str] = "T"
     """The exponent of a transpose."""
+
+    argument_separator: ClassVar[str] = ", "
+    """What stands between the arguments of a function."""
 
     compound: ClassVar[frozenset[type[Node]]] = frozenset({Sum, Product, Cross, BigSum, Derivative, Relation})
     """What needs parentheses beside the sign of a cross product."""
@@ -190,6 +195,9 @@ class FormulaPrinter(Printer):
     def _reference(self, node: Reference) -> str:
         return self.text(Words(str(node)))
 
+    def _arguments(self, node: Arguments) -> str:
+        return self.argument_separator.join(map(self.text, node.parts))
+
     # -- Arithmetic ------------------------------------------------------------------------------------
 
     def _product(self, node: Product) -> str:
@@ -243,7 +251,7 @@ class FormulaPrinter(Printer):
             return self._scripted(*self._shorthand_parts(short), "")
         if node.name == "sqrt":
             return self._root(node.argument)
-        return self._applied(node.name, self.text(node.argument))
+        return self._applied(_INVERSES.get(node.name, node.name), self.text(node.argument))
 
     def _shorthand_parts(self, short: tuple[str, str]) -> tuple[str, str]:
         return self._base(short[0]), self._indices(short[1].split(","))

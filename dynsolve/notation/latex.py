@@ -29,6 +29,7 @@ _ESCAPES = {
     "^": r"\textasciicircum{}",
     "~": r"\textasciitilde{}",
 } | {character: "\\" + character for character in "{}$&#%_"}
+_COMMANDS = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan"})
 _TALL = (r"\frac", r"\begin", r"\sum", r"\left")
 
 
@@ -98,7 +99,8 @@ class LatexPrinter(FormulaPrinter):
         return rf"\sqrt{{{self.text(argument)}}}"
 
     def _applied(self, name: str, argument: str, exponent: str = "") -> str:
-        return self._scripted("\\" + name, "", exponent) + self.parenthesized(argument)
+        command = f"\\{name}" if name in _COMMANDS else rf"\operatorname{{{name}}}"
+        return self._scripted(command, "", exponent) + self.parenthesized(argument)
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
         body = self.row_end.join(" & ".join(row) for row in rows)

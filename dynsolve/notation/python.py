@@ -7,6 +7,7 @@ from math import radians
 
 from dynsolve.notation.printing import Printer, Style, decimal_text, is_whole
 from dynsolve.notation.tree import (
+    Arguments,
     Degrees,
     Function,
     Matrix,
@@ -92,6 +93,9 @@ class PythonPrinter(Printer):
 
     def _function(self, node: Function) -> str:
         return f"{node.name}({self.text(node.argument)})"
+
+    def _arguments(self, node: Arguments) -> str:
+        return ", ".join(map(self.text, node.parts))
 
     def _matrix(self, node: Matrix) -> str:
         rows = (f"[{', '.join(map(self.text, row))}]" for row in node.rows)

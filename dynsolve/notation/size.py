@@ -14,6 +14,7 @@ from math import comb
 from typing import Any, NamedTuple
 
 from dynsolve.notation.tree import (
+    Arguments,
     Degrees,
     Function,
     Matrix,
@@ -130,6 +131,7 @@ _RULES: Mapping[type[Node], Callable[[Any, _Counts, _Counts, Size], tuple[int, i
     Power: _raised,
     Negative: _beside,
     Parenthesized: _beside,
+    Arguments: _added,
     Function: _opaque,
     Matrix: _beside,
 }

@@ -129,10 +129,17 @@ class Negative(Node):
 
 @node_class
 class Function(Node):
-    """sin, cos, tan or sqrt of an argument."""
+    """sin, cos, tan, sqrt, acos, asin, atan of an argument; atan2 of `Arguments` (y, x)."""
 
     name: str
     argument: Node
+
+
+@node_class
+class Arguments(Node):
+    """Several arguments of a function."""
+
+    parts: tuple[Node, ...]
 
 
 @node_class

@@ -15,6 +15,7 @@ from functools import cache
 from typing import Any
 
 from dynsolve.notation.tree import (
+    Arguments,
     Degrees,
     Function,
     Matrix,
@@ -37,6 +38,10 @@ FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
     "cos": math.cos,
     "tan": math.tan,
     "sqrt": math.sqrt,
+    "acos": math.acos,
+    "asin": math.asin,
+    "atan": math.atan,
+    "atan2": lambda arguments: math.atan2(*arguments),
 }
 
 _Operation = tuple[Callable[[Any], float], Callable[[Any], Any]]
@@ -181,6 +186,8 @@ class _Compiler:
                 return operator.neg
             case Function(name):
                 return self.functions[name]
+            case Arguments():
+                return tuple
             case Power(_, exponent):
                 whole = _whole(exponent)
                 return _raise if whole is None else _raised_to(whole)

@@ -20,6 +20,8 @@ from dynsolve.notation.tree import (
 _DOTS = ("", "dot", "dot.double", "dot.triple")
 _STYLES = {"bold": "upright(bold({}))", "script": "cal({})", "upright": "upright({})", "italic": "{}"}
 
+_OPERATORS = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan"})
+
 
 def to_typst(node: Node, style: Style = PLAIN) -> str:
     """The tree as Typst's mathematics, without dollar signs.
@@ -79,7 +81,8 @@ class TypstPrinter(FormulaPrinter):
         return f"sqrt({self.text(argument)})"
 
     def _applied(self, name: str, argument: str, exponent: str = "") -> str:
-        return f"{self._scripted(name, '', exponent)} {self.parenthesized(argument)}"
+        operator = name if name in _OPERATORS else f'op("{name}")'
+        return f"{self._scripted(operator, '', exponent)} {self.parenthesized(argument)}"
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
         return f"mat({'; '.join(map(', '.join, rows))})"

@@ -48,6 +48,17 @@ Origin = Given | Turned | Squared
 """Where an equation comes from."""
 
 
+def turns(origin: Origin) -> int:
+    """How often something was turned on the way to an equation."""
+    match origin:
+        case Given():
+            return 0
+        case Turned(first, second):
+            return 1 + max(turns(first), turns(second))
+        case Squared(parts):
+            return max(map(turns, parts))
+
+
 @dataclass(frozen=True, slots=True)
 class Equation:
     """left = right."""

@@ -18,6 +18,7 @@ from dynsolve.derivation.inverse.equations import (
     arranged,
     squared_sums,
     turned_systems,
+    turns,
 )
 from dynsolve.derivation.inverse.subproblems import Remainder, Solved, recognized
 from dynsolve.derivation.inverse.unknowns import Unknowns, search_ring
@@ -87,12 +88,17 @@ def _search(system: System, unknowns: Unknowns) -> tuple[Solved, ...] | None:
     steps: list[Solved] = []
     while unknowns.names:
         systems = _grown([tuple(arranged(e, unknowns) for e in s) for s in systems], unknowns)
-        best = min(_solvable(systems, unknowns), key=lambda s: (s.rank, s.size), default=None)
+        best = min(_solvable(systems, unknowns), key=_effort, default=None)
         if best is None:
             return None
         steps.append(best)
         unknowns = unknowns.without(best.coordinate)
     return tuple(steps)
+
+
+def _effort(solved: Solved) -> tuple[int, int]:
+    """What a step costs its reader; a turned equation counts as two terms more."""
+    return solved.rank, solved.size + 2 * sum(turns(e.origin) for e in solved.equations)
 
 
 def _grown(systems: list[System], unknowns: Unknowns) -> list[System]:

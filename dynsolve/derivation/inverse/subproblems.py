@@ -42,7 +42,19 @@ class TwoLines:
     second: tuple[Expr, Expr, Expr]
     equations: tuple[Equation, ...]
     count = 1
-    rank = 0
+
+    @property
+    def rank(self) -> int:
+        """A vector that is turned before other lines, and these before lines that may be parallel."""
+        if self.is_rotation:
+            return 0
+        return 1 if is_positive(self.determinant) or is_positive(-self.determinant) else 6
+
+    @property
+    def is_rotation(self) -> bool:
+        """Whether the lines say that a vector is turned: A' = -B and B' = A, or the other way."""
+        (a, b, _), (c, d, _) = self.first, self.second
+        return (d == a and c == -b) or (d == -a and c == b)
 
     @property
     def determinant(self) -> Expr:
@@ -77,8 +89,10 @@ class OneLine:
 
     @property
     def rank(self) -> int:
-        """A direction (X = 0) before a single sine or cosine before both."""
-        return 1 if self.value.is_zero else 2 + (not self.cosine.is_zero and not self.sine.is_zero)
+        """A direction (X = 0) before a single sine or cosine, and these before both."""
+        if self.value.is_zero:
+            return 2
+        return 3 if self.cosine.is_zero or self.sine.is_zero else 4
 
     @property
     def size(self) -> int:
@@ -110,7 +124,7 @@ class Length:
     @property
     def rank(self) -> int:
         """At once where nothing is divided by that may vanish."""
-        return 0 if is_positive(self.factor) or is_positive(-self.factor) else 4
+        return 0 if is_positive(self.factor) or is_positive(-self.factor) else 6
 
     @property
     def size(self) -> int:
@@ -133,7 +147,7 @@ class RootLength:
     constant: Expr
     equations: tuple[Equation, ...]
     count = 2
-    rank = 2
+    rank = 3
 
     @property
     def size(self) -> int:
@@ -189,9 +203,22 @@ def recognized(equations: Sequence[Equation], unknowns: Unknowns) -> Iterator[So
         wave = harmonic(expr, unknowns)
         if wave is not None and wave.coordinate is not None:
             harmonics.append((wave, equation))
-            yield OneLine(wave.coordinate, wave.cosine, wave.sine, -wave.constant, (equation,))
+            yield _one_line(wave.coordinate, wave, equation)
         yield from _lengths(equation, unknowns)
     yield from _pairs(harmonics)
+
+
+def _one_line(coordinate: str, wave: Harmonic, equation: Equation) -> OneLine:
+    """A c + B s = X with the sign that leaves fewer minus signs in its solutions."""
+    a, b, x = wave.cosine, wave.sine, -wave.constant
+    shown = (a, -b) if x.is_zero else (a, b, x)
+    if 2 * sum(map(_negative_terms, shown)) > sum(map(len, shown)):
+        a, b, x = -a, -b, -x
+    return OneLine(coordinate, a, b, x, (equation,))
+
+
+def _negative_terms(expr: Expr) -> int:
+    return sum(factor < 0 for factor in expr.poly.coeffs())
 
 
 def _lengths(equation: Equation, unknowns: Unknowns) -> Iterator[Solved]:
