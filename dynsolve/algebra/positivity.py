@@ -1,11 +1,13 @@
-"""What is positive because of how it is written: lengths and masses are, and squares, and their sums."""
+"""What is positive because of how it is written: lengths and masses are, and squares are not negative."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 from dynsolve.algebra.expr import Expr
 
 
-def is_positive(expr: Expr) -> bool:
+def is_nonnegative(expr: Expr) -> bool:
     """Whether every term has a positive factor and no coordinate, sine or cosine to an odd power.
 
     Parameters count as positive, as lengths and masses do.
@@ -14,14 +16,35 @@ def is_positive(expr: Expr) -> bool:
     >>> from dynsolve.notation.tree import Symbol
     >>> ring = build_ring([("d1", "prismatic")], [Symbol("l")])
     >>> l, d = ring.symbol("l"), ring.symbol("d1")
-    >>> is_positive(l + d * d), is_positive(l + d), is_positive(l - d * d)
+    >>> is_nonnegative(l + d * d), is_nonnegative(l + d), is_nonnegative(l - d * d)
     (True, False, False)
     """
+    free = _parameters(expr)
+    return all(
+        factor > 0 and all(e % 2 == 0 or i in free for i, e in enumerate(exponents))
+        for exponents, factor in expr.poly.to_dict().items()
+    )
+
+
+def is_positive(expr: Expr) -> bool:
+    """Whether it is not negative, and one of its terms is a number or holds parameters alone.
+
+    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([("d1", "prismatic")], [Symbol("l")])
+    >>> l, d = ring.symbol("l"), ring.symbol("d1")
+    >>> is_positive(l + d * d), is_positive(d * d)
+    (True, False)
+    """
+    free = _parameters(expr)
+    return is_nonnegative(expr) and any(_holds_only(exponents, free) for exponents in expr.poly.monoms())
+
+
+def _parameters(expr: Expr) -> frozenset[int]:
     ring = expr.ring
     names = set(ring.names)
-    free = {g.index for g in ring.generators if g.kind == "symbol" and g.name not in names}
-    terms = expr.poly.to_dict()
-    return bool(terms) and all(
-        factor > 0 and all(e % 2 == 0 or i in free for i, e in enumerate(exponents))
-        for exponents, factor in terms.items()
-    )
+    return frozenset(g.index for g in ring.generators if g.kind == "symbol" and g.name not in names)
+
+
+def _holds_only(exponents: Sequence[int], places: frozenset[int]) -> bool:
+    return all(not e or i in places for i, e in enumerate(exponents))

@@ -97,7 +97,9 @@ class _HalfAngles:
     def _power(self, pair: Pair, sines: int, cosines: int, degree: int) -> fmpq_mpoly:
         """sin^sines cos^cosines · 1^rest, of degree 2·degree in S and C."""
         S, C = self.gens[pair.sine], self.gens[pair.cosine]
-        return (2 * S * C) ** sines * (C * C - S * S) ** cosines * (C * C + S * S) ** (degree - sines - cosines)
+        return (
+            (2 * S * C) ** sines * (C * C - S * S) ** cosines * (C * C + S * S) ** (degree - sines - cosines)
+        )
 
     # -- back to whole angles ----------------------------------------------------------------------
 
@@ -135,9 +137,7 @@ class _HalfAngles:
 
     def _is_one(self, factor: fmpq_mpoly) -> bool:
         """Whether a factor is some C² + S² = 1."""
-        return any(
-            factor == self.gens[pair.sine] ** 2 + self.gens[pair.cosine] ** 2 for pair in self.pairs
-        )
+        return any(factor == self.gens[pair.sine] ** 2 + self.gens[pair.cosine] ** 2 for pair in self.pairs)
 
     def _is_even(self, factor: fmpq_mpoly) -> bool:
         return all(

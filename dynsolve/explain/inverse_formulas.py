@@ -11,7 +11,7 @@ from math import lcm
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, simplified
-from dynsolve.algebra.positivity import is_positive
+from dynsolve.algebra.positivity import is_nonnegative
 from dynsolve.derivation.inverse.subproblems import (
     Length,
     OneLine,
@@ -54,9 +54,9 @@ class InverseFormulas:
         if d == -a and c == b:
             return (self._turned(a, b, x, -y),)
         sine, cosine, below = a * y - c * x, d * x - b * y, step.determinant
-        if is_positive(-below):
+        if is_nonnegative(-below):
             sine, cosine, below = -sine, -cosine, -below
-        if is_positive(below):
+        if is_nonnegative(below):
             return (self._direction(sine, cosine),)
         return (atan2(self.ratio(sine, below), self.ratio(cosine, below)),)
 
@@ -72,9 +72,9 @@ class InverseFormulas:
 
     def _of_vector(self, x: Expr, y: Expr, length: Expr) -> Node:
         """ψ from length·cos ψ = x, length·sin ψ = y."""
-        if is_positive(length):
+        if is_nonnegative(length):
             return self._direction(y, x)
-        if is_positive(-length):
+        if is_nonnegative(-length):
             return self._direction(-y, -x)
         return atan2(self.ratio(y, length), self.ratio(x, length))
 
@@ -83,9 +83,9 @@ class InverseFormulas:
         shared = y.poly.gcd(x.poly) if not (y.is_zero or x.is_zero) else None
         if shared is not None and not shared.is_constant():
             factor = Expr(y.ring, shared)
-            if is_positive(-factor):
+            if is_nonnegative(-factor):
                 factor = -factor
-            if is_positive(factor):
+            if is_nonnegative(factor):
                 y, x = (Expr(y.ring, divmod(e.poly, factor.poly)[0]) for e in (y, x))
         return atan2(self._form(y), self._form(x))
 
@@ -150,7 +150,7 @@ class InverseFormulas:
             return self._form(value.numerator)
         whole = lcm(*(int(factor.q) for e in (value.numerator, value.divisor) for factor in e.poly.coeffs()))
         numerator, divisor = value.numerator * whole, value.divisor * whole
-        if is_positive(-divisor):
+        if is_nonnegative(-divisor):
             numerator, divisor = -numerator, -divisor
         return Quotient(self._form(numerator), self._form(divisor))
 

@@ -21,7 +21,7 @@ from itertools import combinations
 from math import atan2, sqrt
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.positivity import is_positive
+from dynsolve.algebra.positivity import is_nonnegative
 from dynsolve.derivation.inverse.equations import Equation
 from dynsolve.derivation.inverse.terms import Harmonic, harmonic, quadratic
 from dynsolve.derivation.inverse.unknowns import Unknowns
@@ -48,7 +48,7 @@ class TwoLines:
         """A vector that is turned before other lines, and these before lines that may be parallel."""
         if self.is_rotation:
             return 0
-        return 1 if is_positive(self.determinant) or is_positive(-self.determinant) else 6
+        return 1 if is_nonnegative(self.determinant) or is_nonnegative(-self.determinant) else 6
 
     @property
     def is_rotation(self) -> bool:
@@ -124,7 +124,7 @@ class Length:
     @property
     def rank(self) -> int:
         """At once where nothing is divided by that may vanish."""
-        return 0 if is_positive(self.factor) or is_positive(-self.factor) else 6
+        return 0 if is_nonnegative(self.factor) or is_nonnegative(-self.factor) else 6
 
     @property
     def size(self) -> int:

@@ -120,4 +120,3 @@ class Unknowns:
             (unknown if is_unknown else known)[exponents] = factor
         ring = self.ring
         return Expr(ring, ring.ctx.from_dict(known)), Expr(ring, ring.ctx.from_dict(unknown))
-

@@ -1,0 +1,10 @@
+"""Singular configurations: where a Jacobian has less than its greatest rank.
+
+A matrix loses rank exactly where all minors of the size of its greatest rank are 0.  Each
+minor is taken apart into factors; at a singular configuration one factor of every minor is 0.
+
+    conditions  one equation f(q) = 0, and what other expressions become where it holds
+    sets        all minors at once: the alternatives, each a list of conditions
+
+Spong, Hutchinson, Vidyasagar, section 4.9 (2006).
+"""

@@ -1,0 +1,94 @@
+"""An equation f(q) = 0 that is a factor of something, and what expressions become where it holds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Pair
+from dynsolve.algebra.positivity import is_positive
+from dynsolve.algebra.trig_factor import trig_factors
+
+
+@dataclass(frozen=True)
+class Condition:
+    """f = 0, with f irreducible in a ring of one angle a coordinate."""
+
+    expr: Expr
+
+    def reduced(self, other: Expr) -> Expr:
+        """Another expression where this holds, up to a factor that is never 0.
+
+        An angle's sine, cosine or both are put in, a length that stands linearly is replaced;
+        of any other condition it is only seen whether the expression has it as a factor.
+        """
+        for pair, sine, cosine in self._turn:
+            return _at_angle(other, pair, sine, cosine)
+        for index, factor, rest in self._length:
+            return _at_length(other, index, factor, rest)
+        if other.is_zero or any(
+            factor == self.expr or factor == -self.expr for factor, _ in trig_factors(other)
+        ):
+            return other.ring.zero
+        return other
+
+    @cached_property
+    def _turn(self) -> list[tuple[Pair, int | None, int | None]]:
+        """(pair, sine, cosine) where the condition fixes an angle up to a sign; None is ±1."""
+        ring = self.expr.ring
+        for pair in ring.pairs:
+            s, c = ring.generator(pair.sine), ring.generator(pair.cosine)
+            known = ((s, 0, None), (c, None, 0), (c - ring.one, 0, 1), (c + ring.one, 0, -1),
+                     (s - ring.one, 1, 0), (s + ring.one, -1, 0))  # fmt: skip
+            for form, sine, cosine in known:
+                if self.expr == form or self.expr == -form:
+                    return [(pair, sine, cosine)]
+        return []
+
+    @cached_property
+    def _length(self) -> list[tuple[int, Expr, Expr]]:
+        """(generator d, m, n) where the condition is m d + n = 0 with m > 0 and free of coordinates."""
+        ring = self.expr.ring
+        for name, kind in ring.coordinates:
+            if kind != "prismatic":
+                continue
+            index = ring.symbol_indices[(name, 0)]
+            factor = ring.coefficient(self.expr, name)
+            if (is_positive(factor) or is_positive(-factor)) and not ring.depends_on_coordinates(factor):
+                return [(index, factor, self.expr - factor * ring.generator(index))]
+        return []
+
+
+def _at_angle(expr: Expr, pair: Pair, sine: int | None, cosine: int | None) -> Expr:
+    """An expression where sin and cos of an angle have these values; where one is 0 the other is ±1."""
+    ring = expr.ring
+    terms: dict[tuple[int, ...], Any] = {}
+    for exponents, factor in expr.poly.to_dict().items():
+        powers = list(exponents)
+        for place, value in ((pair.sine, sine), (pair.cosine, cosine)):
+            power = int(powers[place])
+            if value is None:
+                powers[place] = power % 2
+            else:
+                factor = factor * value**power  # noqa: PLW2901
+                powers[place] = 0
+        if factor:
+            key = tuple(powers)
+            terms[key] = terms.get(key, 0) + factor
+    return Expr(ring, ring.ctx.from_dict({key: value for key, value in terms.items() if value}))
+
+
+def _at_length(expr: Expr, index: int, factor: Expr, rest: Expr) -> Expr:
+    """Σ aₖ dᵏ with d = -n/m, times m to the highest power: Σ aₖ (-n)ᵏ mᵗ⁻ᵏ."""
+    ring = expr.ring
+    highest = max(int(expr.poly.degrees()[index]), 0)
+    by_power: dict[int, dict[tuple[int, ...], Any]] = {}
+    for exponents, value in expr.poly.to_dict().items():
+        key = (*exponents[:index], 0, *exponents[index + 1 :])
+        by_power.setdefault(int(exponents[index]), {})[key] = value
+    total = ring.zero
+    for power, terms in by_power.items():
+        total += Expr(ring, ring.ctx.from_dict(terms)) * (-rest) ** power * factor ** (highest - power)
+    return total
