@@ -97,9 +97,8 @@ class _HalfAngles:
     def _power(self, pair: Pair, sines: int, cosines: int, degree: int) -> fmpq_mpoly:
         """sin^sines cos^cosines · 1^rest, of degree 2·degree in S and C."""
         S, C = self.gens[pair.sine], self.gens[pair.cosine]
-        return (
-            (2 * S * C) ** sines * (C * C - S * S) ** cosines * (C * C + S * S) ** (degree - sines - cosines)
-        )
+        one: fmpq_mpoly = (C * C + S * S) ** (degree - sines - cosines)
+        return (2 * S * C) ** sines * (C * C - S * S) ** cosines * one
 
     # -- back to whole angles ----------------------------------------------------------------------
 
@@ -112,11 +111,11 @@ class _HalfAngles:
                     yield self._expr(factor), times
             else:
                 odd += [factor] * times
-        for factor in self._paired(odd):
-            yield factor, 1
+        for expr in self._paired(odd):
+            yield expr, 1
 
     def _paired(self, odd: list[fmpq_mpoly]) -> Iterator[Expr]:
-        """Factors of odd degree put together two by two, those first that make the shortest; then the rest."""
+        """Factors of odd degree two by two, those first that make the shortest; then the rest."""
         while True:
             products = [
                 (len(value), i, j, value)

@@ -21,13 +21,13 @@ from dynsolve.derivation.inverse.subproblems import (
     TwoLines,
 )
 from dynsolve.notation.build import negated, split_sign, times, total
-from dynsolve.notation.tree import Arguments, Function, Node, Number, Power, Quotient, Symbol, number
+from dynsolve.notation.tree import Arguments, Function, Node, Quotient, Symbol, number
 
 _PI = Symbol("pi")
 
 
 def atan2(y: Node, x: Node) -> Node:
-    """atan2(y, x): the angle of the point (x, y)."""
+    """The angle of the point (x, y), in all four quadrants."""
     return Function("atan2", Arguments((y, x)))
 
 
@@ -119,11 +119,7 @@ class InverseFormulas:
         if step.linear.is_zero:
             return root, negated(root)
         below = step.square * 2
-        middle, either = self.ratio(-step.linear, below), root
-        if not below.is_number or below.number != 2:
-            either = Quotient(root, self._form(below))
-        elif step.linear.is_zero is False:
-            either = Quotient(root, Number(2))
+        middle, either = self.ratio(-step.linear, below), Quotient(root, self._form(below))
         return total([middle, either]), total([middle, negated(either)])
 
     def radicand(self, step: RootLength) -> Node:
@@ -153,8 +149,3 @@ class InverseFormulas:
         if is_nonnegative(-divisor):
             numerator, divisor = -numerator, -divisor
         return Quotient(self._form(numerator), self._form(divisor))
-
-
-def squared(node: Node) -> Node:
-    """node²"""
-    return Power(node, Number(2))

@@ -187,7 +187,7 @@ class _Compiler:
             case Function(name):
                 return self.functions[name]
             case Arguments():
-                return tuple
+                return _together
             case Power(_, exponent):
                 whole = _whole(exponent)
                 return _raise if whole is None else _raised_to(whole)
@@ -212,6 +212,10 @@ def _whole(exponent: Node) -> int | None:
 
 def _same(value: float) -> float:
     return value
+
+
+def _together(values: Any) -> Any:
+    return values
 
 
 def _divide(pair: tuple[float, float]) -> float:

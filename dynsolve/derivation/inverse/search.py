@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -161,7 +161,7 @@ def _angle_sum(entry: Expr) -> tuple[dict[str, Fraction], Expr] | None:
     return rates, rest
 
 
-def _angles(sums: Sequence[Remainder] | Iterator[Remainder]) -> dict[str, Angle]:
+def _angles(sums: Iterable[Remainder]) -> dict[str, Angle]:
     """What each given coordinate is in the arguments of sines and cosines."""
     found: dict[str, Angle] = {}
     for remainder in sums:

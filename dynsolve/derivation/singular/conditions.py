@@ -72,7 +72,7 @@ def _at_angle(expr: Expr, pair: Pair, sine: int | None, cosine: int | None) -> E
             if value is None:
                 powers[place] = power % 2
             else:
-                factor = factor * value**power  # noqa: PLW2901
+                factor = factor * value**power
                 powers[place] = 0
         if factor:
             key = tuple(powers)
