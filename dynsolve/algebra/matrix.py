@@ -77,8 +77,9 @@ class Matrix:
         return Matrix.of(self.ring, (map(operation, mine, theirs) for mine, theirs in pairs))
 
     def map(self, function: Callable[[Expr], Expr]) -> Matrix:
-        """The matrix of function(entry)."""
-        return Matrix.of(self.ring, (map(function, row) for row in self.rows))
+        """The matrix of function(entry), in the ring of its values."""
+        rows = tuple(tuple(map(function, row)) for row in self.rows)
+        return Matrix(rows[0][0].ring if rows and rows[0] else self.ring, rows)
 
     def scale(self, factor: Expr) -> Matrix:
         """factor · self"""

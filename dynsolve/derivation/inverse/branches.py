@@ -40,7 +40,7 @@ def branches(solving: Solving) -> tuple[Branch, ...] | None:
     candidates = [Branch(choice) for choice in product(*(range(step.count) for step in solving.solved))]
     verdicts: dict[Branch, set[bool]] = {branch: set() for branch in candidates}
     for _ in range(POINTS):
-        state = _random_state(solving, random)
+        state = random_state(solving, random)
         reached = reach_of(solving, state)
         found = False
         for branch in candidates:
@@ -99,7 +99,7 @@ def _is_same(solving: Solving, q: Mapping[str, float], state: Mapping[str, float
     return True
 
 
-def _random_state(solving: Solving, random: Random) -> dict[str, float]:
+def random_state(solving: Solving, random: Random) -> dict[str, float]:
     """Values of the coordinates and of the parameters, lengths positive."""
     return dict(_values(solving, random))
 

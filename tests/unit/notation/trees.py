@@ -38,6 +38,7 @@ ONE_OF_EACH: list[tuple[Node, tuple[Node, ...]]] = [
     (Power(A, TWO), (A, TWO)),
     (tree.Negative(A), (A,)),
     (tree.Function("sin", A), (A,)),
+    (tree.Arguments((A, B)), (A, B)),
     (tree.Matrix(((A, B), (C, TWO))), (A, B, C, TWO)),
     (tree.Letter("J", A, B, "bold"), (A, B)),
     (tree.Letter("J", None, B), (B,)),

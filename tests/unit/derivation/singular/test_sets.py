@@ -1,0 +1,41 @@
+"""Singular configurations of arms whose Jacobians the literature discusses."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.transfer import Transfer
+from dynsolve.derivation.inverse.unknowns import search_ring
+from dynsolve.derivation.rules import derive
+from dynsolve.derivation.singular.sets import SingularSet, singular_set
+from dynsolve.notation.python import to_python
+from dynsolve.problem import read_problem
+
+# (the table, the task, the rank, the alternatives; official results of INF3480 2010, 2012 (UiO) and
+# Robotics 1, 2022 and 2023 (Sapienza), and of Spong, Hutchinson, Vidyasagar, section 4.9)
+ARMS = [
+    ("dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]", "", 2, [["sin(q2)"]]),
+    ("dh: [{theta: q1* + 180deg, d: L1, alpha: 90deg}, {theta: -90deg, d: d2* + L2, alpha: 90deg}, "
+     "{theta: q3* + 90deg, a: L3}]", "", 3, [["cos(q3)"], ["L2 + d2 + L3*cos(q3)"]]),
+    ("dh: [{d: d1*, alpha: -90deg}, {d: d2*, a: l1, alpha: 60deg}, {theta: q3*, a: l2}]", "", 3, [["sin(q3)"]]),
+    ("gravity: none\ndh: [{theta: q1* + 90deg, alpha: 90deg}, {d: q2*, alpha: -90deg}, "
+     "{theta: q3*, alpha: 90deg}, {d: q4*}]", "task: [tip.x, tip.y, q1 + q3]", 3, [["q2", "sin(q3)"]]),
+    ("dh: [{theta: q1*, d: L1, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: d3*}]", "", 3,
+     [["d3"], ["sin(q2)"]]),
+]  # fmt: skip
+
+
+def set_of(table: str, task: str) -> SingularSet:
+    robot = read_problem(f"{table}\n{task}\nfind: [Jr]\n").robot
+    ring = search_ring(robot.ring, (), {})
+    return singular_set(derive(robot)["Jr"].map(Transfer(robot.ring, ring)))
+
+
+@pytest.mark.parametrize(("table", "task", "rank", "alternatives"), ARMS)
+def test_the_alternatives(table: str, task: str, rank: int, alternatives: list[list[str]]) -> None:
+    found = set_of(table, task)
+    form = Compactor(found.minors[0].ring).form
+    written = [sorted(to_python(form(c.expr)) for c in one) for one in found.alternatives]
+    assert found.rank == rank
+    assert sorted(written) == sorted(sorted(one) for one in alternatives)
