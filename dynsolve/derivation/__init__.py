@@ -9,6 +9,8 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     euler_lagrange  7.1   L, ∂L/∂q̇, d/dt ∂L/∂q̇, ∂L/∂q, τ (and where friction would go)
     vectorized      7.3   D, the Christoffel symbols, C, g
     task            4.6, 4.8, 4.11   points, the task r(q), J_r, J̇: where a file asks for them
+    singular    4.9   where a Jacobian loses rank
+    inverse     5     q from r(q): one unknown after the other, in known forms; the branches
 
 What hangs together how:
 

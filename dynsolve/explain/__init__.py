@@ -26,6 +26,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     style       how a robot's formulas look: s_1 for sin θ_1
     citations   the books and their sections that steps refer to
     writing     sentences and pieces of formulas
+    inverse_formulas
+                the solutions of inverse kinematics: atan2(y, x) - …, ± arccos(…)
     working     the lines between a formula and its result, each proved before it is shown
 
 Long models are written in names (`--abbreviate`):

@@ -20,7 +20,10 @@ def random_matrix(size: int, seed: int) -> Matrix:
     return Matrix.of(
         RING,
         (
-            [symbols[random.randrange(3)] * random.randint(-3, 3) + RING.one * random.randint(-2, 2) for _ in range(size)]
+            [
+                symbols[random.randrange(3)] * random.randint(-3, 3) + RING.one * random.randint(-2, 2)
+                for _ in range(size)
+            ]
             for _ in range(size)
         ),
     )

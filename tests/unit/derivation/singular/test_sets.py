@@ -18,7 +18,8 @@ ARMS = [
     ("dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]", "", 2, [["sin(q2)"]]),
     ("dh: [{theta: q1* + 180deg, d: L1, alpha: 90deg}, {theta: -90deg, d: d2* + L2, alpha: 90deg}, "
      "{theta: q3* + 90deg, a: L3}]", "", 3, [["cos(q3)"], ["L2 + d2 + L3*cos(q3)"]]),
-    ("dh: [{d: d1*, alpha: -90deg}, {d: d2*, a: l1, alpha: 60deg}, {theta: q3*, a: l2}]", "", 3, [["sin(q3)"]]),
+    ("dh: [{d: d1*, alpha: -90deg}, {d: d2*, a: l1, alpha: 60deg}, {theta: q3*, a: l2}]", "", 3,
+     [["sin(q3)"]]),
     ("gravity: none\ndh: [{theta: q1* + 90deg, alpha: 90deg}, {d: q2*, alpha: -90deg}, "
      "{theta: q3*, alpha: 90deg}, {d: q4*}]", "task: [tip.x, tip.y, q1 + q3]", 3, [["q2", "sin(q3)"]]),
     ("dh: [{theta: q1*, d: L1, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: d3*}]", "", 3,
