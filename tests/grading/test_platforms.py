@@ -123,6 +123,18 @@ def test_a_download_of_canvas(tmp_path: Path, problems: Path) -> None:
     assert {row["ID"]: row["Assignment 2 (55)"] for row in _rows(out / "canvas.csv") if row["ID"]} == {
         "101": "7", "102": "3", "103": "4", "109": "",
     }  # fmt: skip
+    report = (out / "report.html").read_text()
+    assert "Lovelace, Ada (lovelaceada_101)" in report and ">noetheremmy_107<" in report
+    with zipfile.ZipFile(out / "canvas-comments.zip") as packed:
+        comments = {name: packed.read(name).decode() for name in packed.namelist()}
+    assert sorted(comments) == [
+        "babbagecharles_LATE_102_9003_in3140-rp.yaml", "curiemarie_108_9009_hw.tex",
+        "group1_105_9007_my answers.yaml", "lovelaceada_101_9001_in3140-rp.yaml",
+        "lovelaceada_101_9002_planar-2r-1.yaml", "noetheremmy_107_9008_in3140-rp.md",
+    ]  # fmt: skip
+    assert "**Marks: 1 of 1**" in comments["lovelaceada_101_9002_planar-2r-1.yaml"]
+    cannot = "Canvas cannot give back the pages of who handed in no file that can carry them: "
+    assert f"{cannot}hoppergrace_104; noetheremmy_106; van_der_bergåse_103" in grades.warnings
     page = (out / "feedback" / "babbagecharles_102" / "in3140-rp.html").read_text()
     assert "It was handed in late." in page
 

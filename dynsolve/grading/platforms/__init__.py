@@ -5,7 +5,9 @@
     roster          the table of students that a platform exports
     archives        zips that a platform takes back
     registry        the platforms by name
-    canvas, moodle, moodle_feedback, gradescope
+    canvas, canvas_names, canvas_comments
+    moodle, moodle_feedback
+    gradescope
 
 To add a platform, write a file like `canvas` with
 

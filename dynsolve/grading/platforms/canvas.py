@@ -15,17 +15,13 @@ from pathlib import Path
 
 from dynsolve.grading.cohort import Standing, most, standings
 from dynsolve.grading.files import decimal
+from dynsolve.grading.platforms.canvas_comments import write_comments
+from dynsolve.grading.platforms.canvas_names import canvas_name
 from dynsolve.grading.platforms.owner import FileOwner, Person
 from dynsolve.grading.platforms.roster import Cells, Roster, not_judged, number, unmatched
 from dynsolve.grading.problem_set import ProblemSet
 from dynsolve.grading.record import Record
 
-_NAMED = re.compile(
-    r"(?P<who>[^/]+?)_(?P<late>LATE_)?(?P<user>\d+)_(?:(?P<file>\d+)_(?P<name>.+)|(?P<page>text|link)\.html)"
-)
-_ANONYMOUS = re.compile(
-    r"(?P<late>LATE_)?anon_(?P<user>[^_]+)_(?:(?P<file>\d+)_(?P<name>.+)|(?P<page>text|link)\.html)"
-)
 _PAGES = {"text": "text.html", "link": "link.url"}
 """A text that was entered is read as a page; what is behind an address is not fetched."""
 
@@ -38,23 +34,14 @@ _POINTS = "Points Possible"
 
 
 def owner(parts: tuple[str, ...]) -> FileOwner | None:
-    """`<lastfirst>[_LATE]_<user id>_<attachment id>_<name>`, `..._text.html`, `[LATE_]anon_<id>_...`.
-
-    Canvas takes `_<digits>_` out of names, so that the first such number is the user's.
-    """
-    if len(parts) > 1:
-        return None
-    found = _ANONYMOUS.fullmatch(parts[0])
-    who = "anon"
+    """`<lastfirst>[_LATE]_<user id>_<attachment id>_<name>`, `..._text.html`, `[LATE_]anon_<id>_...`."""
+    found = canvas_name(parts[0]) if len(parts) == 1 else None
     if found is None:
-        found = _NAMED.fullmatch(parts[0])
-        if found is None:
-            return None
-        who = found["who"]
-    late = int(bool(found["late"]))  # Canvas does not say by how much
-    name = found["name"] or _PAGES[found["page"]]
-    order = int((found["file"] or "0")[:18])
-    return FileOwner(f"{who}_{found['user']}", found["user"], "late" if late else "", name, late, order)
+        return None
+    name, order = found.name or _PAGES[found.page], int((found.file or "0")[:18])
+    delivery = "late" if found.late else ""
+    late = int(found.late)  # Canvas does not say by how much
+    return FileOwner(f"{found.who}_{found.user}", found.user, delivery, name, late, order)
 
 
 def people(roster: Roster) -> Iterator[Person]:
@@ -80,7 +67,7 @@ def check(problems: ProblemSet, roster: Roster) -> int | None:
 
 
 def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) -> Iterator[str]:
-    """Write `canvas.csv`."""
+    """Write `canvas.csv` and `canvas-comments.zip`."""
     header, column = roster.header, check(problems, roster)
     kept = [place for place, name in enumerate(header) if name in _ABOUT_STUDENTS]
     students = _Students(header, standings(record))
@@ -113,6 +100,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
     yield from _of_points(points, of)
     yield from not_judged(students.all)
     yield from unmatched(students.all, seen, without, roster)
+    yield from write_comments(folder, record)
 
 
 def _of_points(points: str, of: Fraction) -> Iterator[str]:
