@@ -129,6 +129,7 @@ def test_a_download_of_canvas(tmp_path: Path, problems: Path) -> None:
         comments = {name: packed.read(name).decode() for name in packed.namelist()}
     assert sorted(comments) == [
         "babbagecharles_LATE_102_9003_in3140-rp.yaml", "curiemarie_108_9009_hw.tex",
+        "curiemarie_108_9010_other.txt",
         "group1_105_9007_my answers.yaml", "lovelaceada_101_9001_in3140-rp.yaml",
         "lovelaceada_101_9002_planar-2r-1.yaml", "noetheremmy_107_9008_in3140-rp.md",
     ]  # fmt: skip

@@ -53,18 +53,18 @@ def _some(students: Iterable[str]) -> str:
 
 def _carriers(folder: Path, record: Record) -> Iterator[tuple[Key, CanvasName | None, bool]]:
     """For each page the file whose name it gets, and whether another page of the student gets it too."""
-    uploads = record.uploads()
-    of_student: dict[str, list[CanvasName]] = {}
-    for (student, _), paths in uploads.items():
-        of_student.setdefault(student, []).extend(_usable(paths))
+    files: dict[Key, list[str]] = {key: list(paths) for key, paths in record.uploads().items()}
     for entry in record.waiting():
-        of_student.setdefault(entry.student, []).extend(_usable([entry.file]))
+        files.setdefault((entry.student, entry.problem), []).append(entry.file)
+    of_student: dict[str, list[CanvasName]] = {}
+    for (student, _), paths in files.items():
+        of_student.setdefault(student, []).extend(_usable(paths))
     chosen: dict[Key, CanvasName | None] = {}
     for row in record.rows():
         key = (row.student, row.problem)
         if not _place(folder, key).with_name(f"{row.problem}.html").is_file():
             continue  # nothing was handed in
-        own = _usable(uploads.get(key, ())) or of_student.get(row.student, [])
+        own = _usable(files.get(key) or files.get((row.student, ""), [])) or of_student.get(row.student, [])
         chosen[key] = own[0] if own else None
     pages = Counter((student, carrier) for (student, _), carrier in chosen.items() if carrier is not None)
     for key, carrier in chosen.items():
