@@ -2,6 +2,7 @@
 
     solve, draw                     derive a model; draw its robot
     check, grade, override          judge one hand-in, a course's hand-ins; change marks
+    autograder                      the zip that makes Gradescope run dynsolve
     lint, new, schema, problems     problem files: a second look, a first draft, their JSON
                                     Schema, the library
     docs                            the formats of files, verdicts and exit codes

@@ -14,7 +14,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from dynsolve.cli import check, docs, draw, grade, lint, new, override, problems, schema, solve
+from dynsolve.cli import autograder, check, docs, draw, grade, lint, new, override, problems, schema, solve
 from dynsolve.errors import DynsolveError, ExitCode, InputError
 
 TRACEBACK = "--traceback"
@@ -111,6 +111,7 @@ def app() -> typer.Typer:
         check.check,
         grade.grade,
         override.override,
+        autograder.autograder,
         lint.lint,
         new.new,
         schema.schema,

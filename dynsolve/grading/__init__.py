@@ -20,6 +20,7 @@
     extensions, groups      who was given more days, and who the members of a group are
     listed                  reading these lists of the teacher's
     platforms/              what Canvas, Moodle and Gradescope hand out and import
+    autograder/             dynsolve as an autograder of Gradescope
     public                  `dynsolve.grade` and `dynsolve.override`
 
 Nothing of a verdict is decided here; `dynsolve.answers` does that.  How to add a learning

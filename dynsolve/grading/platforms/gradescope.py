@@ -142,7 +142,7 @@ def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) ->
         if len(standing.unjudged) == len(problems.items):
             continue  # nothing of it was judged, and nothing is no zero
         path = folder / "gradescope" / folder_name(standing.id or standing.student) / "results.json"
-        text = json.dumps(_results(standing, record, problems), indent=1, ensure_ascii=False) + "\n"
+        text = json.dumps(_results(folder, standing, record, problems), indent=1, ensure_ascii=False) + "\n"
         data = text.encode("utf-8", errors="replace")
         first, before = told.setdefault(path, (standing.student, data))
         if before != data:
@@ -186,7 +186,7 @@ def _days(lateness: str) -> int:
     return -(-(hours * 3600 + minutes * 60 + seconds) // 86400)
 
 
-def _results(standing: Standing, record: Record, problems: ProblemSet) -> dict[str, Any]:
+def _results(folder: Path, standing: Standing, record: Record, problems: ProblemSet) -> dict[str, Any]:
     alone = len(problems.items) == 1
     numbers = dict.fromkeys(problems.stems, 0)
     tests = []
@@ -208,7 +208,15 @@ def _results(standing: Standing, record: Record, problems: ProblemSet) -> dict[s
         )
     return {
         "score": float(standing.total),
+        "output": _pages(folder / "feedback" / folder_name(standing.student), problems),
+        "output_format": "md",
         "visibility": "visible",
         "stdout_visibility": "hidden",
         "tests": tests,
     }
+
+
+def _pages(place: Path, problems: ProblemSet) -> str:
+    """What the student gets to read, in Markdown, one problem after the other."""
+    paths = (place / f"{stem}.md" for stem in problems.stems)
+    return "\n\n".join(path.read_text(encoding="utf-8") for path in paths if path.is_file())
