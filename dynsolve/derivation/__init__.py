@@ -9,14 +9,16 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     euler_lagrange  7.1   L, ∂L/∂q̇, d/dt ∂L/∂q̇, ∂L/∂q, τ (and where friction would go)
     vectorized      7.3   D, the Christoffel symbols, C, g
     task            4.6, 4.8, 4.11   points, the task r(q), J_r, J̇: where a file asks for them
-    singular    4.9   where a Jacobian loses rank
-    inverse     5     q from r(q): one unknown after the other, in known forms; the branches
+    singular        4.9   where a Jacobian loses rank
+    inverse         5     q from r(q): one unknown after the other, in known forms; the branches
+    statics         4.10  forces from outside, the torques that hold them: likewise
 
 What hangs together how:
 
     graph           a `Rule` computes one quantity from others, a `Derivation` evaluates rules
     rules           the rules of the textbook; `derive(robot)` gives the `Derivation` of a robot
     kinematic_rules those of what a file asks of the kinematics
+    static_rules    those of forces from outside
     link_frame      rules that give K and D faster, by Jacobians in each link's own frame
     agreement       whether D, C q̇ and g come out the same both ways
 
@@ -27,6 +29,7 @@ And the independent check, which shares no formula with any of these:
     verification    what is printed, evaluated at random states, against that
     drawn_motion    a table that was made from a drawing, against the drawn joint axes
     kinematic_check points, the task and Jacobians, against the motion of the arm
+    static_check    generalized forces and holding torques, against the power of the forces
 
 A rule takes exact values and returns an exact value, and does nothing else: what a
 person reads of it is made in `dynsolve.explain`.  To add a quantity, write its record

@@ -17,6 +17,7 @@ from dynsolve.derivation import energy, euler_lagrange, inertia, jacobian, kinem
 from dynsolve.derivation.graph import Derivation, Rule
 from dynsolve.derivation.kinematic_rules import frame_names, kinematic_rules
 from dynsolve.derivation.link_frame import link_frame_rules
+from dynsolve.derivation.static_rules import static_rules
 from dynsolve.robot.model import Body, Robot
 
 
@@ -34,13 +35,13 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
     yield from _kinematics(robot)
     yield from _end_jacobian(robot)
     yield from kinematic_rules(robot)
-    if not robot.bodies:
-        return
-    for body in robot.bodies:
-        yield from _body(robot, body)
-    yield from _energies(robot)
-    yield from _euler_lagrange(robot)
-    yield from _vectorized(robot)
+    if robot.bodies:
+        for body in robot.bodies:
+            yield from _body(robot, body)
+        yield from _energies(robot)
+        yield from _euler_lagrange(robot)
+        yield from _vectorized(robot)
+    yield from static_rules(robot)
 
 
 def _kinematics(robot: Robot) -> Iterator[Rule]:

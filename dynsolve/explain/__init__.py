@@ -1,9 +1,9 @@
 """Quantities -> steps: why, the formula with its source, the formula of this robot, the result.
 
-A stage of the course is a file with a function `steps`, which yields its steps in order:
-`kinematics`, `jacobian`, `task` (where something of it is asked), `inertia` (with
-`mass_centers`), `energy`, `lagrangian`, `torque`, `vectorized` (with `christoffel` and
-`agreement`).  To explain a further quantity, yield a `Step` in the file of its stage:
+A stage is a file with a function `steps`, which yields its steps in order: `kinematics`,
+`jacobian`, `inertia` (with `mass_centers`), `energy`, `lagrangian`, `torque`, `vectorized` (with
+`christoffel` and `agreement`); `task` and `statics` where something of them is asked.  To
+explain a further quantity, yield a `Step` in the file of its stage:
 
     yield Step(
         id="K",                          # the quantity, by its name in an answer file
@@ -47,7 +47,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from dynsolve.explain import energy, inertia, jacobian, kinematics, lagrangian, task, torque, vectorized
+from dynsolve.explain import (
+    energy,
+    inertia,
+    jacobian,
+    kinematics,
+    lagrangian,
+    statics,
+    task,
+    torque,
+    vectorized,
+)
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.quantities.index import stages_of
@@ -64,6 +74,7 @@ _EXPLAINED: dict[Stage, Callable[[Context], Iterator[Step]]] = {
     Stage.LAGRANGIAN: lagrangian.steps,
     Stage.TORQUE: torque.steps,
     Stage.VECTORIZED: vectorized.steps,
+    Stage.STATICS: statics.steps,
 }
 
 

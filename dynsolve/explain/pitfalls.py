@@ -175,6 +175,20 @@ def _vectorized(robot: Robot) -> Iterator[Prose]:
         )
 
 
+def _statics(robot: Robot) -> Iterator[Prose]:
+    yield (
+        "The Jacobian is that of the point at which the force acts, and its transpose stands before the "
+        "force.",
+    )
+    loads = robot.questions.loads
+    if any(not load.moment.is_zero for load in loads):
+        yield ("A moment goes to the joints by the angular part of the Jacobian.",)
+    if any(load.by_robot for load in loads):
+        yield ("What the robot exerts acts on it with the opposite sign.",)
+    if "tau_static" in robot.questions.asked:
+        yield ("The torques that hold a force are the opposite of what the force does to the joints.",)
+
+
 def _of_type(robot: Robot, kind: JointType) -> list[Node]:
     return [Symbol(q.name) for q in robot.coordinates if q.type is kind]
 
@@ -193,4 +207,5 @@ _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.LAGRANGIAN: _lagrangian,
     Stage.TORQUE: _torque,
     Stage.VECTORIZED: _vectorized,
+    Stage.STATICS: _statics,
 }

@@ -13,7 +13,9 @@
                      bodies         `masses`
                      base           `gravity`, `base`
                      places         a point of a link: `center`, `at`
-                     questions      what is asked of the kinematics: `points`, `task`
+                     questions      what is asked around the model: `points`, `task`
+                     loads          `forces`
+                     state          `state`
                      rotations      `Rz(90deg) Rx(30deg)`
                      exercise       `find`, `marks`, `values`, `units`
                      parsed_file    all of them together
@@ -22,7 +24,7 @@
                      positions      where the points of links are
                      build          joints and bodies
                      questions_build
-                                    points and the task
+                                    points, the task, forces
       -> Problem     model          the robot, and what the exercise says about it
 
 `reader` goes this way; each step reports what it finds and goes on with what is sound.

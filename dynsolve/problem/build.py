@@ -11,7 +11,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.bodies import ParsedBody, ParsedShape, ParsedTensor
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.positions import PlaceBuilder
-from dynsolve.problem.questions_build import named_point, with_questions
+from dynsolve.problem.questions_build import load, named_point, with_questions
 from dynsolve.problem.source import Faults
 from dynsolve.problem.table import COLUMNS, DHRow
 from dynsolve.problem.values import CellValues, evaluate
@@ -38,7 +38,9 @@ def build_robot(faults: Faults, parsed: ParsedFile, asked: frozenset[str]) -> Ro
     gravity = values.column(parsed.gravity) if parsed.gravity else None
     builder = BodyBuilder(faults, values, links)
     bodies = [builder.body(body) for body in parsed.bodies]
-    points = [named_point(builder.places, point) for point in parsed.questions.points]
+    asked_points = [named_point(builder.places, point) for point in parsed.questions.points]
+    points = [point for point in asked_points if point]
+    loads = [load(builder.places, entry, points, len(joints)) for entry in parsed.questions.loads]
     if faults.errors or gravity is None:
         return None
     robot = Robot(
@@ -52,7 +54,7 @@ def build_robot(faults: Faults, parsed: ParsedFile, asked: frozenset[str]) -> Ro
         base_position=move or Matrix.zero(ring, 3, 1),
         parameters=tuple(name for name in ring.parameters if name != "pi"),
     )
-    return with_questions(robot, parsed.questions, [point for point in points if point], asked)
+    return with_questions(robot, parsed.questions, points, [one for one in loads if one], asked)
 
 
 def _joint(values: CellValues, parsed: ParsedFile, row: DHRow) -> Joint | None:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Shared, Word
-from dynsolve.problem.value_kinds import EXPRESSION, LINK, PLACE
+from dynsolve.problem.value_kinds import EXPRESSION, LINK, PLACE, ROTATION, VECTOR
 
 MAX_POINTS = 20
+MAX_FORCES = 20
 MAX_TASK = 12
 
 POINT = Keyed(
@@ -30,6 +31,45 @@ POINT = Keyed(
 )
 
 TWIST = Word(("twist",))
+IN_LINK = Word(("link",))
+BY = Word(("world", "robot"))
+
+FORCE = Keyed(
+    (
+        Key(
+            "link",
+            LINK,
+            "The row of the table with whose frame the link moves.",
+            "2",
+            required=True,
+            remedy="link: 1, the row of the table of the link that the force acts on",
+        ),
+        Key(
+            "at",
+            PLACE,
+            "Where it acts, as `center` of a body says it.",
+            "tip",
+            "tip",
+            remedy="write tip, origin, midpoint, {along: 1/2}, {near: [l, 0, 0]} or [x, y, z]",
+        ),
+        Key("force", VECTOR, "The force.", "[Fx, Fy, 0]", "none", remedy="write force: [Fx, Fy, 0]"),
+        Key("moment", VECTOR, "The moment.", "[0, 0, Mz]", "none", remedy="write moment: [0, 0, Mz]"),
+        Key(
+            "in",
+            OneOf((IN_LINK, ROTATION)),
+            "The axes of both: `link`, those of frame i, or a rotation relative to them.",
+            "link",
+            "those of the world",
+        ),
+        Key(
+            "by",
+            BY,
+            "Who exerts it; what the `robot` exerts acts on it with the opposite sign.",
+            "robot",
+            "world",
+        ),
+    )
+)
 
 KINEMATIC_KEYS = (
     Key(
@@ -47,6 +87,22 @@ KINEMATIC_KEYS = (
         "[tip.x, tip.y]",
         "the coordinates of the tip that move",
         remedy="write task: [tip.x, tip.y, q1 + q2], or task: twist",
+    ),
+    Key(
+        "forces",
+        ListOf(Shared("force", FORCE, "a force"), "a list of forces", 0, MAX_FORCES),
+        "Forces and moments that act on links from outside.",
+        "\n- {link: 2, at: tip, force: [Fx, Fy, 0], moment: [0, 0, Mz]}",
+        "none",
+        remedy="a force is written {link: 2, at: tip, force: [Fx, Fy, 0], moment: [0, 0, Mz]}",
+    ),
+    Key(
+        "state",
+        MapOf(EXPRESSION, "values by coordinate"),
+        "Where Q and tau_static are asked for: values of coordinates and of their rates (q1').",
+        "{q1: 90deg, q1': 1}",
+        "every q",
+        remedy="write state: {q1: 90deg, q1': 1}",
     ),
 )
 """The keys, in the order of the documentation."""

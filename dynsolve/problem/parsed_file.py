@@ -60,6 +60,7 @@ class ParsedFile:
         for body in self.bodies:
             if body.axes and body.axes.rotation:
                 yield body.axes.rotation
+        yield from self.questions.rotations
 
     @property
     def moving(self) -> Iterator[Cell]:

@@ -1,9 +1,9 @@
-"""What a problem file asks around the model, as it is written: named points and the task."""
+"""What a problem file asks around the model, as it is written: named points, the task, forces, the state."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from dynsolve.notation.tree import Function, Node, Reference, Symbol
@@ -11,9 +11,12 @@ from dynsolve.notation.walk import mapped, names_in, walk
 from dynsolve.problem.cells import Cell, denominators, forbid, read_cell
 from dynsolve.problem.fields import Fields, did_you_mean, items
 from dynsolve.problem.kinematic_keys import MAX_POINTS, MAX_TASK, POINT, TWIST
+from dynsolve.problem.loads import ParsedLoad, read_loads
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
+from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
+from dynsolve.problem.state import ParsedState, read_state
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode
 from dynsolve.robot.questions import TIP, coordinate_of
 
@@ -45,6 +48,8 @@ class ParsedQuestions:
 
     points: tuple[ParsedPoint, ...] = ()
     task: ParsedTask | None = None
+    loads: tuple[ParsedLoad, ...] = ()
+    state: ParsedState | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -54,17 +59,27 @@ class ParsedQuestions:
     @property
     def constant(self) -> Iterator[Cell]:
         """The values that are constant."""
-        for point in self.points:
-            yield from point.place.cells if point.place else ()
+        for placed in (*self.points, *self.loads):
+            yield from placed.place.cells if placed.place else ()
+        for rotation in self.rotations:
+            yield from rotation.entries
+        yield from self.state.cells.values() if self.state else ()
 
     @property
     def moving(self) -> Iterator[Cell]:
         """The values that may hold coordinates."""
         yield from self.task.cells if self.task else ()
+        for load in self.loads:
+            yield from (*load.force, *load.moment)
+
+    @property
+    def rotations(self) -> Iterator[ParsedRotation]:
+        """Every rotation that is given."""
+        yield from (load.rotation for load in self.loads if load.rotation)
 
 
 def read_questions(
-    faults: Faults, fields: Fields, rows: int, coordinates: Collection[str], bodies: Collection[str]
+    faults: Faults, fields: Fields, rows: int, coordinates: Mapping[str, str], bodies: Collection[str]
 ) -> ParsedQuestions:
     """The keys of a file that ask something of the kinematics; what is wrong with one is reported."""
     points = tuple(_read_points(faults, fields.get("points"), rows, bodies))
@@ -76,7 +91,12 @@ def read_questions(
             "it is fixed in the link: joint variables stand in the table",
         )
     task = _read_task(faults, fields.get("task"), [point.name for point in points], coordinates)
-    return ParsedQuestions(points, task)
+    return ParsedQuestions(
+        points,
+        task,
+        read_loads(faults, fields.get("forces"), rows, coordinates),
+        read_state(faults, fields.get("state"), coordinates),
+    )
 
 
 # -- points ----------------------------------------------------------------------------------------

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.problem.loads import ParsedLoad
 from dynsolve.problem.positions import PlaceBuilder
 from dynsolve.problem.questions import ParsedPoint, ParsedQuestions, ParsedTask
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import last_origin
 from dynsolve.robot.model import Robot
-from dynsolve.robot.questions import TIP, NamedPoint, Questions, Task, coordinate_of
+from dynsolve.robot.questions import TIP, Load, NamedPoint, Questions, State, Task, coordinate_of
 
 
 def named_point(places: PlaceBuilder, parsed: ParsedPoint) -> NamedPoint | None:
@@ -24,11 +26,43 @@ def named_point(places: PlaceBuilder, parsed: ParsedPoint) -> NamedPoint | None:
     return NamedPoint(parsed.name, parsed.link, position, parsed.written)
 
 
+def load(places: PlaceBuilder, parsed: ParsedLoad, points: Sequence[NamedPoint], last: int) -> Load | None:
+    """The force of an entry of `forces:`; None where a fault of it was reported."""
+    values, ring = places.values, places.values.ring
+    zero = Matrix.zero(ring, 3, 1)
+    if parsed.place is None or parsed.link is None:
+        return None
+    position = places.position(parsed.place, parsed.link, "at", parsed.written)
+    force = values.column(parsed.force) if parsed.force else zero
+    moment = values.column(parsed.moment) if parsed.moment else zero
+    axes = Matrix.identity(ring, 3) if parsed.in_link else None
+    if parsed.rotation is not None:
+        axes = values.rotation(parsed.rotation, "the axes of a force")
+    if position is None or force is None or moment is None:
+        return None
+    called = [point.name for point in points if (point.link, point.position) == (parsed.link, position)]
+    if parsed.link == last and position.is_zero:
+        called.append(TIP)
+    point = called[0] if called else ""
+    return Load(parsed.link, position, force, moment, axes, point, parsed.by_robot)
+
+
 def with_questions(
-    robot: Robot, parsed: ParsedQuestions, points: Sequence[NamedPoint], asked: frozenset[str]
+    robot: Robot,
+    parsed: ParsedQuestions,
+    points: Sequence[NamedPoint],
+    loads: Sequence[Load],
+    asked: frozenset[str],
 ) -> Robot:
     """The robot with what its file asks of it; with a task of its own where one is needed and none given."""
-    questions = Questions(points=tuple(points), task=_task(parsed.task), asked=asked)
+    values = parsed.state.values if parsed.state else {}
+    questions = Questions(
+        points=tuple(points),
+        task=_task(parsed.task),
+        asked=asked,
+        loads=tuple(loads),
+        state=State(tuple((name, dots, value) for (name, dots), value in values.items())),
+    )
     if questions.task is None and Stage.TASK in asked_stages(questions):
         questions = replace(questions, task=_default_task(robot))
     return replace(robot, questions=questions)

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from dynsolve.algebra.angles import Angle
+from dynsolve.algebra.at_state import needed_angles
 from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
+from dynsolve.notation.tree import Node
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.rotations import ParsedRotation
@@ -107,12 +110,27 @@ def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
         if len(row.angles) == 2
     ]
     preferred = absolute_angles(turns, parsed.table.names, parsed.convention is Convention.MODIFIED)
-    return build_ring(
-        parsed.table.coordinates,
-        [cell.tree for cell in cells],
-        [angle for _, angle in parsed.angles],
-        preferred,
-    )
+    trees: list[Node] = [cell.tree for cell in cells]
+    angles = [angle for _, angle in parsed.angles]
+    state = parsed.questions.state
+    if state is None:
+        return build_ring(parsed.table.coordinates, trees, angles, preferred)
+    trees += state.turned
+    ring = build_ring(parsed.table.coordinates, trees, angles, preferred)
+    while not _holds(ring, needed := needed_angles(ring, state.values)):
+        angles += needed
+        ring = build_ring(parsed.table.coordinates, trees, angles, preferred)
+    return ring
+
+
+def _holds(ring: Ring, angles: Iterable[Angle]) -> bool:
+    """Whether a ring has the sines and cosines of angles."""
+    try:
+        for angle in angles:
+            ring.cos(angle)
+    except AlgebraError:
+        return False
+    return True
 
 
 def _fails(faults: Faults, parsed: ParsedFile, cell: Cell) -> bool:

@@ -5,6 +5,8 @@
     families    the records, in the order of the derivation
     kinematic_families
                 those of what exercises ask of the kinematics: points, tasks
+    static_families
+                those of what exercises ask of forces from outside
     index       the quantities of one robot by name: which there are, what is part of what
     letters     what they are set with; the printers make every notation of it
     spelling    how students spell names

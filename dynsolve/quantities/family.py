@@ -37,6 +37,8 @@ class Owner(Enum):
     """Three coordinates: the Christoffel symbols."""
     POINT = 6
     """A point that the exercise names."""
+    LOAD = 7
+    """A force from outside."""
 
 
 Size = int | Literal["n", "m"]

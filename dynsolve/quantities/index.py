@@ -26,7 +26,7 @@ MOST_INDEXED = 9
 
 @dataclass(frozen=True, slots=True)
 class Owners:
-    """The owners of a robot's quantities: rows of its table, coordinates, bodies and points by name.
+    """The owners of a robot's quantities: rows of its table, coordinates, bodies and points by name, forces.
 
     `points` are the bodies without inertia, `named` the points that the exercise names.
     `stages` are those of which something is asked, `task_rows` the components of the task;
@@ -39,6 +39,7 @@ class Owners:
     points: frozenset[str] = frozenset()
     named: tuple[str, ...] = ()
     stages: frozenset[Stage] = frozenset()
+    loads: int = 0
     task_rows: int = 0
     is_twist: bool = False
 
@@ -55,6 +56,7 @@ class Owners:
             points=points,
             named=tuple(point.name for point in asked.points),
             stages=asked_stages(asked),
+            loads=len(asked.loads),
             task_rows=asked.task.rows if asked.task else 0,
             is_twist=asked.task is not None and asked.task.is_twist,
         )
@@ -76,6 +78,7 @@ class Owners:
             Owner.BODY: len(self.bodies),
             Owner.COORDINATE: len(self.coordinates),
             Owner.POINT: len(self.named),
+            Owner.LOAD: self.loads,
         }
         if owner in count:
             return ((i,) for i in range(1, count[owner] + 1))
@@ -85,7 +88,7 @@ class Owners:
     def template_values(self, owner: Owner, index: tuple[int, ...]) -> dict[str, str]:
         """The values of the fields in a family's templates; see `dynsolve.quantities.family`."""
         match owner:
-            case Owner.ROW:
+            case Owner.ROW | Owner.LOAD:
                 return {"i": str(index[0])}
             case Owner.BODY:
                 return {"b": self.bodies[index[0] - 1]}
@@ -352,6 +355,8 @@ def asked_stages(questions: Questions) -> frozenset[Stage]:
     found = {family.stage for family in FAMILIES if family.stage.asked_for and family.name in questions.asked}
     if questions.points or questions.task:
         found.add(Stage.TASK)
+    if questions.loads:
+        found.add(Stage.STATICS)
     return frozenset(found)
 
 

@@ -62,6 +62,8 @@ D = bold("D")
 C = bold("C")
 G = bold("g")
 TAU = bold("tau")
+Q_FORCES = bold("Q")
+TAU_STATIC = bold("tau", Words("static"))
 TASK = bold("r")
 J_TASK = bold("J", Symbol("r"))
 K = Letter("K", style="script")
@@ -97,6 +99,11 @@ def of_point(base: str, point: str) -> Letter:
 def j_of_point(part: str, point: str) -> Letter:
     """J_{v_P}, J_{ω_P}"""
     return bold("J", Letter(part, Symbol(point)))
+
+
+def of_load(index: int) -> Letter:
+    """Q_{F_i}, the generalized forces of one force."""
+    return bold("Q", bold("F", Number(index)))
 
 
 def rate(matrix: Letter) -> Letter:

@@ -29,6 +29,7 @@ class Stage(StrEnum):
     LAGRANGIAN = "lagrangian", "The Lagrangian"
     TORQUE = "torque", "The Euler-Lagrange equations"
     VECTORIZED = "vectorized", "The vectorized form"
+    STATICS = "statics", "Forces from outside, and the torques that hold them", True
 
     def __new__(cls, value: str, heading: str = "", asked_for: bool = False) -> Stage:
         """The member of that value."""

@@ -58,13 +58,50 @@ def points_of(task: Task) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True, slots=True)
+class Load:
+    """A force and a moment that act on link `link` from outside, at a point.
+
+    `position` is the point in frame `link`, `force` and `moment` (3×1) are in the world, or
+    where `axes` (3×3) is given along these axes in frame `link`.  `point` is what the point
+    is called, where the exercise names it or it is the tip.
+    """
+
+    link: int
+    position: Matrix
+    force: Matrix
+    moment: Matrix
+    axes: Matrix | None = None
+    point: str = ""
+    by_robot: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Values of coordinates and their rates, formulas free of coordinates; others are free."""
+
+    values: tuple[tuple[str, int, Node], ...] = ()
+
+    @property
+    def by_symbol(self) -> dict[tuple[str, int], Node]:
+        """The values by (name, number of dots)."""
+        return {(name, dots): value for name, dots, value in self.values}
+
+    def __bool__(self) -> bool:
+        """Whether there is any value."""
+        return bool(self.values)
+
+
+@dataclass(frozen=True, slots=True)
 class Questions:
     """Everything that a file asks beside the course's derivation.
 
     `asked` are the names of the answers in `find` and `marks` that no derivation has unless
     they are asked for; with them comes what they are derived from, and nothing else.
+    `loads` are the forces from outside; `state` is where rates and torques are asked for.
     """
 
     points: tuple[NamedPoint, ...] = ()
     task: Task | None = None
     asked: frozenset[str] = frozenset()
+    loads: tuple[Load, ...] = ()
+    state: State = State()

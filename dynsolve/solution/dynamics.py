@@ -12,6 +12,7 @@ from dynsolve.derivation.drawn_motion import verify_drawing
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.kinematic_check import checked_names, verify_kinematics
 from dynsolve.derivation.rules import course_rules, derive
+from dynsolve.derivation.static_check import verify_statics
 from dynsolve.derivation.verification import Verification, verify
 from dynsolve.errors import Finding, VerificationError
 from dynsolve.explain.forms import Forms
@@ -78,6 +79,8 @@ class Dynamics:
             verify_drawing(problem.normals, forms(f"H{len(robot.joints)}"), states)
         wanted = values.leading_to(robot.questions.asked)
         verify_kinematics(robot, {name: forms(name) for name in checked_names(robot, wanted)}, states)
+        static = [name for name in ("Q", "tau_static") if name in wanted]
+        verify_statics(robot, {name: forms(name) for name in static}, states)
         return cls(problem, values, forms, verification, agreed, warnings)
 
     @property

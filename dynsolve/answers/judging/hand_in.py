@@ -113,4 +113,6 @@ def _quantity(value: AnswerValue, compare: KeyComparer) -> str:
     for name in (answer.name, *answer.alternatives) if answer.alternatives and value.rows else ():
         if compare(name, value).correct:
             return name
-    return compare.graph.answer(answer.name)
+    rules = compare.answer_ring.rules
+    known = (name for name in (answer.name, *answer.alternatives) if compare.target(name).node in rules)
+    return compare.graph.answer(next(known, answer.name))

@@ -29,7 +29,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import mapped
 from dynsolve.robot.model import Body, Joint, Robot
-from dynsolve.robot.questions import Questions
+from dynsolve.robot.questions import Load, Questions, State
 
 Replacements = Mapping[tuple[str, int], Node]
 """Constant formulas by (name, number of dots): ("theta1", 1) is a velocity."""
@@ -153,10 +153,23 @@ def robot_with(robot: Robot, values: Replacements) -> Robot:
 def _questions(questions: Questions, put: Substitution) -> Questions:
     """What is asked, with values in it."""
     task = questions.task
+    values = ((name, dots, replaced(value, put.values)) for name, dots, value in questions.state.values)
     return replace(
         questions,
         points=tuple(replace(point, position=put.matrix(point.position)) for point in questions.points),
         task=task and replace(task, entries=tuple(replaced(entry, put.values) for entry in task.entries)),
+        loads=tuple(_load(load, put) for load in questions.loads),
+        state=State(tuple(values)),
+    )
+
+
+def _load(load: Load, put: Substitution) -> Load:
+    return replace(
+        load,
+        position=put.matrix(load.position),
+        force=put.matrix(load.force),
+        moment=put.matrix(load.moment),
+        axes=None if load.axes is None else put.matrix(load.axes),
     )
 
 

@@ -90,3 +90,31 @@ def test_faults(marked: str, message: str, help: str) -> None:
     found = errors(text)
     assert places(found) == wanted
     assert message in found[0].message and help in found[0].help
+
+
+FORCES = {
+    "forces as a mapping": ("forces: «{link: 1}»", "must be a list", "a force is written"),
+    "no force": ("forces:\n  - «{link: 1}»", "neither a `force` nor a `moment`", "a force is written"),
+    "no link": ("forces:\n  - «{force: [F, 0, 0]}»", "no `link`", "link: 1"),
+    "two components": ("forces:\n  - {link: 1, force: «[F, 0]»}", "2 components", "[x, y, z]"),
+    "who": ("forces:\n  - {link: 1, force: [F, 0, 0], by: «me»}", "one of world, robot", "write one of"),
+    "axes": ("forces:\n  - {link: 1, force: [F, 0, 0], in: «tool»}", "no rotation", "Rz(90deg)"),
+    "state as a list": ("state: «[q1]»", "a mapping from coordinates", "state: {q1: 90deg"),
+    "no coordinate": ("state: {«q3»: 0}", "no coordinate and no rate", "state: {q1"),
+    "a bare number": ("state: {theta1: «90»}", "bare number 90", "did you mean 90deg?"),
+    "a coordinate in a value": ("state: {theta1: «theta2»}", "contains the coordinate", "numbers and param"),
+    "twice": ("state: {theta1': 1, «theta1_dot»: 2}", "has a value already", "keep one"),
+}
+
+
+@pytest.mark.parametrize(("marked", "message", "help"), FORCES.values(), ids=FORCES)
+def test_faults_of_forces_and_of_the_state(marked: str, message: str, help: str) -> None:
+    text, wanted = unmarked(PLANAR + marked)
+    found = errors(text)
+    assert places(found) == wanted
+    assert message in found[0].message and help in found[0].help
+
+
+def test_the_state_knows_rates_by_primes_and_by_dots() -> None:
+    state = asked("state: {theta1: 90deg, theta1': 1, theta2_ddot: w}").state
+    assert [key for key in state.by_symbol] == [("theta1", 0), ("theta1", 1), ("theta2", 2)]

@@ -1,0 +1,47 @@
+"""The families of forces from outside and of the torques that hold them; see `quantities.families`."""
+
+from __future__ import annotations
+
+from dynsolve.quantities import letters
+from dynsolve.quantities.family import Family, Owner, of_robot
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.units import ENERGY
+
+LOAD = Family(
+    name="load{i}",
+    owner=Owner.LOAD,
+    stage=Stage.STATICS,
+    shape=("n", 1),
+    letter=lambda robot, i: letters.of_load(i),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    is_answer=False,
+)
+
+Q = Family(
+    name="Q",
+    stage=Stage.STATICS,
+    shape=("n", 1),
+    letter=of_robot(letters.Q_FORCES),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    dimension_is_told=False,
+    spellings=("Qext", "tauext"),
+)
+
+TAU_STATIC = Family(
+    name="tau_static",
+    stage=Stage.STATICS,
+    shape=("n", 1),
+    letter=of_robot(letters.TAU_STATIC),
+    dimension=ENERGY,
+    per=("row",),
+    unit="N m",
+    dimension_is_told=False,
+    spellings=("taus", "taust", "tau0", "tau"),
+)
+
+FAMILIES: tuple[Family, ...] = (LOAD, Q, TAU_STATIC)
+"""The records above, in their order."""

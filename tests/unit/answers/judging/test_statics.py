@@ -1,0 +1,47 @@
+"""Answers on forces at rest: what is right, what follows, whose name a bare tau is."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.answers.judge import check
+from dynsolve.answers.reading.files import FileReader
+from dynsolve.problem import read_problem
+from tests.unit.answers.hands import judge, judged, verdicts
+
+HELD = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+forces: [{link: 2, force: [0, F, 0]}]
+state: {q1: 90deg}
+values: {l2: 0.5}
+find: [Jv, Q, tau_static]
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "entries", "verdict"),
+    [
+        ("Q", ["-F*l2*sin(q2)", "-F*l2*sin(q2)"], "correct"),
+        ("Q", ["-F*sin(q2)/2", "-0.5*F*sin(q2)"], "correct"),
+        ("Q", ["F*l2*sin(q2)", "F*l2*sin(q2)"], "wrong"),
+        ("tau_static", ["F*l2*sin(q2)", "F*l2*sin(q2)"], "correct"),
+        ("tau_static", ["-F*l2*sin(q2)", "-F*l2*sin(q2)"], "wrong"),
+    ],
+)
+def test_verdicts(name: str, entries: list[str], verdict: str) -> None:
+    assert judged(HELD, name, [[entry] for entry in entries]).verdict == verdict
+
+
+def test_torques_follow_from_a_jacobian_that_is_wrong() -> None:
+    J = [["-l1*sin(q1)", "0"], ["l1*cos(q1) + l2*cos(q2)", "l2*cos(q2)"], ["0", "0"]]
+    Q = [["F*l2*cos(q2)"], ["F*l2*cos(q2)"]]
+    held = [["-F*l2*cos(q2)"], ["-F*l2*cos(q2)"]]
+    found = verdicts(judge(HELD, {"Jv": J, "Q": Q, "tau_static": held}))
+    assert (found["Jv"], found["Q"], found["tau_static"]) == ("wrong", "follows", "follows")
+
+
+def test_the_torque_of_a_robot_without_masses_is_the_one_that_holds_it() -> None:
+    problem = read_problem(HELD, "own.yaml")
+    text = b"$$\\tau = [F l_2 s_2, F l_2 s_2]$$\n"
+    report = check(problem, FileReader(problem)(text, "report.md"))
+    assert verdicts(report)["tau_static"] == "correct"
