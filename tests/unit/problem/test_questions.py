@@ -117,4 +117,4 @@ def test_faults_of_forces_and_of_the_state(marked: str, message: str, help: str)
 
 def test_the_state_knows_rates_by_primes_and_by_dots() -> None:
     state = asked("state: {theta1: 90deg, theta1': 1, theta2_ddot: w}").state
-    assert [key for key in state.by_symbol] == [("theta1", 0), ("theta1", 1), ("theta2", 2)]
+    assert list(state.by_symbol) == [("theta1", 0), ("theta1", 1), ("theta2", 2)]
