@@ -59,8 +59,8 @@ class ParsedQuestions:
     @property
     def constant(self) -> Iterator[Cell]:
         """The values that are constant."""
-        for placed in (*self.points, *self.loads):
-            yield from placed.place.cells if placed.place else ()
+        for place in (*(point.place for point in self.points), *(load.place for load in self.loads)):
+            yield from place.cells if place else ()
         for rotation in self.rotations:
             yield from rotation.entries
         yield from self.state.cells.values() if self.state else ()
