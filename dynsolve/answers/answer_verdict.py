@@ -129,7 +129,12 @@ class AnswerJudge:
         found = tuple(dict.fromkeys(one for entry in entries for one in entry.diagnosis))
         sources: tuple[str, ...] = ()
         if verdict is Verdict.WRONG:
-            found = self.diagnoser.whole(self._wrong_entry(base.name, compared, 0, 0), compared, found)
+            wrong = [
+                self._wrong_entry(base.name, compared, i, j)
+                for entry, (_, i, j) in zip(entries, _entries(base.name, compared), strict=True)
+                if entry.verdict is Verdict.WRONG
+            ]
+            found = self.diagnoser.whole(wrong, compared, found)
         elif verdict is Verdict.FOLLOWS:
             used = (name for entry in entries for name in entry.follows_from)
             sources = in_order(self.hand_in.graph, used)

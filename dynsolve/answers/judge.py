@@ -18,6 +18,7 @@ from functools import cached_property
 from dynsolve.answers.answer_verdict import AnswerJudge
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
+from dynsolve.answers.diagnosis.factors import FactorPairs
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.explanation import Explanations
@@ -57,6 +58,11 @@ class Checker:
         """The derivations with a rule changed, in the problem's own ring."""
         return DerivationSlips(AnswerGraph(self.answer_ring))
 
+    @cached_property
+    def factors(self) -> FactorPairs:
+        """The factors that are mistaken for one another, in the problem's own ring."""
+        return FactorPairs(self.answer_ring.ring)
+
     def __call__(self, submission: Submission) -> Report:
         """Judge a hand-in."""
         return Judge(self, submission).report()
@@ -84,9 +90,11 @@ class Judge:
 
     @cached_property
     def _diagnoser(self) -> Diagnoser:
-        is_shared = self.hand_in.answer_ring.same and self.graph.zero_potential is None
-        changed = self.checker.derivation_slips if is_shared else DerivationSlips(self.graph)
-        return Diagnoser(self.problem, self.graph, self.explanations.values, changed)
+        checker, ring = self.checker, self.hand_in.answer_ring
+        is_shared = ring.same and self.graph.zero_potential is None
+        changed = checker.derivation_slips if is_shared else DerivationSlips(self.graph)
+        factors = checker.factors if ring.same else FactorPairs(ring.ring)
+        return Diagnoser(self.problem, self.graph, self.explanations.values, changed, factors)
 
     def report(self) -> Report:
         """Everything that is said of the hand-in."""

@@ -47,7 +47,7 @@ class Forms:
     @property
     def collecting(self) -> tuple[list[str], list[frozenset[str]]]:
         """The arguments of this robot's compactor: its masses and inertias, its parallel joints."""
-        return leading_names(self.robot), _parallel(self.robot)
+        return leading_names(self.robot), parallel_coordinates(self.robot)
 
     def __call__(self, name: str) -> Node:
         """The compact tree of a value, a `tree.Matrix` for a matrix."""
@@ -177,6 +177,7 @@ def is_numeric(robot: Robot) -> bool:
     return any(body.mass.is_number and not body.mass.is_zero for body in robot.bodies)
 
 
-def _parallel(robot: Robot) -> list[frozenset[str]]:
+def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
+    """The coordinates of joints that turn about parallel axes, whose angles add up."""
     turns = [Turn(joint.theta, joint.alpha, joint.variable == "theta") for joint in robot.joints]
     return parallel_groups(turns, robot.ring.names, robot.convention is Convention.MODIFIED)

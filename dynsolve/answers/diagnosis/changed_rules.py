@@ -10,9 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from dynsolve.answers.diagnosis.slips import SLIPS
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.errors import AlgebraError
 
 MOST_TERMS = 1_500
 """Robots whose kinetic energy has more terms than this are diagnosed step by step only."""
@@ -61,13 +63,13 @@ class DerivationSlips:
             if source != node and replaced.reached(node):
                 try:
                     yield replaced(node), told, replaced
-                except Exception:  # noqa: BLE001, S112  a step that cannot be taken from there tells nothing
+                except AlgebraError:  # a step that cannot be taken from there tells nothing
                     continue
 
     def made(self) -> list[tuple[str, ChangedDerivation, Diagnosis]]:
         """(the node that goes wrong first, the derivation, the slip), slips that omit something first."""
         if self._made is None:
-            self._made = sorted(self._make(), key=lambda made: not made[2].code.endswith("_missing"))
+            self._made = sorted(self._make(), key=lambda made: not SLIPS[made[2].code].omits)
         return self._made
 
     def _make(self) -> Iterator[tuple[str, ChangedDerivation, Diagnosis]]:

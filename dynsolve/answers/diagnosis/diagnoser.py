@@ -2,28 +2,32 @@
 
 What is explained is the difference between the answer and the value that the student's
 own nearest answers lead to.  The explanations are tried in the order of `_IN_ORDER`, at
-the end of this file; the first that leads exactly to the answer is told, so that the
-simplest wins.
+the end of this file, the nearest first.  Each brings its mend, and is told only where the
+mend, put into the answer, gives exactly what is expected (`_Explanation.holds`); where none
+does, what differs is said, and no more.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import islice
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, ChangedDerivation, DerivationSlips
-from dynsolve.answers.diagnosis.fourier import is_small
-from dynsolve.answers.diagnosis.slips import slip
+from dynsolve.answers.diagnosis.differences import what_differs
+from dynsolve.answers.diagnosis.exchanges import HEAVY, Exchanges, TermSlip
+from dynsolve.answers.diagnosis.factors import FactorPairs
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, mends
+from dynsolve.answers.diagnosis.one_place import ratio_of
+from dynsolve.answers.diagnosis.parts import is_small, parts
+from dynsolve.answers.diagnosis.slips import SLIPS, slip
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.diagnosis.substitution import substitutions
-from dynsolve.answers.diagnosis.term_slips import LIGHT, TermSlip, tell
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.diagnosis.terms import TermDiagnoser
 from dynsolve.answers.diagnosis.wrong_entry import DimensionCheck, WrongEntry
@@ -33,9 +37,13 @@ from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.derivation.energy import velocities
+from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import families
+
+MOST_NAMED = 4
+"""More slips than this in one answer are told as the terms that differ."""
 
 MOST_OF_IT = Fraction(1, 2)
 """An answer with at least this share of the key's terms is compared with the key."""
@@ -48,16 +56,25 @@ class _Case:
     wrong: WrongEntry
     mine: Expr
     expected: Expr
-    find_slips: TermDiagnoser
 
-    @cached_property
-    def term_slips(self) -> list[TermSlip]:
-        """The slips in single terms, none where there are too many terms to look for them."""
-        return self.find_slips(self.mine, self.expected) or []
+
+@dataclass(frozen=True)
+class _Explanation:
+    """What is told of an answer, and what mends it; `told` makes the words."""
+
+    mends: tuple[Mend, ...]
+    told: Callable[[], Iterable[Diagnosis]]
+
+    def holds(self, case: _Case) -> bool:
+        """Whether it is true: with the slips mended the answer is what is expected, exactly."""
+        return mends(self.mends, case.mine, case.expected)
 
 
 class Diagnoser:
-    """Names slips, the simplest that explains an answer."""
+    """Names slips, the nearest that explains an answer.
+
+    `derivation_slips` and `factors` are those of the answers' ring, which hand-ins share.
+    """
 
     def __init__(
         self,
@@ -65,8 +82,10 @@ class Diagnoser:
         graph: AnswerGraph,
         follow_through: FollowThrough,
         derivation_slips: DerivationSlips,
+        factors: FactorPairs,
     ) -> None:
         self.derivation_slips = derivation_slips
+        self.factors = factors
         self._leading: dict[str, frozenset[str]] = {}
         self.problem = problem
         self.graph = graph
@@ -82,9 +101,14 @@ class Diagnoser:
         return words
 
     @cached_property
+    def exchanges(self) -> Exchanges:
+        """Names slips in one place."""
+        return Exchanges(self.ring, self.dimensions, self.words)
+
+    @cached_property
     def terms(self) -> TermDiagnoser:
         """Finds slips in terms."""
-        return TermDiagnoser(self.ring, self.dimensions, self.words)
+        return TermDiagnoser(self.exchanges, self.factors)
 
     @cached_property
     def dimension_check(self) -> DimensionCheck:
@@ -114,11 +138,21 @@ class Diagnoser:
         return nearest
 
     def _named(self, wrong: WrongEntry, mine: Expr) -> Iterator[Diagnosis]:
-        if self._is_constant(wrong, mine):
+        """What is told of an answer: the first explanation that holds, else what differs."""
+        constant = self._is_constant(wrong, mine)
+        if constant:
             yield slip("constant_term")
-        case = _Case(wrong, *self._with_numbers(mine, self.expected(wrong)), self.terms)
-        explained = (tuple(explain(self, case)) for explain in _IN_ORDER)
-        yield from next(filter(None, explained), ())
+        case = _Case(wrong, *self._with_numbers(mine, self.expected(wrong)))
+        for explain in _IN_ORDER:
+            found = next((one for one in explain(self, case) if one.holds(case)), None)
+            if found is not None:
+                told = found.told()
+                yield from (
+                    one for one in told if not (constant and one.code in ("missing_term", "extra_term"))
+                )
+                return
+        if is_small(case.expected) and not constant:
+            yield from what_differs(self.words, case.mine, case.expected)
 
     def _with_numbers(self, mine: Expr, expected: Expr) -> tuple[Expr, Expr]:
         """Both with the numbers of the problem file, as far as the answer has numbers for symbols."""
@@ -137,55 +171,86 @@ class Diagnoser:
 
     # -- one explanation after the other, see _IN_ORDER --------------------------------------------
 
-    def _step_otherwise(self, case: _Case) -> Iterator[Diagnosis]:
+    def _step_otherwise(self, case: _Case) -> Iterator[_Explanation]:
         """This step was done wrongly: a Jacobian at the frame's origin, a rule of d/dt left out."""
-        found = self._first_of(self._variants(case.wrong, case.wrong.target.node), case.wrong, case.mine)
-        if found is not None:
-            yield self._refined(found, case.wrong)
+        node = case.wrong.target.node
+        for value, diagnosis in self._variants(node):
+            yield from self._redone(case, value, self._done_right(node), diagnosis)
 
-    def _one_number(self, case: _Case) -> Iterator[Diagnosis]:
+    def _one_number(self, case: _Case) -> Iterator[_Explanation]:
         """One number for all of it: a sign, a factor."""
-        found = self.terms.whole(case.mine, case.expected)
-        if found is not None:
-            yield self._refined(found, case.wrong)
+        mine, expected = case.mine, case.expected
+        ratio = ratio_of(mine, expected)
+        if ratio is None:
+            return
+        mend = Exchange(expected, self.ring.constant(ratio), self.ring.one)
+        if ratio == -1:
+            one_term = len(parts(mine)) == 1
+            told = slip("sign", term=self.words.of(expected)) if one_term else slip("sign_all")
+        else:
+            told = slip("factor_all", part=self.words.number(ratio))
+        yield self._told((mend,), self._refined(told, case.wrong))
 
-    def _one_substitution(self, case: _Case) -> Iterator[Diagnosis]:
+    def _one_place(self, case: _Case) -> Iterator[_Explanation]:
+        """One slip in one place: a lost square, a dropped mass, an index, a missing term."""
+        one = self.terms.one_place(case.mine, case.expected)
+        if one is not None and (
+            one.weight < HEAVY or (one.code == "missing_term" and len(parts(one.mend.want)) == 1)
+        ):
+            yield from self._in_one_place(case, one)
+
+    def _one_bracket(self, case: _Case) -> Iterator[_Explanation]:
+        """A missing term that is several, multiplied out."""
+        one = self.terms.one_place(case.mine, case.expected)
+        if one is not None and one.code == "missing_term":
+            yield from self._in_one_place(case, one)
+
+    def _in_one_place(self, case: _Case, one: TermSlip) -> Iterator[_Explanation]:
+        if one.code != "missing_term" or _in_common(case.mine, case.expected):
+            yield _Explanation((one.mend,), lambda: [self.exchanges.told(one)])
+
+    def _one_substitution(self, case: _Case) -> Iterator[_Explanation]:
         """One symbol, angle or function for another throughout: m₁ for m₂, θ₂ for θ₁ + θ₂."""
-        for found in islice(substitutions(self.graph, self.words, case.mine, case.expected), 1):
-            yield self._refined(found, case.wrong)
+        for diagnosis, mend in substitutions(self.graph, self.words, case.mine, case.expected):
+            yield self._told((mend,), self._refined(diagnosis, case.wrong))
 
-    def _one_term(self, case: _Case) -> Iterator[Diagnosis]:
-        """One slip in one term: a lost square, a dropped mass."""
-        if len(case.term_slips) == 1:
-            (one,) = case.term_slips
-            is_seen = one.code == "missing_term" and _in_common(case.mine, case.expected) > 0
-            if one.weight < LIGHT or is_seen:
-                yield one.diagnosis
+    def _something_left_out(self, case: _Case) -> Iterator[_Explanation]:
+        """Something was left out in an earlier step, and every step after it was done correctly."""
+        return self._earlier_step(case, omits=True)
 
-    def _earlier_step_otherwise(self, case: _Case) -> Iterator[Diagnosis]:
+    def _earlier_step_otherwise(self, case: _Case) -> Iterator[_Explanation]:
         """An earlier step was done wrongly, and every step after it correctly."""
-        for value, diagnosis, changed in self._derived(case.wrong, case.mine):
-            is_it = diagnosis.code not in OF_THE_MATRIX and case.wrong.at(value) == case.mine
-            if is_it and self._fits_the_rest(case.wrong, changed):
-                yield diagnosis
-                return
+        return self._earlier_step(case, omits=False)
 
-    def _several_terms(self, case: _Case) -> Iterator[Diagnosis]:
-        """Several slips in several terms, each named; where they are too many, which terms differ."""
-        yield from tell(case.term_slips, _in_common(case.mine, case.expected))
+    def _earlier_step(self, case: _Case, omits: bool) -> Iterator[_Explanation]:
+        key = self.graph.key(case.wrong.target.node)
+        for value, diagnosis, changed in self.derivation_slips.values(case.wrong.target.node):
+            if SLIPS[diagnosis.code].omits == omits:
+                for found in self._redone(case, value, key, diagnosis):
+                    if found.holds(case) and self._fits_the_rest(case.wrong, changed):
+                        yield found
 
-    def _first_of(
-        self, values: Iterator[tuple[Any, Diagnosis]], wrong: WrongEntry, mine: Expr
-    ) -> Diagnosis | None:
-        """The first slip that gives what was written, without those that only a whole matrix can show."""
-        return next(
-            (
-                diagnosis
-                for value, diagnosis in values
-                if diagnosis.code not in OF_THE_MATRIX and wrong.at(value) == mine
-            ),
-            None,
-        )
+    def _several_terms(self, case: _Case) -> Iterator[_Explanation]:
+        """One term too many; several slips in several terms, each named, where they are few.
+
+        Missing terms are named only beside at least as many right ones, so that an answer 0 does not
+        reveal the solution.
+        """
+        one = self.terms.one_place(case.mine, case.expected)
+        found = [one] if one is not None else self.terms(case.mine, case.expected)
+        found = sorted(found, key=lambda one: one.weight)
+        missing = sum(one.code == "missing_term" for one in found)
+        if 0 < len(found) <= MOST_NAMED and missing <= _in_common(case.mine, case.expected):
+            yield _Explanation(tuple(one.mend for one in found), lambda: map(self.exchanges.told, found))
+
+    def _told(self, all_of: tuple[Mend, ...], diagnosis: Diagnosis) -> _Explanation:
+        return _Explanation(all_of, lambda: [diagnosis])
+
+    def _redone(self, case: _Case, value: Any, right: Any, diagnosis: Diagnosis) -> Iterator[_Explanation]:
+        """A step that gave `value` where it gives `right`; not what only a whole matrix can show."""
+        before, after = case.wrong.at(value), case.wrong.at(right)
+        if diagnosis.code not in OF_THE_MATRIX and before is not None and after is not None:
+            yield self._told((Redoing(before, after),), self._refined(diagnosis, case.wrong))
 
     def _fits_the_rest(self, wrong: WrongEntry, changed: ChangedDerivation) -> bool:
         """Whether a slip of an earlier step agrees with all that the student wrote on the way.
@@ -211,13 +276,6 @@ class Diagnoser:
             self._leading[node] = frozenset(inputs).union(*map(self._before, inputs))
         return self._leading[node]
 
-    def _derived(self, wrong: WrongEntry, *mine: Expr) -> Iterator[tuple[Any, Diagnosis, ChangedDerivation]]:
-        """The values of a node under slips of earlier steps; for an answer 0, those that omit something."""
-        is_zero = all(value.is_zero for value in mine)
-        for found in self.derivation_slips.values(wrong.target.node):
-            if not is_zero or found[1].code.endswith("_missing"):
-                yield found
-
     def _refined(self, one: Diagnosis, wrong: WrongEntry) -> Diagnosis:
         """A wrong sign of a potential energy, or of g, is the wrong sign of gravity."""
         quantity = self.dimension_check.quantity(wrong)
@@ -242,42 +300,66 @@ class Diagnoser:
         value = choices[0].value if choices else None
         return self.graph.key(node) if value is None else value
 
-    def _variants(self, wrong: WrongEntry, node: str) -> Iterator[tuple[Any, Diagnosis]]:
+    def _variants(self, node: str) -> Iterator[tuple[Any, Diagnosis]]:
+        """The values that a step gives when it is done wrongly, from the student's own inputs."""
         if node in ("C", "christoffel"):
             return
-
-        def value(name: str) -> Any:
-            if name == node:  # of a whole, the value that its inputs lead to
-                derived = self.follow_through.derived(name)
-                return derived[0].value if derived else self.graph.key(name)
-            return self.nearest(name)
-
         try:
-            yield from variants(self.graph.robot, node, value)
-        except Exception:  # noqa: BLE001  inputs of the student's from which the step cannot be taken
+            yield from variants(
+                self.graph.robot,
+                node,
+                lambda name: self._done_right(name) if name == node else self.nearest(name),
+            )
+        except AlgebraError:  # inputs of the student's from which the step cannot be taken
             return
+
+    def _done_right(self, node: str) -> Any:
+        """The value that the student's own inputs of a step lead to."""
+        derived = self.follow_through.derived(node) if self.follow_through.touched(node) else ()
+        return derived[0].value if derived else self.graph.key(node)
 
     # -- matrices, differences ---------------------------------------------------------------------
 
     def whole(
-        self, wrong: WrongEntry, compared: KeyComparison, found: tuple[Diagnosis, ...]
+        self, wrong: Sequence[WrongEntry], compared: KeyComparison, found: tuple[Diagnosis, ...]
     ) -> tuple[Diagnosis, ...]:
-        """The slips of a matrix, given those of its entries: one for all, where one explains all."""
+        """The slips of a matrix, given those of its entries: one for all, where one explains all.
+
+        `wrong` are its entries that are wrong; each must be mended by it.
+        """
         mine = [[as_expr(w.value) for w in row] for row in compared.rows]
         if len(mine) * len(mine[0]) == 1 or any(e is None for row in mine for e in row):
             return found
-        target = wrong.target
         given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
-        if wrong.name == "C" and self._is_transposed_coriolis(compared):
+        if all(entry.is_zero for entry in given.entries):
+            return found
+        if wrong[0].name == "C" and self._is_transposed_coriolis(compared):
             return (slip("transposed"),)
-        candidates = [*self._variants(wrong, target.node), *self._transposed(target)]
-        for value, diagnosis in candidates:
-            if target.of(value) == given:
-                return (diagnosis, *(d for d in found if d.code == "dimensions"))
-        for value, diagnosis, changed in self._derived(wrong, *given.entries):
-            if target.of(value) == given and self._fits_the_rest(wrong, changed):
+        for value, right, diagnosis in self._of_matrix(wrong[0], _is_explained(found)):
+            if value == given and all(self._is_mended(entry, value, right) for entry in wrong):
                 return (diagnosis, *(d for d in found if d.code == "dimensions"))
         return found
+
+    def _of_matrix(self, wrong: WrongEntry, is_explained: bool) -> Iterator[tuple[Any, Any, Diagnosis]]:
+        """What a matrix is under a slip, what it is without, and the slip.
+
+        Where one slip in one place explains it, what was done otherwise long before is no nearer.
+        """
+        target = wrong.target
+        right = target.of(self._done_right(target.node))
+        for value, diagnosis in (*self._variants(target.node), *self._transposed(target)):
+            yield target.of(value), right, diagnosis
+        key = target.of(self.graph.key(target.node))
+        for value, diagnosis, changed in self.derivation_slips.values(target.node):
+            is_nearer = SLIPS[diagnosis.code].omits or not is_explained
+            if is_nearer and self._fits_the_rest(wrong, changed):
+                yield target.of(value), key, diagnosis
+
+    def _is_mended(self, entry: WrongEntry, value: Any, right: Any) -> bool:
+        """Whether a slip of the whole matrix explains one of its entries."""
+        mine, wrong = entry.mine, value[entry.row, entry.column]
+        redoing = Redoing(wrong, right[entry.row, entry.column])
+        return mine is not None and redoing.applied(mine) == self.expected(entry)
 
     def _transposed(self, target: Target) -> Iterator[tuple[Any, Diagnosis]]:
         right = target.of(self.graph.key(target.node))
@@ -303,6 +385,19 @@ class Diagnoser:
         return self.words.form(difference) if is_small(difference) else None
 
 
+def _is_explained(found: Iterable[Diagnosis]) -> bool:
+    """Whether one slip, and no list of what differs, was found in the entries of a matrix.
+
+    A term that is doubled, or one too many, may have a cause that says more.
+    """
+    slips = [one.code for one in found if one.code != "dimensions"]
+    return len(slips) == 1 and slips[0] not in _LISTS and slips[0] not in ("factor", "extra_term")
+
+
+_LISTS = ("terms_differ", "terms_missing", "trig_part")
+"""What says that something differs, and not why."""
+
+
 def _agree(changed: Any, own: Any, key: Any) -> bool:
     """Whether a slip changes nothing that is right, entry by entry: what it changes is as it was written."""
     if not isinstance(changed, Matrix) or not isinstance(own, Matrix):
@@ -324,12 +419,14 @@ def _likeness(a: Expr, b: Expr) -> Fraction:
     return Fraction(same, max(len(a) + len(b) - same, 1))
 
 
-_IN_ORDER: tuple[Callable[[Diagnoser, _Case], Iterator[Diagnosis]], ...] = (
+_IN_ORDER: tuple[Callable[[Diagnoser, _Case], Iterator[_Explanation]], ...] = (
     Diagnoser._step_otherwise,
     Diagnoser._one_number,
+    Diagnoser._one_place,
     Diagnoser._one_substitution,
-    Diagnoser._one_term,
+    Diagnoser._something_left_out,
+    Diagnoser._one_bracket,
     Diagnoser._earlier_step_otherwise,
     Diagnoser._several_terms,
 )
-"""The explanations in the order in which they are tried: the first that explains an answer is told."""
+"""The explanations in the order in which they are tried: the first that holds is told."""

@@ -23,13 +23,17 @@ class Example:
 
 @dataclass(frozen=True, slots=True)
 class Slip:
-    """A slip: `code`, its class in a few words, the message, and what to look at."""
+    """A slip: `code`, its class in a few words, the message, and what to look at.
+
+    `omits`: a part of the derivation was left out, which is tried before what was done otherwise.
+    """
 
     code: str
     kind: str
     message: str
     look: str
     example: Example | None = None
+    omits: bool = False
 
     def told(self, **what: str) -> Diagnosis:
         """The slip as it happened."""
@@ -141,7 +145,8 @@ _SLIPS = (
          Example(_2R, "P", "-m1*g*lc1*sin(q1) - m2*g*(l1*sin(q1)+lc2*sin(q1+q2))")),
     Slip("gravity_missing", "gravity left out", "Gravity is left out.",
          "L = K - P holds the potential energy too.",
-         Example(_RP, "L", "I1zz*theta1_dot^2/2 + m2*(L2^2*theta1_dot^2 + L2_dot^2)/2")),
+         Example(_RP, "L", "I1zz*theta1_dot^2/2 + m2*(L2^2*theta1_dot^2 + L2_dot^2)/2"),
+         omits=True),
     Slip("product_rule", "the product rule",
          "When you derived with respect to time, {part} was treated as constant.",
          "Everything that moves is a function of time: derive every factor, and bring its velocity.",
@@ -161,19 +166,23 @@ _SLIPS = (
          Example(_RP, "f2", "m2*L2_ddot + m2*L2*theta1_dot^2", {"dLdq2": "m2*L2*theta1_dot^2"})),
     Slip("slope_missing", "the Euler-Lagrange equation", "∂L/∂q is left out: τ = d/dt ∂L/∂q̇ - ∂L/∂q.",
          "The Euler-Lagrange equation has two parts.",
-         Example(_RP, "f2", "m2*L2_ddot")),
+         Example(_RP, "f2", "m2*L2_ddot"),
+         omits=True),
     Slip("body_missing", "a body left out", "The contribution of body {part} to {other} is left out.",
          "Energies are sums over all bodies.",
-         Example(_RP, "P", "m2*g*L1", {"P1": "m1*g*L1/2"})),
+         Example(_RP, "P", "m2*g*L1", {"P1": "m1*g*L1/2"}),
+         omits=True),
     Slip("rotation_missing", "the rotational energy left out",
          "The kinetic energy of rotation ½ ωᵀ I ω is left out.",
          "A body that is no point has energy of rotation too.",
          Example(_2R, "K", "m1*lc1^2*q1_dot^2/2 + m2*(l1^2*q1_dot^2 + lc2^2*(q1_dot+q2_dot)^2"
-                 " + 2*l1*lc2*cos(q2)*q1_dot*(q1_dot+q2_dot))/2")),
+                 " + 2*l1*lc2*cos(q2)*q1_dot*(q1_dot+q2_dot))/2"),
+         omits=True),
     Slip("translation_missing", "the translational energy left out",
          "The kinetic energy of translation ½ m vᵀ v is left out.",
          "A moving mass centre has energy, whatever turns about it.",
-         Example(_2R, "K1", "I1*q1_dot^2/2")),
+         Example(_2R, "K1", "I1*q1_dot^2/2"),
+         omits=True),
     Slip("frame_origin", "the point that moves",
          "You took the origin of frame {part} for the mass centre of body {other}.",
          "Positions, Jacobians and velocities of a body are those of its mass centre.",
@@ -193,7 +202,8 @@ _SLIPS = (
     Slip("parallel_axis_missing", "the parallel-axis theorem",
          "The parallel-axis theorem was not applied to body {part}, whose tensor is about another point.",
          "Move the tensor to the mass centre before you use it beside ½ m vᵀ v.",
-         Example(_PENDULUM, "d11", "I1 + m1*l1^2/4")),
+         Example(_PENDULUM, "d11", "I1 + m1*l1^2/4"),
+         omits=True),
     Slip("parallel_axis_twice", "the parallel-axis theorem",
          "The parallel-axis term of body {part} is counted twice.",
          "½ m vᵀ v of the mass centre holds it already.",

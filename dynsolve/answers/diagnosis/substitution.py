@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
+from itertools import permutations
 from typing import Any
 
 from flint import fmpq
 
-from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Renaming, put_polynomials
+from dynsolve.answers.diagnosis.parts import used
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -23,20 +25,25 @@ from dynsolve.notation.walk import walk
 MOST_TERMS = 400
 
 
-class _Pair:
-    """An answer and what was expected; `becomes` tells whether a substitution leads to the answer.
+Found = tuple[Diagnosis, Mend]
 
-    Most do not, which a look at one point tells: sines and cosines are rational points
-    of a circle there, so that what is equal in the ring is equal at the point.
+
+class _Pair:
+    """What differs of an answer and of what was expected; `becomes` tells what leads to the answer.
+
+    `right` are the generators in what does not differ.
+
+    Most substitutions do not, which a look at one point tells: sines and cosines are rational
+    points of a circle there, so that what is equal in the ring is equal at the point.
     """
 
     def __init__(self, mine: Expr, expected: Expr) -> None:
-        self.mine, self.expected = mine, expected
+        self.mine, self.expected = _differing(mine, expected), _differing(expected, mine)
+        self.right = {*used(mine - self.mine)}
         self.ring = mine.ring
-        used = {*_used(mine), *_used(expected)}
-        kinds = {self.ring.generators[i].kind for i in used}
+        kinds = {self.ring.generators[i].kind for i in (*used(self.mine), *used(self.expected))}
         self.point = _point(self.ring) if kinds <= {"symbol", "sin", "cos"} else []
-        self.value = mine.poly(*self.point) if self.point else None
+        self.value = self.mine.poly(*self.point) if self.point else None
 
     def becomes(self, images: dict[int, Any]) -> bool:
         """Whether the answer is what was expected with polynomials for some generators."""
@@ -45,6 +52,17 @@ class _Pair:
             if self.expected.poly(*moved) != self.value:
                 return False
         return put_polynomials(self.expected, images) == self.mine
+
+    def back(self, images: dict[int, Any]) -> Renaming:
+        """The mend that puts polynomials for generators of the answer."""
+        return Renaming(self.mine, images)
+
+
+def _differing(a: Expr, b: Expr) -> Expr:
+    """The terms of one expression that another has not."""
+    there = b.poly.to_dict() if b.poly else {}
+    kept = {e: v for e, v in a.poly.to_dict().items() if there.get(e) != v} if a.poly else {}
+    return Expr(a.ring, a.ring.ctx.from_dict(kept))
 
 
 def _point(ring: Ring) -> list[fmpq]:
@@ -56,77 +74,61 @@ def _point(ring: Ring) -> list[fmpq]:
     return point
 
 
-def substitutions(graph: AnswerGraph, words: TermWriter, mine: Expr, expected: Expr) -> Iterator[Diagnosis]:
-    """The substitutions that turn what was expected into the answer."""
-    if max(len(mine), len(expected)) > MOST_TERMS or mine.is_zero or expected.is_zero:
+def substitutions(graph: AnswerGraph, words: TermWriter, mine: Expr, expected: Expr) -> Iterator[Found]:
+    """The substitutions that turn what was expected into the answer, each with its mend."""
+    if max(len(mine), len(expected)) > MOST_TERMS or expected.is_zero:
         return
     pair = _Pair(mine, expected)
     yield from _gravity(graph, pair)
-    yield from _angles(graph, words, pair)
-    yield from _symbols(graph, words, pair)
+    if mine.is_zero:
+        return
+    yield from _angles(words, pair)
+    yield from _symbols(words, pair)
 
 
-def put_polynomials(expr: Expr, images: dict[int, Any]) -> Expr:
-    """The expression with polynomials for some generators."""
-    ring = expr.ring
-    point = [images.get(i, g) for i, g in enumerate(ring.ctx.gens())]
-    return Expr(ring, ring.reduce(expr.poly.compose(*point, ctx=ring.ctx)))
-
-
-def _used(expr: Expr) -> list[int]:
-    return [i for i, degree in enumerate(expr.poly.degrees()) if degree > 0]
-
-
-def _gravity(graph: AnswerGraph, values: _Pair) -> Iterator[Diagnosis]:
+def _gravity(graph: AnswerGraph, values: _Pair) -> Iterator[Found]:
     ring, expected = values.ring, values.expected
-    strength = {i for entry in graph.robot.gravity.entries if entry.poly for i in _used(entry)}
-    symbols = [i for i in strength if ring.generators[i].kind == "symbol"]
-    for index in symbols:
-        if put_polynomials(expected, {index: ring.zero.poly}) == expected:
+    """The sign of gravity in all terms that have it, or none of them."""
+    strength = {i for entry in graph.robot.gravity.entries for i in used(entry)}
+    for index in sorted(i for i in strength if ring.generators[i].kind == "symbol"):
+        if index not in set(used(expected)) or index in values.right:
             continue
-        if values.becomes({index: -ring.generator(index).poly}):
-            yield slip("gravity_sign")
+        turned = {index: -ring.generator(index).poly}
+        if values.becomes(turned):
+            yield slip("gravity_sign"), values.back(turned)
         elif values.becomes({index: ring.zero.poly}):
-            yield slip("gravity_missing")
+            yield slip("gravity_missing"), Exchange(expected - values.mine, ring.zero, ring.one)
 
 
-def _angles(graph: AnswerGraph, words: TermWriter, values: _Pair) -> Iterator[Diagnosis]:
+def _angles(words: TermWriter, values: _Pair) -> Iterator[Found]:
     """An angle for another throughout, or sine and cosine of one exchanged."""
-    ring, mine, expected = values.ring, values.mine, values.expected
-    used = set(_used(expected))
-    angles = [*(pair.angle for pair in ring.pairs), *(Angle.of(n) for n in ring.names)]
+    ring, here = values.ring, {*used(values.expected)}
     for pair in ring.pairs:
-        if not used & {pair.sine, pair.cosine}:
+        if not here & {pair.sine, pair.cosine}:
             continue
         s, c = ring.generator(pair.sine), ring.generator(pair.cosine)
-        if values.becomes({pair.sine: c.poly, pair.cosine: s.poly}):
-            yield from _function(words, values, s, c)
-        for angle in dict.fromkeys(angles):
-            if angle == pair.angle:
-                continue
-            try:
-                images = {pair.sine: ring.sin(angle).poly, pair.cosine: ring.cos(angle).poly}
-            except Exception:  # noqa: BLE001, S112  an angle that the ring does not hold
-                continue
-            if values.becomes(images):
-                product = any(len(atom) > 1 for atom, _ in angle.terms)
-                function = "cos" if pair.cosine in used else "sin"
-                right = c if function == "cos" else s
-                written = ring.cos(angle) if function == "cos" else ring.sin(angle)
-                if not _is_seen(words, values, written, right):
-                    continue
-                yield slip(
-                    "angle_product" if product else "angle",
-                    yours=words.of(mine), part=words.of(written), other=words.of(right),
-                )  # fmt: skip
+        turned = {pair.sine: c.poly, pair.cosine: s.poly}
+        if values.becomes(turned):
+            written, right = (c, s) if pair.sine in here else (s, c)
+            yield from _told(words, values, ("sin_for_cos", written, right), turned)
+        for other in ring.pairs:
+            t, d = ring.generator(other.sine), ring.generator(other.cosine)
+            if other is not pair and values.becomes({pair.sine: t.poly, pair.cosine: d.poly}):
+                product = any(len(atom) > 1 for atom, _ in other.angle.terms)
+                written, right = (d, c) if pair.cosine in here else (t, s)
+                back = {other.sine: s.poly, other.cosine: c.poly}
+                yield from _told(
+                    words, values, ("angle_product" if product else "angle", written, right), back
+                )
 
 
-def _function(words: TermWriter, values: _Pair, s: Expr, c: Expr) -> Iterator[Diagnosis]:
-    degrees = values.expected.poly.degrees()
-    sine = degrees[_used(s)[0]] > 0
-    written, right = (c, s) if sine else (s, c)
+def _told(
+    words: TermWriter, values: _Pair, what: tuple[str, Expr, Expr], back: dict[int, Any]
+) -> Iterator[Found]:
+    code, written, right = what
     if _is_seen(words, values, written, right):
-        yield slip("sin_for_cos", yours="your answer", part=words.of(written), other=words.of(right))
+        text = slip(code, yours=words.of(values.mine), part=words.of(written), other=words.of(right))
+        yield text, values.back(back)
 
 
 def _is_seen(words: TermWriter, values: _Pair, written: Expr, right: Expr) -> bool:
@@ -144,22 +146,30 @@ def _holds(node: Node, part: Node) -> bool:
     return part in walk(node)
 
 
-def _symbols(graph: AnswerGraph, words: TermWriter, values: _Pair) -> Iterator[Diagnosis]:
+def _symbols(words: TermWriter, values: _Pair) -> Iterator[Found]:
     """One parameter for another throughout, or two exchanged."""
     ring, mine, expected = values.ring, values.mine, values.expected
     parameters = [
         g for g in ring.generators
         if g.kind in ("symbol", "function") and not g.dots and g.name not in ring.names and g.name != "pi"
     ]  # fmt: skip
-    have, wanted = set(_used(mine)), set(_used(expected))
-    changed = (mine - expected).poly.monoms()
+    have, wanted = {*used(mine)}, {*used(expected)}
     for g in parameters:
         number = _number_for(g, mine, expected) if g.index in wanted - have else None
         if number is not None and values.becomes({g.index: ring.constant(number).poly}):
-            text = words.of(ring.constant(number))
-            yield slip("symbol", yours=words.of(mine), part=text, other=words.generator(g))
-    for name in [g for g in parameters if g.index in wanted]:
-        yield from _symbol(words, name, parameters, values, (have, wanted), changed)
+            yield from _number(words, values, ring.constant(number), ring.generator(g.index))
+    changed = (mine - expected).poly.monoms()
+    for a, b in permutations(parameters, 2):
+        if a.index in wanted and b.index in have and all(m[a.index] or m[b.index] for m in changed):
+            yield from _symbol(words, a, b, values)
+
+
+def _number(words: TermWriter, values: _Pair, number: Expr, symbol: Expr) -> Iterator[Found]:
+    """A number where a symbol belongs."""
+    rest, left = divmod((values.expected - values.mine).poly, (symbol - number).poly)
+    if not left:
+        mend = Exchange(Expr(values.ring, rest), number, symbol)
+        yield slip("symbol", yours=words.of(mend.have), part=words.of(number), other=words.of(symbol)), mend
 
 
 def _number_for(g: Generator, mine: Expr, expected: Expr) -> Fraction | None:
@@ -173,28 +183,19 @@ def _number_for(g: Generator, mine: Expr, expected: Expr) -> Fraction | None:
     return None
 
 
-def _symbol(
-    words: TermWriter,
-    a: Generator,
-    parameters: Sequence[Generator],
-    values: _Pair,
-    used: tuple[set[int], set[int]],
-    changed: Sequence[Sequence[int]],
-) -> Iterator[Diagnosis]:
-    """Another parameter for `a`, or the two exchanged: every term that differs must hold one of them."""
+def _symbol(words: TermWriter, a: Generator, b: Generator, values: _Pair) -> Iterator[Found]:
+    """Another parameter b for `a`, or the two exchanged."""
     ring, mine = values.ring, values.mine
-    have, wanted = used
-    for b in parameters:
-        if b is a or not all(m[a.index] or m[b.index] for m in changed):
-            continue
-        x, y = ring.generator(a.index), ring.generator(b.index)
-        if a.index not in have and b.index in have and values.becomes({a.index: y.poly}):
-            if b.kind == "function":
-                yield slip("odd_argument", yours=words.of(mine))
-            elif words.is_unknown(b):
-                yield slip("unknown_symbol", part=words.generator(b))
-            else:
-                yield slip("symbol", yours=words.of(mine), part=words.generator(b), other=words.generator(a))
-        both = {a.index: y.poly, b.index: x.poly}
-        if a.index < b.index and {a.index, b.index} <= have & wanted and values.becomes(both):
-            yield slip("symbols_swapped", part=words.generator(a), other=words.generator(b))
+    x, y = ring.generator(a.index), ring.generator(b.index)
+    if values.becomes({a.index: y.poly}):
+        yours = words.of(mine)
+        if b.kind == "function":
+            told = slip("odd_argument", yours=yours)
+        elif words.is_unknown(b):
+            told = slip("unknown_symbol", part=words.generator(b))
+        else:
+            told = slip("symbol", yours=yours, part=words.generator(b), other=words.generator(a))
+        yield told, values.back({b.index: x.poly})
+    both = {a.index: y.poly, b.index: x.poly}
+    if a.index < b.index and values.becomes(both):
+        yield slip("symbols_swapped", part=words.generator(a), other=words.generator(b)), values.back(both)

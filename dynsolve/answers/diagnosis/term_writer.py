@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import prod
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.answers.judging.answer_ring import AnswerRing
-from dynsolve.explain.forms import leading_names
+from dynsolve.explain.forms import leading_names, parallel_coordinates
 from dynsolve.explain.style import style_of
 from dynsolve.notation.build import power
-from dynsolve.notation.tree import Node, Symbol, number
+from dynsolve.notation.tree import Negative, Node, Number, Product, Quotient, Symbol, number
 from dynsolve.notation.unicode import UnicodePrinter
 
 LONGEST = 160
@@ -24,7 +25,7 @@ class TermWriter:
         ring, robot = answer_ring.ring, answer_ring.robot
         self.ring = ring
         self._problem: set[str] = set()
-        self.compactor = Compactor(ring, leading_names(robot))
+        self.compactor = Compactor(ring, leading_names(robot), parallel_coordinates(robot))
         self._printer = UnicodePrinter(style_of(robot))
 
     def problem_symbols(self, names: set[str]) -> None:
@@ -44,6 +45,10 @@ class TermWriter:
         """A number."""
         return self._printer.text(number(value))
 
+    def coefficient(self, expr: Expr) -> Fraction:
+        """The number before an expression as a person writes it."""
+        return _coefficient(self.form(expr)) or Fraction(1)
+
     def generator(self, g: Generator) -> str:
         """A symbol."""
         return self.power(g, 1)
@@ -56,3 +61,17 @@ class TermWriter:
     def is_unknown(self, g: Generator) -> bool:
         """Whether a symbol, or a function of an unexpected argument, is none of the problem's."""
         return g.kind in ("symbol", "function") and bool(self._problem) and g.name not in self._problem
+
+
+def _coefficient(node: Node) -> Fraction:
+    """The number before a product."""
+    match node:
+        case Number(p, q):
+            return Fraction(p, q)
+        case Negative(argument):
+            return -_coefficient(argument)
+        case Product(factors):
+            return prod((_coefficient(factor) for factor in factors), start=Fraction(1))
+        case Quotient(numerator, denominator):
+            return _coefficient(numerator) / (_coefficient(denominator) or 1)
+    return Fraction(1)

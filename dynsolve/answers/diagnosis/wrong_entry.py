@@ -9,7 +9,7 @@ from typing import Any
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.diagnosis.fourier import is_small, monomial_expr, monomials
+from dynsolve.answers.diagnosis.parts import is_small, monomial_expr, monomials
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.judging.entry_comparison import WrittenEntry

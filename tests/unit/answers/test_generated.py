@@ -10,7 +10,7 @@ import pytest
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.changed_rules import ChangedDerivation
-from dynsolve.answers.diagnosis.fourier import part_expr, parts
+from dynsolve.answers.diagnosis.parts import parts
 from dynsolve.answers.judge import check
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -42,7 +42,7 @@ def spoilt(value: Expr | Matrix, draw: random.Random) -> Expr | Matrix | None:
     if not places:
         return None
     place = draw.choice(places)
-    part = part_expr(entries[place].ring, draw.choice(list(parts(entries[place]).values())))
+    part = draw.choice(list(parts(entries[place]).values()))
     entries[place] = entries[place] - part * draw.choice([2, 1, -1, 3])
     if not isinstance(value, Matrix):
         return entries[0]

@@ -42,10 +42,14 @@ def _equal(a: Expr | Matrix, b: Expr | Matrix) -> bool:
     return bool(a == b)
 
 
+def _is_zero(value: Expr | Matrix) -> bool:
+    return all(e.is_zero for e in (value.entries if isinstance(value, Matrix) else (value,)))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("stem", STEMS)
 def test_a_step_that_went_wrong_is_named(stem: str) -> None:
-    """Of two slips with the same outcome either may be named."""
+    """Of two slips with the same outcome either may be named; an answer 0 shows none."""
     g, forms = graph(stem), Forms(problem(stem).robot, key(stem))
     seen: set[str] = set()
     for node in g.answer_ring.rules:
@@ -55,7 +59,7 @@ def test_a_step_that_went_wrong_is_named(stem: str) -> None:
             report = checker(stem)(Submission("", "", "", (answer,)))
             found = next(a for a in report.answers if a.given)
             alike = {t.code for v, t in wrong if _equal(v, value)}
-            if found.verdict == "wrong":
+            if found.verdict == "wrong" and not _is_zero(value):
                 assert alike & set(codes(found)), (node, told.message, codes(found))
                 seen.add(told.code)
     assert seen
@@ -72,7 +76,7 @@ def test_every_slip_has_an_example_or_a_step() -> None:
     ("answer", "told"),
     [
         ("D: [[I1zz + m2*L2^2, m2], [m2, m2]]", ["dimensions", "extra_term"]),  # no rows are exchanged
-        ("C: [[0, 0], [0, 0]]", ["translation_missing"]),  # and no centre was taken for another
+        ("C: [[0, 0], [0, 0]]", ["terms_missing"]),  # and no step can be seen
         ("D: [[m2*L2^2, 0], [0, m2]]", ["rotation_missing"]),  # and no tensor was turned wrongly
     ],
 )
@@ -141,6 +145,6 @@ def test_a_slip_long_before_is_named(stem: str, node: str) -> None:
 SIMPLER = {
     "sign", "sign_all", "factor", "factor_all", "symbol", "gravity_sign", "gravity_missing", "dropped_factor",
     "missing_term", "constant_term", "dropped_velocity", "dimensions", "slope_missing", "slope_sign",
-    "rotation_missing", "body_missing",
+    "rotation_missing", "body_missing", "extra_term", "angle",
 }  # fmt: skip
 """What explains an answer in one place, where it explains it."""
