@@ -10,7 +10,7 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     vectorized      7.3   D, the Christoffel symbols, C, g
     task            4.6, 4.8, 4.11   points, the task r(q), J_r, J̇: where a file asks for them
     singular        4.9   where a Jacobian loses rank
-    inverse         5     q from r(q): one unknown after the other, in known forms; the branches
+    inverse         3.3   q from r(q): one unknown after the other, in known forms; the branches
     statics         4.10  forces from outside, the torques that hold them: likewise
 
 What hangs together how:
@@ -19,6 +19,7 @@ What hangs together how:
     rules           the rules of the textbook; `derive(robot)` gives the `Derivation` of a robot
     kinematic_rules those of what a file asks of the kinematics
     static_rules    those of forces from outside
+    configurations  those of singular configurations and of inverse kinematics
     link_frame      rules that give K and D faster, by Jacobians in each link's own frame
     agreement       whether D, C q̇ and g come out the same both ways
 
@@ -29,6 +30,8 @@ And the independent check, which shares no formula with any of these:
     verification    what is printed, evaluated at random states, against that
     drawn_motion    a table that was made from a drawing, against the drawn joint axes
     kinematic_check points, the task and Jacobians, against the motion of the arm
+    configuration_check
+                    singular configurations and branches of the inverse, put in
     static_check    generalized forces and holding torques, against the power of the forces
 
 A rule takes exact values and returns an exact value, and does nothing else: what a

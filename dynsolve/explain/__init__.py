@@ -1,9 +1,9 @@
 """Quantities -> steps: why, the formula with its source, the formula of this robot, the result.
 
-A stage is a file with a function `steps`, which yields its steps in order: `kinematics`,
+A stage is a file of its name with a function `steps`, which yields its steps in order: `kinematics`,
 `jacobian`, `inertia` (with `mass_centers`), `energy`, `lagrangian`, `torque`, `vectorized` (with
-`christoffel` and `agreement`); `task` and `statics` where something of them is asked.  To
-explain a further quantity, yield a `Step` in the file of its stage:
+`christoffel` and `agreement`); `task`, `singular`, `inverse` and `statics` where something of them
+is asked.  To explain a further quantity, yield a `Step` in the file of its stage:
 
     yield Step(
         id="K",                          # the quantity, by its name in an answer file
@@ -26,6 +26,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     style       how a robot's formulas look: s_1 for sin θ_1
     citations   the books and their sections that steps refer to
     writing     sentences and pieces of formulas
+    configurations
+                singular configurations and branches of the inverse, as formulas
     inverse_formulas
                 the solutions of inverse kinematics: atan2(y, x) - …, ± arccos(…)
     working     the lines between a formula and its result, each proved before it is shown
@@ -46,18 +48,8 @@ And hints (`--hint`), made of the same steps:
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from importlib import import_module
 
-from dynsolve.explain import (
-    energy,
-    inertia,
-    jacobian,
-    kinematics,
-    lagrangian,
-    statics,
-    task,
-    torque,
-    vectorized,
-)
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.quantities.index import stages_of
@@ -65,22 +57,16 @@ from dynsolve.quantities.stages import Stage
 
 __all__ = ["Detail", "Step", "explain"]
 
-_EXPLAINED: dict[Stage, Callable[[Context], Iterator[Step]]] = {
-    Stage.KINEMATICS: kinematics.steps,
-    Stage.JACOBIAN: jacobian.steps,
-    Stage.TASK: task.steps,
-    Stage.INERTIA: inertia.steps,
-    Stage.ENERGY: energy.steps,
-    Stage.LAGRANGIAN: lagrangian.steps,
-    Stage.TORQUE: torque.steps,
-    Stage.VECTORIZED: vectorized.steps,
-    Stage.STATICS: statics.steps,
-}
-
 
 def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[Step]:
     """The steps of the given stages, or of all, in the order of the course."""
     wanted = set(Stage if stages is None else stages)
     for stage in stages_of(context.robot):
         if stage in wanted:
-            yield from _EXPLAINED[stage](context)
+            yield from _steps(stage)(context)
+
+
+def _steps(stage: Stage) -> Callable[[Context], Iterator[Step]]:
+    """The function `steps` of the stage's file, imported when it is asked for."""
+    steps: Callable[[Context], Iterator[Step]] = import_module(f"{__name__}.{stage}").steps
+    return steps

@@ -40,6 +40,7 @@ SPONG = Book(
         "2.7": "Homogeneous Transformations",
         "3.1": "Kinematic Chains",
         "3.2": "Forward Kinematics: The Denavit-Hartenberg Convention",
+        "3.3": "Inverse Kinematics",
         "4.6": "Derivation of the Jacobian",
         "4.6.1": "Angular Velocity",
         "4.6.2": "Linear Velocity",

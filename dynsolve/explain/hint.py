@@ -81,6 +81,8 @@ def _given(context: Context, stage: Stage) -> Iterator[Block]:
 _AT_HAND = {
     Stage.JACOBIAN: "You have the frames of the forward kinematics:",
     Stage.TASK: "You have the frames of the forward kinematics:",
+    Stage.SINGULAR: "You have the Jacobian of the task:",
+    Stage.INVERSE: "You have the task as a function of the joint variables:",
     Stage.INERTIA: "You have the frames of the forward kinematics, and what the problem says of each body:",
     Stage.ENERGY: (
         "You have the axes and origins of the joints, and of each body its mass centre and its tensor:"
@@ -97,6 +99,10 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
     robot = context.robot
     if stage in (Stage.JACOBIAN, Stage.TASK, Stage.INERTIA):
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)
+    elif stage is Stage.SINGULAR:
+        yield letters.J_TASK, "Jr"
+    elif stage is Stage.INVERSE:
+        yield letters.TASK, "r"
     elif stage is Stage.ENERGY:
         for body in robot.bodies:
             yield letters.rc(body), f"rc{body.name}"

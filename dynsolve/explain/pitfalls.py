@@ -175,6 +175,19 @@ def _vectorized(robot: Robot) -> Iterator[Prose]:
         )
 
 
+def _singular(robot: Robot) -> Iterator[Prose]:
+    yield ("Write the determinant as a product before you look for its zeros: each factor is a case.",)
+    if not robot.questions.task or robot.questions.task.is_default:
+        yield ("The first joint moves the whole arm and changes no rank: it stands in no condition.",)
+
+
+def _inverse(robot: Robot) -> Iterator[Prose]:
+    if _of_type(robot, JointType.REVOLUTE):
+        yield ("A cosine or a sine alone leaves two angles, and each is a branch of its own.",)
+        yield ("atan2 takes y first, and knows all four quadrants; arctan(y/x) knows two.",)
+    yield ("Put each solution into r(q): what was squared on the way may have brought one too many.",)
+
+
 def _statics(robot: Robot) -> Iterator[Prose]:
     yield (
         "The Jacobian is that of the point at which the force acts, and its transpose stands before the "
@@ -202,6 +215,8 @@ _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.KINEMATICS: _kinematics,
     Stage.JACOBIAN: _jacobian,
     Stage.TASK: _task,
+    Stage.SINGULAR: _singular,
+    Stage.INVERSE: _inverse,
     Stage.INERTIA: _inertia,
     Stage.ENERGY: _energy,
     Stage.LAGRANGIAN: _lagrangian,

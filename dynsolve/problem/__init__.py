@@ -14,6 +14,7 @@
                      base           `gravity`, `base`
                      places         a point of a link: `center`, `at`
                      questions      what is asked around the model: `points`, `task`
+                     reach          what the values of the task are called: `reach`
                      loads          `forces`
                      state          `state`
                      rotations      `Rz(90deg) Rx(30deg)`

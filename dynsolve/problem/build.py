@@ -54,7 +54,8 @@ def build_robot(faults: Faults, parsed: ParsedFile, asked: frozenset[str]) -> Ro
         base_position=move or Matrix.zero(ring, 3, 1),
         parameters=tuple(name for name in ring.parameters if name != "pi"),
     )
-    return with_questions(robot, parsed.questions, points, [one for one in loads if one], asked)
+    robot = with_questions(faults, robot, parsed.questions, points, [one for one in loads if one], asked)
+    return None if faults.errors else robot
 
 
 def _joint(values: CellValues, parsed: ParsedFile, row: DHRow) -> Joint | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Shared, Word
-from dynsolve.problem.value_kinds import EXPRESSION, LINK, PLACE, ROTATION, VECTOR
+from dynsolve.problem.value_kinds import EXPRESSION, LINK, NAME, PLACE, ROTATION, VECTOR
 
 MAX_POINTS = 20
 MAX_FORCES = 20
@@ -87,6 +87,14 @@ KINEMATIC_KEYS = (
         "[tip.x, tip.y]",
         "the coordinates of the tip that move",
         remedy="write task: [tip.x, tip.y, q1 + q2], or task: twist",
+    ),
+    Key(
+        "reach",
+        ListOf(NAME, "a list of names", 1, MAX_TASK),
+        "What the values of r(q) are called in the inverse kinematics.",
+        "[px, py]",
+        "r1, r2, ...",
+        remedy="write reach: [px, py], a name for each component of the task",
     ),
     Key(
         "forces",

@@ -13,6 +13,7 @@ from dynsolve.problem.fields import Fields, did_you_mean, items
 from dynsolve.problem.kinematic_keys import MAX_POINTS, MAX_TASK, POINT, TWIST
 from dynsolve.problem.loads import ParsedLoad, read_loads
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
+from dynsolve.problem.reach import NO_REACH, ParsedReach, read_reach
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
@@ -50,6 +51,7 @@ class ParsedQuestions:
     task: ParsedTask | None = None
     loads: tuple[ParsedLoad, ...] = ()
     state: ParsedState | None = None
+    reach: ParsedReach = NO_REACH
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -96,6 +98,7 @@ def read_questions(
         task,
         read_loads(faults, fields.get("forces"), rows, coordinates),
         read_state(faults, fields.get("state"), coordinates),
+        read_reach(faults, fields.get("reach"), coordinates),
     )
 
 

@@ -9,6 +9,8 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.loads import ParsedLoad
 from dynsolve.problem.positions import PlaceBuilder
 from dynsolve.problem.questions import ParsedPoint, ParsedQuestions, ParsedTask
+from dynsolve.problem.reach import check_reach
+from dynsolve.problem.source import Faults
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import last_origin
@@ -48,6 +50,7 @@ def load(places: PlaceBuilder, parsed: ParsedLoad, points: Sequence[NamedPoint],
 
 
 def with_questions(
+    faults: Faults,
     robot: Robot,
     parsed: ParsedQuestions,
     points: Sequence[NamedPoint],
@@ -62,9 +65,12 @@ def with_questions(
         asked=asked,
         loads=tuple(loads),
         state=State(tuple((name, dots, value) for (name, dots), value in values.items())),
+        reach=parsed.reach.names,
     )
     if questions.task is None and Stage.TASK in asked_stages(questions):
         questions = replace(questions, task=_default_task(robot))
+    if questions.task is not None and not questions.task.is_twist:
+        check_reach(faults, parsed.reach, questions.task.rows)
     return replace(robot, questions=questions)
 
 

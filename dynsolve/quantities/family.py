@@ -41,6 +41,17 @@ class Owner(Enum):
     """A force from outside."""
 
 
+class Kind(Enum):
+    """What a quantity is."""
+
+    VALUE = "value"
+    """An expression, a vector or a matrix."""
+    EQUATIONS = "equations"
+    """Where something holds: alternatives, each of equations that hold together."""
+    BRANCHES = "branches"
+    """Solutions: alternatives, each an expression for every coordinate."""
+
+
 Size = int | Literal["n", "m"]
 """Rows or columns; n is the number of coordinates, m that of the components of the task."""
 
@@ -78,7 +89,7 @@ class Family:
 
     `name` is the template of the names that answers and results have, `rule` of those of
     the rules of the derivation that give them (an entry has that of its matrix).
-    `stage` is where it is derived and explained; `capped_in` the stage that its marks
+    `kind` is what it is, `stage` where it is derived and explained; `capped_in` the stage that its marks
     count in, where that is another.  `shape` is rows and columns, None for a scalar.
     `letter` is what it is set with; `json` its key in `results`, empty for what is not
     exported.
@@ -98,6 +109,7 @@ class Family:
 
     name: str
     stage: Stage
+    kind: Kind = Kind.VALUE
     owner: Owner = Owner.ROBOT
     rule: str = ""
     shape: tuple[Size, Size] | None = None

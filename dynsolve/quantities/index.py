@@ -350,10 +350,14 @@ class Quantities(Mapping[str, Quantity]):
         return {stem: tuple(sorted(names, key=self.position)) for stem, names in found.items() if names}
 
 
+_OF_THE_TASK = {Stage.SINGULAR, Stage.INVERSE}
+"""The stages that go on from the task."""
+
+
 def asked_stages(questions: Questions) -> frozenset[Stage]:
     """The stages of which an exercise asks something."""
     found = {family.stage for family in FAMILIES if family.stage.asked_for and family.name in questions.asked}
-    if questions.points or questions.task:
+    if questions.points or questions.task or found & _OF_THE_TASK:
         found.add(Stage.TASK)
     if questions.loads:
         found.add(Stage.STATICS)

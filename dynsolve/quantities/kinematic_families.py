@@ -7,7 +7,7 @@ see `quantities.families`; its rule stands in `dynsolve.derivation.kinematic_rul
 from __future__ import annotations
 
 from dynsolve.quantities import letters
-from dynsolve.quantities.family import Family, Owner, of_point, of_robot
+from dynsolve.quantities.family import Family, Kind, Owner, of_point, of_robot
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.units import LENGTH, NONE, PER_SECOND, VELOCITY
 
@@ -106,6 +106,12 @@ JR_DOT = Family(
     letter=of_robot(letters.rate(letters.J_TASK)),
     spellings=("dJr", "Jdot", "dJ"),
 )
+
+# -- its configurations ----------------------------------------------------------------------------
+
+SINGULAR = Family(name="singular", stage=Stage.SINGULAR, kind=Kind.EQUATIONS, spellings=("singularities",))
+
+INVERSE = Family(name="inverse", stage=Stage.INVERSE, kind=Kind.BRANCHES, spellings=("ik",))
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
 """The records above, in their order."""

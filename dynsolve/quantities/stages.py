@@ -24,6 +24,8 @@ class Stage(StrEnum):
     KINEMATICS = "kinematics", "Forward kinematics"
     JACOBIAN = "jacobian", "The Jacobian"
     TASK = "task", "Points and tasks", True
+    SINGULAR = "singular", "Singular configurations", True
+    INVERSE = "inverse", "Inverse kinematics", True
     INERTIA = "inertia", "The bodies: mass centres and inertia"
     ENERGY = "energy", "Potential and kinetic energy"
     LAGRANGIAN = "lagrangian", "The Lagrangian"

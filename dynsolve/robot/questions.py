@@ -98,6 +98,7 @@ class Questions:
     `asked` are the names of the answers in `find` and `marks` that no derivation has unless
     they are asked for; with them comes what they are derived from, and nothing else.
     `loads` are the forces from outside; `state` is where rates and torques are asked for.
+    `reach` are the names of the values of r(q) in the inverse kinematics, as the file has them.
     """
 
     points: tuple[NamedPoint, ...] = ()
@@ -105,3 +106,11 @@ class Questions:
     asked: frozenset[str] = frozenset()
     loads: tuple[Load, ...] = ()
     state: State = State()
+    reach: tuple[str, ...] = ()
+
+    @property
+    def reached(self) -> tuple[str, ...]:
+        """The names of the values of r(q) in the inverse kinematics: r1, r2, ... unless they are named."""
+        if self.reach or self.task is None:
+            return self.reach
+        return tuple(f"r{k}" for k in range(1, self.task.rows + 1))

@@ -81,6 +81,7 @@ class Dynamics:
         verify_kinematics(robot, {name: forms(name) for name in checked_names(robot, wanted)}, states)
         static = [name for name in ("Q", "tau_static") if name in wanted]
         verify_statics(robot, {name: forms(name) for name in static}, states)
+        _verify_configurations(robot, values, forms, wanted)
         return cls(problem, values, forms, verification, agreed, warnings)
 
     @property
@@ -135,6 +136,21 @@ class Dynamics:
         D, C, g = expanded(short.definitions, [short.D, short.C, short.g])
         verify(self.robot, {"D": D, "C": C, "g": g}, self.verification.states)
         return short
+
+
+def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str]) -> None:
+    """Hold the singular configurations and the branches of the inverse, as printed, in numbers."""
+    if not {"inverse", "singular"} & wanted:
+        return
+    from dynsolve.derivation.configuration_check import verify_inverse, verify_singular
+    from dynsolve.explain.configurations import ConfigurationForms
+
+    shown = ConfigurationForms(robot, values)
+    if "inverse" in wanted and shown.solved is not None:
+        verify_inverse(robot, forms("r"), shown.inverse)
+    if "singular" in wanted:
+        (jacobian,) = values.rules["singular"].inputs
+        verify_singular(robot, forms(jacobian), shown.singular_set.rank, shown.singular)
 
 
 def _make_all(forms: Forms, progress: Progress) -> None:

@@ -9,6 +9,7 @@ decimals of 15 digits, or as many as were asked for.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.document import Inline, Prose, Verbatim
@@ -19,7 +20,7 @@ from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Matrix, Node
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.families import FAMILIES
-from dynsolve.quantities.family import Family, Owner
+from dynsolve.quantities.family import Family, Kind, Owner
 from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.robot.model import Robot
 from dynsolve.solution.dynamics import Dynamics
@@ -30,6 +31,7 @@ from dynsolve.solution.numbers.rounding import DIGITS
 
 if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
+    from dynsolve.explain.configurations import ConfigurationForms
 
 FORMAT = "dynsolve-solution/1"
 
@@ -106,12 +108,29 @@ class _Exporter:
         return results | {quantity.name: self.value(quantity) for quantity in _asked(robot)}
 
     def value(self, quantity: Quantity) -> Any:
-        """A scalar as text, a matrix as its rows, a vector as its entries."""
+        """A scalar as text, a matrix as its rows, a vector as its entries; a set as lists of equations."""
+        match quantity.family.kind:
+            case Kind.EQUATIONS:
+                return [[f"{self.python.text(e)} = 0" for e in one] for one in self.configurations.singular]
+            case Kind.BRANCHES if self.configurations.solved is None:
+                return {"skipped": "no closed form was found"}
+            case Kind.BRANCHES:
+                return [
+                    {name: self.python.text(value) for name, value in branch.items()}
+                    for branch in self.configurations.inverse
+                ]
         form = self.forms(quantity.rule)
         if not isinstance(form, Matrix):
             return self.python.text(form)
         rows = [[self.python.text(entry) for entry in row] for row in form.rows]
         return [entry for (entry,) in rows] if quantity.family.is_vector else rows
+
+    @cached_property
+    def configurations(self) -> ConfigurationForms:
+        """Singular configurations and the inverse kinematics, as formulas."""
+        from dynsolve.explain.configurations import ConfigurationForms
+
+        return ConfigurationForms(self.solution.robot, self.solution.values)
 
     def abbreviated(self, short: Abbreviated) -> dict[str, Any]:
         """`abbreviated`; a definition uses those before it alone, and c_ijk is given for i ≤ j."""

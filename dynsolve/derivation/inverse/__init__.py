@@ -12,6 +12,6 @@ counts as known from then on.
     search        which unknown is solved for next, from which equations
     branches      the sets of signs that solve the task, found by putting in
 
-Spong, Hutchinson, Vidyasagar, chapter 5; Craig, chapter 4; Paul, Robot Manipulators (1981).
+Spong, Hutchinson, Vidyasagar, section 3.3 (2006); Craig, chapter 4; Paul, Robot Manipulators (1981).
 To add a form, add its class in `subproblems` and its recognition in `subproblems.recognized`.
 """

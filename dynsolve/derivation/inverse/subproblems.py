@@ -9,7 +9,7 @@ in numbers, in the order in which `explain.inverse` writes them.
     RootLength    A d² + B d + C = 0                        two lengths
     Remainder     q = (value - other angles) / rate         one angle
 
-Craig, section 4.4 and appendix C; Spong, section 5.3; Paul (1981), chapter 3.
+Craig, section 4.4 and appendix C; Spong, section 3.3; Paul (1981), chapter 3.
 """
 
 from __future__ import annotations

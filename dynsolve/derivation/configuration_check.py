@@ -1,0 +1,136 @@
+"""Branches of the inverse kinematics and singular configurations as they are printed, held in numbers.
+
+A branch is put into r(q) at values of the task that a random configuration reaches; one of the
+branches must be that configuration.  Where an alternative of a singular set holds, found by
+Newton's method from random configurations, the Jacobian has less than its greatest rank; at
+random configurations it has that rank.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import cos, pi
+from random import Random
+from typing import Any
+
+from dynsolve.derivation.arm_values import draw
+from dynsolve.derivation.verification import SEED
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import Program, compile_trees, evaluate
+from dynsolve.robot.model import JointType, Robot
+
+CLOSE = 1e-6
+"""What floating point may leave of 0; lengths and angles are about 1."""
+
+STATES = 8
+NEWTON_STEPS = 60
+DIFFERENCE = 1e-6
+
+Values = Mapping[str, float]
+
+
+def verify_inverse(robot: Robot, r: Node, branches: Sequence[Mapping[str, Node]]) -> None:
+    """Put every branch into r(q).  Raises VerificationError where one is none, or one is missing."""
+    task = compile_trees([r])
+    for values in _states(robot):
+        reached = _flat(task.run(values)[0])
+        given = {**values, **dict(zip(robot.questions.reached, reached, strict=True))}
+        found = [q for q in (_on_branch(branch, given) for branch in branches) if q is not None]
+        if not all(_near(_flat(task.run(q)[0]), reached) for q in found):
+            raise VerificationError("a branch of the inverse kinematics does not reach what it should")
+        if not any(_same(robot, q, values) for q in found):
+            raise VerificationError("a branch of the inverse kinematics is missing")
+
+
+def _on_branch(branch: Mapping[str, Node], given: Values) -> dict[str, float] | None:
+    """The configuration; None where the branch does not exist."""
+    q = dict(given)
+    for name, formula in branch.items():
+        try:
+            q[name] = evaluate(formula, q)
+        except (ValueError, ZeroDivisionError):
+            return None
+    return q
+
+
+def _near(mine: Sequence[float], theirs: Sequence[float]) -> bool:
+    """Whether the values of a task are the same; of angles it does not matter how often they turn."""
+    return all(
+        abs(a - b) <= CLOSE * max(1.0, abs(b)) or 1 - cos(a - b) <= CLOSE**2
+        for a, b in zip(mine, theirs, strict=True)
+    )
+
+
+def _same(robot: Robot, q: Values, other: Values) -> bool:
+    for coordinate in robot.coordinates:
+        gap = q[coordinate.name] - other[coordinate.name]
+        if coordinate.type is JointType.REVOLUTE:
+            gap = (gap + pi) % (2 * pi) - pi
+        if abs(gap) > CLOSE:
+            return False
+    return True
+
+
+def verify_singular(robot: Robot, jacobian: Node, rank: int, alternatives: Sequence[Sequence[Node]]) -> None:
+    """Compare the rank of a Jacobian at singular and at other configurations.
+
+    Raises VerificationError where it is not less, or less where it should not be.
+    """
+    program = compile_trees([jacobian])
+    for values in _states(robot):
+        if _rank(program.run(values)[0]) != rank:
+            raise VerificationError("the rank of the Jacobian is not what it should be")
+    for conditions in alternatives:
+        zeros = compile_trees(conditions)
+        for values in _states(robot):
+            at = _solved(robot, zeros, values)
+            if at is not None and _rank(program.run(at)[0]) >= rank:
+                raise VerificationError("a singular configuration is none")
+
+
+def _states(robot: Robot) -> Iterator[dict[str, float]]:
+    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
+    for _ in range(STATES):
+        yield dict(draw(robot, random)[0])
+
+
+def _solved(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:
+    """A configuration near `start` at which everything is 0, by Newton's method; None where none is found."""
+    at = dict(start)
+    names = [q.name for q in robot.coordinates]
+    for _ in range(NEWTON_STEPS):
+        f = zeros.run(at)
+        if max(map(abs, f)) < CLOSE**2:
+            return at
+        moved = [zeros.run({**at, name: at[name] + DIFFERENCE}) for name in names]
+        rows = [[(m[k] - f[k]) / DIFFERENCE for m in moved] for k in range(len(f))]
+        for row, value in zip(rows, f, strict=True):  # one equation after the other, each by its own gradient
+            square = sum(x * x for x in row)
+            if square < CLOSE**2:
+                continue
+            for name, x in zip(names, row, strict=True):
+                at[name] -= value * x / square
+    return None
+
+
+def _rank(rows: Sequence[Sequence[float]]) -> int:
+    """The rank of a matrix of numbers, by elimination with full pivots."""
+    left = [list(row) for row in rows]
+    size = max((abs(x) for row in left for x in row), default=0.0)
+    rank = 0
+    while left and left[0]:
+        pivot, i, j = max((abs(x), i, j) for i, row in enumerate(left) for j, x in enumerate(row))
+        if pivot <= CLOSE * max(size, 1.0):
+            break
+        row = left.pop(i)
+        left = [
+            [x - line[j] / row[j] * y for k, (x, y) in enumerate(zip(line, row, strict=True)) if k != j]
+            for line in left
+        ]
+        rank += 1
+    return rank
+
+
+def _flat(value: Any) -> list[float]:
+    return [entry for row in value for entry in row]

@@ -1,0 +1,68 @@
+"""Where the arm is singular, and which configurations reach a point: rules where a file asks for them.
+
+What computes them is imported when it is asked for, so that no other solution pays for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.graph import Rule
+from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
+
+if TYPE_CHECKING:
+    from dynsolve.derivation.inverse.branches import Branch
+    from dynsolve.derivation.inverse.search import Solving
+    from dynsolve.derivation.singular.sets import SingularSet
+
+
+@dataclass(frozen=True, slots=True)
+class Inverse:
+    """How a task is solved, and the branches that solve it."""
+
+    solving: Solving
+    branches: tuple[Branch, ...]
+
+
+def configuration_rules(robot: Robot) -> Iterator[Rule]:
+    """The rules of singular configurations and of inverse kinematics, where they are asked for."""
+    stages = asked_stages(robot.questions)
+    if Stage.SINGULAR in stages:
+        yield Rule("singular", (_jacobian(robot),), where_singular)
+    task = robot.questions.task
+    if Stage.INVERSE in stages and task is not None and not task.is_twist:
+        yield Rule("inverse", ("r",), lambda r: inverse(robot, r))
+
+
+def _jacobian(robot: Robot) -> str:
+    """The Jacobian whose rank is looked at: that of the task; J of an arm of six joints without one."""
+    task = robot.questions.task
+    is_whole = task is not None and task.is_default and robot.n == 6
+    return "J" if is_whole else "Jr"
+
+
+def where_singular(jacobian: Matrix) -> SingularSet:
+    """Where a Jacobian has less than its greatest rank (Spong, section 4.9)."""
+    from dynsolve.algebra.transfer import Transfer
+    from dynsolve.derivation.inverse.unknowns import search_ring
+    from dynsolve.derivation.singular.sets import singular_set
+
+    ring = search_ring(jacobian.ring, (), {})
+    return singular_set(jacobian.map(Transfer(jacobian.ring, ring)))
+
+
+def inverse(robot: Robot, r: Matrix) -> Inverse | None:
+    """q from r(q) = r; None where no closed form is found (Spong, section 3.3)."""
+    from dynsolve.derivation.inverse.branches import branches
+    from dynsolve.derivation.inverse.search import solve_task
+
+    solving = solve_task(r, robot.questions.reached)
+    if solving is None:
+        return None
+    found = branches(solving)
+    return None if found is None else Inverse(solving, found)

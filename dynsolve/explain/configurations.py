@@ -1,0 +1,115 @@
+"""Singular configurations and the inverse kinematics as formulas."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.rationals import fraction
+from dynsolve.algebra.ring import Ring
+from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.derivation.configurations import Inverse
+from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.inverse.subproblems import Solved
+from dynsolve.derivation.singular.conditions import Condition
+from dynsolve.derivation.singular.sets import SingularSet
+from dynsolve.explain.forms import is_numeric, parallel_coordinates
+from dynsolve.explain.inverse_formulas import InverseFormulas
+from dynsolve.notation.build import cost, split_sign, times
+from dynsolve.notation.python import to_python
+from dynsolve.notation.tree import Negative, Node, Sum
+from dynsolve.robot.model import Robot
+
+
+class ConfigurationForms:
+    """The formulas of the rules `singular` and `inverse` of one robot."""
+
+    def __init__(self, robot: Robot, values: Derivation) -> None:
+        self.robot = robot
+        self.values = values
+
+    # -- singular configurations -------------------------------------------------------------------
+
+    @cached_property
+    def singular_set(self) -> SingularSet:
+        """Where the Jacobian of the task loses rank."""
+        found = self.values["singular"]
+        assert isinstance(found, SingularSet)
+        return found
+
+    @cached_property
+    def singular(self) -> tuple[tuple[Node, ...], ...]:
+        """The alternatives: expressions that are 0 together."""
+        return tuple(tuple(map(self.condition, one)) for one in self.singular_set.alternatives)
+
+    def condition(self, condition: Condition) -> Node:
+        """What is 0 where a condition holds."""
+        return self.zero(condition.expr)
+
+    def zero(self, expr: Expr) -> Node:
+        """What is 0, with the sign that leaves fewer minus signs."""
+        return self._signed(expr)[0]
+
+    def product(self, value: Expr) -> Node:
+        """An expression as the product of its factors in sines and cosines."""
+        product = value.ring.one
+        shown: list[tuple[Node, int]] = []
+        for factor, power in trig_factors(value):
+            node, signed = self._signed(factor)
+            shown.append((node, power))
+            product = product * signed**power
+        number = value.poly.leading_coefficient() / product.poly.leading_coefficient()
+        return times(fraction(number), sorted(shown, key=lambda part: (cost(part[0]), to_python(part[0]))))
+
+    def _signed(self, expr: Expr) -> tuple[Node, Expr]:
+        """±expr with the sign that leaves fewer minus signs, as a formula and as it is."""
+        form = self.compactor(expr.ring).form
+        return min(((form(e), e) for e in (expr, -expr)), key=lambda both: _minus_signs(both[0]))
+
+    # -- inverse kinematics ------------------------------------------------------------------------
+
+    @cached_property
+    def solved(self) -> Inverse | None:
+        """The solution of the task; None where no closed form was found."""
+        found = self.values["inverse"]
+        assert found is None or isinstance(found, Inverse)
+        return found
+
+    @cached_property
+    def inverse(self) -> tuple[dict[str, Node], ...]:
+        """The branches: a formula for each coordinate, in the order in which they are solved for."""
+        if self.solved is None:
+            return ()
+        steps = self.solved.solving.solved
+        return tuple(
+            {
+                step.coordinate: self.solutions(step)[index]
+                for step, index in zip(steps, branch.choice, strict=True)
+            }
+            for branch in self.solved.branches
+        )
+
+    def solutions(self, step: Solved) -> tuple[Node, ...]:
+        """The solutions of a step, each as a formula."""
+        return self._inverse_formulas.solutions(step)
+
+    def ratio(self, above: Expr, below: Expr) -> Node:
+        """A fraction in the ring of the search."""
+        return self._inverse_formulas.ratio(above, below)
+
+    @cached_property
+    def _inverse_formulas(self) -> InverseFormulas:
+        assert self.solved is not None
+        return InverseFormulas(self.compactor(self.solved.solving.ring))
+
+    def compactor(self, ring: Ring) -> Compactor:
+        """The compactor of a ring of the search: the values of the task lead its sums."""
+        leading = [name for name in self.robot.questions.reached if ring.has_symbol(name)]
+        return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
+
+
+def _minus_signs(node: Node) -> int:
+    """How many terms of a sum are negative; a sum that begins with a minus counts one more."""
+    terms = node.terms if isinstance(node, Sum) else (node,)
+    return sum(isinstance(term, Negative) for term in terms) + (split_sign(terms[0])[0] < 0)
