@@ -99,8 +99,9 @@ class Judge:
     def report(self) -> Report:
         """Everything that is said of the hand-in."""
         answers = self._answers()
-        place = self.graph.quantities.position
-        ordered = weighed(self, tuple(sorted(answers.values(), key=lambda answer: place(answer.name))))
+        position = self.graph.quantities.position
+        in_order = tuple(sorted(answers.values(), key=lambda answer: position(answer.name)))
+        ordered = weighed(self.problem, self.hand_in, in_order)
         wrong = sorted(
             (answer for answer in ordered if answer.verdict is Verdict.WRONG),
             key=lambda answer: (not answer.given, self._comes_late(answer.name)),
@@ -145,7 +146,33 @@ class Judge:
                 answers[name] = replace(
                     defined, label=value.answer.label, place=value.answer.place, notes=(value.fault,)
                 )
+        for refused in self._of_names_alone:
+            for name in answers.keys() & set(refused.answers):
+                if answers[name].verdict is Verdict.MISSING:
+                    answers[name] = replace(
+                        answers[name], label=refused.label, place=refused.place, notes=(refused.why,)
+                    )
         return answers
+
+    @cached_property
+    def _of_names_alone(self) -> tuple[NotRecognized, ...]:
+        """The equations of names alone that would answer something, and need what is given nowhere."""
+        found = []
+        for one in self.submission.left_alone:
+            lacking = [name for name in one.needs if not self._is_given(name)]
+            if lacking and not any(map(self._is_given, one.answers)):
+                why = f"{lacking[0]} stands in it and is given nowhere: this is a definition"
+                found.append(replace(one, why=why))
+        return tuple(found)
+
+    def _is_given(self, name: str) -> bool:
+        """Whether a quantity is written, by itself or by an entry or a part of it."""
+        quantities, given = self.graph.quantities, self.hand_in.chains
+        return (
+            name in given
+            or any(quantities.entry_of(other)[0] == name for other in given)
+            or any(part in given for part in quantities.parts(name))
+        )
 
     def _unwritten(self, name: str, answers: dict[str, JudgedAnswer]) -> JudgedAnswer:
         return unwritten(self.graph, name, Fraction(self.problem.marks.get(name, 0)), answers)
@@ -160,4 +187,4 @@ class Judge:
             for chain in chains
             for value in chain
         )
-        return (*self.submission.not_recognized, *definitions)
+        return (*self.submission.not_recognized, *self._of_names_alone, *definitions)

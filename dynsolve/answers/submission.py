@@ -66,12 +66,17 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class NotRecognized:
-    """An equation that is no answer; `why` says what kept it from being one."""
+    """An equation that is no answer; `why` says what kept it from being one.
+
+    One of names alone would answer `answers` if what it `needs` were given.
+    """
 
     text: str
     label: str
     place: Place
     why: str = ""
+    answers: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

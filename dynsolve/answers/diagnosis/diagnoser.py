@@ -240,6 +240,8 @@ class Diagnoser:
         found = [one] if one is not None else self.terms(case.mine, case.expected)
         found = sorted(found, key=lambda one: one.weight)
         missing = sum(one.code == "missing_term" for one in found)
+        if sum(one.code == "trig_part" for one in found) > 1:
+            return
         if 0 < len(found) <= MOST_NAMED and missing <= _in_common(case.mine, case.expected):
             yield _Explanation(tuple(one.mend for one in found), lambda: map(self.exchanges.told, found))
 

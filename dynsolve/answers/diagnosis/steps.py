@@ -214,24 +214,24 @@ def _lagrangian(robot: Robot, value: InputValue) -> Iterator[Variant]:
 def _rate(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
     """d/dt ∂L/∂q̇ with one coordinate held constant, all of them, or inner derivatives left out."""
     ring, p = robot.ring, value(f"dLdqd{q.index}")
-    slopes = [ring.diff(p, k) for k in range(robot.n)]
-    moving = [k for k, slope in enumerate(slopes) if not slope.is_zero]
+    partials = [ring.diff(p, k) for k in range(robot.n)]
+    moving = [k for k, one in enumerate(partials) if not one.is_zero]
     if not moving:
         return
     right = ring.time_derivative(p)
     names = [q.name for q in robot.coordinates]
     accelerated = right
     for k in moving:
-        accelerated = accelerated - slopes[k] * ring.symbol(names[k], 1)
+        accelerated = accelerated - partials[k] * ring.symbol(names[k], 1)
     every = ", ".join(_written(names[k]) for k in moving)
     yield accelerated, slip("product_rule", part=every)
     for k in moving:
-        part = slopes[k] * ring.symbol(names[k], 1)
+        part = partials[k] * ring.symbol(names[k], 1)
         yield right - part, slip("product_rule", part=_written(names[k]))
-        yield right - part + slopes[k], slip("chain_rule", part=_written(names[k], 1))
+        yield right - part + partials[k], slip("chain_rule", part=_written(names[k], 1))
     bare = accelerated
     for k in moving:
-        bare = bare + slopes[k]
+        bare = bare + partials[k]
     yield bare, slip("chain_rule", part="q̇")
 
 
@@ -240,10 +240,10 @@ def _written(name: str, dots: int = 0) -> str:
 
 
 def _force(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
-    rate, slope = value(f"ddt{q.index}"), value(f"dLdq{q.index}")
-    if slope.is_zero:
+    rate, dLdq = value(f"ddt{q.index}"), value(f"dLdq{q.index}")
+    if dLdq.is_zero:
         return
-    yield rate + slope, slip("slope_sign")
+    yield rate + dLdq, slip("slope_sign")
     yield rate, slip("slope_missing")
 
 

@@ -182,9 +182,11 @@ class AnswerGraph:
         if D.rows == D.T.rows:
             return None
         ring, rates = D.ring, velocities(self.robot)
-        slopes = [D.map(partial(ring.diff, k=k)) @ rates for k in range(self.robot.n)]
-        moved = [ring.dot([slope.entries[k] for slope in slopes], rates.entries) for k in range(self.robot.n)]
-        halves = [(rates.T @ slope).entries[0] * vectorized.HALF for slope in slopes]
+        partials = [D.map(partial(ring.diff, k=k)) @ rates for k in range(self.robot.n)]
+        moved = [
+            ring.dot([moving.entries[k] for moving in partials], rates.entries) for k in range(self.robot.n)
+        ]
+        halves = [(rates.T @ moving).entries[0] * vectorized.HALF for moving in partials]
         return Matrix.column(ring, [a - b for a, b in zip(moved, halves, strict=True)])
 
     def _gravity_vector(self, P: Expr) -> Matrix:

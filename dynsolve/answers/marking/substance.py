@@ -11,31 +11,33 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.entry_comparison import substituted
+from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
-
-if TYPE_CHECKING:
-    from dynsolve.answers.judge import Judge
+from dynsolve.problem.model import Problem
+from dynsolve.quantities.index import Quantities
 
 ONLY_ZEROS = "nothing but zeros was written"
 
 
-def weighed(judge: Judge, answers: tuple[JudgedAnswer, ...]) -> tuple[JudgedAnswer, ...]:
+def weighed(
+    problem: Problem, hand_in: ComparedHandIn, answers: tuple[JudgedAnswer, ...]
+) -> tuple[JudgedAnswer, ...]:
     """The answers with what they are worth beside their verdicts."""
-    found = _Substance(judge)
+    found, quantities = _Substance(problem, hand_in), hand_in.graph.quantities
     own = {answer.name: found(answer) for answer in answers}
     emptied = _emptied(own)
     own = {name: _of_sources(answer, emptied) for name, answer in own.items()}
-    own |= {name: _of_whole(judge, answer, own) for name, answer in own.items() if not answer.given}
+    own |= {name: _of_whole(quantities, answer, own) for name, answer in own.items() if not answer.given}
     own |= {
         name: replace(answer, parts=parts)
         for name, answer in own.items()
-        if not answer.given and (parts := _parts(judge, name, own))
+        if not answer.given and (parts := _parts(quantities, name, own))
     }
     if found.has_more_than_zeros or not any(a.given and not a.zero for a in own.values()):
         return tuple(own.values())
@@ -50,8 +52,9 @@ def weighed(judge: Judge, answers: tuple[JudgedAnswer, ...]) -> tuple[JudgedAnsw
 class _Substance:
     """What can be told of an answer by itself, compared with the key."""
 
-    def __init__(self, judge: Judge) -> None:
-        self.judge = judge
+    def __init__(self, problem: Problem, hand_in: ComparedHandIn) -> None:
+        self.problem = problem
+        self.hand_in = hand_in
         self.has_more_than_zeros = False
 
     def __call__(self, answer: JudgedAnswer) -> JudgedAnswer:
@@ -60,7 +63,7 @@ class _Substance:
             return answer
         rows = key.rows if isinstance(key, Matrix) else ((key,),)
         zero = all(entry.is_zero for row in rows for entry in row)
-        compared = self.judge.hand_in.comparisons.get(answer.name)
+        compared = self.hand_in.comparisons.get(answer.name)
         if compared is None or not compared.rows or not answer.given:
             return replace(answer, zero=zero)
         if not all(entry.value.is_zero for row in compared.rows for entry in row):
@@ -78,13 +81,13 @@ class _Substance:
 
     def _key(self, name: str) -> Any:
         """The key's value of an answer, None where there is none; of an entry of C that of its row of C q̇."""
-        whole, entry = self.judge.graph.quantities.entry_of(name)
+        whole, entry = self.hand_in.graph.quantities.entry_of(name)
         if whole == "C" and entry:
-            return self.judge.graph.key("Cqd")[entry[0], 0]
-        target = self.judge.hand_in.compare.target(name)
-        if target.node not in self.judge.hand_in.answer_ring.rules:
+            return self.hand_in.graph.key("Cqd")[entry[0], 0]
+        target = self.hand_in.compare.target(name)
+        if target.node not in self.hand_in.answer_ring.rules:
             return None
-        key = target.of(self.judge.graph.key(target.node))
+        key = target.of(self.hand_in.graph.key(target.node))
         return key if isinstance(key, Matrix | Expr) else None
 
     def _loss(self, compared: KeyComparison, key: Any) -> tuple[str, bool]:
@@ -96,22 +99,22 @@ class _Substance:
         empty = 2 * kept < wanted
         written = [*numerators, *(value.denominator for value in values)]
         before, after = _names(expected), _names(written)
-        for body in self.judge.problem.robot.bodies:
+        for body in self.problem.robot.bodies:
             mass = _names([body.mass])
             own = mass | (_names(list(body.inertia.entries)) if body.inertia is not None else set())
             if mass & before and not own & after:
                 return f"body {body.name} is lost on the way", empty
-        for coordinate in self.judge.problem.robot.coordinates:
+        for coordinate in self.problem.robot.coordinates:
             if coordinate.name in before and coordinate.name not in after:
                 return f"{coordinate.name} is lost on the way", empty
         return (f"it keeps {kept} of {wanted} terms" if empty else ""), empty
 
     def _with_numbers(self, values: list[Expr]) -> list[Expr]:
         """Values with the problem's numbers for symbols: an answer may have either."""
-        numbers = self.judge.problem.values
+        numbers = self.problem.values
         if not numbers:
             return values
-        ring = self.judge.hand_in.answer_ring.ring
+        ring = self.hand_in.answer_ring.ring
         put = {ring.symbol_indices[n, 0]: v for n, v in numbers.items() if ring.has_symbol(n)}
         return [substituted(value, put) for value in values]
 
@@ -153,9 +156,10 @@ def _of_sources(answer: JudgedAnswer, emptied: set[str]) -> JudgedAnswer:
     return replace(answer, entries=entries, loss=loss, empty=answer.name in emptied)
 
 
-def _of_whole(judge: Judge, answer: JudgedAnswer, answers: Mapping[str, JudgedAnswer]) -> JudgedAnswer:
+def _of_whole(
+    quantities: Quantities, answer: JudgedAnswer, answers: Mapping[str, JudgedAnswer]
+) -> JudgedAnswer:
     """What is not written has lost what the matrix has that it is an entry of, or its parts."""
-    quantities = judge.graph.quantities
     for name in (quantities.entry_of(answer.name)[0], *quantities.parts(answer.name)):
         source = answers.get(name)
         if source is not None and source.given and source.loss:
@@ -163,9 +167,11 @@ def _of_whole(judge: Judge, answer: JudgedAnswer, answers: Mapping[str, JudgedAn
     return answer
 
 
-def _parts(judge: Judge, name: str, answers: Mapping[str, JudgedAnswer]) -> tuple[JudgedAnswer, ...]:
+def _parts(
+    quantities: Quantities, name: str, answers: Mapping[str, JudgedAnswer]
+) -> tuple[JudgedAnswer, ...]:
     """The parts of a whole that is not written; of a matrix also where some of them are missing."""
-    quantities, given = judge.graph.quantities, {n: a for n, a in answers.items() if a.given}
+    given = {n: a for n, a in answers.items() if a.given}
     names = quantities.parts(name)
     pieces = [given.get(name) or given.get(quantities.mirrored(name)) for name in names]
     written = [piece for piece in pieces if piece is not None]

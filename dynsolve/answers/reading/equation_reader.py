@@ -296,6 +296,9 @@ class EquationReader:
         if letters:
             self.found.said_aside(tuple(name for candidates in names for name in candidates), refused)
         elif all(isinstance(member.found, RightSide) for member in read):
+            needs = (n for m in read if isinstance(m.found, RightSide) for n in m.found.references)
+            answers = tuple(name for candidates in names for name in candidates)
+            refused = replace(refused, answers=answers, needs=tuple(dict.fromkeys(needs)))
             self.found.left_alone.append(refused)
 
     def _without_name(

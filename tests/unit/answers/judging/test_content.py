@@ -143,3 +143,24 @@ def test_a_right_tau_beside_a_wrong_D_is_noted(tau: Text | None) -> None:
     found = {a.name: a for a in judge(ELBOW, {"D": TWICE_D22, "C": C, "g": G, **torques}).answers}
     noted = [name for name, a in found.items() if "not_from_own" in a.notes]
     assert noted == (["tau"] if tau else ["tau2"])
+
+
+@pytest.mark.parametrize(
+    ("source", "needs"),
+    [
+        (r"$$K = \frac12 \dot q^T D \dot q$$", {"K": "D"}),
+        (r"$$L = K - P$$", {"L": "K"}),
+        (r"$$P = m_1 g L_1$$ $$K = m_2 \dot L_2^2$$ $$L = K - P$$", {}),
+        (r"$$\tau = D \ddot q + C \dot q + g$$", {"tau": "D"}),
+    ],
+)
+def test_an_equation_of_names_alone_is_listed_where_it_needs_what_is_given_nowhere(
+    source: str, needs: dict[str, str]
+) -> None:
+    report = report_on(RP, source)
+    why = {
+        name: f"{other} stands in it and is given nowhere: this is a definition"
+        for name, other in needs.items()
+    }
+    assert [one.why for one in report.not_recognized] == list(why.values())
+    assert all(a.notes == (why[a.name],) for a in report.answers if a.name in why)
