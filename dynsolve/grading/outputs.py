@@ -91,7 +91,7 @@ def _feedback(folder: Path, problems: ProblemSet, record: Record) -> None:
             waiting = next(answers, None)
         if row.html:
             html, markdown = unpack(row.html), unpack(row.markdown)
-        elif any(answer.said for answer in own):
+        elif any(answer.said or answer.comment for answer in own):
             html, markdown = absent_page(
                 problems.item(row.problem).problem.title, groups.get(row.student, row.student)
             )
@@ -128,7 +128,7 @@ def _explained(row: RecordedHandIn, answers: list[RecordedAnswer]) -> _Explained
     return [
         (f"{a.answer} {a.label}".strip(), f"{shown(points(a.marks))} of {shown(points(a.of))}", a.why)
         for a in answers
-        if a.of != "0" and (a.said or not row.reason or a.fault != row.reason)
+        if a.of != "0" and (a.said or a.comment or not row.reason or a.fault != row.reason)
     ]
 
 

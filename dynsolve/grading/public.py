@@ -144,7 +144,7 @@ def grade(
 
 def _late_unknown(problems: ProblemSet, uploads: Uploads, delays: dict[str, int] | None) -> str:
     """What is said where lateness costs marks and nothing tells who was late."""
-    if not problems.policy.minds_late or delays is not None:
+    if not problems.policy.penalizes_lateness or delays is not None:
         return ""
     if any(canvas.owner((upload.path.name,)) is not None for upload in uploads.files):
         return ""  # Canvas writes LATE into the names

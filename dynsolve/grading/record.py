@@ -75,7 +75,8 @@ class RecordedAnswer(NamedTuple):
     """One answer as it stands in the record, with the teacher's marks where there are any.
 
     `message` has what is said of each slip of `diagnosis`, `basis` what the marks are made
-    from; `said` is why the teacher has set the marks, empty where nobody has.
+    from; `said` is why the teacher has set the marks, empty where nobody has, `comment` what the
+    teacher says without setting them.
     """
 
     student: str
@@ -96,6 +97,7 @@ class RecordedAnswer(NamedTuple):
     form: str
     basis: str
     said: str = ""
+    comment: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -325,7 +327,7 @@ class Record:
             graded = RecordedAnswer(s, p, name, label, verdict, marks, of, why, line, diagnosis, told, *rest)
             said = overrides.get((s, p, name)) if overrides else None
             if said is not None and not said[0]:
-                graded = graded._replace(why=f"{why}; the teacher: {said[1]}")
+                graded = graded._replace(why=f"{why}; the teacher: {said[1]}", comment=said[1])
             elif said is not None:
                 by_hand = f"set by the teacher: {said[1]} (the program: {why})"
                 graded = graded._replace(marks=said[0], why=by_hand, said=said[1])

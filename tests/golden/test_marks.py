@@ -1,6 +1,6 @@
 """The marks that a teacher expects of a hand-in: of zeros, of the key, of the key with a slip.
 
-On every robot of the library, over the roundings that courses use.  The key is what
+On every robot of the library and of the textbooks, over the roundings that courses use.  The key is what
 `dynsolve solve --json` prints; no answer's marks are taken from the program.
 """
 
@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from itertools import cycle, product
 from typing import Any
 
 import pytest
@@ -18,18 +19,20 @@ from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.marking.marks import mark
 from dynsolve.answers.marking.policy import Policy
 from dynsolve.problem import load
-from dynsolve.problem.library import bundled, find
+from dynsolve.problem.library import bundled
 from tests.conftest import LARGE
+from tests.support import TEXTBOOKS, problem_file
 
 ROUNDINGS = tuple(map(Fraction, ("1", "1/2", "1/100")))
 OF = Fraction(4)
+BOOKS = [path.stem for path in TEXTBOOKS]
 ROBOTS = sorted(set(bundled()) - LARGE)  # the answers of large arms go over the bounds of size
 
 
 @cache
 def _key(stem: str) -> dict[str, Any]:
     """The answers of the key, as `dynsolve solve --json` prints them."""
-    results = dynsolve.solve(stem, states=1).to_json()["results"]
+    results = dynsolve.solve(str(problem_file(stem)), states=1).to_json()["results"]
     names = ("Jv", "Jw", "P", "K", "L", "tau", "D", "C", "g")
     transforms = {f"A{i}": matrix for i, matrix in enumerate(results["A"], 1)}
     bodies = {f"K{body['name']}": body["K"] for body in results["bodies"]}
@@ -38,7 +41,7 @@ def _key(stem: str) -> dict[str, Any]:
 
 @cache
 def _checker(stem: str) -> Checker:
-    return Checker(replace(load(find(stem)), marks=dict.fromkeys(_key(stem), OF)))
+    return Checker(replace(load(problem_file(stem)), marks=dict.fromkeys(_key(stem), OF)))
 
 
 def _marks(stem: str, answers: dict[str, Any]) -> dict[Fraction, dict[str, Fraction]]:
@@ -61,25 +64,46 @@ def _is_zero(value: Any) -> bool:
     return value == _zeros(value)
 
 
-@pytest.mark.parametrize("stem", ROBOTS)
+@pytest.mark.parametrize("stem", ROBOTS + BOOKS)
 def test_zeros_earn_nothing(stem: str) -> None:
     for marks in _marks(stem, {name: _zeros(value) for name, value in _key(stem).items()}).values():
         assert not any(marks.values())
 
 
-@pytest.mark.parametrize("stem", ROBOTS)
+@pytest.mark.parametrize("stem", ROBOTS + BOOKS)
 def test_the_key_earns_all(stem: str) -> None:
     for marks in _marks(stem, _key(stem)).values():
         assert marks == dict.fromkeys(_key(stem), OF)
 
 
-@pytest.mark.parametrize("stem", ROBOTS)
-@pytest.mark.parametrize("removed", ["Jv", "P", "K", "tau", "D", "g"])
+@pytest.mark.parametrize(
+    ("stem", "removed"),
+    [
+        *product(ROBOTS, ("Jv", "P", "K", "tau", "D", "C", "g")),
+        *zip(BOOKS, cycle(("tau", "D", "C", "g", "P"))),
+    ],
+)
 def test_a_line_removed_costs_its_marks_alone(stem: str, removed: str) -> None:
     answers = {name: value for name, value in _key(stem).items() if name != removed}
     whole_of_parts = removed == "K"  # K1, K2, ... are still there, and K is judged by them
     for marks in _marks(stem, answers).values():
         assert marks == dict.fromkeys(_key(stem), OF) | ({} if whole_of_parts else {removed: 0})
+
+
+@pytest.mark.parametrize(
+    ("answers", "earned"),
+    [
+        ({"g": "[0, 0]"}, OF),  # gravity does no work there: the answer is right, and all that was said
+        ({"g": "[0, 0]", "P": "0"}, 0),
+        ({"g": "[0, 0]", "D": "[[0, 0], [0, 0]]"}, 0),
+        ({"g": "[0, 0]", "D": "[[I1zz + m2*L2^2, 0], [0, m2]]"}, OF),
+        ({"g": "[0, 0]", "K": "m1*L1"}, OF),
+    ],
+)
+def test_a_right_zero_earns_beside_more_than_zeros_or_alone(answers: dict[str, str], earned: int) -> None:
+    """in3140-rp moves in a horizontal plane, so that g is zero in every entry."""
+    for marks in _marks("in3140-rp", answers).values():
+        assert marks["g"] == earned
 
 
 @pytest.mark.parametrize("stem", ROBOTS)

@@ -38,8 +38,8 @@ class Policy:
         return shares[min(days, len(shares) - 1)]
 
     @property
-    def minds_late(self) -> bool:
-        """Whether it matters who was late."""
+    def penalizes_lateness(self) -> bool:
+        """Whether a late hand-in loses marks."""
         return any(share != 1 for share in (self.late, *self.later))
 
 

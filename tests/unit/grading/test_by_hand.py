@@ -67,6 +67,14 @@ def test_a_comment_changes_no_marks(tmp_path: Path, out: Path) -> None:
     assert "the teacher: well done" in (out / "feedback" / "anna" / "in3140-rp.md").read_text()
 
 
+def test_a_comment_on_what_nobody_has_judged_is_shown_and_it_still_waits(tmp_path: Path, out: Path) -> None:
+    override_all(out, _csv(tmp_path, "bob,in3140-rp,D,,hand in a file that can be read"))
+    page = (out / "feedback" / "bob" / "in3140-rp.md").read_text()
+    assert page.count("the teacher: hand in a file that can be read") == 1 and "| tau |" not in page
+    assert [row["in3140-rp"] for row in _rows(out / "grades.csv")] == ["1", ""]
+    assert [row["answer"] for row in _rows(out / "queue.csv")] == ["tau", "D", "C", "g"]
+
+
 def test_a_fault_changes_nothing_and_names_its_line(tmp_path: Path, out: Path) -> None:
     path = _csv(tmp_path, "anna,in3140-rp,tau,1,fine", "eve,in3140-rp,tau,1,", "anna,in3140-rp,D,7,")
     with pytest.raises(InputError) as caught:
