@@ -38,6 +38,7 @@ Long models are written in names (`--abbreviate`):
     base_parameters      the inertial constants that D and g are made of
     recurring            what stands in several places
     abbreviated_steps    the steps of a derivation in these names
+    general_steps        what is said once for all links, bodies and coordinates
 
 And hints (`--hint`), made of the same steps:
 

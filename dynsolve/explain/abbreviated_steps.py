@@ -12,6 +12,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
+from dynsolve.derivation.rules import course_rules
 from dynsolve.document import Prose
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
@@ -22,6 +23,7 @@ from dynsolve.explain.entry_formulas import (
     coriolis_matrix,
     pairs,
 )
+from dynsolve.explain.general_steps import GeneralStep, general_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
@@ -40,7 +42,6 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import with_children
 from dynsolve.quantities import letters
-from dynsolve.quantities.index import quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
 
@@ -94,21 +95,32 @@ def _of_long_model(steps: Iterable[Step], context: Context, short: Abbreviated) 
     steps = tuple(steps)
     direct = next((step for step in steps if step.id == _DIRECT), None)
     changes = _LongModel(context, short, direct).changes()
-    known = quantities(context.robot)
-    told: set[str] = set()
+    general = {name: group for group in general_steps(context) for name in group.details}
+    inputs = {rule.name: rule.inputs for rule in course_rules(context.robot)}
+    told: set[GeneralStep] = set()
     for step in steps:
         if step is direct:  # its formula is that of D itself
             continue
+        group = general.get(step.id)
+        if group is not None and group not in told:
+            told.add(group)
+            yield group.step
         change = changes.get(step.id)
         if change is not None:
-            yield change(step)
+            step = change(step)
         elif _is_too_long(step):
-            quantity = known.of_rule(step.id)
-            kind = quantity.family.stem if quantity else step.id
-            yield _left_out(step, first=not told, again=kind in told)
-            told.add(kind)
+            step = _left_out(step)
+        uses = inputs.get(step.id, ()) if step.uses is None else step.uses
+        if group is not None:
+            yield replace(step, detail=Detail.FULL)
         else:
-            yield step
+            yield replace(step, uses=tuple(dict.fromkeys(_source(name, general) for name in uses)))
+
+
+def _source(name: str, general: Mapping[str, GeneralStep]) -> str:
+    """What a result is to be looked up under: where it is a detail, the step that speaks of all like it."""
+    group = general.get(name)
+    return name if group is None else group.step.id
 
 
 def _is_too_long(step: Step) -> bool:
@@ -128,21 +140,12 @@ def _size(node: Node) -> int:
         return 0
 
 
-def _left_out(step: Step, first: bool, again: bool) -> Step:
-    """The step with its formula as its result; the first says so, those `again` are details."""
+def _left_out(step: Step) -> Step:
+    """The step with its formula as its result."""
     if step.formula is None:
         return step
-    note: Prose = (
-        "Written out it would be too long to be of use; the formula says what it is. So it is below "
-        "where a formula stands alone, and for the bodies after such a one, whose steps are left out. "
-        "What comes of them are the entries of D.",
-    )
-    return replace(
-        step,
-        result=(),
-        notes=(*step.notes, note) if first else step.notes,
-        detail=Detail.FULL if again else step.detail,
-    )
+    note: Prose = ("Written out it would be too long to be of use; the formula says what it is.",)
+    return replace(step, result=(), notes=(*step.notes, note))
 
 
 class _LongModel:
@@ -156,6 +159,7 @@ class _LongModel:
     def changes(self) -> dict[str, Callable[[Step], Step]]:
         """The changes by the ids of their steps."""
         changes: dict[str, Callable[[Step], Step]] = {
+            f"H{len(self.context.robot.joints)}": self.last_frame,
             "K": self.kinetic,
             "L": self.lagrangian,
             "Cqd": self.coriolis_forces,
@@ -186,12 +190,16 @@ class _LongModel:
         """The name of g_k."""
         return ZERO if self.short.g.rows[k][0] == ZERO else letters.entry("g", k + 1)
 
+    def last_frame(self, step: Step) -> Step:
+        """The last frame by the matrices of the rows, without the frames on the way to it."""
+        return replace(step, working=())
+
     def kinetic(self, step: Step) -> Step:
         return _with(
             step,
             equation(letters.K, _QUADRATIC, self.formulas.kinetic_energy()),
-            " Collected by the rates, it is a quadratic form; its coefficients are the entries of D, which "
-            "the vectorized form gives as sums over the bodies.",
+            " It is a quadratic form in the rates; its coefficients are the entries of D, which the "
+            "vectorized form gives as sums over the bodies.",
         )
 
     def lagrangian(self, step: Step) -> Step:

@@ -59,7 +59,7 @@ def steps(context: Context) -> Iterator[Step]:
     bodies = context.robot.bodies
     off_origin = next((body for body in bodies if not body.center.is_zero), None)
     framed = next(
-        (body for body in bodies if _has_link_axes(body) and any(_right_frame(context, body.link))), None
+        (body for body in bodies if has_link_axes(body) and any(_right_frame(context, body.link))), None
     )
     for body in bodies:
         yield mass_center_step(context, body, tells=body is off_origin)
@@ -67,7 +67,7 @@ def steps(context: Context) -> Iterator[Step]:
             yield _point(context, body)
             continue
         yield _tensor(context, body)
-        if _is_moved(body):
+        if is_moved(body):
             yield _parallel_axis(context, body)
         yield _rotation(context, body, tells=body is framed)
         yield _base_tensor(context, body)
@@ -76,7 +76,7 @@ def steps(context: Context) -> Iterator[Step]:
 # -- the tensor ------------------------------------------------------------------------------------
 
 
-def _is_moved(body: Body) -> bool:
+def is_moved(body: Body) -> bool:
     """Whether the tensor is given about a point that is not the mass centre."""
     return body.about_point is not None and body.about_point != body.center
 
@@ -102,14 +102,14 @@ def _tensor(context: Context, body: Body) -> Step:
     tensor = letters.tensor(context.robot, body)
     assert body.inertia is not None
     about = "the mass centre"
-    if _is_moved(body):
+    if is_moved(body):
         tensor = Letter("I", Row((letters.index_of(body.name), Words(","), Words("given"))), None, "bold")
         about = f"the origin of frame {body.link}" if body.about == "origin" else "the near end of its link"
     formula, working, why = _shape(context, body)
     if body.shape is None or not body.shape.formulas:
         why = (f"The tensor of {name_of(body)} is given, about {about}, along the axes of its own frame.",)
     return Step(
-        id=f"I_given{body.name}" if _is_moved(body) else f"I_body{body.name}",
+        id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in its own frame",
         why=why,
@@ -173,7 +173,7 @@ def _parallel_axis(context: Context, body: Body) -> Step:
 # -- its orientation -------------------------------------------------------------------------------
 
 
-def _has_link_axes(body: Body) -> bool:
+def has_link_axes(body: Body) -> bool:
     """Whether the body-attached axes are those of its link's frame, the default."""
     axes = body.axes
     one = algebra.Matrix.identity(axes.rotation.ring, 3)
@@ -203,7 +203,7 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
     robot, link = context.robot, body.link
     frame, turned = letters.R(robot, link), context.show(body.axes.rotation)
     match body.axes.kind:
-        case AxesKind.LINK if _has_link_axes(body):
+        case AxesKind.LINK if has_link_axes(body):
             which = "the frame that comes after the mass and" if _ends_after(context, body) else "which"
             why = f"The body's axes are those of frame {link}, {which} is fixed in the same link."
             return (why,), frame, ()

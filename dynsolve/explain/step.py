@@ -43,7 +43,8 @@ class Step:
 
     How it is shown: `entries` names the entries of a result that is a matrix too wide for
     the page; an `optional` result says nothing new, and is left out where it does not fit;
-    results that are `listed` stand in one display; `detail` says from which level on.
+    results that are `listed` stand in one display, those that are `together` side by side;
+    `detail` says from which level on.
 
     What a hint makes of it: `hint` is said in place of a `why` that tells something of the
     result, `task` is the formula where it is not `formula`; what is no `is_task` is left
@@ -65,6 +66,7 @@ class Step:
     entries: tuple[tuple[Node, ...], ...] = ()
     optional: bool = False
     listed: bool = False
+    together: bool = False
     detail: Detail = Detail.NORMAL
     also: tuple[str, ...] = ()
     uses: tuple[str, ...] | None = None

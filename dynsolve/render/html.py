@@ -227,7 +227,7 @@ class _Page(MarkupPage):
             return
         matrix = _lone_matrix(node)
         widest = max(piece.width for piece in self.splitter.pieces(node))
-        if widest > PHONE and isinstance(node, Row) and not formula.optional:
+        if widest > PAGE and isinstance(node, Row) and not formula.optional:
             for part in listed(node):
                 yield from self.lines(part, formula)
         elif widest <= PAGE or matrix is None:

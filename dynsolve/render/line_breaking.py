@@ -22,6 +22,7 @@ from dynsolve.notation.tree import (
     Relation,
     Row,
     Sum,
+    Words,
 )
 from dynsolve.render.matrices import holds_matrix
 
@@ -125,8 +126,11 @@ class FormulaSplitter:
                 builder.add(self.notation.lead, 0.78)
                 self._factor(builder, argument, level)
             case Row(parts):
+                inside = level + _DEEPER if any(map(_is_comma, parts)) else level
                 for part in parts:
-                    self._put(builder, part, level)
+                    self._put(builder, part, inside)
+                    if _is_comma(part):
+                        builder.gap(level + RELATION_BREAK)
             case _ if not (self._is_wide(node) or holds_matrix(node)):
                 builder.add(self.notation.text(node), self.ruler.width(node))
             case Product(factors) if factors:
@@ -209,6 +213,11 @@ class FormulaSplitter:
 
     def _is_huge(self, node: Node) -> bool:
         return self.ruler.width(node) > 100 * _FINE
+
+
+def _is_comma(node: Node) -> bool:
+    """Whether this stands between formulas that are side by side."""
+    return isinstance(node, Words) and node.text == ", "
 
 
 def together(pieces: Sequence[Piece], most: float, join: Callable[[Sequence[str]], str]) -> list[Piece]:

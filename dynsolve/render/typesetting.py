@@ -68,8 +68,8 @@ class Typesetter:
         )
 
     def _parts(self, node: Node, formula: Formula) -> Iterator[Line]:
-        """Formulas that stand side by side with commas get their own lines."""
-        if isinstance(node, Row):
+        """Formulas that stand side by side with commas: as many on a line as fit, a wide one on its own."""
+        if isinstance(node, Row) and not all(self._fits(part) for part in listed(node)):
             for part in listed(node):
                 yield from self._parts(part, formula)
         elif isinstance(node, Relation) and self.ruler.width(node) > self.room:
@@ -77,7 +77,11 @@ class Typesetter:
         elif isinstance(node, Matrix) and self.ruler.width(node) > self.room:
             yield from self._entries(node, None, formula)
         else:
-            yield from self._broken(self.splitter.pieces(node), self.room, self.room - INDENT)
+            rest = self.room if isinstance(node, Row) else self.room - INDENT
+            yield from self._broken(self.splitter.pieces(node), self.room, rest)
+
+    def _fits(self, node: Node) -> bool:
+        return self.ruler.width(node) <= self.room
 
     def _chain(self, node: Relation, formula: Formula) -> Iterator[Line]:
         left, *members = node.parts
@@ -104,7 +108,7 @@ class Typesetter:
 
     def _broken(self, pieces: Sequence[Piece], first: float, rest: float) -> Iterator[Line]:
         for i, line in enumerate(lines(pieces, first, rest)):
-            yield Line("", self._text(line), i > 0)
+            yield Line("", self._text(line), i > 0 and rest < first)
 
     def _text(self, line: Sequence[Piece]) -> str:
         return self.notation.joined([piece.text for piece in line])

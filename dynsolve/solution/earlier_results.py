@@ -10,13 +10,16 @@ from collections.abc import Iterable, Iterator
 from itertools import count
 
 from dynsolve.explain.step import Step
+from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.tree import Node, Relation, Row
 from dynsolve.notation.walk import walk
 
 
 def labelled_results(step: Step) -> Iterator[tuple[Node, str]]:
     """The results of a step that have a number, each with its label."""
-    if not step.listed:
+    if step.together:
+        yield side_by_side(step.result), step.id
+    elif not step.listed:
         yield from zip(step.result, _labels(step), strict=False)
 
 

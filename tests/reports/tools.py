@@ -63,6 +63,12 @@ class Typeset:
     pdf: Path
 
     @property
+    def pages(self) -> int:
+        """How many pages there are."""
+        found = re.search(r"Output written on .*? \((\d+) pages?", self.log, re.DOTALL)
+        return int(found[1]) if found else 0
+
+    @property
     def complaints(self) -> list[str]:
         """Errors and warnings of substance."""
         marks = ("!", "Overfull", "LaTeX Warning", "Package amsmath Warning", "Missing character", "Runaway")

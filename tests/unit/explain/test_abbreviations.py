@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 import re
 from collections.abc import Iterator, Sequence
@@ -16,8 +17,10 @@ import dynsolve
 from dynsolve.document import Equations
 from dynsolve.errors import AlgebraError, VerificationError
 from dynsolve.explain.abbreviations import Abbreviated, abbreviate, is_long
+from dynsolve.explain.step import Detail
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import (
+    BigSum,
     Derivative,
     Letter,
     Matrix,
@@ -288,6 +291,54 @@ def test_formulas_in_names_are_right() -> None:
         assert isinstance(result, Relation)
         ours = evaluate(numbered(result.parts[-1]), known)
         assert_same(ours, evaluate(solution.forms(name), values))
+
+
+@pytest.mark.parametrize("problem", ["stanford-6"])
+def test_what_is_said_once_leaves_nothing_out(problem: str) -> None:
+    """Every step stands in the full account; the normal one leads on to nothing that it does not show."""
+    solution = solved(problem)
+    plain = [step.id for step in solution.explain() if step.id != "D_direct"]  # the way to D itself
+    steps = list(solution.explain(short=short(problem)))
+    ids = [step.id for step in steps]
+    assert [name for name in ids if name in plain] == plain
+    general = {name for name in ids if name not in plain}
+    assert general == {"rows", "columns", "rc", "tensors", "potentials", "kinetics", "forces"}
+    shown = [step.id for step in steps if step.detail < Detail.FULL]
+    assert len(shown) < 30 < len(plain)
+    for name in ("H6", "J", "P", "K", "L", "D", "christoffel", "C", "g", "model"):
+        assert name in shown
+    for step in steps:
+        if step.detail < Detail.FULL:
+            assert {name for name in step.uses or () if name in ids} <= set(shown)
+
+
+def test_the_general_forces_are_those_of_each_coordinate() -> None:
+    """τ_k = Σ_j d_kj q̈_j + Σ_i Σ_j c_ijk q̇_i q̇_j + g_k, summed for each k."""
+    solution = solved("stanford-6")
+    values = state(solution, 5)
+    known = entries(solution, values)
+    (step,) = (s for s in solution.explain(["torque"], short("stanford-6")) if s.id == "forces")
+    (result,) = step.result
+    assert isinstance(result, Relation)
+    tau, n = evaluate(solution.forms("tau"), values), solution.robot.n
+    for k in range(n):
+        summed = sum(summand(part, known, {"k": k + 1}, solution) for part in result.parts[-1].terms)
+        assert summed == pytest.approx(tau[k][0])
+
+
+def summand(node: Node, known: dict[str, float], at: dict[str, int], solution: dynsolve.Solution) -> float:
+    """The value of a term with sums over indices."""
+    if isinstance(node, BigSum):
+        places = range(1, solution.robot.n + 1)
+        return sum(summand(node.body, known, {**at, node.index.name: i}, solution) for i in places)
+    if isinstance(node, Product):
+        return math.prod(summand(part, known, at, solution) for part in node.factors)
+    assert isinstance(node, Letter)
+    indices = [at[i.name] for i in (node.sub.parts if isinstance(node.sub, Row) else [node.sub])]
+    if node.base == "q":
+        q = solution.robot.coordinates[indices[0] - 1]
+        return known[(q.name, q.velocity, q.acceleration)[node.dots]]
+    return known["_".join((node.base, *map(str, indices)))]
 
 
 def test_christoffel_symbols_stand_together() -> None:

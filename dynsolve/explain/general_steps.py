@@ -1,0 +1,275 @@
+"""Steps that say once for all links, bodies or coordinates what a short model says one by one.
+
+Of a long model nobody reads the Jacobian of each mass centre or the momentum of each
+coordinate: the general formula stands for all of them, and the single steps are
+details.  What the model is made of, the matrices of the rows, the last frame, the
+tensors that are given, is shown in any case.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from dynsolve.explain.context import Context
+from dynsolve.explain.inertia import has_link_axes, is_moved
+from dynsolve.explain.jacobian import ZERO
+from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import side_by_side, spong
+from dynsolve.notation.tree import (
+    BigSum,
+    Cross,
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Product,
+    Row,
+    Sum,
+    Symbol,
+    Transpose,
+    Words,
+    column,
+    equation,
+)
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Body, JointType, Robot
+
+_I, _J, _K, _N = (Symbol(name) for name in "ijkn")
+
+
+@dataclass(frozen=True, slots=True)
+class GeneralStep:
+    """A step, and the ids of those in whose place it stands: they become its details."""
+
+    step: Step
+    details: frozenset[str]
+
+
+def general_steps(context: Context) -> Iterator[GeneralStep]:
+    """What is said once in the account of a long model."""
+    robot = context.robot
+    bodies = [body.name for body in robot.bodies]
+    rows = [joint.index for joint in robot.joints]
+    yield GeneralStep(_rows(context), _ids(["A"], rows) | _ids(["H"], rows[:-1]))
+    if _moves_each_joint_alone(robot):
+        yield GeneralStep(_columns(context), _ids(["J"], [q.index for q in robot.coordinates]))
+    if bodies:
+        solid = [body for body in robot.bodies if _is_plain(body)]
+        yield GeneralStep(_mass_centers(context), _ids(["rc"], bodies))
+        if solid:
+            names = [body.name for body in solid]
+            yield GeneralStep(_tensors(context, solid), _ids(["I_body", "R", "I"], names))
+        yield GeneralStep(_potential(context), _ids(["P"], bodies))
+        yield GeneralStep(_kinetic(), _ids(["Jv", "v", "Kv", "Kw", "K"], bodies))
+        coordinates = [q.index for q in robot.coordinates]
+        yield GeneralStep(_forces(), _ids(["dLdqd", "ddt", "dLdq", "tau"], coordinates))
+
+
+def _ids(stems: Sequence[str], names: Sequence[str | int]) -> frozenset[str]:
+    return frozenset(f"{stem}{name}" for stem in stems for name in names)
+
+
+def _moves_each_joint_alone(robot: Robot) -> bool:
+    """Whether each coordinate is the variable of one joint, so that a joint's column is a coordinate's."""
+    moving = [joint for joint in robot.joints if joint.type]
+    return all(joint.rates == ((i, Fraction(1)),) for i, joint in enumerate(moving))
+
+
+def _is_plain(body: Body) -> bool:
+    """Whether a tensor is given about the mass centre, along the axes of the link's frame."""
+    return has_link_axes(body) and not is_moved(body)
+
+
+# -- kinematics and the Jacobian -------------------------------------------------------------------
+
+
+def _rows(context: Context) -> Step:
+    joints = context.robot.joints
+    return Step(
+        id="rows",
+        stage=Stage.KINEMATICS,
+        title="The rows of the table",
+        why=("Each row put into the matrix.",),
+        result=tuple(equation(letters.A(joint.index), context.form(f"A{joint.index}")) for joint in joints),
+        together=True,
+        uses=(),
+    )
+
+
+def _columns(context: Context) -> Step:
+    """J_i = [z × (o_n - o); z] of a revolute joint, [z; 0] of a prismatic one."""
+    robot = context.robot
+    which = "i-1" if context.standard else "i"
+    z, o = (Letter(letter, Words(which), style="bold") for letter in "zo")
+    arm = Parenthesized(Sum((letters.o(len(robot.joints)), Negative(o))))
+    kinds = {
+        JointType.REVOLUTE: ("revolute", column(Cross(z, arm), z)),
+        JointType.PRISMATIC: ("prismatic", column(z, ZERO)),
+    }
+    present = [kind for kind in kinds if any(joint.type is kind for joint in robot.joints)]
+    name = Letter("J", _I, style="bold")
+    words = " The first is that of a revolute joint, the second that of a prismatic one."
+    return Step(
+        id="columns",
+        stage=Stage.JACOBIAN,
+        title="The columns of the Jacobian",
+        why=(
+            "How the end of the arm moves and turns with each joint.",
+            *((words,) if len(present) > 1 else ()),
+        ),
+        formula=side_by_side([equation(name, kinds[kind][1]) for kind in present]),
+        source=spong("4.6.3"),
+        uses=("axes",),
+    )
+
+
+# -- the bodies ------------------------------------------------------------------------------------
+
+
+def _mass_centers(context: Context) -> Step:
+    robot = context.robot
+    given = [
+        equation(Letter("r", letters.rc(body).sub, Number(body.link), "bold"), context.show(body.center))
+        for body in robot.bodies
+    ]
+    frame = Letter("r", Row((Words("c"), _I)), _I, "bold")
+    ground = letters.R(robot, 1).sup
+    turned = Product((Letter("R", _I, ground, "bold"), frame))
+    center = Letter("r", Row((Words("c"), _I)), style="bold")
+    return Step(
+        id="rc",
+        stage=Stage.INERTIA,
+        title="Mass centres",
+        why=("Each is given in the frame of its link, and turned and moved with it.",),
+        formula=equation(center, Sum((turned, Letter("o", _I, style="bold")))),
+        source=spong("2.6"),
+        result=tuple(given),
+        together=True,
+        uses=(),
+    )
+
+
+def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
+    rotation, tensor = Letter("R", _I, style="bold"), Letter("I", _I, style="bold")
+    given = []
+    for body in bodies:
+        assert body.inertia is not None
+        given.append(equation(letters.tensor(context.robot, body), context.show(body.inertia)))
+    return Step(
+        id="tensors",
+        stage=Stage.INERTIA,
+        title="Inertia tensors",
+        why=(
+            f"Each is given about the mass centre, along the axes of its link's frame; in {context.ground} "
+            "coordinates it turns with the link.",
+        ),
+        formula=side_by_side(
+            [
+                equation(rotation, Letter("R", _I, letters.R(context.robot, 1).sup, "bold")),
+                equation(Letter("I", _I, style="script"), Product((rotation, tensor, Transpose(rotation)))),
+            ]
+        ),
+        source=spong("7.2.1"),
+        result=tuple(given),
+        together=True,
+        uses=(),
+    )
+
+
+# -- the energies and the forces -------------------------------------------------------------------
+
+
+def _potential(context: Context) -> Step:
+    center = Letter("r", Row((Words("c"), _I)), style="bold")
+    down = Transpose(letters.bold("g"))
+    bodies = context.robot.bodies
+    return Step(
+        id="potentials",
+        stage=Stage.ENERGY,
+        title="Potential energy of each body",
+        why=("Minus the mass times ", Product((down, center)), "; ", letters.bold("g"), " points down."),
+        formula=equation(Letter("P", _I), Negative(Product((Letter("m", _I), down, center)))),
+        source=spong("7.2.3"),
+        result=tuple(equation(letters.of_body("P", body), context.form(f"P{body.name}")) for body in bodies),
+        listed=True,
+        uses=(),
+    )
+
+
+def _kinetic() -> Step:
+    v, w = (Letter(base, _I, style="bold") for base in ("v", "omega"))
+    center = Letter("r", Row((Words("c"), _I)), style="bold")
+    Jv, Jw = (letters.bold("J", Letter(base, _I)) for base in ("v", "omega"))
+    velocities = [equation(v, Product((Jv, letters.QD))), equation(w, Product((Jw, letters.QD)))]
+    linear = Product((letters.HALF, Letter("m", _I), letters.transposed_product(v)))
+    tensor = Letter("I", _I, style="script")
+    rotational = Product((letters.HALF, letters.transposed_product(w, tensor)))
+    return Step(
+        id="kinetics",
+        stage=Stage.ENERGY,
+        title="Kinetic energy of each body",
+        why=(
+            "The Jacobians of a mass centre are like those of the arm, with ",
+            center,
+            " in place of the end of the arm; the columns of the joints after the body's link are zero.",
+        ),
+        formula=side_by_side(velocities),
+        source=spong("7.2.2"),
+        result=(equation(Letter("K", _I), Sum((linear, rotational))),),
+        uses=(),
+    )
+
+
+def _forces() -> Step:
+    """∂L/∂q̇_k, d/dt of it, ∂L/∂q_k, and what they give."""
+    rate = [Letter("q", index, dots=1) for index in (_I, _J, _K)]
+    momentum = letters.partial_derivative(letters.L, rate[2])
+    d_kj, d_ij = Letter("d", Row((_K, _J))), Letter("d", Row((_I, _J)))
+    g, coordinate = Letter("g", _K), Letter("q", _K)
+    by_coordinate = letters.partial_derivative(letters.L, coordinate)
+    accelerated = _sum_over(_J, Product((d_kj, Letter("q", _J, dots=2))))
+    moving = _sum_over(_J, Product((Letter("d", Row((_K, _J)), dots=1), rate[1])))
+    slope = letters.partial_derivative(d_ij, coordinate)
+    squares = _sum_over(_I, _sum_over(_J, Product((slope, rate[0], rate[1]))))
+    coriolis = _sum_over(_I, _sum_over(_J, Product((Letter("c", Row((_I, _J, _K))), rate[0], rate[1]))))
+    return Step(
+        id="forces",
+        stage=Stage.TORQUE,
+        title="The generalized forces",
+        why=(
+            "The same for every coordinate ",
+            coordinate,
+            ". The rates of ",
+            d_kj,
+            " are ",
+            equation(
+                Letter("d", Row((_K, _J)), dots=1),
+                _sum_over(_I, Product((letters.partial_derivative(d_kj, Letter("q", _I)), rate[0]))),
+            ),
+            "; with them the products of rates are collected in the Christoffel symbols, which follow below.",
+        ),
+        source=spong("7.3"),
+        formula=equation(
+            Letter("tau", _K),
+            Sum((letters.time_derivative(momentum), Negative(by_coordinate))),
+        ),
+        working=(
+            equation(momentum, _sum_over(_J, Product((d_kj, rate[1])))),
+            equation(letters.time_derivative(momentum), Sum((accelerated, moving))),
+            equation(
+                by_coordinate,
+                Sum((Product((letters.HALF, squares)), Negative(g))),
+            ),
+        ),
+        result=(equation(Letter("tau", _K), Sum((accelerated, coriolis, g))),),
+        detail=Detail.BRIEF,
+        uses=("L",),
+    )
+
+
+def _sum_over(index: Symbol, body: Node) -> BigSum:
+    return BigSum(body, index, Number(1), _N)
