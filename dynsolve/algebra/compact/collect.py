@@ -28,7 +28,7 @@ from dynsolve.algebra.compact.monomials import (
 )
 from dynsolve.algebra.compact.terms import Rational, add_term, exact
 from dynsolve.notation.build import cost, split_sign, times, total
-from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Product, Quotient, Sum
+from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
 
 SEARCHED = 14
 """Up to this number of terms every promising split is tried; above it the likeliest alone."""
@@ -180,7 +180,25 @@ class Collector:
             price = self.cost(node) - (self.atoms.ranks[atom][0] is Rank.LEADING)
             if price < least:
                 best, least = node, price
-        return best
+        completed = self._completed(poly)
+        # A book writes the distance, (d - l/2)² + l²/12, though it may cost one operation more.
+        return best if completed is None or self.cost(completed) - 1 > least else completed
+
+    def _completed(self, poly: Polynomial) -> Node | None:
+        """a x² + b x y + c y², x being a coordinate, as a (x + b y / 2a)² + (c - b² / 4a) y²."""
+        squares = {mono[0][0]: f for mono, f in poly.items() if len(mono) == 1 and mono[0][1] == 2}
+        if len(poly) != 3 or len(squares) != 2:
+            return None
+        x, y = sorted(squares, key=lambda atom: self.atoms.ranks[atom][0] is not Rank.COORDINATE)
+        b = poly.get(tuple(sorted(((x, 1), (y, 1)))))
+        if b is None or self.atoms.ranks[x][0] is not Rank.COORDINATE:
+            return None
+        half = exact(b, 2 * squares[x])
+        whole = self.atoms.number(self._sum_node(x, y, half))
+        rest = squares[y] - squares[x] * half * half
+        if not rest:
+            return None
+        return total([self.product(squares[x], ((whole, 2),), ()), self.product(rest, ((y, 2),), ())])
 
     def _worth_splitting(self, poly: Polynomial) -> list[int]:
         """The atoms that most terms share, leading ones first."""
@@ -215,11 +233,23 @@ class Collector:
         return total(sorted(flat.terms, key=lambda term: self.order(self.decompose(term)[1])))
 
     def order(self, mono: Monomial) -> tuple[object, ...]:
-        """The place of a term in a sum: by its velocities, its angles, its symbols; squares first."""
+        """The place of a term in a sum: by its velocities, its angles, its symbols; squares first.
+
+        The square of a distance, (d - l/2)², stands before all other terms without angles.
+        """
         ranks = sorted((self.atoms.ranks[atom], -exponent) for atom, exponent in mono)
         rates = [rank for rank in ranks if rank[0][0] >= Rank.RATE]
         trig = [rank for rank in ranks if rank[0][0] is Rank.TRIG]
-        return not rates, rates, trig, ranks
+        return not rates, rates, trig, not self._is_distance(mono), ranks
+
+    def _is_distance(self, mono: Monomial) -> bool:
+        """Whether a term is the square of a sum in which a coordinate stands."""
+        if len(mono) != 1 or mono[0][1] != 2:
+            return False
+        node = self.atoms.nodes[mono[0][0]]
+        parts = [split_sign(term)[1] for term in node.terms] if isinstance(node, Sum) else []
+        numbers = [self.atoms.number(part) for part in parts if isinstance(part, Symbol)]
+        return any(self.atoms.ranks[number][0] is Rank.COORDINATE for number in numbers)
 
     def ordered(self, poly: Polynomial) -> list[tuple[Monomial, Rational]]:
         """The terms in printing order."""

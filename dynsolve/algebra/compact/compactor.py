@@ -13,8 +13,9 @@ from fractions import Fraction
 
 from dynsolve.algebra.compact.collect import Collector
 from dynsolve.algebra.compact.groups import angle_groups
-from dynsolve.algebra.compact.monomials import Monomial, Polynomial
+from dynsolve.algebra.compact.monomials import Monomial, Polynomial, multiply
 from dynsolve.algebra.compact.ring_atoms import RingAtoms
+from dynsolve.algebra.compact.squares import square_in
 from dynsolve.algebra.compact.terms import (
     Exponents,
     Rational,
@@ -36,6 +37,9 @@ from dynsolve.notation.tree import ZERO, Node
 
 MUCH_CHEAPER = 0.75
 """Energies and torques stay collected by velocities unless another order costs less than this part."""
+
+SMALLEST_SQUARE = 3
+"""The terms of (a c₂ + b c₂₃)², multiplied out."""
 
 LARGE = 60
 """From this number of terms on one way of collecting is tried and not two."""
@@ -195,7 +199,39 @@ class Compactor:
         start = sum(width for _, width in layout.groups)
         split = split_middle(terms, start, start + len(layout.leading))
         inner = layout.without_leading()
-        return self._merged(split, layout.leading, lambda part: self._by_angles(inner, part))
+        return self._merged(split, layout.leading, lambda part: self._beside_mass(inner, part))
+
+    def _beside_mass(self, layout: TermLayout, terms: Terms) -> Node:
+        """The factor of a mass: with the square of a distance completed, where that is no longer."""
+        plain = self._by_angles(layout, terms)
+        squared = self._with_square(layout, terms)
+        cost = self.collector.cost
+        return plain if squared is None or cost(squared) > cost(plain) else squared
+
+    def _with_square(self, layout: TermLayout, terms: Terms) -> Node | None:
+        """(Σ root)² + the rest, where sines and cosines of one angle group make a square."""
+        while layout.groups and not any(any(e[: layout.groups[0][1]]) for e in terms):
+            terms = {e[layout.groups[0][1] :]: f for e, f in terms.items()}
+            layout = layout.without_group()
+        if not layout.groups or layout.rates or len(terms) < SMALLEST_SQUARE:
+            return None
+        g, width = layout.groups[0]
+        inner = sum(more for _, more in layout.groups[1:])
+        if any(any(e[width : width + inner]) for e in terms):
+            return None
+        found = square_in(terms, width + inner)
+        if found is None:
+            return None
+        root: Polynomial = {}
+        for factor, exponents in found.roots:
+            sign, trig = self._atoms.basic_trig_monomial(exponents[:width], g)
+            symbols = self._atoms.monomial(layout.symbols, exponents[width + inner :])
+            root[multiply(trig, symbols)] = sign * factor
+        if root[min(root, key=self.collector.order)] < 0:
+            root = {mono: -factor for mono, factor in root.items()}
+        number, mono = self.collector.decompose(tree.Power(self.collector.form(root), tree.Number(2)))
+        rest = self._by_angles(layout, found.rest) if found.rest else ZERO
+        return self.collector.sum_of([(number, mono, tree.ONE), (1, (), rest)])
 
     # -- angle groups from the base outwards -------------------------------------------------------
 

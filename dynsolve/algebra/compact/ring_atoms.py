@@ -98,6 +98,16 @@ class RingAtoms:
             parts.append((atom, e))
         return sign, tuple(sorted(parts))
 
+    def basic_trig_monomial(self, exponents: Sequence[int], group: int) -> tuple[int, Monomial]:
+        """The same of exponents of sines and cosines, in turn, of a group's basic angles."""
+        count = len(exponents) // 2
+        mono = [
+            ((("sin", "cos")[place % 2], tuple(int(j == place // 2) for j in range(count))), e)
+            for place, e in enumerate(exponents)
+            if e
+        ]
+        return self.trig_monomial(tuple(mono), group)
+
     def _trig_atom(self, group: int, function: TrigFunction) -> tuple[int, int]:
         found = self._trig.get((group, function))
         if found is None:
