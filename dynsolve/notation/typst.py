@@ -18,6 +18,7 @@ from dynsolve.notation.tree import (
 )
 
 _DOTS = ("", "dot", "dot.double", "dot.triple")
+_TALL = ("frac(", "mat(", "sum_")
 _STYLES = {"bold": "upright(bold({}))", "script": "cal({})", "upright": "upright({})", "italic": "{}"}
 
 _OPERATORS = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan"})
@@ -40,7 +41,7 @@ def quoted(text: str) -> str:
 
 
 class TypstPrinter(FormulaPrinter):
-    """Typst's mathematics; parentheses that match grow by themselves."""
+    """Typst's mathematics; parentheses grow only where what they hold is tall."""
 
     notation = "Typst"
     star = "star.op"
@@ -48,6 +49,10 @@ class TypstPrinter(FormulaPrinter):
     cross = " times "
     differentials = ("partial", "d")
     bare_bases = frozenset({Function, Parenthesized})
+
+    def parenthesized(self, text: str) -> str:
+        """The text in parentheses; escaped ones do not grow, over a dot on a letter for one."""
+        return f"({text})" if any(mark in text for mark in _TALL) else rf"\( {text} \)"
 
     def _base(self, base: str) -> str:
         if base in GREEK:

@@ -159,11 +159,20 @@ class UnicodePrinter(FormulaPrinter):
             case Letter():
                 base, sub = self._letter_parts(replace(node, style="italic"))
                 return base + sub + ("" if node.sup is None else self._index(node.sup))
+            case Row(parts) if any(isinstance(part, Words) and part.text == "," for part in parts):
+                return "".join(map(self._index_in_braces, parts))
             case Row() | Product():
                 return "".join(map(self._index, children(node)))
             case Words():
                 return printable(node.text)
         return self.text(node).replace(" ", "")
+
+    def _index_in_braces(self, node: Node) -> str:
+        """A part of {z,θᵢ}, which has room for an index of its own."""
+        if isinstance(node, Letter) and node.sup is None:
+            base, sub = self._letter_parts(replace(node, style="italic"))
+            return base + lowered(sub) if sub else base
+        return self._index(node)
 
     def _scripted(self, base: str, sub: str, sup: str) -> str:
         if sub:

@@ -24,7 +24,7 @@ from dynsolve.notation.tree import Node, Words
 from dynsolve.render.columns import Cell, Columns
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import TypesetPage
+from dynsolve.render.page import TypesetPage, leads_on
 from dynsolve.render.references import is_long, numbered, running_title, slug
 from dynsolve.render.typesetting import Line
 
@@ -175,7 +175,7 @@ class _Page(TypesetPage):
             yield f"\\addcontentsline{{toc}}{{section}}{{{words}}}"
 
     def text(self, text: Text) -> Iterator[str]:
-        yield self.prose(text.parts)
+        yield self.prose(text.parts) + r"\nopagebreak" * leads_on(text.parts)
 
     def formula(self, formula: Formula) -> Iterator[str]:
         yield from self.formulas([formula])

@@ -153,6 +153,11 @@ class Page(ABC, Generic[_Piece]):
         """A formula in a sentence."""
 
 
+def leads_on(parts: Prose) -> bool:
+    """Whether a sentence ends with a colon, and so belongs on one page with what follows."""
+    return bool(parts) and isinstance(parts[-1], str) and parts[-1].rstrip().endswith(":")
+
+
 class MarkupPage(Page[str]):
     """A page of text with markup, in which mathematics among words is set as formulas."""
 

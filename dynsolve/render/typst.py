@@ -21,7 +21,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.columns import Columns
 from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import TypesetPage
+from dynsolve.render.page import TypesetPage, leads_on
 from dynsolve.render.prose import visible
 from dynsolve.render.references import is_long, numbered, running_title
 from dynsolve.render.typesetting import Line
@@ -39,7 +39,7 @@ _PREAMBLE = """#set document(title: {title}, date: none)
   if here().page() > 1 { text(8.5pt, fill: luma(90), [#emph({header}) #h(1fr) #counter(page).display()]) }
 })
 #set text(font: ("New Computer Modern", "Libertinus Serif", "DejaVu Sans Mono"), size: 10pt, lang: "en")
-#set par(justify: true, leading: 0.6em, spacing: 0.75em)
+#set par( leading: 0.6em, spacing: 0.75em)
 #set math.mat(delim: "[", row-gap: 0.45em, column-gap: 0.9em)
 #set math.equation(numbering: none)
 #show heading: set text(hyphenate: false)
@@ -55,7 +55,7 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 #let formula(body, side) = displayed(breakable: false,
   grid(columns: (1fr, auto, 1fr), align: (left, center, right + horizon), [], body, side))
 #let formula-lines(..cells) = displayed(
-  grid(columns: (1fr, auto, auto, 1fr), row-gutter: 0.6em,
+  grid(columns: (1fr, auto, auto, 1fr), column-gutter: (0pt, 0.28em, 0pt), row-gutter: 0.6em,
     align: (left, right + horizon, left + horizon, right + horizon),
     ..cells.pos().chunks(3).map(row => ([], ..row)).flatten()))
 #let columned(count, ..cells) = displayed(
@@ -127,7 +127,8 @@ class _Page(TypesetPage):
         yield f"#heading(level: {heading.level})[{self.words(heading.text)}]"
 
     def text(self, text: Text) -> Iterator[str]:
-        yield f"{self.prose(text.parts)}\n"
+        prose = self.prose(text.parts)
+        yield f"#block(sticky: true)[{prose}]" if leads_on(text.parts) else f"{prose}\n"
 
     def formula(self, formula: Formula) -> Iterator[str]:
         columns = self.columns(formula)
@@ -205,8 +206,7 @@ def _in_columns(columns: Columns, side: str) -> str:
     for place, row in enumerate(columns.rows):
         for cell in row:
             name = f"box(width: {columns.name:.2f}em, align(right, {_math(cell.line.left)}))"
-            body = _math(f"zws {_right(cell.line)}")
-            cells.append(f"grid.cell(colspan: {cell.span}, {name} + {body})")
+            cells.append(f"grid.cell(colspan: {cell.span}, {name} + h(0.28em) + {_math(_right(cell.line))})")
         if rest := columns.count - sum(cell.span for cell in row):
             cells.append(f"grid.cell(colspan: {rest}, [])")
         cells.append(f"[{side if place == last else ''}]")

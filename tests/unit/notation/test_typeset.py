@@ -64,7 +64,8 @@ def test_shorthands_and_stars() -> None:
 @pytest.mark.parametrize(
     ("node", "typst"),
     [
-        (read("m1*(a + b)/2").tree, "frac(m_(1) (a + b), 2)"),
+        (read("m1*(a + b)/2").tree, r"frac(m_(1) \( a + b \), 2)"),
+        (read("m1*(a/2 + b)").tree, "m_(1) (frac(a, 2) + b)"),
         (TREES["matrix"], "mat(a, frac(1, 2); accent(θ, dot.double)_(1), -x)"),
         (Letter("H", Number(2), Number(0), "bold"), "upright(bold(H))_(2)^(0)"),
         (Words('a "b" \\c'), '"a \\"b\\" \\\\c"'),

@@ -138,6 +138,7 @@ TEXTBOOK = [
     (Letter("r", sub=Row((Letter("c"), i))), "r_ci"),
     (Letter("c", sub=Row((i, Letter("j"), Letter("k")))), "cᵢⱼₖ"),
     (Letter("d", sub=Row((Number(1), Words(","), Number(2)))), "d_{1,2}"),
+    (Letter("Rot", Row((Words("z"), Words(","), Letter("theta", i))), style="upright"), "Rot_{z,θᵢ}"),
     (Letter("q", dots=2, style="bold"), "q\u0308"),
     (Letter("I", sub=Number(1), style="script"), "𝓘₁"),
     (LAGRANGIAN, "𝓛"),
