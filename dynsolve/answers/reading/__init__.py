@@ -27,14 +27,16 @@ Every equation ends as an answer, in `not_recognized`, which the student is show
 `definitions` reads the names that an answer file declares under `symbols:` and `let:`;
 `own_coordinates` are those that count a coordinate the other way, `own_names` keeps what follows
 from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row,
-`matrix_parts` one row or column of a matrix, `index_order` what the indices of a Christoffel
+`matrix_parts` one row or column of a matrix, `by_content` names that mean an answer only where
+their value says so, `index_order` what the indices of a Christoffel
 symbol mean.  The values of an answer file are read by `given_values`; they come from `yaml_values`
 (what YAML says) and `yaml_scalars` (what stands between quotes), or, where YAML refuses the file,
 from `answer_lines`; `placed_text` keeps where each character of a value stands.
 
 Modules import only those of earlier layers: text (`limits`, `sources`, `lexer`, `prepare`,
 `displays`), names (`grids`, `index_order`, `vocabulary`, `name_splitting`), `grammar`, equations (`size`,
-`shapes`, `own_names`, `left_side`, `right_side`, `vector_entries`, `matrix_parts`, `occurrences`,
+`shapes`, `own_names`, `left_side`, `right_side`, `vector_entries`, `matrix_parts`, `by_content`,
+`occurrences`,
 `answer_list`, `equation_reader`, `asides`, `given_values`, `definitions`), formats (the rest).
 
 To read one more format, write a file that finds its displays, and name its ending in `files`; one

@@ -7,6 +7,7 @@ from dynsolve.answers.reading.displays import Display, Equation, equations
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import Abstract
+from dynsolve.answers.reading.index_order import defined_order
 from dynsolve.answers.reading.left_side import LeftSide, NamedAnswers, UnknownSide, read_left_side
 from dynsolve.answers.reading.limits import MAX_MEMBERS
 from dynsolve.answers.reading.prepare import prepared
@@ -34,6 +35,10 @@ def read_aside(reader: EquationReader, display: Display) -> None:
 
 def _read_equation(reader: EquationReader, equation: Equation, origin: Origin) -> None:
     members = equation.members
+    if (order := defined_order(members)) is not None:
+        reader.vocabulary.orders |= [order]
+        reader.found.left_alone.append(origin.of(members, WHY))
+        return
     side = read_left_side(reader.vocabulary, members[0])
     value = (
         read_right_side(reader.vocabulary, members[-1])

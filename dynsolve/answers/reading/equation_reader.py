@@ -12,6 +12,7 @@ import re
 from dataclasses import replace
 
 from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
+from dynsolve.answers.reading.by_content import meant
 from dynsolve.answers.reading.displays import Display, Equation, equations, is_label
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import Abstract, Grid
@@ -65,12 +66,13 @@ class EquationReader:
         self._ahead: dict[str, Meaning] = {}
         self._orders = dict(vocabulary.orders)
 
-    def define(self, name: str, value: RightSide) -> None:
-        """Keep a name for what follows."""
+    def define(self, name: str, value: RightSide, has_arguments: bool = False) -> None:
+        """Keep a name for what follows; `has_arguments` says that it is written `a(q)`."""
         if len(self.vocabulary.defined) >= MAX_DEFINITIONS or name in self.vocabulary.symbols:
             return
-        self.vocabulary.define(name, Meaning(value.value))
-        self._first.setdefault(name, Meaning(value.value))
+        meaning = Meaning(value.value, has_arguments=has_arguments)
+        self.vocabulary.define(name, meaning)
+        self._first.setdefault(name, meaning)
         self.vocabulary.broken.pop(name, None)
 
     def begins_anew(self) -> bool:
@@ -151,7 +153,7 @@ class EquationReader:
         read = [
             Member(index, tokens, read_right_side(self.vocabulary, tokens, owners))
             for index, tokens in enumerate(members)
-            if not isinstance(sides[index], (NamedAnswers, UnknownSide))
+            if _is_read(sides[index], bool(names))
         ]
         read = self._defined_by_the_end(read)
         if self._entry_of_vector(members[0], read, origin):
@@ -337,15 +339,18 @@ class EquationReader:
             if isinstance(member.found, RightSide) and not isinstance(member.found.value, Abstract)
         ]
         faults = [member.found for member in read if isinstance(member.found, ReadError)]
-        if side.family:
+        last = values[-1].found if values else None
+        names = meant(self.vocabulary, side.key, last.value) if isinstance(last, RightSide) else ()
+        if isinstance(last, RightSide) and names:
+            self.define(side.key, last, side.has_arguments)
+            self.found.answers += self.found.value([names], values[-1], origin)
+        elif side.family:
             note = side.message.replace("unknown symbol ", "")
             made = [self.found.answer(side.family[:1], member, origin) for member in values[-1:]]
             made = [replace(answer, notes=(*answer.notes, note)) for answer in made]
             self.found.put_off(side.family, made, origin.of(members, side.message))
-        elif side.is_name_alone and values:
-            found = values[-1].found
-            assert isinstance(found, RightSide)
-            self.define(side.key, found)
+        elif side.is_name_alone and isinstance(last, RightSide):
+            self.define(side.key, last, side.has_arguments)
             self.found.left_alone.append(origin.of(members, _DEFINITION))
         else:
             if side.is_name_alone and faults:
@@ -361,6 +366,13 @@ class EquationReader:
             self.found.left_alone.append(origin.of(members, "it is a sentence"))
         else:
             self.found.not_recognized.append(origin.of(members, why))
+
+
+def _is_read(side: LeftSide, is_named: bool) -> bool:
+    """Whether a member is read as a value: it is no name; beside one it may begin with an unknown letter."""
+    if isinstance(side, UnknownSide):
+        return is_named and not side.is_name_alone
+    return not isinstance(side, NamedAnswers)
 
 
 def _is_value(found: RightSide | ReadError) -> bool:

@@ -8,6 +8,7 @@ from dynsolve.answers.reading.grammar.derivatives import UnknownVariable
 from dynsolve.answers.reading.grammar.forms import Form
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.names import UnknownName
+from dynsolve.answers.reading.grammar.references import only_coordinates, skip_arguments, whole_of
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.name_splitting import split_names
@@ -26,12 +27,16 @@ class NamedAnswers:
 
 @dataclass(frozen=True, slots=True)
 class UnknownSide:
-    """A side that is a name which means nothing; `is_name_alone` says that it is nothing but that name."""
+    """A side that is a name which means nothing.
+
+    `is_name_alone` says that it is nothing but that name, `has_arguments` that arguments follow it.
+    """
 
     key: str
     family: tuple[str, ...]
     is_name_alone: bool
     message: str
+    has_arguments: bool = False
 
 
 LeftSide = NamedAnswers | UnknownSide | None
@@ -73,8 +78,10 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
     try:
         value = reader.value()
     except UnknownName as error:
-        simple = _is_simple(tokens, error.form)
-        return UnknownSide(_defined_key(error.form), error.family if simple else (), simple, error.message)
+        called = _is_called(reader)
+        simple = called or _is_simple(tokens, error.form)
+        family = error.family if simple and not called else ()
+        return UnknownSide(_defined_key(error.form), family, simple, error.message, called)
     except UnknownVariable as error:
         return UnknownSide("", error.family, False, error.message)
     except ReadError:
@@ -84,6 +91,14 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
         return NamedAnswers(candidates)
     own = name_alone(vocabulary, tokens)
     return UnknownSide(own, (), True, "") if own and own in vocabulary.defined else None
+
+
+def _is_called(reader: FormulaReader) -> bool:
+    """Whether coordinates in parentheses follow the name that was taken, and nothing else."""
+    if reader.token.kind != "(" or not only_coordinates(reader, reader.position):
+        return False
+    skip_arguments(reader)
+    return reader.token.kind == "end"
 
 
 def name_alone(vocabulary: Vocabulary, tokens: list[Token]) -> str:
@@ -119,7 +134,7 @@ def _named(vocabulary: Vocabulary, value: Value, candidates: tuple[str, ...]) ->
     if isinstance(value, Grid):
         if value.quantity:
             return candidates if value.quantity in candidates else (value.quantity,)
-        return _whole(vocabulary, value)
+        return whole_of(vocabulary, value)
     return ()
 
 
@@ -130,13 +145,3 @@ def _force(vocabulary: Vocabulary, value: Value) -> str:
         if value == Sum(terms):
             return q.force
     return ""
-
-
-def _whole(vocabulary: Vocabulary, value: Grid) -> tuple[str, ...]:
-    """The matrix whose entries are all names: [tau_1; f_2] is tau."""
-    quantities = vocabulary.quantities
-    written = [str(entry) if isinstance(entry, Reference) else "" for row in value.rows for entry in row]
-    whole = quantities.get(quantities.entry_of(written[0])[0]) if written else None
-    if whole is None or whole.shape != value.shape or quantities.parts(whole.name) != tuple(written):
-        return ()
-    return (whole.name,)

@@ -11,7 +11,7 @@ _FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
 _CALLS = frozenset(
     "sin cos tan sqrt cot sec csc Sin Cos Tan Sqrt SIN COS Derivative diff Diff Matrix matrix Rational "
     "transpose Transpose MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix Integer deg array np "
-    "Vector vector".split()
+    "Vector vector diag Diag zeros".split()
 )
 """Words that are functions, never products of letters."""
 

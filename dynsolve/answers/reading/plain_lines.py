@@ -5,12 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
-_LEAD = re.compile(r"[ \t]*(?:>>>?[ \t]+|[-*+•>][ \t]+|[0-9]{1,2}[.)][ \t]+|\(?[a-z]\)[ \t]+)?")
+_LEAD = re.compile(
+    r"[ \t]*(?:\(%[io][0-9]{1,4}\)[ \t]*|>>>?[ \t]+|[-*+•>][ \t]+|[0-9]{1,2}[.)][ \t]+|\(?[a-z]\)[ \t]+)?"
+)
 _EQUATION = re.compile(r"[^\n=]{1,200}=")
 _ITEM = re.compile(r"[-*+][ \t]+[^=]{1,60}=|[-*+][ \t]+[^\s:]{1,40}:[ \t]")
 """The next item of a list, which is no term of the equation above."""
 
-_NAMED = re.compile(r"([^\s:=|$]{1,40}):[ \t]+(?=\S)")
+_NAMED = re.compile(r"([^\s:=|$]{1,40})[ \t]?:[ \t]+(?=\S)")
+_TERMINATOR = re.compile(r"\$[ \t]*\Z")
+"""The sign that ends a line of Maxima without showing its value."""
+
 _SAID = re.compile(r"[^\n=$]{1,150}:[ \t]+(?=[^\s:=]{1,40}[ \t]*=)")
 _WORDS = re.compile(r"(?:[^\W\d_]{2,30}[,.]?[ \t]+){1,20}(?=[^\s:=]{1,40}[ \t]*=)")
 """The words of a sentence before an equation: `The potential energy P = ...`."""
@@ -28,6 +33,8 @@ _BLANK_LINE = re.compile(r"\n[ \t]*(?=\n|\Z)")
 _ENTRY = re.compile(r"[ \t]*[^\s=\[#%:][^=\n:]*")
 """A line that is one entry of a column, or one row of a matrix, as MATLAB prints it."""
 
+_POWERS = re.compile(r"[ \t]{2,}[0-9][0-9 \t]*")
+_RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 _TRAILING = frozenset("=+-*/,([{&\\")
 _LEADING = frozenset("=+-*/)][")
 
@@ -47,7 +54,7 @@ def plain_lines(
                 yield first, _column(text[first:head], text[head:bottom])
                 stop = bottom
             else:
-                yield first, _formula(text[first:stop], names_answer)
+                yield first, _formula(_with_powers(text, first, stop), names_answer)
         position = stop + 1
 
 
@@ -69,14 +76,31 @@ def _begins(text: str, start: int, stop: int, names_answer: Callable[[str], bool
     return first
 
 
+def _with_powers(text: str, first: int, stop: int) -> str:
+    """The line with the powers that stand above it, as SymPy's pprint and MATLAB's pretty print them."""
+    line = text[first:stop]
+    begin = text.rfind("\n", 0, first) + 1
+    above = text[text.rfind("\n", 0, max(begin - 1, 0)) + 1 : max(begin - 1, 0)]
+    if not _POWERS.fullmatch(above) or "\n" in line:
+        return line
+    signs = list(line.ljust(len(above) - (first - begin)))
+    for found in re.finditer("[0-9]", above):
+        at = found.start() - (first - begin)
+        if at < 1 or signs[at] != " " or signs[at - 1] == " ":
+            return line
+        signs[at] = _RAISED[int(found[0])]
+    return "".join(signs)
+
+
 def _formula(piece: str, names_answer: Callable[[str], bool]) -> str:
     """The equation without remarks and the dots of lines that go on; `K1: ...` as `K1= ...`."""
     piece = _REMARK.sub(lambda found: " " * len(found[0]), piece)
     piece = _DOTS.sub(lambda found: " " * len(found[0]), piece)
+    piece = _TERMINATOR.sub("", piece)
     piece = _AND.sub(lambda found: ";" + " " * (len(found[0]) - 1), piece)
     named = _NAMED.match(piece)
     if named is not None and names_answer(named[1]):
-        at = named.end(1)
+        at = piece.index(":", named.end(1))
         piece = f"{piece[:at]}={piece[at + 1 :]}"
     return piece
 

@@ -433,7 +433,7 @@ def _split_digits(tokens: list[Token], position: int, command: Token, out: list[
 
 
 def _skip_arguments(tokens: list[Token], position: int, environment: str) -> int:
-    r"""Behind the `[t]` of `\begin{aligned}[t]` and the `{cc}` of `\begin{array}{cc}`."""
+    r"""Behind the `[t]` of `\begin{aligned}[t]`, the `[1.3]` of a matrix, the `{cc}` of an array."""
     option = tokens[position : position + 3]
     if [t.kind for t in option] == ["[", "name", "]"] and option[1].text in ("t", "b", "c"):
         position += 3
@@ -441,6 +441,10 @@ def _skip_arguments(tokens: list[Token], position: int, environment: str) -> int
         while tokens[position].kind not in ("]", "end"):
             position += 1
         position += tokens[position].kind == "]"
+    elif (
+        [t.kind for t in option] == ["[", "number", "]"] and "matrix" in environment and not option[0].spaced
+    ):
+        position += 3
     if environment.startswith(_WITH_COLUMNS) and tokens[position].kind == "{":
         _, position = _taken_group(tokens, position)
     return position

@@ -50,7 +50,11 @@ _SAYS = re.compile(
     r"(?:is|are|being|denotes|equals|means|stands for|er|ist)[ \t\n]{1,3}\Z"
 )
 _ALONE = re.compile(r"[ \t>*+-]*(?:[0-9]+[.)][ \t]+)?\Z")
-_MARGIN = 200
+_AND = "(?:and|og|und|y)"
+_BESIDE = re.compile(rf"\$[^$\n]*=[^$\n]*\$[ \t]*[,;.]?[ \t]*(?:{_AND}[ \t])?|(?:^|[ \t,]){_AND}[ \t]*$")
+"""Another equation on the same line, with the word between the two."""
+
+_MARGIN = 400
 """So far from an equation it is seen whether it stands alone on its line."""
 
 
@@ -189,11 +193,13 @@ def _said_to_be(text: str, source: Source, opening: int, start: int, end: int) -
 
 
 def _stands_alone(text: str, start: int, end: int) -> bool:
-    """Whether nothing but a list's mark stands before an equation on its line, and a number after it."""
+    """Whether a list's mark, other equations and a number are all that stands beside an equation."""
     before = text[max(start - _MARGIN, 0) : start].rpartition("\n")
-    after = text[end : end + _MARGIN].partition("\n")[0]
+    after = _BESIDE.sub("", text[end : end + _MARGIN].partition("\n")[0])
     at_start = before[1] or start <= _MARGIN
-    return bool(at_start and _ALONE.fullmatch(before[2]) and not after.strip(" \t.,;()0123456789"))
+    return bool(
+        at_start and _ALONE.fullmatch(_BESIDE.sub("", before[2])) and not after.strip(" \t.,;()0123456789")
+    )
 
 
 def _closing(opening: re.Match[str]) -> str:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 _ROW = re.compile(r"(?m)^[ \t]*\|[^\n]*\|[^\n|]*$")
 _BAR = re.compile(r"\$[^$\n]*\$|\\\||\|")
+_INLINE = re.compile(r"\\\(([^$\n]*?)\\\)")
 _MARKUP = re.compile(r"[$*`]")
 _VALUE = re.compile(r"[ \t]*(?:\$[^$=]+\$[ \t.,;]*|[^$=]*[^$=\s:-][^$=]*)")
 _LONGEST_NAME = 60
@@ -19,7 +20,11 @@ def with_equations(text: str, names_answer: Callable[[str], bool]) -> str:
     """The text with a line for each cell of its tables, and an equation for a name beside a value."""
     if "|" not in text:
         return text
-    return _ROW.sub(lambda row: _lines(row[0], names_answer), text)
+    return _ROW.sub(lambda row: _lines(_INLINE.sub(_in_dollars, row[0]), names_answer), text)
+
+
+def _in_dollars(formula: re.Match[str]) -> str:
+    return f" ${formula[1]}$ "
 
 
 def _lines(row: str, names_answer: Callable[[str], bool]) -> str:

@@ -27,10 +27,14 @@ _SHORTHAND = re.compile(r"([sScC])([0-9]+)")
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """What a name stands for, and what the student is told about a reading that was not obvious."""
+    """What a name stands for, and what the student is told about a reading that was not obvious.
+
+    `has_arguments` says that it was defined as `a(q)`.
+    """
 
     value: Value
     note: str = ""
+    has_arguments: bool = False
 
 
 @dataclass(slots=True)
@@ -177,6 +181,8 @@ class Vocabulary:
 
     def family(self, name: str) -> tuple[str, ...]:
         """The answers of the kind that a name with an unknown index belongs to."""
+        if name.endswith("0") and not name[-2:-1].isdigit():  # g_0 is a name of the student's own
+            return ()
         return self.quantities.open_spellings.get(open_index(name), ())
 
     def is_answer(self, name: str) -> bool:

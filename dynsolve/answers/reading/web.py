@@ -13,9 +13,10 @@ _SILENT = frozenset({"style", "head", "template", "noscript", "title", "del", "s
 _SCRIPTS = {"sub": "_{", "sup": "^{"}
 """The tags of indices and powers, as LaTeX opens them."""
 
-_BLOCKS = frozenset(
-    "p div br li tr h1 h2 h3 h4 h5 h6 pre table ul ol section article blockquote hr td th".split()
-)
+_BLOCKS = frozenset("p div br li h1 h2 h3 h4 h5 h6 pre table ul ol section article blockquote hr".split())
+_TABLE = {"tr": "\n", "td": " | ", "th": " | "}
+"""The tags of a table, as Markdown sets rows and cells apart."""
+
 _VOID = frozenset("area base br col embed hr img input link meta source track wbr".split())
 _PICTURES = {"equation_image": ("data-equation-content", "alt"), "texrender": ("alt",)}
 """The classes of pictures that Canvas and Moodle make of formulas, and where their LaTeX stands."""
@@ -83,6 +84,8 @@ class _WebPage(HTMLParser):
             self.open.append((tag, kind))
         if tag in _BLOCKS:
             self._add("\n")
+        if tag in _TABLE:
+            self._add(_TABLE[tag])
         if kind == "display":
             self._add("\n$$")
         if tag in _SCRIPTS and not self._hidden:
@@ -111,6 +114,8 @@ class _WebPage(HTMLParser):
                 break
         if tag in _BLOCKS:
             self._add("\n")
+        elif tag == "tr":
+            self._add(" |\n")
 
     @property
     def _hidden(self) -> bool:
@@ -120,7 +125,8 @@ class _WebPage(HTMLParser):
 
     def handle_data(self, data: str) -> None:
         if not self._hidden:
-            self._add(data)
+            in_row = any(name == "tr" for name, _ in self.open[-20:])
+            self._add(data.replace("\n", " ") if in_row else data)
 
     def _add(self, text: str) -> None:
         line, column = self.getpos()

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dynsolve.answers.reading.grammar.reader import Reader
+from dynsolve.answers.reading.grammar.references import placeholder, whole_of
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, stacked
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_ENTRIES
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.tree import Node, Reference, Symbol
 
 STOPS = frozenset({"quad", "qquad"})
 _MATRICES = frozenset(
@@ -26,6 +27,29 @@ SYMMETRIC_NOTE = "a mark in a symmetric matrix is read as the entry across the d
 
 def read(reader: Reader) -> Value:
     """A parenthesis or a matrix, whose bracket is looked at."""
+    start, symbols = reader.position, dict(reader.symbols)
+    found = _read(reader)
+    if reader.naming or not isinstance(found, Grid) or not isinstance(found.rows[0][0], Reference):
+        return found
+    whole = _named(reader, reader.tokens[start : reader.position])
+    if not whole:
+        return found
+    reader.symbols.clear()
+    reader.symbols.update(symbols)
+    return placeholder(reader.vocabulary, whole)
+
+
+def _named(reader: Reader, tokens: list[Token]) -> str:
+    """The matrix whose entries are named, empty where they are not: C of [C_11, C_12; C_21, C_22]."""
+    try:
+        found = reader.inner(tokens, naming=True)
+    except ReadError:
+        return ""
+    names = whole_of(reader.vocabulary, found) if isinstance(found, Grid) else ()
+    return names[0] if names else ""
+
+
+def _read(reader: Reader) -> Value:
     if reader.token.kind == "begin":
         return environment(reader)
     if reader.token.kind == "(":
@@ -103,18 +127,19 @@ def square(reader: Reader) -> Value:
 def _lines_are_rows(reader: Reader) -> bool:
     """Whether the lines inside the bracket here are rows: entries with commas, no other sign between rows."""
     level, commas, lines = 0, 0, [0]
+    by_spaces = "spaces" in reader.options
     for token in reader.tokens[reader.position : reader.position + 2_000]:
         level += (token.kind in ("[", "(", "{")) - (token.kind in ("]", ")", "}"))
         if level == 0:
             break
         if token.kind in (";", "\\\\", "&", "begin") or (token.kind == "[" and level > 1):
             return False
-        if token.broken and level == 1 and token.kind != "]" and commas:
+        if token.broken and level == 1 and token.kind != "]" and (commas or by_spaces):
             lines.append(0)
         if token.kind == "," and level == 1:
             lines[-1] += 1
             commas += 1
-    return len(lines) > 1 and len(set(lines)) == 1 and lines[0] > 0
+    return len(lines) > 1 and len(set(lines)) == 1 and (lines[0] > 0 or by_spaces)
 
 
 def _square(reader: Reader) -> Value:

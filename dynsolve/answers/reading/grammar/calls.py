@@ -8,13 +8,14 @@ from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
 from dynsolve.answers.reading.lexer import Token
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Number, Symbol
+from dynsolve.notation.tree import ZERO, Number, Symbol
 
 _MATRICES = frozenset(
     "Matrix matrix MutableDenseMatrix ImmutableMatrix ImmutableDenseMatrix array Vector vector".split()
 )
 _DERIVATIVES = frozenset({"Derivative", "diff", "Diff"})
 _OTHERS = frozenset({"Rational", "transpose", "Transpose", "Integer"})
+_MADE = frozenset({"diag", "Diag", "zeros"})
 _DOTS = {"dot": 1, "ddot": 2}
 
 
@@ -30,6 +31,8 @@ def is_call(reader: Reader) -> bool:
         raise ReadError(
             f"unknown function `{token.text}`", token.start, length, "functions are sin, cos, tan and sqrt"
         )
+    if token.text in _MADE:
+        return True
     return (
         token.text in _MATRICES or token.text in _DERIVATIVES or token.text in _OTHERS or token.text in _DOTS
     )
@@ -46,6 +49,8 @@ def read(reader: Reader) -> Value:
         found = _derivative(reader, opening)
     elif name.text in _MATRICES:
         found = _matrix(reader, opening)
+    elif name.text in _MADE:
+        found = _diagonal(reader, opening) if name.text != "zeros" else _zeros(reader, opening)
     else:
         first = reader.sum()
         if name.text in _DOTS:
@@ -81,6 +86,29 @@ def _matrix(reader: Reader, opening: Token) -> Value:
             return brackets.finished(reader, [[entry] for entry in only.rows[0]], opening)
         return only
     return brackets.finished(reader, rows, opening)
+
+
+def _diagonal(reader: Reader, opening: Token) -> Value:
+    """diag(a, b), diag([a, b])"""
+    entries = [reader.sum()]
+    while reader.token.kind == ",":
+        reader.take()
+        entries.append(reader.sum())
+    reader.expect(")", opening)
+    if len(entries) == 1 and isinstance(entries[0], Grid) and 1 in entries[0].shape:
+        entries = [entry for row in entries[0].rows for entry in row]
+    rows: list[list[Value]] = [
+        [entry if i == j else ZERO for j in range(len(entries))] for i, entry in enumerate(entries)
+    ]
+    return brackets.finished(reader, rows, opening)
+
+
+def _zeros(reader: Reader, opening: Token) -> Value:
+    """zeros(2, 1)"""
+    numbers = [int(t.text) for t in reader.until(")", opening) if t.kind == "number" and t.text.isdecimal()]
+    if not 0 < len(numbers) < 3 or max(numbers) > 9 or min(numbers) < 1:
+        raise ReadError("this size is not read", opening.start, 1, "write zeros(2, 1)")
+    return brackets.finished(reader, [[ZERO] * numbers[-1] for _ in range(numbers[0])], opening)
 
 
 def _was_nested(reader: Reader, opening: Token) -> bool:

@@ -295,6 +295,8 @@ class FormulaReader(Reader):
             frame = self.group()
             if len(frame) == 1 and frame[0].kind == "number" and len(frame[0].text) < 3:
                 frames[kind] = frame[0].text
+        if "^" in frames and self.token.text == "hat":
+            return self.unit_vector()
         if "^" not in frames or self.token.kind not in ("name", "letter"):
             raise ReadError(
                 f"nothing stands before this `{sign.text}`", sign.start, 1, "a script follows its base"

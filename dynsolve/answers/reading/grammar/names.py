@@ -9,7 +9,7 @@ from dynsolve.answers.reading.grammar.forms import Form
 from dynsolve.answers.reading.grammar.letters import letter, only_coordinate
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grammar.references import quantity
+from dynsolve.answers.reading.grammar.references import quantity, skip_arguments
 from dynsolve.answers.reading.grammar.shorthand import short_function
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.vocabulary import Meaning, is_running
@@ -64,6 +64,8 @@ def value_of(reader: Reader, form: Form) -> Value:
         raise unknown(reader, form, name)
     if meaning.note:
         reader.notes.setdefault(meaning.note)
+    if meaning.has_arguments:
+        skip_arguments(reader)
     return _scripted(reader, form, meaning)
 
 

@@ -97,6 +97,16 @@ def placeholder(vocabulary: Vocabulary, name: str) -> Value:
     )
 
 
+def whole_of(vocabulary: Vocabulary, value: Grid) -> tuple[str, ...]:
+    """The matrix whose entries are all names: [tau_1; f_2] is tau."""
+    quantities = vocabulary.quantities
+    written = [str(entry) if isinstance(entry, Reference) else "" for row in value.rows for entry in row]
+    whole = quantities.get(quantities.entry_of(written[0])[0]) if written else None
+    if whole is None or whole.shape != value.shape or quantities.parts(whole.name) != tuple(written):
+        return ()
+    return (whole.name,)
+
+
 def vectors_for_letters(reader: Reader, terms: list[Value]) -> list[Value]:
     """Terms in which a bare letter beside matrices is the vector of that name: the g of D q̈ + C q̇ + g.
 
