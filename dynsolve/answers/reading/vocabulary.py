@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from dynsolve.answers.reading.grids import Grid, Value
 from dynsolve.answers.reading.index_order import USUAL, in_usual_order
@@ -201,6 +202,7 @@ def is_running(index: str) -> bool:
     return bool(_RUNNING.fullmatch(key(index)))
 
 
+@lru_cache(maxsize=4_096)  # of the problem's symbols it is asked again for every name that is none
 def _sorted_key(name: str) -> str:
     base, groups = split(name)
     return base + ",".join(sorted("".join(groups)))

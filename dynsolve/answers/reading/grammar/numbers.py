@@ -10,9 +10,15 @@ from dynsolve.notation import tokens as plain
 from dynsolve.notation.tree import Degrees, Number
 
 
+_BEFORE_DEGREES = frozenset({"°", "name", "^"})
+"""The tokens that the sign of degrees may begin with."""
+
+
 def read(reader: Reader) -> Value:
     """A number, with its degrees."""
     token = reader.take()
+    if len(token.text) == 1 and reader.token.kind not in _BEFORE_DEGREES:  # as most numbers are
+        return reader.scripted(Number(int(token.text)))
     value = plain.rational(plain.FormulaToken("number", token.text, token.start, token.end))
     if reader.token.kind == "°" or (reader.token.kind == "name" and reader.token.text == "deg"):
         reader.take()
