@@ -7,9 +7,9 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
    struck-out text away, `plain_lines` and `tables` find equations that are no displays, `documents` lets
    pandoc read Word and its like).  `sources` keeps where every character stands in the file,
    `limits` says how much is read.
-2. `lexer` cuts the text of a display into tokens: letters, numbers, commands, signs.
-3. `prepare` writes the student's macros out and leaves out fonts, sizes and environments that
-   only align, so that one thing has one spelling from here on.
+2. `tokens` cuts the text of a display into letters, numbers, commands and signs, and
+3. leaves out fonts, sizes and environments that only align, with the student's macros written out,
+   so that one thing has one spelling from here on.
 4. `displays` cuts the tokens into equations, and these at `=` into members.
 5. `equation_reader` takes the equations in order, and keeps what the student defines;
    `asides` are formulas in sentences, which define and answer nothing.  `left_side` finds which
@@ -33,17 +33,16 @@ symbol mean.  The values of an answer file are read by `given_values`; they come
 (what YAML says) and `yaml_scalars` (what stands between quotes), or, where YAML refuses the file,
 from `answer_lines`; `placed_text` keeps where each character of a value stands.
 
-Modules import only those of earlier layers: text (`limits`, `sources`, `lexer`, `prepare`,
-`displays`), names (`grids`, `index_order`, `vocabulary`, `name_splitting`), `grammar`, equations (`size`,
-`shapes`, `own_names`, `left_side`, `right_side`, `vector_entries`, `matrix_parts`, `by_content`,
-`occurrences`,
+Modules import only those of earlier layers: text (`limits`, `sources`, `tokens`, `displays`), names
+(`grids`, `index_order`, `vocabulary`, `name_splitting`), `grammar`, equations (`shapes`, `own_names`,
+`left_side`, `right_side`, `vector_entries`, `matrix_parts`, `by_content`, `occurrences`,
 `answer_list`, `equation_reader`, `asides`, `given_values`, `definitions`), formats (the rest).
 
 To read one more format, write a file that finds its displays, and name its ending in `files`; one
 more notation is a row or a module of `grammar`.
 
-Where a fault is: a wrong place in a message is `sources`; a wrong sign or command `lexer` or
-`prepare`; an equation cut in two, or a lost label `displays`; a name not known, or taken for
-another `vocabulary` and `grammar.names`; a formula that is refused `grammar`; an answer under
-a wrong name `left_side`; an answer that is missing although it was read `equation_reader`.
+Where a fault is: a wrong place in a message is `sources`; a wrong sign or command `tokens`; an
+equation cut in two, or a lost label `displays`; a name not known, or taken for another `vocabulary`
+and `grammar.names`; a formula that is refused `grammar`; an answer under a wrong name `left_side`;
+an answer that is missing although it was read `equation_reader`.
 """

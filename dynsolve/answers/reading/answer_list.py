@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from dynsolve.answers.reading.displays import Display
-from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.occurrences import readable
 from dynsolve.answers.reading.right_side import EXPECTED, RightSide
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vector_entries import Entry, VectorEntries
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.submission import Answer, NotRecognized

@@ -10,8 +10,8 @@ from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.index_order import defined_order
 from dynsolve.answers.reading.left_side import LeftSide, NamedAnswers, UnknownSide, read_left_side
 from dynsolve.answers.reading.limits import MAX_MEMBERS
-from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
+from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.errors import ReadError
 
 _NEVER_DEFINED = frozenset({"t", "i", "j", "k", "n"})

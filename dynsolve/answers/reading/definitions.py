@@ -6,8 +6,8 @@ from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.own_names import keep_symbol
-from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.right_side import read_right_side
+from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.vocabulary import Meaning
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node

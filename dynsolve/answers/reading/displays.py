@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from dynsolve.answers.reading.lexer import SEPARATORS, Token
 from dynsolve.answers.reading.limits import MAX_LENGTH
+from dynsolve.answers.reading.tokens.lexer import SEPARATORS, Token
 from dynsolve.answers.submission import Place
 
 Locate = Callable[[int, int], Place]

@@ -25,13 +25,14 @@ from dynsolve.answers.reading.left_side import (
     read_left_side,
     read_left_sides,
 )
-from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.matrix_parts import MatrixPart, entries_of, part_of
 from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
-from dynsolve.answers.reading.prepare import Macro, prepared
 from dynsolve.answers.reading.right_side import RightSide, read_right_side, why_no_value
 from dynsolve.answers.reading.shapes import fitted, is_gravity_vector, model_parts, shown
+from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.tokens.macros import Macro
+from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.vector_entries import entry_of
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
 from dynsolve.answers.submission import NotRecognized

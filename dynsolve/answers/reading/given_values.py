@@ -7,11 +7,11 @@ from dynsolve.answers.reading.displays import Display, chain
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.left_side import LeftSide, NamedAnswers, UnknownSide, read_left_side
-from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_MEMBERS
-from dynsolve.answers.reading.prepare import prepared
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
 from dynsolve.answers.reading.shapes import shown
+from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.submission import Answer, NotRecognized, Place
 from dynsolve.errors import ReadError
 

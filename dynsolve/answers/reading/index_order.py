@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 
 USUAL: Mapping[str, int] = {"Gamma": 0}
 """The place of the row in the index of a letter, where it is not the last."""

@@ -10,8 +10,8 @@ from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.names import UnknownName
 from dynsolve.answers.reading.grammar.references import only_coordinates, skip_arguments, whole_of
 from dynsolve.answers.reading.grids import Grid, Value
-from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.name_splitting import split_names
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Negative, Reference, Sum

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from dynsolve.answers.reading.grids import Grid
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.notation.tree import Node
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.quantities.spelling import key
 

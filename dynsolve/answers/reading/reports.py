@@ -12,14 +12,15 @@ from dynsolve.answers.reading.asides import read_aside
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
-from dynsolve.answers.reading.lexer import Token, closing_brace, tokenize
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.plain_lines import FORMULA, plain_lines
-from dynsolve.answers.reading.prepare import Macro, prepared
 from dynsolve.answers.reading.report_text import visible
 from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.tables import with_equations
+from dynsolve.answers.reading.tokens.lexer import Token, closing_brace, tokenize
+from dynsolve.answers.reading.tokens.macros import Macro
+from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.submission import NotRecognized, Place
 from dynsolve.errors import ReadError
 

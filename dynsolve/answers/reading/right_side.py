@@ -8,9 +8,9 @@ from dynsolve.answers.reading.grammar.brackets import MIRRORED, SYMMETRIC_NOTE
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.names import unknown
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
-from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import check_size
 from dynsolve.answers.reading.name_splitting import split_names
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.references import skip_arguments
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.submission import Answer, NotRecognized
 from dynsolve.errors import ReadError

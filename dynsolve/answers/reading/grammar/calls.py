@@ -6,7 +6,7 @@ from dynsolve.answers.reading.grammar import brackets, derivatives, functions
 from dynsolve.answers.reading.grammar.rates import rate, total_rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Number, Symbol
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_NESTING
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 
 

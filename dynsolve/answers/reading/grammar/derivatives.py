@@ -6,7 +6,7 @@ from dynsolve.answers.reading.grammar.forms import Form
 from dynsolve.answers.reading.grammar.rates import rate, total_rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Reference, Symbol
 from dynsolve.quantities.spelling import key

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from dynsolve.answers.reading.lexer import Token
 from dynsolve.answers.reading.limits import MAX_EXPONENT
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum
 

@@ -36,7 +36,7 @@ from dynsolve.answers.reading.grids import (
     times,
     total,
 )
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Number, Power, Product, Quotient
 

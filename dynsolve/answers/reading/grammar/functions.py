@@ -7,7 +7,7 @@ from fractions import Fraction
 from dynsolve.answers.reading.grammar.forms import Scripts
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum
 

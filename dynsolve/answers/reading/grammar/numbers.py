@@ -9,7 +9,6 @@ from dynsolve.answers.reading.grids import Value
 from dynsolve.notation import tokens as plain
 from dynsolve.notation.tree import Degrees, Number
 
-
 _BEFORE_DEGREES = frozenset({"°", "name", "^"})
 """The tokens that the sign of degrees may begin with."""
 

@@ -17,7 +17,7 @@ from dynsolve.answers.reading.grammar.forms import Form, Scripts
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.scripts import ScriptCursor
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, times, transposed
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node

@@ -10,7 +10,7 @@ from dynsolve.answers.reading.grammar.cursor import Cursor
 from dynsolve.answers.reading.grammar.exponents import bounded, constant, raised_number
 from dynsolve.answers.reading.grammar.forms import Form, Scripts, index_text, is_angle
 from dynsolve.answers.reading.grids import Value
-from dynsolve.answers.reading.lexer import Token
+from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Symbol

@@ -1,0 +1,212 @@
+r"""A text made ready for the grammar: its tokens, with macros written out and fonts left out.
+
+What is left has one spelling for one thing: `\mathbf{q}_{1}`, `{q}_1` and `q_1` are the same
+tokens.  Nothing here depends on the problem; runs of letters are cut into its names later
+(`name_splitting`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from dynsolve.answers.reading.tokens.environments import simplify_environment
+from dynsolve.answers.reading.tokens.groups import Group, close_group, frame_follows, level_of, taken_group
+from dynsolve.answers.reading.tokens.lexer import Token, tokenize
+from dynsolve.answers.reading.tokens.macros import Macro, expand
+from dynsolve.answers.reading.tokens.words import accent, is_qualified, is_unit, token_of_word
+from dynsolve.errors import ReadError
+
+_FONTS = frozenset(
+    "mathbf boldsymbol bm mathrm mathit mathsf mathtt mathbb mathnormal pmb bf rm vec underline "
+    "overrightarrow operatorname ensuremath boxed fbox framebox mathop mathord mathrel mathbin smash bold "
+    "underbar uline uuline undertilde utilde symbf symbfit symrm mathbfit qty quantity bigstrut".split()
+)
+_SCRIPT = frozenset("mathcal mathscr mathfrak cal script".split())
+_MATRICES = {"pmatrix": "pmatrix", "bmatrix": "bmatrix", "matrix": "matrix", "mqty": "matrix"} | {
+    "pmqty": "pmatrix", "bmqty": "bmatrix", "Pmqty": "pmatrix", "smqty": "matrix"
+}  # fmt: skip
+"""Commands whose argument is a matrix: `\\pmatrix{a\\cr b}`, as Maxima and plain TeX write it."""
+_DERIVATIVES = {"dv": "d", "odv": "d", "derivative": "d", "pdv": "partial", "partialderivative": "partial"}
+_STACKED = frozenset({"overset", "underset", "stackrel"})
+_FRACTIONS = frozenset("frac dfrac tfrac cfrac nicefrac sfrac flatfrac xfrac".split())
+_BEFORE_LIST = frozenset({"=", "⟨", ",", "|", "(", "+", "-", "*"})
+"""After which `<` begins a list, as Maple writes one, and compares nothing."""
+_INTRODUCING = frozenset("where with hvor".split())
+"""Words of plain text before a definition: `where h = ...`."""
+
+
+def prepared(text: str, macros: Mapping[str, Macro] = MappingProxyType({})) -> list[Token]:
+    r"""The tokens of a text, ready for the grammar, an `end` token last; raises ReadError where it has none.
+
+    >>> [token.text for token in prepared(r"\mathbf{D}_{1} \tfrac12")]
+    ['D', '_', '1', 'frac', '1', '2', '']
+    """
+    return simplified(expand(tokenize(text), macros))
+
+
+def simplified(tokens: list[Token]) -> list[Token]:
+    """Tokens without fonts, environments that only align, and groups around one token."""
+    out: list[Token] = []
+    groups: list[Group] = []
+    systems: list[list[int]] = []
+    position, last, angles = 0, len(tokens) - 1, 0
+    while position <= last:
+        token = tokens[position]
+        position += 1
+        kind = token.kind
+        if kind == "{":
+            groups.append(Group(len(out)))
+            out.append(token)
+        elif kind == "}" and groups:
+            group = groups.pop()
+            if len(out) == group.start + 1 and not group.closes_matrix and frame_follows(tokens, position):
+                out.append(token)
+            else:
+                close_group(token, group, out, tokens[position].kind)
+            if groups and out[-1].kind == "}":
+                groups[-1].depth = max(groups[-1].depth, group.depth + 1)
+        elif kind == "command":
+            position = _simplify_command(token, tokens, position, groups, out)
+        elif kind == "begin" or kind == "close":
+            position = simplify_environment(token, tokens, position, out, systems)
+        elif kind == "text":
+            said = token_of_word(token, out)
+            if said is not None:
+                out.append(said)
+        elif kind == "]" and is_unit(out, tokens[position]):
+            del out[-2:]
+        elif kind == "accent" and out:
+            accent(token, out)
+        elif kind == "■" and tokens[position].kind == "(":
+            position = _word_matrix(tokens, position, token, out)
+        elif kind == "name" and token.text in _INTRODUCING and tokens[position].spaced:
+            out.append(token._replace(kind="separator"))
+        elif kind == "name" and is_qualified(token, tokens, position):
+            position += 1
+        elif kind == "=" and systems:
+            systems[-1][1] = 1
+            out.append(token)
+        elif kind == "<" and out and out[-1].kind in _BEFORE_LIST:
+            angles += 1
+            out.append(token._replace(kind="⟨"))
+        elif kind == ">" and angles:
+            angles -= 1
+            out.append(token._replace(kind="⟩"))
+        elif kind == "_" and out and (power := _power_before(out)):
+            position = _index(tokens, position, token, power, out)
+        else:
+            out.append(token)
+    return out
+
+
+def _word_matrix(tokens: list[Token], position: int, sign: Token, out: list[Token]) -> int:
+    """Word's `■(a&b@c&d)` as a matrix; gives where to go on."""
+    inside: list[Token] = []
+    level, opening = 1, tokens[position]
+    while level:
+        position += 1
+        token = tokens[position]
+        if token.kind == "end":
+            raise ReadError("this `(` is never closed", opening.start, 1, "add the `)` that it belongs to")
+        level += {"(": 1, ")": -1}.get(token.kind, 0)
+        inside.append(token)
+    end = inside.pop()
+    out.append(sign._replace(kind="begin", text="matrix"))
+    out += simplified([*inside, end._replace(kind="end", text="")])[:-1]
+    out.append(end._replace(kind="close", text="matrix"))
+    return position + 1
+
+
+def _power_before(out: list[Token]) -> int:
+    """Where the power begins that stands between a name and its index: the `^` of m^2_1; 0 for none."""
+    last = len(out) - 1
+    if out[last].kind == "}":
+        level = 0
+        while last > 0:
+            level -= level_of(out[last])
+            if level == 0:
+                break
+            last -= 1
+    caret = last - 1
+    if caret < 1 or out[caret].kind != "^":
+        return 0
+    return caret if out[caret - 1].kind in ("name", "letter", "}", "text") else 0
+
+
+def _index(tokens: list[Token], position: int, sign: Token, power: int, out: list[Token]) -> int:
+    """Put the index that follows before the power; gives where to go on."""
+    index = [sign, tokens[position]]
+    position += 1
+    if index[1].kind == "{":
+        level = 1
+        while level and tokens[position].kind != "end":
+            index.append(tokens[position])
+            level += level_of(tokens[position])
+            position += 1
+    elif index[1].kind == "end":
+        index.pop()
+        position -= 1
+    out[power:power] = simplified([*index, Token("end", "", sign.end, sign.end)])[:-1]
+    return position
+
+
+def _simplify_command(
+    token: Token, tokens: list[Token], position: int, groups: list[Group], out: list[Token]
+) -> int:
+    """A command with one spelling, or left out if it is a font; gives where to go on."""
+    if token.text in _FONTS:
+        return position
+    if token.text in _FRACTIONS:
+        return _split_digits(tokens, position, token._replace(text="frac"), out)
+    if token.text in _MATRICES and tokens[position].kind == "{":
+        groups.append(Group(len(out), True))
+        out.append(token._replace(kind="begin", text=_MATRICES[token.text]))
+        return position + 1
+    if token.text in _DERIVATIVES:
+        return _write_derivative(tokens, position, token, out)
+    if token.text in _STACKED:
+        over, position = taken_group(tokens, position)
+        dots = sum(len(t.text) if t.kind == "." else t.kind == "cdot" for t in over)
+        if dots and dots == len(over) and dots < 3:
+            out.append(token._replace(text="dot" if dots == 1 else "ddot"))
+        return position
+    out.append(token._replace(text="script") if token.text in _SCRIPT else token)
+    return position
+
+
+def _split_digits(tokens: list[Token], position: int, command: Token, out: list[Token]) -> int:
+    r"""`\frac12`: each digit is an argument."""
+    out.append(command)
+    token = tokens[position]
+    if token.kind == "number" and len(token.text) > 1 and token.text.isdigit():
+        first, second = token.start, token.start + 1
+        out.append(token._replace(text=token.text[0], end=second))
+        out.append(token._replace(text=token.text[1], start=second, end=second + 1))
+        if len(token.text) > 2:
+            out.append(token._replace(text=token.text[2:], start=first + 2))
+        return position + 1
+    return position
+
+
+def _write_derivative(tokens: list[Token], position: int, command: Token, out: list[Token]) -> int:
+    r"""`\dv{x}{t}` as `\frac{d x}{d t}`, `\dv{t}` as `\frac{d}{d t}`; gives where to go on."""
+    d = command._replace(kind="name", text="d")
+    if _DERIVATIVES[command.text] == "partial":
+        d = command._replace(text="partial")
+    order: list[Token] = []
+    if tokens[position].kind == "[" and tokens[position + 2].kind == "]":
+        order = [command._replace(kind="^", text="^"), tokens[position + 1]]
+        position += 3
+    opening, closing = command._replace(kind="{", text="{"), command._replace(kind="}", text="}")
+    of, position = taken_group(tokens, position)
+    by: list[Token] = of
+    if tokens[position].kind == "{":
+        by, position = taken_group(tokens, position)
+    else:
+        of = []
+    end = Token("end", "", command.end, command.end)
+    above, below = simplified([*of, end])[:-1], simplified([*by, end])[:-1]
+    out.append(command._replace(text="frac"))
+    out += [opening, d, *order, *above, closing, opening, d, *below, *order, closing]
+    return position
