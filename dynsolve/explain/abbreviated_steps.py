@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import partial
 
 from dynsolve.derivation.rules import course_rules
-from dynsolve.document import Prose
+from dynsolve.document import Inline, Prose
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import (
@@ -76,7 +76,36 @@ def _of_short_model(steps: Iterable[Step], context: Context, short: Abbreviated)
     for step in steps:
         if step.stage is Stage.VECTORIZED:
             step = replace(step, result=tuple(_exchanged(node, named) for node in step.result))
-        yield step
+        in_letters = _IN_LETTERS.get(step.id)
+        yield step if in_letters is None else in_letters(step)
+
+
+def _rates_in_letters(step: Step) -> Step:
+    """The step of Ḋ, its entries by the derivatives of D alone."""
+    lines = (replace(line, formulas=tuple(map(_without_value, line.formulas))) for line in step.lines)
+    return replace(step, lines=tuple(lines))
+
+
+def _terms_in_letters(step: Step) -> Step:
+    """The table of the terms of the forces, each by its name alone."""
+    assert step.table is not None
+
+    def cell(part: Inline) -> Inline:
+        return _without_value(part) if isinstance(part, Node) else part
+
+    rows = tuple(tuple(map(cell, row)) for row in step.table.rows)
+    return replace(step, table=replace(step.table, rows=rows))
+
+
+_IN_LETTERS: Mapping[str, Callable[[Step], Step]] = {"skew": _rates_in_letters, "terms": _terms_in_letters}
+"""The steps whose values would not be in names, by their ids."""
+
+
+def _without_value(node: Node) -> Node:
+    """A chain of equations without its last member, which is the value written out."""
+    if not isinstance(node, Relation):
+        return node
+    return node.parts[0] if len(node.parts) == 2 else equation(*node.parts[:-1])
 
 
 def _exchanged(node: Node, named: Mapping[Node, Node]) -> Node:

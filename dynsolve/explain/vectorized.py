@@ -7,10 +7,13 @@ from collections.abc import Iterator
 from dynsolve.document import Prose
 from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
 from dynsolve.explain.christoffel import christoffel_step
+from dynsolve.explain.closing import closing_step
 from dynsolve.explain.context import Context
+from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_sums
-from dynsolve.explain.writing import is_small, spong
+from dynsolve.explain.writing import spong
 from dynsolve.notation.tree import (
     BigSum,
     Letter,
@@ -23,7 +26,6 @@ from dynsolve.notation.tree import (
     Sum,
     Symbol,
     Transpose,
-    column,
     equation,
 )
 from dynsolve.quantities import letters
@@ -51,7 +53,9 @@ def steps(context: Context) -> Iterator[Step]:
     yield _gravity(context)
     yield agreement_step(context)
     yield skew_step(context)
-    yield _model(context)
+    yield from terms_step(context)
+    yield from sanity_steps(context)
+    yield closing_step(context)
 
 
 def _names(context: Context, letter: str) -> tuple[tuple[Node, ...], ...]:
@@ -234,45 +238,5 @@ def _gravity(context: Context) -> Step:
         uses=("P",),
         hint=("Directly, without τ: the partial derivatives of the potential energy.",),
         entries=letters.entries("g", context.robot.n, 1),
-        detail=Detail.BRIEF,
-    )
-
-
-# -- the whole model ------------------------------------------------------------------------------
-
-
-def _model(context: Context) -> Step:
-    robot = context.robot
-    model = equation(
-        Sum((
-            Product((letters.D, letters.QDD)),
-            Product((letters.C, letters.QD)),
-            letters.G,
-        )),
-        letters.TAU,
-    )  # fmt: skip
-    parts = [context.form(name) for name in ("D", "C", "g")]
-    qd = column(*(Symbol(q.name, 1) for q in robot.coordinates))
-    qdd = column(*(Symbol(q.name, 2) for q in robot.coordinates))
-    forces = column(*(letters.force(q) for q in robot.coordinates))
-    result: tuple[Node, ...] = ()
-    if is_small(*parts):
-        result = (equation(Sum((Product((parts[0], qdd)), Product((parts[1], qd)), parts[2])), forces),)
-    return Step(
-        id="model",
-        stage=STAGE,
-        title="The dynamical model",
-        why=(
-            Product((letters.D, letters.QDD)),
-            " are the inertial forces, ",
-            Product((letters.C, letters.QD)),
-            " the Coriolis and centrifugal ones, ",
-            letters.G,
-            " those of gravity.",
-        ),
-        formula=model,
-        source=spong("7.3"),
-        result=result,
-        optional=True,
         detail=Detail.BRIEF,
     )

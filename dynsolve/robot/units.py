@@ -33,6 +33,7 @@ VELOCITY = dimension(length=1, time=-1)
 ACCELERATION = dimension(length=1, time=-2)
 MOMENTUM = dimension(mass=1, length=2, time=-1)
 ENERGY = dimension(mass=1, length=2, time=-2)
+FORCE = dimension(mass=1, length=1, time=-2)
 
 
 def times(a: Dimension, b: Dimension, power: int | Fraction = 1) -> Dimension:

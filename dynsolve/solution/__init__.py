@@ -9,6 +9,7 @@
     json_export     everything as JSON
     documents       a solution as a document: stages, steps, numbers
     earlier_results which of the equations before it a step uses
+    summary         its closing section: the model, its matrices, the forces row by row
     reports         that document as text, LaTeX, PDF, HTML or Markdown
 
 `Solution` uses all of these; they take a `Dynamics`, and know nothing of `Solution`.

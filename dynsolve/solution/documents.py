@@ -18,6 +18,7 @@ from dynsolve.document import (
     Text,
     Uses,
 )
+from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
 from dynsolve.explain.citations import KHALIL_DOMBRE, cited
 from dynsolve.explain.step import Detail, Step
@@ -27,6 +28,7 @@ from dynsolve.quantities.index import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.earlier_results import EarlierResults, labelled_results
+from dynsolve.solution.summary import summary_blocks
 
 CONVENTIONS = {
     "standard": "standard Denavit-Hartenberg (Spong)",
@@ -51,6 +53,7 @@ def solution_document(
         *_opening(solution, _sources(steps, detail, short)),
         *_stages(solution, detail, steps, short),
         *_numbers(solution, detail, stages),
+        *summary_blocks(solution.robot, steps),
         *_closing(solution),
     ))  # fmt: skip
 
@@ -95,6 +98,8 @@ def _stages(
     place, extra = 0, 0
     heading: Heading | None = None
     for step in steps:
+        if step.id == closing.ID:  # it stands in the summary
+            continue
         if step.stage != stage:
             if short is not None and step.stage is Stage.VECTORIZED:
                 yield from definition_blocks(short)

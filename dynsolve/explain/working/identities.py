@@ -15,7 +15,7 @@ from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
 from dynsolve.algebra.ring import Ring
 from dynsolve.document import Prose
 from dynsolve.errors import AlgebraError
-from dynsolve.explain.working.unreduced import unreduced
+from dynsolve.explain.working.unreduced import Unreduced
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import (
     Function,
@@ -61,7 +61,8 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
     True
     """
     try:
-        difference = unreduced(ring, before) - unreduced(ring, after)
+        unreduced = Unreduced(ring)
+        difference = unreduced(before) - unreduced(after)
     except AlgebraError:
         return None
     if ring.reduce(difference):

@@ -29,44 +29,58 @@ from dynsolve.notation.tree import (
 )
 
 
-def unreduced(ring: Ring, node: Node) -> fmpq_mpoly:
-    """The polynomial of a scalar tree, its products multiplied out and nothing else done.
+class Unreduced:
+    """Polynomials of scalar trees in one ring, products multiplied out and nothing else done.
 
     Raises AlgebraError for a tree without a value in the ring.
     """
-    match node:
-        case Sum(terms):
-            return sum((unreduced(ring, term) for term in terms), start=ring.zero.poly)
-        case Product(factors):
-            product = ring.one.poly
-            for factor in factors:
-                product = product * unreduced(ring, factor)
-            return product
-        case Negative(argument):
-            return -unreduced(ring, argument)
-        case Parenthesized(argument):
-            return unreduced(ring, argument)
-        case Power(base, Number(p, 1)):
-            return unreduced(ring, base) ** p
-        case Quotient(numerator, Number(p, q)):
-            return unreduced(ring, numerator) * rational(Fraction(q, p))
-        case Quotient(numerator, denominator):
-            return unreduced(ring, numerator) * ring.inverse(value_of(ring, denominator)).poly
-        case Symbol(name, dots):
-            return ring.symbol(name, dots).poly
-        case Function("sin" | "cos" as name, argument):
-            return _turned(ring, name, angle_from_tree(argument))
-    return value_of(ring, node).poly
+
+    def __init__(self, ring: Ring) -> None:
+        self.ring = ring
+        self._turned: dict[Node, tuple[fmpq_mpoly, fmpq_mpoly]] = {}
+
+    def __call__(self, node: Node) -> fmpq_mpoly:
+        """The polynomial of a tree."""
+        ring = self.ring
+        match node:
+            case Sum(terms):
+                return sum(map(self, terms), start=ring.zero.poly)
+            case Product(factors):
+                product = ring.one.poly
+                for factor in factors:
+                    product = product * self(factor)
+                return product
+            case Negative(argument):
+                return -self(argument)
+            case Parenthesized(argument):
+                return self(argument)
+            case Power(base, Number(p, 1)):
+                return self(base) ** p
+            case Quotient(numerator, Number(p, q)):
+                return self(numerator) * rational(Fraction(q, p))
+            case Quotient(numerator, denominator):
+                return self(numerator) * ring.inverse(value_of(ring, denominator)).poly
+            case Symbol(name, dots):
+                return ring.symbol(name, dots).poly
+            case Function("sin" | "cos" as name, argument):
+                return self._cosine_and_sine(argument)[name == "sin"]
+        return value_of(ring, node).poly
+
+    def _cosine_and_sine(self, argument: Node) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+        found = self._turned.get(argument)
+        if found is None:
+            found = self._turned[argument] = turned(self.ring, angle_from_tree(argument))
+        return found
 
 
-def _turned(ring: Ring, name: str, angle: Angle) -> fmpq_mpoly:
-    """The sine or cosine of an angle by the addition theorems alone: cos 2θ = c² - s²."""
+def turned(ring: Ring, angle: Angle) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    """(cos, sin) of an angle by the addition theorems alone: cos 2θ = c² - s²."""
     if angle.degrees:
-        return (ring.cos(angle) if name == "cos" else ring.sin(angle)).poly
+        return ring.cos(angle).poly, ring.sin(angle).poly
     c, s = ring.one.poly, ring.zero.poly
     for pair, times in zip(ring.pairs, ring.multiples(angle), strict=True):
         c1, s1 = ring.generator(pair.cosine).poly, ring.generator(pair.sine).poly
         for _ in range(abs(times)):
             turn = s1 if times > 0 else -s1
             c, s = c * c1 - s * turn, s * c1 + c * turn
-    return c if name == "cos" else s
+    return c, s

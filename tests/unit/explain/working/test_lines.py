@@ -61,7 +61,7 @@ def test_every_line_is_true(problem: str) -> None:
     assert_true(solved(problem))
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(robots(max_joints=3))
 def test_every_line_of_any_robot_is_true(problem: str) -> None:
     assert_true(dynsolve.solve(problem))

@@ -1,0 +1,59 @@
+"""Checks that a person can do on a finished model, each found by the program and proved before it is said.
+
+    cyclic        a coordinate that stands nowhere in L: its momentum is conserved
+    definite      D is positive definite, by its diagonal and its determinants
+    inertia_poses the moments of inertia on the diagonal of D, the arm stretched and folded
+    equilibrium   the poses in which g is zero: hanging and upright
+    point_masses  what is left of D without the extent of the bodies
+
+They are made of
+
+    pose          a value in which some angles have values
+    sign          a formula that is positive for positive masses, moments and lengths
+
+To add one, write a file with a function that gives its step, or None where it has nothing to
+say, and a record of it below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from dynsolve.explain.context import Context
+from dynsolve.explain.sanity.cyclic import cyclic_step
+from dynsolve.explain.sanity.definite import definite_step
+from dynsolve.explain.sanity.equilibrium import equilibrium_step
+from dynsolve.explain.sanity.inertia_poses import inertia_poses_step
+from dynsolve.explain.sanity.point_masses import point_masses_step
+from dynsolve.explain.step import Step
+from dynsolve.explain.working.proved import MOST_JOINTS
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A check by its step's id, the condition under which it speaks, and what makes the step."""
+
+    id: str
+    speaks_where: str
+    step: Callable[[Context], Step | None]
+
+
+CHECKS = (
+    Check("cyclic", "a coordinate stands neither in K nor in P", cyclic_step),
+    Check("definite", "every block of D is seen to be definite for positive masses", definite_step),
+    Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
+    Check("equilibrium", "gravity is balanced everywhere, or where the arm hangs", equilibrium_step),
+    Check("point_masses", "a body has extent, and D is something without it", point_masses_step),
+)
+"""All checks, in the order in which they are shown."""
+
+
+def sanity_steps(context: Context) -> Iterator[Step]:
+    """The checks that speak of a robot; none of longer arms."""
+    if context.robot.n > MOST_JOINTS:
+        return
+    for check in CHECKS:
+        step = check.step(context)
+        if step is not None:
+            yield step

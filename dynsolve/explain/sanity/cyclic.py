@@ -1,0 +1,42 @@
+"""A coordinate that stands nowhere in L: its momentum is conserved (Goldstein, Classical Mechanics, 2.6)."""
+
+from __future__ import annotations
+
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Step
+from dynsolve.explain.writing import listed, spong
+from dynsolve.notation.build import cost
+from dynsolve.notation.tree import Number, Symbol, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+
+LONGEST = 30
+"""The operations up to which a momentum is written again."""
+
+
+def cyclic_step(context: Context) -> Step | None:
+    """The momenta that stay constant as long as their forces are zero."""
+    values = context.values
+    free = [q for q in context.robot.coordinates if values[f"dLdq{q.index}"].is_zero]
+    if not free:
+        return None
+    one = len(free) == 1
+    momenta = [letters.partial_derivative(letters.L, letters.velocity(q)) for q in free]
+    why: Prose = (*listed([Symbol(q.name) for q in free]), f" {'stands' if one else 'stand'} nowhere in ")
+    why += (letters.L, f": {'a cyclic coordinate' if one else 'cyclic coordinates'}. As long as ")
+    why += (*listed([equation(letters.force(q), Number(0)) for q in free]), ", the Euler-Lagrange equation")
+    why += (" says" if one else "s say",)
+    why += (f" that the {'momentum' if one else 'momenta'} ", *listed(momenta))
+    why += (" is conserved." if one else " are conserved.",)
+    forms = [context.form(f"dLdqd{q.index}") for q in free]
+    shown = (equation(p, form) for p, form in zip(momenta, forms, strict=True) if cost(form) <= LONGEST)
+    return Step(
+        id="cyclic",
+        stage=Stage.VECTORIZED,
+        title="Check: what is conserved",
+        why=why,
+        source=spong("7.1"),
+        result=tuple(shown),
+        is_task=False,
+    )

@@ -1,0 +1,118 @@
+"""D is positive definite: every block of coordinates that are coupled is.
+
+An entry of the diagonal is the sum of what the bodies add to it, none of which is negative, so
+that one body that always adds something is enough.  A block of several coordinates is definite
+where its minors, from the first entry on or from the last, are positive (Sylvester's criterion).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.sanity.sign import is_positive, masses_and_moments
+from dynsolve.explain.step import Step
+from dynsolve.explain.writing import listed, spong
+from dynsolve.notation.build import cost
+from dynsolve.notation.tree import Negative, Node, Number, Power, Product, Row, Sum, Words, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+
+LONGEST = 60
+"""The operations of a determinant up to which it is of use to a reader."""
+
+
+def definite_step(context: Context) -> Step | None:
+    """What shows that D is positive definite; None where that is not seen."""
+    if context.robot.n < 2:
+        return None
+    squares: list[Node] = []
+    determinants: list[Node] = []
+    for block in blocks(context.values["D"]):
+        first = next((k for k in (block[0], block[-1]) if _is_sum_of_squares(context, k)), None)
+        if first is None:
+            return None
+        squares.append(letters.entry("d", first + 1, first + 1))
+        if len(block) > 1:
+            minors = _minors(context, block if first == block[0] else block[::-1])
+            if minors is None:
+                return None
+            determinants += minors
+    verb = "is a sum" if len(squares) == 1 else "are sums"
+    why: Prose = (
+        "Since ",
+        equation(letters.transposed_product(letters.QD, letters.D), Product((Number(2), letters.K))),
+        ", D must be positive definite where masses and moments of inertia are positive. ",
+        *listed(squares),
+        f" {verb} of masses and moments times squares, which never all vanish",
+    )
+    if determinants:
+        why += ("; and the determinant" + "s" * (len(determinants) > 1), " below ")
+        why += ("are" if len(determinants) > 1 else "is", " positive, too (Sylvester's criterion):")
+    else:
+        why += (", and the other entries are zero.",)
+    return Step(
+        id="definite",
+        stage=Stage.VECTORIZED,
+        title="Check: D is positive definite",
+        why=why,
+        source=spong("7.5.1"),
+        result=tuple(determinants),
+        is_task=False,
+    )
+
+
+def blocks(D: Matrix) -> list[list[int]]:
+    """The coordinates by blocks: coupled ones, through others or at once, are in one."""
+    found: list[list[int]] = []
+    for i in range(D.shape[0]):
+        coupled = [block for block in found if any(not D[i, j].is_zero for j in block)]
+        merged = sorted([i, *(j for block in coupled for j in block)])
+        found = [block for block in found if block not in coupled] + [merged]
+    return sorted(found)
+
+
+def _is_sum_of_squares(context: Context, k: int) -> bool:
+    """Whether a body surely adds something to d_kk; no body takes anything away."""
+    parts = [f"D{kind}{body.name}" for body in context.robot.bodies for kind in "vw"]
+    return any(_is_positive(context, context.show(context.values[part][k, k])) for part in parts)
+
+
+def _is_positive(context: Context, form: Node) -> bool:
+    constant = frozenset(context.robot.ring.parameters)
+    return is_positive(form, masses_and_moments(context.robot), constant)
+
+
+def _minors(context: Context, block: Sequence[int]) -> list[Node] | None:
+    """The determinants of the first two, three, ... coordinates of a block; None where a sign is not seen."""
+    D = context.values["D"]
+    found: list[Node] = []
+    for size in range(2, len(block) + 1):
+        places = sorted(block[:size])
+        form = context.show(determinant([[D[i, j] for j in places] for i in places]))
+        if cost(form) > LONGEST or not _is_positive(context, form):
+            return None
+        found.append(equation(_written(places), form))
+    return found
+
+
+def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
+    """The determinant of a square matrix, by its first row."""
+    if len(rows) == 1:
+        return rows[0][0]
+    total = rows[0][0].ring.zero
+    for j, entry in enumerate(rows[0]):
+        rest = [[*row[:j], *row[j + 1 :]] for row in rows[1:]]
+        total = total + entry * determinant(rest) * (-1) ** j
+    return total
+
+
+def _written(places: Sequence[int]) -> Node:
+    """d₁₁ d₂₂ - d₁₂², or det D where the block is more than two coordinates."""
+    if len(places) == 2:
+        (a, b), d = (i + 1 for i in places), letters.entry
+        return Sum((Product((d("d", a, a), d("d", b, b))), Negative(Power(d("d", a, b), Number(2)))))
+    return Row((Words("det "), letters.D))

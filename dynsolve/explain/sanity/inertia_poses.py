@@ -1,0 +1,144 @@
+"""The moments of inertia on the diagonal of D in poses of right angles: the arm stretched and folded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import chain
+
+from dynsolve.algebra.matrix import Matrix, cross
+from dynsolve.derivation.jacobian import joint_frame
+from dynsolve.derivation.kinematics import axis, origin
+from dynsolve.document import Inline, Prose, Table
+from dynsolve.explain.context import Context
+from dynsolve.explain.sanity.pose import Pose, at, turning_in, written
+from dynsolve.explain.sanity.sign import is_nonnegative, with_lengths
+from dynsolve.explain.step import Step
+from dynsolve.explain.writing import listed, side_by_side, spong
+from dynsolve.notation.build import cost
+from dynsolve.notation.tree import equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Coordinate, Joint, JointType
+
+LONGEST = 20
+"""The operations up to which a moment of inertia is of use to a reader."""
+
+MOST_ANGLES = 2
+"""Up to this number of angles a moment of inertia is shown in simple poses."""
+
+
+def inertia_poses_step(context: Context) -> Step | None:
+    """A table of the entries of the diagonal that belong to one turning joint and vary with angles."""
+    shown = {q: rows for q in context.robot.coordinates if (rows := list(_rows(context, q)))}
+    if not shown:
+        return None
+    names = [letters.entry("d", q.index, q.index) for q in shown]
+    joints = [letters.z(joint_frame(context.robot, _joint(context, q))) for q in shown]
+    one = len(shown) == 1
+    why: Prose = (*listed(names), f" {'is the moment' if one else 'are the moments'} of inertia about ")
+    why += (*listed(joints), " of all that this joint moves, the joints after it held: " if one else
+            " of all that these joints move, the joints after them held: ")  # fmt: skip
+    why += ("each mass times the square of its distance from the axis, and the moments of the bodies. ",)
+    why += ("In simple poses the distances can be seen:",)
+    return Step(
+        id="inertia_poses",
+        stage=Stage.VECTORIZED,
+        title="Check: moments of inertia in simple poses",
+        why=why,
+        source=spong("7.2"),
+        table=_table(list(chain(*shown.values()))),
+        is_task=False,
+    )
+
+
+def _table(rows: Sequence[tuple[Inline, ...]]) -> Table:
+    """The rows under their header, without the words where no pose has any."""
+    header: tuple[Inline, ...] = ("pose", "the arm", "moment of inertia")
+    places = [0, 1, 2] if any(row[1] for row in rows) else [0, 2]
+    return Table(tuple(header[k] for k in places), tuple(tuple(row[k] for k in places) for row in rows))
+
+
+def _joint(context: Context, q: Coordinate) -> Joint:
+    """The first joint that a coordinate moves."""
+    return next(j for j in context.robot.joints if any(k == q.index - 1 for k, _ in j.rates))
+
+
+def _turns_one_joint(context: Context, q: Coordinate) -> bool:
+    moved = [j for j in context.robot.joints if any(k == q.index - 1 for k, _ in j.rates)]
+    return (
+        len(moved) == 1
+        and moved[0].type is JointType.REVOLUTE
+        and [abs(rate) for _, rate in moved[0].rates] == [1]
+    )
+
+
+def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
+    """The poses that differ, each with the entry of the diagonal."""
+    value, ring = context.values["D"][q.index - 1, q.index - 1], context.robot.ring
+    names = turning_in(context.robot, value)
+    if not names or len(names) > MOST_ANGLES or not _turns_one_joint(context, q):
+        return
+    seen = []
+    for pose in _simple(names):
+        there = at(ring, value, pose)
+        form = context.show(there)
+        if there not in seen and cost(form) <= LONGEST:
+            seen.append(there)
+            entry = equation(letters.entry("d", q.index, q.index), form)
+            yield side_by_side(written(pose)), _shape(context, pose), entry
+
+
+def _simple(names: Sequence[str]) -> Iterator[Pose]:
+    """All angles 0; one of them at 90° or 180°, the others 0."""
+    rest = dict.fromkeys(names, 0)
+    yield rest
+    for name in names:
+        yield from ({**rest, name: value} for value in (90, 180))
+
+
+# -- stretched, folded -----------------------------------------------------------------------------
+
+
+def _shape(context: Context, pose: Pose) -> str:
+    """`stretched` or `folded` at the joints of the pose that are parallel to the one before them."""
+    moved = [joint for joint in context.robot.joints if _moves_with(context, joint, pose)]
+    found = {_at_joint(context, joint, pose) for joint in moved}
+    found.discard("")
+    if "bent" in found or not found:
+        return ""
+    return "folded" if "folded" in found else "stretched"
+
+
+def _moves_with(context: Context, joint: Joint, pose: Pose) -> bool:
+    return any(context.robot.ring.names[k] in pose for k, _ in joint.rates)
+
+
+def _at_joint(context: Context, joint: Joint, pose: Pose) -> str:
+    """Whether what follows a joint goes on, or back, on the way from the joint before; "" for others."""
+    robot = context.robot
+    before = [j for j in robot.joints if j.index < joint.index and j.type is JointType.REVOLUTE]
+    bodies = [body for body in robot.bodies if body.link >= joint.index]
+    if not before or not bodies:
+        return ""
+    H = context.values[f"H{joint_frame(robot, joint)}"]
+    H_before = context.values[f"H{joint_frame(robot, before[-1])}"]
+    z = axis(H)
+    if not cross(z, axis(H_before)).is_zero:
+        return ""
+    last = max(bodies, key=lambda body: body.link)
+    inner = _across(origin(H) - origin(H_before), z).map(lambda x: at(robot.ring, x, pose))
+    outer = _across(context.values[f"rc{last.name}"] - origin(H), z).map(lambda x: at(robot.ring, x, pose))
+    if inner.is_zero or outer.is_zero:
+        return ""
+    if not cross(inner, outer).is_zero:
+        return "bent"
+    along = robot.ring.dot(inner.entries, outer.entries)
+    positive = with_lengths(robot)
+    if is_nonnegative(context.show(along), positive):
+        return "stretched"
+    return "folded" if is_nonnegative(context.show(-along), positive) else "bent"
+
+
+def _across(vector: Matrix, z: Matrix) -> Matrix:
+    """The part of a vector across an axis."""
+    return vector - z.scale(z.ring.dot(vector.entries, z.entries))

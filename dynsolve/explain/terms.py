@@ -1,0 +1,180 @@
+"""What each term of a force is: inertial, coupling, centrifugal, Coriolis or gravity, by its rates.
+
+By the rates alone, so that it is true of every robot (Spong, Hutchinson, Vidyasagar, section 7.3):
+
+    q̈_k in force k     inertial
+    q̈_j, j ≠ k         coupling inertia
+    q̇_j²               centrifugal
+    q̇_i q̇_j            Coriolis
+    none               gravity
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.document import Inline, Prose, Table
+from dynsolve.explain.citations import spong
+from dynsolve.explain.context import Context
+from dynsolve.explain.entry_formulas import pairs
+from dynsolve.explain.step import Step
+from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.notation.build import cost, times
+from dynsolve.notation.tree import Node, Symbol, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot import units
+from dynsolve.robot.dimensions import Dimensions
+from dynsolve.robot.model import Coordinate, JointType
+
+LONGEST = 14
+"""The operations up to which the value of a term stands beside its name."""
+
+
+class Kind(StrEnum):
+    """What a term of a force is; the value is what stands in the table."""
+
+    INERTIAL = "inertial"
+    COUPLING = "coupling inertia"
+    CENTRIFUGAL = "centrifugal"
+    CORIOLIS = "Coriolis"
+    GRAVITY = "gravity"
+
+
+_MEANINGS: dict[Kind, str] = {
+    Kind.INERTIAL: "A term with the acceleration of its own coordinate is inertial: what it takes to "
+    "accelerate that coordinate alone.",
+    Kind.COUPLING: "With the acceleration of another coordinate it is coupling inertia: what that "
+    "acceleration asks of this joint.",
+    Kind.CENTRIFUGAL: "With the square of a rate it is centrifugal: it remains where that coordinate alone "
+    "moves, at a constant rate.",
+    Kind.CORIOLIS: "With the product of two rates it is a Coriolis term: it needs both coordinates to move.",
+    Kind.GRAVITY: "Without rates and accelerations it is gravity: what the joint must hold at rest.",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A term of force k: factor · rates, in letters and in value; `rates` are (place, dots)."""
+
+    kind: Kind
+    count: int
+    letter: Node
+    factor: Expr
+    rates: tuple[tuple[int, int], ...] = ()
+
+
+def terms_of(context: Context, k: int) -> Iterator[Term]:
+    """The terms of force k, from 0, that are not zero."""
+    n, values = context.robot.n, context.values
+    for j in range(n):
+        kind = Kind.INERTIAL if j == k else Kind.COUPLING
+        letter = letters.entry("d", min(j, k) + 1, max(j, k) + 1)
+        yield from _unless_zero(Term(kind, 1, letter, values["D"][k, j], ((j, 2),)))
+    for i, j in pairs(n):
+        kind = Kind.CENTRIFUGAL if i == j else Kind.CORIOLIS
+        letter = letters.entry("c", i + 1, j + 1, k + 1)
+        symbol = values["christoffel"][i, j, k]
+        yield from _unless_zero(Term(kind, 1 if i == j else 2, letter, symbol, ((i, 1), (j, 1))))
+    yield from _unless_zero(Term(Kind.GRAVITY, 1, letters.entry("g", k + 1), values["g"][k, 0]))
+
+
+def _unless_zero(term: Term) -> Iterator[Term]:
+    if not term.factor.is_zero:
+        yield term
+
+
+def value_of_term(context: Context, term: Term) -> Expr:
+    """The exact value of a term."""
+    ring = context.robot.ring
+    value = term.factor * term.count
+    for place, dots in term.rates:
+        value = value * ring.symbol(ring.names[place], dots)
+    return value
+
+
+def terms_step(context: Context) -> Iterator[Step]:
+    """The table of the terms of every force; none for longer arms, or where the terms are not all of τ."""
+    robot = context.robot
+    if robot.n > MOST_JOINTS:
+        return
+    found = [(q, list(terms_of(context, q.index - 1))) for q in robot.coordinates]
+    for q, terms in found:
+        total = sum((value_of_term(context, term) for term in terms), start=robot.ring.zero)
+        if total != context.values[f"tau{q.index}"]:
+            return
+    kinds = dict.fromkeys(term.kind for _, terms in found for term in terms)
+    known = Dimensions(robot.ring, robot)
+    units_known = _fit(context, known, found)
+    why = [_MEANINGS[kind] for kind in Kind if kind in kinds]
+    if units_known:
+        why.append(_said_of_units(robot.coordinates))
+    header = ("force", "term", "what it is", *(("unit",) if units_known else ()))
+    rows = [row for q, terms in found for row in _rows(context, q, terms, known if units_known else None)]
+    yield Step(
+        id="terms",
+        stage=Stage.VECTORIZED,
+        title="What the terms of the forces are",
+        why=(" ".join(why),),
+        source=spong("7.3"),
+        table=Table(header, tuple(rows)),
+        is_task=False,
+    )
+
+
+def _rows(
+    context: Context, q: Coordinate, terms: list[Term], known: Dimensions | None
+) -> Iterator[tuple[Inline, ...]]:
+    for place, term in enumerate(terms):
+        unit: Prose = () if known is None else (_unit(context, known, term),)
+        yield (letters.force(q) if place == 0 else "", _written(context, term), str(term.kind), *unit)
+
+
+def _written(context: Context, term: Term) -> Node:
+    """The term by its name, and its value where that is short."""
+    names = context.robot.ring.names
+    rates: list[tuple[Node, int]] = [(Symbol(names[place], dots), 1) for place, dots in term.rates]
+    if term.kind is Kind.CENTRIFUGAL:
+        rates = [(rates[0][0], 2)]
+    name = times(term.count, [(term.letter, 1), *rates])
+    value = context.show(value_of_term(context, term))
+    return equation(name, value) if cost(value) <= LONGEST else name
+
+
+# -- units -----------------------------------------------------------------------------------------
+
+
+def _fit(context: Context, known: Dimensions, found: list[tuple[Coordinate, list[Term]]]) -> bool:
+    """Whether every term is known to have the unit of its force."""
+    for q, terms in found:
+        wanted = units.ENERGY if q.type is JointType.REVOLUTE else units.FORCE
+        if any(known.of(value_of_term(context, term)) != wanted for term in terms):
+            return False
+    return True
+
+
+def _unit(context: Context, known: Dimensions, term: Term) -> Node:
+    """The unit of the factor, and of the rates it is multiplied by."""
+    factor, whole = known.of(term.factor), known.of(value_of_term(context, term))
+    assert factor is not None and whole is not None
+    if not term.rates:
+        return units.node(_force_unit(whole))
+    rest = units.times(whole, factor, -1)
+    return units.node(f"{units.si(factor) or '1'} · {units.si(rest)}")
+
+
+def _force_unit(dim: units.Dimension) -> str:
+    return "N m" if dim == units.ENERGY else units.si(dim)
+
+
+def _said_of_units(coordinates: tuple[Coordinate, ...]) -> str:
+    kinds = {q.type for q in coordinates}
+    said = []
+    if JointType.REVOLUTE in kinds:
+        said.append("kg m²/s² = N m in a torque, since an angle is a number")
+    if JointType.PRISMATIC in kinds:
+        said.append("kg m/s² = N in a force")
+    return f"The units are a check: factor times rates gives {'; and '.join(said)}."

@@ -1,0 +1,56 @@
+"""The section that closes a solution: the model, its matrices, the forces row by row.
+
+Everything in it is the result of a step, taken from there, so that it cannot differ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from dynsolve.document import Block, Formula, Heading, Text
+from dynsolve.explain import closing
+from dynsolve.explain.step import Step
+from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.quantities.index import stages_of
+from dynsolve.robot.model import Robot
+
+TITLE = "Summary"
+
+_MATRICES = ("D", "C", "g")
+
+
+def summary_blocks(robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
+    """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
+
+    Of more than three coordinates D, C, g and the forces are not written again.
+    """
+    by_id = {step.id: step for step in steps}
+    model = by_id.get(closing.ID)
+    if model is None:
+        return
+    yield Heading(TITLE, 2)
+    yield Text(model.why)
+    assert model.formula is not None
+    yield Formula(model.formula)
+    if robot.n > MOST_JOINTS:
+        number = list(stages_of(robot)).index(model.stage) + 1
+        yield Text((f"D, C and g are those of section {number}.",))
+        return
+    if model.result:
+        yield Text(("With the matrices of this robot:",))
+        for result in model.result:
+            yield Formula(result, entries=model.entries)
+    else:
+        yield Text(("The matrices of this robot:",))
+        yield from _results(by_id, _MATRICES)
+    forces = [f"tau{q.index}" for q in robot.coordinates]
+    if all(name in by_id for name in forces):
+        yield Text(("Row by row:" if len(forces) > 1 else "Multiplied out:",))
+        yield from _results(by_id, forces)
+
+
+def _results(by_id: Mapping[str, Step], names: Sequence[str]) -> Iterator[Formula]:
+    """The first results of steps, as these print them."""
+    for name in names:
+        step = by_id[name]
+        yield Formula(step.result[0], entries=step.entries)

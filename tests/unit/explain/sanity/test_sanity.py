@@ -1,0 +1,210 @@
+"""Checks that a person can do: those that speak, of whom, and that what they say is true."""
+
+from __future__ import annotations
+
+import random
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+import dynsolve
+from dynsolve.algebra.expr import Expr
+from dynsolve.explain.context import Context
+from dynsolve.explain.sanity import CHECKS, Check, sanity_steps
+from dynsolve.explain.sanity.definite import blocks, definite_step, determinant
+from dynsolve.explain.sanity.equilibrium import balanced_poses
+from dynsolve.explain.sanity.pose import at
+from dynsolve.explain.sanity.sign import is_nonnegative, is_positive, masses_and_moments
+from dynsolve.explain.step import Step
+from dynsolve.notation.text import read
+from dynsolve.notation.unicode import to_unicode
+from tests.robots import robots
+
+
+@lru_cache
+def context(problem: str) -> Context:
+    solution = dynsolve.solve(problem)
+    return Context(solution.robot, solution.values, solution.forms, solution.agreement)
+
+
+def check(problem: str, id: str) -> Step | None:
+    (record,) = (record for record in CHECKS if record.id == id)
+    return record.step(context(problem))
+
+
+def said(problem: str, id: str) -> str:
+    step = check(problem, id)
+    assert step is not None
+    return "".join(part if isinstance(part, str) else to_unicode(part) for part in step.why)
+
+
+def rows(problem: str, id: str) -> list[list[str]]:
+    step = check(problem, id)
+    assert step is not None and step.table is not None
+    style = dynsolve.solve(problem).style
+    return [
+        [part if isinstance(part, str) else to_unicode(part, style) for part in row]
+        for row in step.table.rows
+    ]
+
+
+def values_of(context: Context, seed: int) -> dict[str, float]:
+    """A random state with positive parameters."""
+    draw, ring = random.Random(seed), context.robot.ring
+    return {
+        **{name: draw.uniform(0.5, 2) for name in ring.parameters},
+        **{name + dots: draw.uniform(-3, 3) for name in ring.names for dots in ("", "_dot", "_ddot")},
+    }
+
+
+# -- what is said of familiar robots -----------------------------------------------------------------
+
+
+def test_the_planar_arm_stretched_and_folded() -> None:
+    assert rows("planar-2r", "inertia_poses") == [
+        ["q₂ = 0", "stretched", "d₁₁ = m₁ l_c1² + m₂ (l₁ + l_c2)² + I₁ + I₂"],
+        ["q₂ = 90°", "", "d₁₁ = m₁ l_c1² + m₂ (l₁² + l_c2²) + I₁ + I₂"],
+        ["q₂ = 180°", "folded", "d₁₁ = m₁ l_c1² + m₂ (l₁ - l_c2)² + I₁ + I₂"],
+    ]
+
+
+def test_an_upright_elbow_has_no_mass_away_from_its_waist() -> None:
+    assert ["θ₂ = 90°, θ₃ = 0", "stretched", "d₁₁ = I_1yy + I_2xx + I_3xx"] in rows(
+        "elbow-3r", "inertia_poses"
+    )
+
+
+def test_where_the_planar_arm_hangs_and_where_it_stands() -> None:
+    text = said("planar-2r", "equilibrium")
+    assert "At q₁ = -90° and q₂ = 0 g is zero and 𝒫 has a minimum: the arm hangs" in text
+    assert "At q₁ = 90° and q₂ = 0 g is zero and 𝒫 has a maximum" in text
+
+
+def test_an_arm_in_the_horizontal_plane_needs_nothing_against_gravity() -> None:
+    assert "no mass centre changes its height" in said("in3140-rp", "equilibrium")
+    assert check("spherical-rrp", "equilibrium") is None
+
+
+COUNTERWEIGHT = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}]
+masses: [{mass: m, link: 1, center: tip}, {mass: m, link: 1, center: [-2*l, 0, 0]}]
+"""
+
+
+def test_a_counterweight() -> None:
+    assert "others lose" in said(COUNTERWEIGHT, "equilibrium")
+
+
+def test_a_waist_keeps_its_momentum() -> None:
+    assert said("in3140-rp", "cyclic") == (
+        "θ₁ stands nowhere in 𝓛: a cyclic coordinate. As long as τ₁ = 0, the Euler-Lagrange equation says "
+        "that the momentum ∂𝓛/∂θ̇₁ is conserved."
+    )
+    assert check("planar-2r", "cyclic") is None
+
+
+def test_the_determinant_of_the_planar_arm() -> None:
+    step = check("planar-2r", "definite")
+    assert step is not None
+    (shown,) = step.result
+    assert to_unicode(shown, dynsolve.solve("planar-2r").style).startswith("d₁₁ d₂₂ - d₁₂² = ")
+    assert said("in3140-rp", "definite").endswith(
+        "d₁₁ and d₂₂ are sums of masses and moments times squares, which never all vanish, and the other "
+        "entries are zero."
+    )
+
+
+POINTS = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nmasses: [{mass: m2, link: 2}]\n"
+"""Without a mass at the elbow D is singular where the arm is stretched."""
+
+
+def test_of_a_matrix_that_may_be_singular_nothing_is_said() -> None:
+    assert check(POINTS, "definite") is None
+    assert check(POINTS, "point_masses") is None
+
+
+def test_longer_arms_have_no_such_checks() -> None:
+    assert not list(sanity_steps(context("scara-rrpr")))
+
+
+@pytest.mark.parametrize("record", CHECKS, ids=lambda record: record.id)
+def test_a_check_has_its_id_and_speaks_of_some_robots_only(record: Check) -> None:
+    found = [
+        record.step(context(problem))
+        for problem in ("planar-2r", "elbow-3r", "cartesian-pp", "spherical-rrp", POINTS)
+    ]
+    assert {step.id for step in found if step is not None} == {record.id} and None in found
+
+
+# -- signs ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("formula", "nonnegative", "positive"),
+    [
+        ("m*l^2", True, True),
+        ("m*(l - a)^2", True, False),
+        ("m*l*a", False, False),
+        ("m*sin(q)^2", True, False),
+        ("m*sin(q)^2 + I", True, True),
+        ("m*cos(q) + I", False, False),
+        ("I - m*l^2", False, False),
+        ("2*m/3", True, True),
+    ],
+)
+def test_signs_that_can_be_seen(formula: str, nonnegative: bool, positive: bool) -> None:
+    node, sure, constant = read(formula).tree, frozenset({"m", "I"}), frozenset({"m", "I", "l", "a"})
+    assert is_nonnegative(node, sure) is nonnegative
+    assert is_positive(node, sure, constant) is positive
+
+
+# -- what is said is true, of any robot ------------------------------------------------------------
+
+
+@settings(max_examples=5, deadline=None)
+@given(robots(max_joints=3, physical=True))
+def test_what_is_said_of_any_robot_is_true(problem: str) -> None:
+    found = context.__wrapped__(problem)
+    state = values_of(found, seed=1)
+    list(sanity_steps(found))
+    _definite(found, state)
+    _balanced(found, state)
+
+
+def _definite(found: Context, state: dict[str, float]) -> None:
+    if definite_step(found) is not None:
+        ring, D = found.robot.ring, found.values["D"]
+        matrix = np.array([[ring.evaluate(entry, state) for entry in row] for row in D.rows])
+        assert np.linalg.eigvalsh(matrix).min() > 0
+
+
+def _balanced(found: Context, state: dict[str, float]) -> None:
+    ring, g = found.robot.ring, found.values["g"]
+    for pose, sign in zip(balanced_poses(found), (1, -1), strict=True):
+        if pose is None:
+            continue
+        there = {**state, **{name: np.radians(angle) for name, angle in pose.items()}}
+        assert all(abs(ring.evaluate(entry, there)) < 1e-9 for entry in g.entries)
+        places = [ring.names.index(name) for name in pose]
+        second = [[ring.evaluate(ring.diff(g[i, 0], j), there) for j in places] for i in places]
+        assert (np.linalg.eigvalsh(sign * np.array(second)) > 0).all()
+
+
+def test_a_pose_puts_values_for_angles() -> None:
+    found = context("elbow-3r")
+    ring, entry = found.robot.ring, found.values["D"][0, 0]
+    state = values_of(found, seed=2)
+    there = at(ring, entry, {"theta2": 90, "theta3": -90})
+    expected = ring.evaluate(entry, {**state, "theta2": np.pi / 2, "theta3": -np.pi / 2})
+    assert ring.evaluate(there, state) == pytest.approx(expected)
+
+
+def test_blocks_and_determinants() -> None:
+    D = context("elbow-3r").values["D"]
+    assert blocks(D) == [[0], [1, 2]]
+    whole: Expr = determinant(D.rows)
+    assert whole == D[0, 0] * (D[1, 1] * D[2, 2] - D[1, 2] * D[1, 2])
+    assert masses_and_moments(context("elbow-3r").robot) >= {"m1", "I2xx", "I3zz"}

@@ -1,0 +1,83 @@
+"""What each term of a force is, and the section that closes a solution."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pytest
+from hypothesis import given, settings
+
+import dynsolve
+from dynsolve.document import Formula, Heading
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Detail
+from dynsolve.explain.terms import terms_of, value_of_term
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.solution.documents import solution_document
+from dynsolve.solution.summary import TITLE
+from tests.robots import robots
+
+
+@lru_cache
+def solved(problem: str) -> dynsolve.Solution:
+    return dynsolve.solve(problem)
+
+
+def table(problem: str) -> list[list[str]]:
+    (step,) = (step for step in solved(problem).steps if step.id == "terms")
+    assert step.table is not None
+    style = solved(problem).style
+    return [
+        [part if isinstance(part, str) else to_unicode(part, style) for part in row]
+        for row in step.table.rows
+    ]
+
+
+def test_every_term_of_the_course_s_manipulator() -> None:
+    assert table("in3140-rp") == [
+        ["τ₁", "d₁₁ θ̈₁ = (m₂ L₂² + I_1zz) θ̈₁", "inertial", "kg m² · 1/s²"],
+        ["", "2c₁₂₁ θ̇₁ L̇₂ = 2m₂ L₂ θ̇₁ L̇₂", "Coriolis", "kg m · m/s²"],
+        ["f₂", "d₂₂ L̈₂ = m₂ L̈₂", "inertial", "kg · m/s²"],
+        ["", "c₁₁₂ θ̇₁² = -m₂ L₂ θ̇₁²", "centrifugal", "kg m · 1/s²"],
+    ]
+
+
+def test_coupling_and_gravity() -> None:
+    kinds = [(force, kind) for force, _, kind, _ in table("planar-2r")]
+    assert kinds == [
+        ("τ₁", "inertial"), ("", "coupling inertia"), ("", "Coriolis"), ("", "centrifugal"), ("", "gravity"),
+        ("τ₂", "coupling inertia"), ("", "inertial"), ("", "centrifugal"), ("", "gravity"),
+    ]  # fmt: skip
+
+
+def test_where_units_are_unknown_none_are_said() -> None:
+    assert {len(row) for row in table("numeric-2r")} == {3}
+
+
+@settings(max_examples=5, deadline=None)
+@given(robots(max_joints=3))
+def test_the_terms_of_any_robot_make_its_forces(problem: str) -> None:
+    solution = dynsolve.solve(problem)
+    context = Context(solution.robot, solution.values, solution.forms)
+    for q in solution.robot.coordinates:
+        values = [value_of_term(context, term) for term in terms_of(context, q.index - 1)]
+        assert sum(values, start=solution.robot.ring.zero) == solution.values[f"tau{q.index}"]
+
+
+@pytest.mark.parametrize("detail", Detail)
+@pytest.mark.parametrize("problem", ["in3140-rp", "planar-2r", "elbow-3r", "scara-rrpr"])
+def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> None:
+    blocks = solution_document(solved(problem), detail).blocks
+    *_, last, verification = (place for place, block in enumerate(blocks) if isinstance(block, Heading))
+    assert blocks[last] == Heading(TITLE) and blocks[verification] == Heading("Verification")
+    shown = [block.node for block in blocks[last:] if isinstance(block, Formula)]
+    by_id = {step.id: step for step in solved(problem).steps}
+    forces = [by_id[f"tau{q.index}"].result[0] for q in solved(problem).robot.coordinates]
+    matrices = by_id["model"].result or tuple(by_id[name].result[0] for name in "DCg")
+    wanted = [*matrices, *forces] if solved(problem).robot.n <= 3 else []
+    assert shown == [by_id["model"].formula, *wanted]
+
+
+def test_a_part_of_a_solution_has_no_summary() -> None:
+    blocks = solution_document(solved("planar-2r"), stages=["energy"]).blocks
+    assert not any(isinstance(block, Heading) and block.text == TITLE for block in blocks)
