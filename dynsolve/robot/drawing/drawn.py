@@ -28,7 +28,7 @@ class DrawnAxis:
     """A joint axis in the pose that is drawn.
 
     `coordinate` names its joint variable.  The place of a sliding axis moves nothing; where
-    the drawing leaves it open, `is_placed` is False and the line's point means nothing.
+    the drawing leaves it open, `is_placed` is False and the line any of them (`places`).
     """
 
     coordinate: str

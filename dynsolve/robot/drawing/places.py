@@ -44,7 +44,7 @@ def _choices(drawing: Drawing, i: int) -> Iterator[DrawnAxis]:
     points += [other.line.point for other in drawing.axes[i + 1 :] if other.is_placed][:1]
     points += [drawing.hand.at, Matrix.zero(drawing.ring, 3, 1)]
     for point in dict.fromkeys(points):
-        yield replace(axis, line=Line(point, axis.line.direction), is_placed=True)
+        yield replace(axis, line=Line(point, axis.line.direction))
 
 
 def _offsets(drawing: Drawing) -> int:

@@ -1,0 +1,9 @@
+"""A Denavit-Hartenberg table judged by the mechanism that it describes, not letter by letter.
+
+tables        a table as it is written: cells, joint variables, numbers
+chains        the joint axes that a table describes, without its frames
+matching      whether two chains are one mechanism, for some choice of frames
+comparison    a student's table against the key's, and how the student counts the coordinates
+repairs       which cell of a wrong table is to blame
+table_judge   the verdict of an answer DH
+"""

@@ -1,0 +1,177 @@
+"""A student's table against the key's, by the mechanism: at values of the letters drawn from a fixed seed.
+
+An equality of two tables is an equality of polynomials in sines, cosines and lengths; what holds at
+several random points to nine digits holds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import degrees, inf, pi
+from random import Random
+
+from dynsolve.answers.judging.mechanism.chains import START, Chain, Pose, chain_of
+from dynsolve.answers.judging.mechanism.matching import Match, Matching, Mismatch
+from dynsolve.answers.judging.mechanism.tables import Table, TableError, TableRow, key_table
+from dynsolve.derivation.newton_euler import Rotation
+from dynsolve.notation.tree import Number
+from dynsolve.notation.walk import names_in, walk
+from dynsolve.problem.model import Problem
+from dynsolve.robot.model import Convention, JointType
+
+TOLERANCE = 1e-9
+ROUNDED = 2e-3
+"""How far a table may be off that holds decimals."""
+_SEED = 20_060_302
+_DRAWS = 3
+_TRIES = 200
+
+
+@dataclass(frozen=True, slots=True)
+class OwnCoordinate:
+    """A student's coordinate in the key's: q' = sense·q + offset, the same at every draw or None.
+
+    The offset is in degrees for an angle, a number for a length.
+    """
+
+    name: str
+    sense: int
+    offset: float | None
+
+    @property
+    def is_the_keys(self) -> bool:
+        """Whether it is the key's own."""
+        return self.sense == 1 and self.offset == 0
+
+
+@dataclass(frozen=True, slots=True)
+class Agreement:
+    """A table that describes the key's mechanism: how its coordinates are counted, and its frame 0.
+
+    `base_is_turned` says that frame 0 is not the key's.
+    """
+
+    coordinates: tuple[OwnCoordinate, ...]
+    match: Match
+    is_rounded: bool = False
+
+    @property
+    def is_strict(self) -> bool:
+        """Whether every coordinate is the key's own."""
+        return all(q.is_the_keys for q in self.coordinates)
+
+
+class TableComparer:
+    """Compares tables with a problem's."""
+
+    def __init__(self, problem: Problem, key: Table | None = None) -> None:
+        self.problem, self.robot = problem, problem.robot
+        self.key = key_table(problem.robot) if key is None else key
+        self.modified = problem.robot.convention is Convention.MODIFIED
+        self.base_is_free = _base_is_free(problem)
+        self.letters = tuple(_draws(problem, self.key))
+        self._keys = tuple(self.chain(self.key, letters) for letters in self.letters)
+
+    def chain(self, table: Table, letters: Mapping[str, float], base: Pose = START) -> Chain:
+        """The chain of a table at values of the letters."""
+        return chain_of((row.numbers(letters) for row in table), self.modified, base)
+
+    def __call__(self, table: Table) -> Agreement | Mismatch:
+        """Whether a table describes the same mechanism, or where it parts from it.
+
+        Raises TableError where its joint variables are not those of the robot.
+        """
+        self._check_joints(table)
+        tolerance = ROUNDED if _holds_decimals(table) else TOLERANCE
+        matches: list[Match] = []
+        for letters, key in zip(self.letters, self._keys, strict=True):
+            try:
+                student = self.chain(table, letters)
+            except (ArithmeticError, ValueError, KeyError):
+                return Mismatch(0, "place")
+            found = Matching(key, student, self.base_is_free, tolerance).found()
+            if isinstance(found, Mismatch):
+                return found
+            matches.append(found)
+        exact = tolerance == TOLERANCE or self._is_exact(table)
+        return Agreement(tuple(self._coordinates(table, matches)), matches[0], is_rounded=not exact)
+
+    def agrees(self, table: Table) -> int | None:
+        """How many coordinates are not the key's own where a table describes the mechanism; None where not."""
+        found = self(table)
+        if isinstance(found, Mismatch):
+            return None
+        return sum(not q.is_the_keys for q in found.coordinates)
+
+    def _is_exact(self, table: Table) -> bool:
+        student = self.chain(table, self.letters[0])
+        return isinstance(Matching(self._keys[0], student, self.base_is_free, TOLERANCE).found(), Match)
+
+    def _check_joints(self, table: Table) -> None:
+        moving = [(i, row) for i, row in enumerate(table, 1) if row.variable is not None]
+        keys = [row for row in self.key if row.variable is not None]
+        if len(moving) != len(keys):
+            raise TableError(f"the table has {len(moving)} joint variables, and the robot {len(keys)} joints")
+        names = [q.name for q in self.robot.coordinates]
+        for (i, mine), theirs in zip(moving, keys, strict=True):
+            if [k for k, _ in mine.rates] != [k for k, _ in theirs.rates] or not _proportional(mine, theirs):
+                here, there = (" and ".join(names[k] for k, _ in row.rates) for row in (mine, theirs))
+                column = (mine.variable or 0) + 1
+                raise TableError(f"row {i} moves with {here}, where the robot's joint moves with {there}", i, column)
+
+    def _coordinates(self, table: Table, matches: list[Match]) -> Iterator[OwnCoordinate]:
+        """How the student counts each coordinate that moves a joint by itself."""
+        mine = [row for row in table if row.variable is not None]
+        keys = [row for row in self.key if row.variable is not None]
+        for j, (row, theirs) in enumerate(zip(mine, keys, strict=True)):
+            if len(row.rates) != 1:
+                continue
+            ((k, rate),) = row.rates
+            ratio = int(theirs.rates[0][1] / rate)
+            q = self.robot.coordinates[k]
+            offsets = {self._offset(match.offsets[j] / float(rate), q.type) for match in matches}
+            offset = offsets.pop() if len(offsets) == 1 else None
+            yield OwnCoordinate(q.name, matches[0].senses[j] * ratio, offset)
+
+    @staticmethod
+    def _offset(value: float, kind: JointType) -> float:
+        """An offset, of an angle in degrees in (-180, 180], rounded."""
+        if kind is JointType.REVOLUTE:
+            value = -((-degrees(value) + 180) % 360 - 180)
+            return 180.0 if round(value, 6) == -180 else round(value, 6) + 0.0
+        return round(value, 8) + 0.0
+
+
+def _proportional(mine: TableRow, theirs: TableRow) -> bool:
+    ratios = {a / b for (_, a), (_, b) in zip(mine.rates, theirs.rates, strict=True)}
+    return ratios <= {Fraction(1)} or ratios <= {Fraction(-1)}
+
+
+def _base_is_free(problem: Problem) -> bool:
+    """Whether the first axis of a drawing has no place, and so frame 0 none."""
+    return problem.normals is not None and not problem.normals.drawing.axes[0].is_placed
+
+
+def _draws(problem: Problem, key: Table) -> Iterator[dict[str, float]]:
+    """Values of the letters at which the key has one: lengths and angles between 0.4 and 1.6."""
+    random = Random(_SEED)  # noqa: S311 - the same values every time are wanted
+    names = (*problem.robot.ring.parameters, *sorted(names_in(*(c for row in key for c in row.constants))))
+    found = 0
+    for _ in range(_TRIES):
+        letters = {name: random.uniform(0.4, 1.6) for name in dict.fromkeys(names)} | {"pi": pi}
+        try:
+            for row in key:
+                row.numbers(letters)
+        except (ArithmeticError, ValueError):
+            continue
+        yield letters
+        found += 1
+        if found == _DRAWS:
+            return
+
+
+def _holds_decimals(table: Table) -> bool:
+    cells = (cell for row in table for cell in row.constants)
+    return any(isinstance(node, Number) and node.q >= 100 for node in walk(*cells))

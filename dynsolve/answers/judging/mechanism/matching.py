@@ -1,0 +1,278 @@
+"""Whether two chains of joint axes are one mechanism, for some choice of frames.
+
+What is free of a table (Spong et al. 3.2): each z points along its joint axis or against it, frame 0
+is anywhere on the first axis, a sliding axis has a direction and no place, and the hand may
+have any x.  So the student's chain is laid on the key's, from the base on:
+
+1. turned: each link so that the axes on it point as the key's do, or against them; a link on which
+   all axes are parallel so that the next one is on the right side.  How far a joint had to be turned
+   for that is where the student counts it from.
+2. moved: along the first axis, and by sliding joints; what is then left between the two is wrong.
+
+Everything is in numbers; the caller repeats it for other values of the letters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import atan2, pi, sqrt
+from typing import Any
+
+from dynsolve.answers.judging.mechanism.chains import Chain, JointLine
+from dynsolve.derivation.drawn_motion import rodrigues
+from dynsolve.derivation.newton_euler import (
+    IDENTITY,
+    Rotation,
+    Vector,
+    applied,
+    cross,
+    dot,
+    minus,
+    scaled,
+    times,
+)
+
+_DEPENDENT = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """How a chain lies on the key's.
+
+    `senses` are +1 where a joint's axis points as the key's does, else -1; `offsets` what the
+    student's joint variable is, by its own sense, where the key's is 0 in its; `base` is the
+    rotation that takes the student's frame 0 to the key's world.
+    """
+
+    senses: tuple[int, ...]
+    offsets: tuple[float, ...]
+    base: Rotation
+
+
+@dataclass(frozen=True, slots=True)
+class Mismatch:
+    """The first joint (from 0, the number of joints for the hand) that cannot be laid on the key's, and why.
+
+    `reason` is "direction" or "place".
+    """
+
+    joint: int
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Turned:
+    """A chain turned so far.
+
+    `R` takes the student's axes to the key's world; `free` is the direction about which it may still
+    be turned (None: all is settled), `owner` the joint that would do it, -1 for the base, whose
+    rotation is `base`.  `rotations` are those of the links that carry the joints and the hand.
+    """
+
+    R: Rotation
+    free: Vector | None
+    owner: int
+    base: Rotation
+    senses: tuple[int, ...] = ()
+    turned: tuple[float, ...] = ()
+    rotations: tuple[Rotation, ...] = ()
+
+
+class Matching:
+    """Lays a student's chain on the key's.
+
+    `base_is_free` says that frame 0 may be anywhere, the first axis having no place;
+    `tolerance` is what counts as rounding.
+    """
+
+    def __init__(self, key: Chain, student: Chain, base_is_free: bool, tolerance: float) -> None:
+        self.key, self.student, self.base_is_free, self.tolerance = key, student, base_is_free, tolerance
+        self.deepest = Mismatch(0, "direction")
+
+    def found(self) -> Match | Mismatch:
+        """The first way in which the chains agree, or where they part."""
+        for turned in self._turnings(0, None):
+            offsets = self._moved(turned)
+            if offsets is not None:
+                return Match(turned.senses, offsets, turned.base)
+        return self.deepest
+
+    def _fails(self, joint: int, reason: str) -> None:
+        if joint > self.deepest.joint or (joint, reason) == (self.deepest.joint, "place"):
+            self.deepest = Mismatch(joint, reason)
+
+    # -- turned ------------------------------------------------------------------------------------
+
+    def _turnings(self, joint: int, before: _Turned | None) -> Iterator[_Turned]:
+        """Every way of turning the links from a joint on, the key's own senses first."""
+        if joint == len(self.key.joints):
+            assert before is not None
+            yield from self._hand_turned(before)
+            return
+        mine, keys = self.student.joints[joint], self.key.joints[joint]
+        for sense in (1, -1):
+            turned = self._pointed(before, mine.direction, scaled(keys.direction, sense))
+            if turned is None:
+                self._fails(joint, "direction")
+                continue
+            turned = replace(turned, senses=(*turned.senses, sense))
+            placed = self._sided(turned, joint) if keys.turns else turned
+            if placed is None:
+                self._fails(joint, "place")
+                continue
+            yield from self._turnings(joint + 1, self._joint_freed(placed, joint, keys))
+
+    def _joint_freed(self, turned: _Turned, joint: int, keys: JointLine) -> _Turned:
+        """After a turning joint all that follows may be turned about its axis."""
+        turned = replace(turned, turned=(*turned.turned, 0.0), rotations=(*turned.rotations, turned.R))
+        if not keys.turns or turned.free is not None:
+            return turned  # what could be turned about the same line before can still
+        return replace(turned, free=keys.direction, owner=joint)
+
+    def _hand_turned(self, before: _Turned) -> Iterator[_Turned]:
+        last = len(self.key.joints)
+        mine, keys = self.student.hand.R, self.key.hand.R
+        ways = [self._pointed(before, _z(mine), scaled(_z(keys), sense)) for sense in (1, -1)]
+        if ways == [None, None]:
+            self._fails(last, "direction")
+        for turned in ways:
+            placed = self._sided(turned, last) if turned is not None else None
+            if placed is not None:
+                yield replace(placed, rotations=(*placed.rotations, placed.R))
+            elif turned is not None:
+                self._fails(last, "place")
+
+    def _pointed(self, before: _Turned | None, direction: Vector, target: Vector) -> _Turned | None:
+        """A direction of the student's turned to point as the key's; None where it cannot."""
+        if before is None:
+            first = _rotation_to(direction, target)
+            return _Turned(first, target, -1, first)
+        now = applied(before.R, direction)
+        if _length(minus(now, target)) <= self.tolerance:
+            parallel = before.free is not None and _length(cross(before.free, target)) <= self.tolerance
+            return before if parallel or before.free is None else replace(before, free=None)
+        if before.free is None or abs(dot(minus(now, target), before.free)) > self.tolerance:
+            return None
+        return _turned_about(before, now, target)
+
+    def _sided(self, turned: _Turned, joint: int) -> _Turned | None:
+        """Where all axes of a link are parallel, the next one turned to its side; None where it is too far off."""
+        if turned.free is None or self._reference(joint) is None:
+            return turned
+        way, target = self._ways(turned, joint)
+        way, target = _across(way, turned.free), _across(target, turned.free)
+        mine, keys = _length(way), _length(target)
+        if abs(mine - keys) > self.tolerance * max(1.0, keys):
+            return None
+        if keys <= self.tolerance * 10:
+            return turned
+        return _turned_about(turned, way, target)
+
+    def _reference(self, joint: int) -> int | None:
+        """The joint before one whose axis has a place: a turning one, or the first; None for the first itself."""
+        if joint == 0:
+            return None
+        return next((j for j in range(joint - 1, 0, -1) if self.key.joints[j].turns), 0)
+
+    def _ways(self, turned: _Turned, joint: int) -> tuple[Vector, Vector]:
+        """The way from the last placed axis to a joint's, or the hand: the student's, turned, and the key's."""
+        before = self._reference(joint)
+        assert before is not None
+        ends = [
+            chain.joints[joint].point if joint < len(chain.joints) else chain.hand.o
+            for chain in (self.student, self.key)
+        ]
+        starts = [chain.joints[before].point for chain in (self.student, self.key)]
+        return applied(turned.R, minus(ends[0], starts[0])), minus(ends[1], starts[1])
+
+    # -- moved -------------------------------------------------------------------------------------
+
+    def _moved(self, turned: _Turned) -> tuple[float, ...] | None:
+        """How far each joint is displaced, so that every axis lies on the key's; None where none does it."""
+        import numpy as np
+
+        joints = self.key.joints
+        n = len(joints)
+        placed = [j for j in range(n) if joints[j].turns or j == 0]
+        slides = [j for j in range(n) if not joints[j].turns]
+        unknowns = [("along", j) for j in placed] + [("base", k) for k in range(3 * self.base_is_free)]
+        unknowns += [("slide", j) for j in slides]
+        ends = [j for j in placed if j] + [n]
+        A, b = np.zeros((3 * len(ends), len(unknowns))), np.zeros(3 * len(ends))
+        for block, end in enumerate(ends):
+            rows = slice(3 * block, 3 * block + 3)
+            start = self._reference(end)
+            assert start is not None
+            way, target = self._ways(replace(turned, R=turned.rotations[end]), end)
+            b[rows] = minus(target, way)
+            for k, (kind, j) in enumerate(unknowns):
+                if kind == "base":
+                    A[rows, k] = [float(start == 0 and axis == j) for axis in range(3)]
+                elif kind == "along":
+                    A[rows, k] = scaled(joints[j].direction, float(j == start) - float(j == end))
+                elif start <= j < end:
+                    A[rows, k] = joints[j].direction
+        solution, left = _solved(A, b)
+        size = max(1.0, float(np.abs(b).max(initial=0.0)))
+        for block, end in enumerate(ends):
+            if float(np.abs(left[3 * block : 3 * block + 3]).max()) > self.tolerance * size:
+                self._fails(end, "place")
+                return None
+        ways = {j: value for (kind, j), value in zip(unknowns, solution, strict=True) if kind == "slide"}
+        return tuple(
+            turned.senses[j] * (ways[j] if j in ways else turned.turned[j]) for j in range(n)
+        )
+
+
+def _turned_about(before: _Turned, vector: Vector, target: Vector) -> _Turned:
+    """Turned about the free direction until a vector points across it as another does; nothing is free then."""
+    assert before.free is not None
+    angle = atan2(dot(cross(vector, target), before.free), dot(_across(vector, before.free), target))
+    turn = rodrigues(before.free, angle)
+    R, owner = times(turn, before.R), before.owner
+    if owner < 0:
+        return replace(before, R=R, free=None, base=times(turn, before.base))
+    angles = list(before.turned)
+    angles[owner] += angle
+    return replace(before, R=R, free=None, turned=tuple(angles))
+
+
+def _rotation_to(vector: Vector, target: Vector) -> Rotation:
+    """A rotation that takes one unit vector to another."""
+    axis, cosine = cross(vector, target), dot(vector, target)
+    sine = _length(axis)
+    if sine > 1e-12:
+        return rodrigues(scaled(axis, 1 / sine), atan2(sine, cosine))
+    if cosine > 0:
+        return IDENTITY
+    other = (1.0, 0.0, 0.0) if abs(vector[0]) < 0.9 else (0.0, 1.0, 0.0)
+    across = cross(vector, other)
+    return rodrigues(scaled(across, 1 / _length(across)), pi)
+
+
+def _across(vector: Vector, direction: Vector) -> Vector:
+    """The part of a vector across a unit direction."""
+    return minus(vector, scaled(direction, dot(vector, direction)))
+
+
+def _length(vector: Vector) -> float:
+    return sqrt(dot(vector, vector))
+
+
+def _z(R: Rotation) -> Vector:
+    return R[0][2], R[1][2], R[2][2]
+
+
+def _solved(A: Any, b: Any) -> tuple[list[float], Any]:
+    """(x, b - A x) of least squares; of columns that depend on each other the first is used."""
+    import numpy as np
+
+    used: list[int] = []
+    for k in range(A.shape[1]):
+        if np.linalg.matrix_rank(A[:, [*used, k]], tol=_DEPENDENT) > len(used):
+            used.append(k)
+    x = np.zeros(A.shape[1])
+    if used:
+        x[used] = np.linalg.lstsq(A[:, used], b, rcond=None)[0]
+    return [float(value) for value in x], b - A @ x
