@@ -29,6 +29,8 @@ from dynsolve.answers.marking.policy import Policy
 from dynsolve.answers.marking.substance import weighed
 from dynsolve.answers.reading.files import FileReader
 from dynsolve.answers.submission import NotRecognized, Submission
+from dynsolve.answers.table_verdict import NAME as TABLE
+from dynsolve.answers.table_verdict import TableJudge
 from dynsolve.answers.unwritten import coriolis_entries, unwritten
 from dynsolve.answers.verdict import JudgedAnswer, Report, Verdict
 from dynsolve.derivation.graph import Derivation
@@ -52,6 +54,11 @@ class Checker:
     def reader(self) -> FileReader:
         """Reads what is handed in."""
         return FileReader(self.problem)
+
+    @cached_property
+    def table_judge(self) -> TableJudge:
+        """Judges Denavit-Hartenberg tables."""
+        return TableJudge(self.problem)
 
     @cached_property
     def derivation_slips(self) -> DerivationSlips:
@@ -80,7 +87,9 @@ class Judge:
         self.checker = checker
         self.problem = checker.problem
         self.submission = submission
-        self.hand_in = ComparedHandIn(checker.answer_ring, checker.compare_entry, submission.answers)
+        self.tables = [answer for answer in submission.answers if answer.name == TABLE]
+        others = [answer for answer in submission.answers if answer.name != TABLE]
+        self.hand_in = ComparedHandIn(checker.answer_ring, checker.compare_entry, others)
         self.graph = self.hand_in.graph
 
     @cached_property
@@ -130,14 +139,13 @@ class Judge:
         """The answers that were given, and those that were asked for, by name."""
         judge = AnswerJudge(self.problem, self.hand_in, self.explanations, self._diagnoser)
         answers = {name: judge(name) for name in self.hand_in.chains}
+        if self.tables:
+            answers[TABLE] = self.checker.table_judge(self.tables)
         assembled = self.hand_in.assembled_coriolis
         if assembled is not None:
             answers |= dict(coriolis_entries(judge, assembled, answers))
         for name in self.problem.marks or self.problem.find:
-            if (
-                name not in answers
-                and self.hand_in.compare.target(name).node in self.hand_in.answer_ring.rules
-            ):
+            if name not in answers and (name == TABLE or self._has_key(name)):
                 answers[name] = self._unwritten(name, answers)
         for name, chains in self.hand_in.definitions.items():
             defined = answers[name] if name in answers else self._unwritten(name, answers)
@@ -173,6 +181,9 @@ class Judge:
             or any(quantities.entry_of(other)[0] == name for other in given)
             or any(part in given for part in quantities.parts(name))
         )
+
+    def _has_key(self, name: str) -> bool:
+        return self.hand_in.compare.target(name).node in self.hand_in.answer_ring.rules
 
     def _unwritten(self, name: str, answers: dict[str, JudgedAnswer]) -> JudgedAnswer:
         return unwritten(self.graph, name, Fraction(self.problem.marks.get(name, 0)), answers)

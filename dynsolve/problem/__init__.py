@@ -18,6 +18,8 @@
                      loads          `forces`
                      state          `state`
                      rotations      `Rz(90deg) Rx(30deg)`
+                     accepted_tables
+                                    `also`, `strict`
                      exercise       `find`, `marks`, `values`, `units`
                      parsed_file    all of them together
       -> checked     symbols        one name is one thing

@@ -10,6 +10,7 @@ from pathlib import PurePath
 from re import compile as pattern
 
 from dynsolve.errors import Finding
+from dynsolve.problem.accepted_tables import AcceptedTables
 from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.model import Convention, Robot
 
@@ -48,6 +49,7 @@ class Problem:
     `find` and the keys of `marks` are names of answers in their canonical form
     (`D`, never `M`).  `values` are the numbers for numeric results, angles in radians;
     `written` are the same as they stand in the file, which is exact.
+    `accepted` is what else counts as a Denavit-Hartenberg table that is handed in.
     `normals` are those of a drawing, where the file has one in the place of a table.
     `places` tells where each part of the file stands; `warnings` are what deserves
     a look and is no error.
@@ -64,6 +66,7 @@ class Problem:
     written: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     normals: Normals | None = None
+    accepted: AcceptedTables = field(default_factory=AcceptedTables)
     places: Mapping[Path, FilePlace] = field(default_factory=dict)
     warnings: tuple[Finding, ...] = ()
 

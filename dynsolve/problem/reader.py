@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from dynsolve.errors import Finding, ProblemError
+from dynsolve.problem.accepted_tables import read_accepted_tables
 from dynsolve.problem.base import read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
@@ -91,6 +92,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         faults.raise_errors()
     check_symbols(faults, parsed)
     exercise = read_exercise(faults, fields, parsed)
+    accepted = read_accepted_tables(faults, fields)
     title = free_text(faults, fields.get("title"), "title") or Path(file).stem
     source = free_text(faults, fields.get("source"), "source")
     robot = build_robot(faults, parsed, exercise.asked)
@@ -108,6 +110,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         written=exercise.written,
         units=exercise.units,
         normals=parsed.normals,
+        accepted=accepted,
         places=dict(_places(faults, root)),
         warnings=tuple(faults.warnings),
     )

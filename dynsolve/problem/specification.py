@@ -63,6 +63,7 @@ HAND = Keyed(
     )
 )
 ZERO = Word(("table", "drawn"))
+STRICT = Word(("true", "false"))
 DRAWING = ("axes", "tip", "zero")
 """The keys that stand for `dh` and `base`."""
 
@@ -252,6 +253,22 @@ PROBLEM = Keyed(
             "Where turning joints of a drawing are 0: as drawn, or where the table has them (no offsets).",
             "drawn",
             "table",
+        ),
+        Key(
+            "also",
+            ListOf(ListOf(ListOf(EXPRESSION, "", 4, 4), "", 1, MAX_ROWS), "a list of tables"),
+            "Further tables, rows of [θ, d, a, α], that count as an answer DH as they stand.",
+            "[[[theta1*, L1, 0, 90deg], [0, L2*, 0, 0]]]",
+            "none",
+            remedy="write also: [[[theta1*, L1, 0, 90deg], ...], ...], a list of tables",
+        ),
+        Key(
+            "strict",
+            STRICT,
+            "Whether an answer DH must count every coordinate in the sense and from where the file does.",
+            "false",
+            "false",
+            remedy="write strict: true or strict: false",
         ),
         Key(
             "coordinates",

@@ -42,6 +42,15 @@ _ENERGY = "K Ek T E"
 
 H0 = Family(name="H0", stage=Stage.KINEMATICS, shape=(4, 4), is_answer=False)
 
+DH = Family(
+    name="DH",
+    stage=Stage.KINEMATICS,
+    shape=("n", 4),
+    letter=of_robot(letters.DH),
+    spellings=("DHtable", "table"),
+)
+"""The Denavit-Hartenberg table; no rule gives it, and its rows need not be those of the robot."""
+
 A = Family(
     name="A{i}",
     owner=Owner.ROW,

@@ -18,6 +18,9 @@ def index_of(name: str) -> Node:
     return Number(int(name)) if name.isdecimal() else Symbol(name)
 
 
+DH = Letter("DH", style="upright")
+
+
 def A(i: int) -> Letter:
     """A_i"""
     return bold("A", Number(i))

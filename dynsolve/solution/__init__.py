@@ -7,6 +7,7 @@
     symbolic        a result as SymPy
     numeric         a result as a NumPy function
     json_export     everything as JSON
+    table_export    the Denavit-Hartenberg table as JSON has it
     documents       a solution as a document: stages, steps, numbers
     earlier_results which of the equations before it a step uses
     summary         its closing section: the model, its matrices, the forces row by row

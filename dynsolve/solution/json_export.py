@@ -28,6 +28,7 @@ from dynsolve.solution.numbers import measures
 from dynsolve.solution.numbers.given import Given
 from dynsolve.solution.numbers.results import Numbers, State, Valued
 from dynsolve.solution.numbers.rounding import DIGITS
+from dynsolve.solution.table_export import table_results
 
 if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
@@ -105,7 +106,8 @@ class _Exporter:
                 case Owner.COORDINATE:
                     _fill(results.setdefault("euler_lagrange", equations), family.json, values)
         results.setdefault("bodies", bodies)
-        return results | {quantity.name: self.value(quantity) for quantity in _asked(robot)}
+        results |= {quantity.name: self.value(quantity) for quantity in _asked(robot)}
+        return results | dict(table_results(self.solution, self.python))
 
     def value(self, quantity: Quantity) -> Any:
         """A scalar as text, a matrix as its rows, a vector as its entries; a set as lists of equations."""

@@ -257,6 +257,33 @@ _SLIPS = (
          "C is linear in the velocities; nothing is divided by what may be 0.",
          Example(_2R, "C", [["-m2*l1*lc2*sin(q2)*(2*q2_dot + q2_dot^2/q1_dot)", "0"],
                  ["m2*l1*lc2*sin(q2)*q1_dot", "0"]])),
+    Slip("dh_cell", "one cell of the table", "Row {part}: {yours} where {other} is needed. {term}",
+         "Follow the four motions of this row with the drawing: about z, along z, along x, about x.",
+         Example(_2R, "DH", [["q1", "0", "l1", "90deg"], ["q2", "0", "l2", "0"]])),
+    Slip("dh_exchanged", "two columns", "Row {part}: d and a are exchanged.",
+         "d is measured along z, the joint's axis, and a across it, along x.",
+         Example(_2R, "DH", [["q1", "l1", "0", "0"], ["q2", "0", "l2", "0"]])),
+    Slip("dh_joints", "the joint variables", "{yours}.",
+         "A revolute joint has its variable in θ, a prismatic one in d, one joint a row.",
+         Example(_2R, "DH", [["0", "q1", "l1", "0"], ["q2", "0", "l2", "0"]])),
+    Slip("dh_mechanism", "several cells of the table",
+         "The table describes another mechanism: {part}. No single cell is to blame.",
+         "Go through the rows with the drawing: about z, along z, along x, about x.",
+         Example(_2R, "DH", [["q1", "l2", "0", "90deg"], ["q2", "0", "l2", "90deg"]])),
+    Slip("dh_convention", "the convention",
+         "The table is right in the {other} convention, and asked for in the {part} one.",
+         "In Spong's table a row ends with a and α, in Craig's it begins with those of the row before.",
+         Example("""
+convention: modified
+dh: [{theta: q1*}, {theta: q2*, a: l1}, {a: l2}]
+""", "DH", [["q1", "0", "l1", "0"], ["q2", "0", "l2", "0"]])),
+    Slip("dh_sense", "the sense of a joint",
+         "{yours}; here every coordinate has to be counted as it is given.",
+         "Choose the direction of each z, and where each joint is at 0, as they are given.",
+         Example("""
+strict: true
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+""", "DH", [["q1", "0", "l1", "0"], ["q2 + 90deg", "0", "l2", "0"]])),
     Slip("shape", "the size of the matrix", "{yours}", "Count rows and columns.",
          Example(_2R, "g", [["m2*lc2*g*cos(q1)"]])),
 )  # fmt: skip

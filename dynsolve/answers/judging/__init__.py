@@ -9,6 +9,7 @@ graph                         which answers lead to which, by which routes
 entry_comparison              whether two scalars are equal
 key_comparison                an answer compared with the key, entry by entry
 planar                        vectors and Jacobians of planar robots, without rows of zeros
+mechanism                     whether two Denavit-Hartenberg tables describe one mechanism
 zero_height                   the zero of height that the student has chosen
 hand_in                       all of these for one hand-in
 student_values                the student's own values, where the next two start

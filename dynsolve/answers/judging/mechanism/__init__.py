@@ -5,5 +5,5 @@ chains        the joint axes that a table describes, without its frames
 matching      whether two chains are one mechanism, for some choice of frames
 comparison    a student's table against the key's, and how the student counts the coordinates
 repairs       which cell of a wrong table is to blame
-table_judge   the verdict of an answer DH
+wording       what is said of a table
 """

@@ -15,7 +15,6 @@ from dynsolve.derivation.newton_euler import (
     ZERO,
     Rotation,
     Vector,
-    applied,
     column,
     elementary,
     plus,
@@ -77,13 +76,10 @@ class Chain:
     hand: Pose
 
 
-START = Pose(IDENTITY, ZERO)
-
-
-def chain_of(rows: Iterable[NumberRow], modified: bool, base: Pose = START) -> Chain:
-    """The chain of a table whose frame 0 is at `base`."""
+def chain_of(rows: Iterable[NumberRow], modified: bool) -> Chain:
+    """The chain of a table, seen from its frame 0."""
     joints: list[JointLine] = []
-    pose = base
+    pose = Pose(IDENTITY, ZERO)
     for index, row in enumerate(rows, 1):
         if modified:
             pose = pose.turned("x", row.alpha).moved("x", row.a)
@@ -94,5 +90,3 @@ def chain_of(rows: Iterable[NumberRow], modified: bool, base: Pose = START) -> C
         if not modified:
             pose = pose.moved("x", row.a).turned("x", row.alpha)
     return Chain(tuple(joints), pose)
-
-

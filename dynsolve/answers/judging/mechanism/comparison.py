@@ -6,17 +6,16 @@ several random points to nine digits holds.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import degrees, inf, pi
+from math import degrees, pi, remainder
 from random import Random
 
-from dynsolve.answers.judging.mechanism.chains import START, Chain, Pose, chain_of
+from dynsolve.answers.judging.mechanism.chains import Chain, NumberRow, chain_of
 from dynsolve.answers.judging.mechanism.matching import Match, Matching, Mismatch
-from dynsolve.answers.judging.mechanism.tables import Table, TableError, TableRow, key_table
-from dynsolve.derivation.newton_euler import Rotation
-from dynsolve.notation.tree import Number
+from dynsolve.answers.judging.mechanism.tables import Table, TableError, TableRow, key_table, read_table
+from dynsolve.notation.tree import Node, Number
 from dynsolve.notation.walk import names_in, walk
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import Convention, JointType
@@ -39,6 +38,7 @@ class OwnCoordinate:
     name: str
     sense: int
     offset: float | None
+    is_length: bool = False
 
     @property
     def is_the_keys(self) -> bool:
@@ -48,10 +48,7 @@ class OwnCoordinate:
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """A table that describes the key's mechanism: how its coordinates are counted, and its frame 0.
-
-    `base_is_turned` says that frame 0 is not the key's.
-    """
+    """A table that is the key's mechanism: how it counts the coordinates, how it lies on the key's."""
 
     coordinates: tuple[OwnCoordinate, ...]
     match: Match
@@ -64,19 +61,21 @@ class Agreement:
 
 
 class TableComparer:
-    """Compares tables with a problem's."""
+    """Compares tables with a problem's; `read_as` is their convention where that is another."""
 
-    def __init__(self, problem: Problem, key: Table | None = None) -> None:
-        self.problem, self.robot = problem, problem.robot
-        self.key = key_table(problem.robot) if key is None else key
-        self.modified = problem.robot.convention is Convention.MODIFIED
+    def __init__(self, problem: Problem, read_as: Convention | None = None) -> None:
+        self.robot = problem.robot
+        self.key = key_table(problem.robot)
+        self.modified = (read_as or problem.robot.convention) is Convention.MODIFIED
         self.base_is_free = _base_is_free(problem)
         self.letters = tuple(_draws(problem, self.key))
-        self._keys = tuple(self.chain(self.key, letters) for letters in self.letters)
+        keys_are_modified = problem.robot.convention is Convention.MODIFIED
+        self._keys = tuple(_chain(self.key, letters, keys_are_modified) for letters in self.letters)
+        self.joints = self._keys[0].joints
 
-    def chain(self, table: Table, letters: Mapping[str, float], base: Pose = START) -> Chain:
-        """The chain of a table at values of the letters."""
-        return chain_of((row.numbers(letters) for row in table), self.modified, base)
+    def chain(self, table: Table, letters: Mapping[str, float]) -> Chain:
+        """The chain of a student's table at values of the letters."""
+        return _chain(table, letters, self.modified)
 
     def __call__(self, table: Table) -> Agreement | Mismatch:
         """Whether a table describes the same mechanism, or where it parts from it.
@@ -99,11 +98,23 @@ class TableComparer:
         return Agreement(tuple(self._coordinates(table, matches)), matches[0], is_rounded=not exact)
 
     def agrees(self, table: Table) -> int | None:
-        """How many coordinates are not the key's own where a table describes the mechanism; None where not."""
+        """How many coordinates a right table counts otherwise than the key; None of a wrong one."""
         found = self(table)
         if isinstance(found, Mismatch):
             return None
         return sum(not q.is_the_keys for q in found.coordinates)
+
+    def is_one_of(self, table: Table, accepted: Sequence[Sequence[Sequence[Node]]]) -> bool:
+        """Whether a table is one of those that count as they stand, cell by cell."""
+        return any(self._is_same(table, read_table(other, self.robot.coordinates)) for other in accepted)
+
+    def _is_same(self, table: Table, other: Table) -> bool:
+        if [(row.variable, row.rates) for row in table] != [(row.variable, row.rates) for row in other]:
+            return False
+        pairs = [
+            (a.numbers(v), b.numbers(v)) for v in self.letters for a, b in zip(table, other, strict=True)
+        ]
+        return all(_near(mine, theirs) for mine, theirs in pairs)
 
     def _is_exact(self, table: Table) -> bool:
         student = self.chain(table, self.letters[0])
@@ -119,7 +130,9 @@ class TableComparer:
             if [k for k, _ in mine.rates] != [k for k, _ in theirs.rates] or not _proportional(mine, theirs):
                 here, there = (" and ".join(names[k] for k, _ in row.rates) for row in (mine, theirs))
                 column = (mine.variable or 0) + 1
-                raise TableError(f"row {i} moves with {here}, where the robot's joint moves with {there}", i, column)
+                raise TableError(
+                    f"row {i} moves with {here}, where the robot's joint moves with {there}", i, column
+                )
 
     def _coordinates(self, table: Table, matches: list[Match]) -> Iterator[OwnCoordinate]:
         """How the student counts each coordinate that moves a joint by itself."""
@@ -133,7 +146,8 @@ class TableComparer:
             q = self.robot.coordinates[k]
             offsets = {self._offset(match.offsets[j] / float(rate), q.type) for match in matches}
             offset = offsets.pop() if len(offsets) == 1 else None
-            yield OwnCoordinate(q.name, matches[0].senses[j] * ratio, offset)
+            is_length = q.type is JointType.PRISMATIC
+            yield OwnCoordinate(q.name, matches[0].senses[j] * ratio, offset, is_length)
 
     @staticmethod
     def _offset(value: float, kind: JointType) -> float:
@@ -142,6 +156,16 @@ class TableComparer:
             value = -((-degrees(value) + 180) % 360 - 180)
             return 180.0 if round(value, 6) == -180 else round(value, 6) + 0.0
         return round(value, 8) + 0.0
+
+
+def _chain(table: Table, letters: Mapping[str, float], modified: bool) -> Chain:
+    return chain_of((row.numbers(letters) for row in table), modified)
+
+
+def _near(mine: NumberRow, theirs: NumberRow) -> bool:
+    angles = ((mine.theta, theirs.theta), (mine.alpha, theirs.alpha))
+    turned = max(abs(remainder(a - b, 2 * pi)) for a, b in angles)
+    return max(turned, abs(mine.d - theirs.d), abs(mine.a - theirs.a)) < TOLERANCE
 
 
 def _proportional(mine: TableRow, theirs: TableRow) -> bool:

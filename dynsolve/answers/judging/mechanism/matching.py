@@ -157,7 +157,7 @@ class Matching:
         return _turned_about(before, now, target)
 
     def _sided(self, turned: _Turned, joint: int) -> _Turned | None:
-        """Where all axes of a link are parallel, the next one turned to its side; None where it is too far off."""
+        """Where all axes of a link are parallel, the next one turned to its side; None where it is off."""
         if turned.free is None or self._reference(joint) is None:
             return turned
         way, target = self._ways(turned, joint)
@@ -170,13 +170,13 @@ class Matching:
         return _turned_about(turned, way, target)
 
     def _reference(self, joint: int) -> int | None:
-        """The joint before one whose axis has a place: a turning one, or the first; None for the first itself."""
+        """The joint before one whose axis has a place: a turning one, or the first; None for the first."""
         if joint == 0:
             return None
         return next((j for j in range(joint - 1, 0, -1) if self.key.joints[j].turns), 0)
 
     def _ways(self, turned: _Turned, joint: int) -> tuple[Vector, Vector]:
-        """The way from the last placed axis to a joint's, or the hand: the student's, turned, and the key's."""
+        """The way from the last placed axis to a joint's or the hand: the student's turned, and the key's."""
         before = self._reference(joint)
         assert before is not None
         ends = [
@@ -220,13 +220,11 @@ class Matching:
                 self._fails(end, "place")
                 return None
         ways = {j: value for (kind, j), value in zip(unknowns, solution, strict=True) if kind == "slide"}
-        return tuple(
-            turned.senses[j] * (ways[j] if j in ways else turned.turned[j]) for j in range(n)
-        )
+        return tuple(turned.senses[j] * (ways[j] if j in ways else turned.turned[j]) for j in range(n))
 
 
 def _turned_about(before: _Turned, vector: Vector, target: Vector) -> _Turned:
-    """Turned about the free direction until a vector points across it as another does; nothing is free then."""
+    """Turned about the free direction until a vector points across it as another does."""
     assert before.free is not None
     angle = atan2(dot(cross(vector, target), before.free), dot(_across(vector, before.free), target))
     turn = rodrigues(before.free, angle)

@@ -1,8 +1,9 @@
 """Which cell of a wrong table is to blame: the one with which, put right, the table is the mechanism.
 
-Tried are, cell by cell, the key's own cell, the cell with the other sign, 0, quarter turns, and the
-other lengths and angles of both tables.  The change after which the student's coordinates are
-the key's is preferred, then one near the joint at which the student's chain parts from the key's.
+Tried are d and a exchanged, and cell by cell the key's own cell, the cell with the other sign, 0,
+quarter turns, and the other lengths and angles of both tables.  The change after which the student's
+coordinates are the key's is preferred, then one near the joint at which the student's chain parts
+from the key's.
 """
 
 from __future__ import annotations
@@ -61,8 +62,15 @@ def _culprit(comparer: TableComparer, table: Table, found: Mismatch) -> int:
     return moving[found.joint] - (0 if comparer.modified else 1)
 
 
-def _changes(comparer: TableComparer, table: Table, culprit: int) -> Iterator[tuple[Repair | Exchange, Table]]:
+def _changes(
+    comparer: TableComparer, table: Table, culprit: int
+) -> Iterator[tuple[Repair | Exchange, Table]]:
     rows = sorted(range(len(table)), key=lambda i: abs(i - culprit))
+    for i in rows:
+        constants = table[i].constants
+        if constants[1] != constants[2]:
+            exchanged = table[i].changed(1, constants[2]).changed(2, constants[1])
+            yield Exchange(i, (1, 2)), _with(table, i, exchanged)
     keys = comparer.key
     if len(keys) == len(table):
         for i in rows:
@@ -71,10 +79,6 @@ def _changes(comparer: TableComparer, table: Table, culprit: int) -> Iterator[tu
     for i in rows:
         for column in range(4):
             yield from _changed(table, i, column, (negated(table[i].constants[column]), ZERO))
-    for i in rows:
-        constants = table[i].constants
-        exchanged = table[i].changed(1, constants[2]).changed(2, constants[1])
-        yield Exchange(i, (1, 2)), _with(table, i, exchanged)
     for i in rows:
         for column in range(4):
             yield from _changed(table, i, column, tuple(_candidates(comparer, table, column)))

@@ -113,7 +113,9 @@ def _check_place(index: int, column: int, cell: Node, coordinates: Sequence[Coor
         turns = q.type is JointType.REVOLUTE
         if column != (0 if turns else 1):
             what = "turns, and belongs to θ" if turns else "slides, and belongs to d"
-            raise TableError(f"row {index}: {q.name} {what}; here it stands in {LETTERS[column]}", index, column + 1)
+            raise TableError(
+                f"row {index}: {q.name} {what}; here it stands in {LETTERS[column]}", index, column + 1
+            )
 
 
 def _constant(column: int, cell: Node, names: Sequence[str]) -> Node:

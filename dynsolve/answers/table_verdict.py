@@ -1,0 +1,137 @@
+"""The verdict of an answer DH: a table is right if it describes the robot's mechanism.
+
+Whatever frames the student has chosen, every cell is right where the table moves the hand as the
+robot's does; what the student counts otherwise is a note, or wrong where the problem is `strict`.
+A wrong table is told by the cell that is to blame, and by what it does instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from dynsolve.answers.diagnosis.slips import slip
+from dynsolve.answers.judging.mechanism.comparison import Agreement, TableComparer
+from dynsolve.answers.judging.mechanism.matching import Mismatch
+from dynsolve.answers.judging.mechanism.repairs import Exchange, Repair, repair_of
+from dynsolve.answers.judging.mechanism.tables import LETTERS, Table, TableError, read_table
+from dynsolve.answers.judging.mechanism.wording import counted, effect, parting, written
+from dynsolve.answers.submission import Answer
+from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Occurrence, Verdict
+from dynsolve.notation import tree
+from dynsolve.problem.model import Problem
+from dynsolve.robot.model import Convention
+
+NAME = "DH"
+Rows = tuple[tuple[tree.Node, ...], ...]
+ROUNDED = "rounded"
+
+
+class TableJudge:
+    """Judges the tables that are handed in for one problem."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.comparer = TableComparer(problem)
+
+    def __call__(self, answers: Sequence[Answer]) -> JudgedAnswer:
+        """What is said of the table that counts, the last one."""
+        judged = [self._judged(answer) for answer in answers]
+        if len(judged) < 2:
+            return judged[0]
+        told = (Occurrence(a.place, a.label, j.verdict) for a, j in zip(answers, judged, strict=True))
+        return replace(judged[-1], occurrences=tuple(told))
+
+    def agreement(self, answer: Answer) -> tuple[Table, Agreement] | None:
+        """A right table, and how it counts the coordinates; None of any other."""
+        if not isinstance(answer.node, tree.Matrix):
+            return None
+        try:
+            table = read_table(answer.node.rows, self.problem.robot.coordinates)
+            found = self.comparer(table)
+        except TableError:
+            return None
+        return (table, found) if isinstance(found, Agreement) else None
+
+    def _judged(self, answer: Answer) -> JudgedAnswer:
+        base = JudgedAnswer(
+            NAME,
+            Verdict.UNREADABLE,
+            answer.label,
+            answer.place,
+            answer.read_as,
+            answer.notes,
+            of=Fraction(self.problem.marks.get(NAME, 0)),
+            written=answer.node,
+        )
+        if not isinstance(answer.node, tree.Matrix):
+            return replace(base, fault=answer.fault or "this is no table", expected=answer.expected)
+        rows = answer.node.rows
+        try:
+            table = read_table(rows, self.problem.robot.coordinates)
+            found = self.comparer(table)
+        except TableError as error:
+            diagnosis = slip("dh_joints", yours=error.message)
+            return _wrong(base, rows, [(error.row - 1, error.column - 1)] if error.column else [], diagnosis)
+        if self.comparer.is_one_of(table, self.problem.accepted.also):
+            return replace(base, verdict=Verdict.CORRECT, entries=tuple(_entries(rows, [])))
+        if isinstance(found, Mismatch):
+            return self._mismatched(base, rows, table, found)
+        return self._agreed(base, rows, found)
+
+    def _agreed(self, base: JudgedAnswer, rows: Rows, found: Agreement) -> JudgedAnswer:
+        notes = [counted(q) for q in found.coordinates if not q.is_the_keys]
+        if self.problem.accepted.strict and notes:
+            return _wrong(base, rows, [], slip("dh_sense", yours="; ".join(notes)))
+        notes += [ROUNDED] * found.is_rounded
+        entries = tuple(_entries(rows, []))
+        return replace(base, verdict=Verdict.CORRECT, notes=(*base.notes, *notes), entries=entries)
+
+    # -- wrong -------------------------------------------------------------------------------------
+
+    def _mismatched(self, base: JudgedAnswer, rows: Rows, table: Table, found: Mismatch) -> JudgedAnswer:
+        if self._is_of_the_other_convention(table):
+            mine, other = ("modified", "standard") if self.comparer.modified else ("standard", "modified")
+            return _wrong(base, rows, [], slip("dh_convention", part=mine, other=other))
+        repair = repair_of(self.comparer, table, found)
+        match repair:
+            case Repair(row, column, yours, needed):
+                said = slip(
+                    "dh_cell",
+                    part=f"{row + 1}, {LETTERS[column]}",
+                    yours=written(yours),
+                    other=written(needed),
+                    term=effect(self.comparer, table, repair),
+                )
+                return _wrong(base, rows, [(row, column)], said)
+            case Exchange(row, columns):
+                return _wrong(
+                    base, rows, [(row, c) for c in columns], slip("dh_exchanged", part=str(row + 1))
+                )
+        return _wrong(base, rows, [], slip("dh_mechanism", part=parting(found, len(self.comparer.joints))))
+
+    def _is_of_the_other_convention(self, table: Table) -> bool:
+        """Whether the rows, read in the other convention, are the mechanism."""
+        robot = self.problem.robot
+        turned = Convention.STANDARD if self.comparer.modified else Convention.MODIFIED
+        other = TableComparer(self.problem, read_as=turned)
+        return robot.n > 1 and isinstance(other(table), Agreement)
+
+
+def _wrong(
+    base: JudgedAnswer, rows: Rows, cells: Sequence[tuple[int, int]], diagnosis: Diagnosis
+) -> JudgedAnswer:
+    """A wrong table; `cells` are to blame (from 0), none where the whole of it is."""
+    entries = tuple(_entries(rows, cells, diagnosis)) if cells else ()
+    return replace(base, verdict=Verdict.WRONG, entries=entries, diagnosis=(diagnosis,))
+
+
+def _entries(
+    rows: Rows, cells: Sequence[tuple[int, int]], diagnosis: Diagnosis | None = None
+) -> Iterator[EntryVerdict]:
+    for i, row in enumerate(rows):
+        for j in range(len(row)):
+            wrong = (i, j) in cells
+            told = (diagnosis,) if wrong and diagnosis else ()
+            yield EntryVerdict((i + 1, j + 1), Verdict.WRONG if wrong else Verdict.CORRECT, told)

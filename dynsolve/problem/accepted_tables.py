@@ -1,0 +1,59 @@
+"""What else counts as an answer DH: `also` and `strict` in a problem file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dynsolve.notation.tree import Node
+from dynsolve.problem.cells import read_cell
+from dynsolve.problem.fields import Fields, describe, items, word
+from dynsolve.problem.source import Faults
+from dynsolve.problem.specification import MAX_ROWS, PROBLEM, ROW, STRICT
+from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, YamlNode
+
+Table = tuple[tuple[Node, ...], ...]
+"""Rows of θ, d, a, α as they are written."""
+
+_MOST_TABLES = 20
+_HELP = PROBLEM["also"].help
+
+
+@dataclass(frozen=True, slots=True)
+class AcceptedTables:
+    """Further tables that count as they stand, and whether coordinates must be counted as the key does."""
+
+    also: tuple[Table, ...] = ()
+    strict: bool = False
+
+
+def read_accepted_tables(faults: Faults, fields: Fields) -> AcceptedTables:
+    """What `also` and `strict` say; everything wrong with them is reported."""
+    strict = word(faults, fields.get("strict"), STRICT.choices, "strict", PROBLEM["strict"].help)
+    nodes = items(faults, fields.get("also"), "also", _HELP)
+    if len(nodes) > _MOST_TABLES:
+        faults.error(fields.key_span("also"), f"{len(nodes)} tables; at most {_MOST_TABLES} are read", _HELP)
+    tables = [_read_table(faults, node, i) for i, node in enumerate(nodes[:_MOST_TABLES], 1)]
+    return AcceptedTables(tuple(table for table in tables if table), strict == "true")
+
+
+def _read_table(faults: Faults, node: YamlNode, number: int) -> Table | None:
+    rows = items(faults, node, f"table {number} of also", _HELP)
+    if len(rows) > MAX_ROWS:
+        faults.error(node.span, f"{len(rows)} rows; at most {MAX_ROWS} are read", _HELP)
+    read = [_read_row(faults, row, i) for i, row in enumerate(rows[:MAX_ROWS], 1)]
+    return tuple(row for row in read if row) if read and None not in read else None
+
+
+def _read_row(faults: Faults, node: YamlNode, index: int) -> tuple[Node, ...] | None:
+    if isinstance(node, FaultyNode):
+        return None
+    columns = ROW.names
+    if not isinstance(node, ListNode) or len(node.items) != len(columns):
+        found = f"{len(node.items)} cells" if isinstance(node, ListNode) else describe(node)
+        faults.error(node.span, f"row {index} of this table is [θ, d, a, α], not {found}", _HELP)
+        return None
+    cells = [
+        read_cell(faults, item, f"{column} of row {index}", stars=column in ("theta", "d"))
+        for column, item in zip(columns, node.items, strict=True)
+    ]
+    return None if None in cells else tuple(cell.tree for cell in cells if cell)
