@@ -59,10 +59,11 @@ def _queue(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
     """
     yield (*COLUMNS, "of", "reason")
     for entry in queue(record, problems.stems):
+        reason = f"{entry.what}: {entry.why}"
         for a in entry.answers:
-            yield (a.student, a.problem, a.answer, "", "", decimal(points(a.of)), entry.why)
+            yield (a.student, a.problem, a.answer, "", "", decimal(points(a.of)), reason)
         if not entry.answers:
-            yield (entry.student, entry.problem, "", "", "", "", f"{entry.what}: {entry.why}")
+            yield (entry.student, entry.problem, "", "", "", "", reason)
 
 
 def _answers(record: Record) -> Iterator[tuple[str, ...]]:

@@ -92,7 +92,7 @@ def test_marks_that_a_resubmission_has_overtaken_are_in_the_queue(tmp_path: Path
     (waiting,) = [row for row in _rows(out / "queue.csv") if row["student"] == "anna"]
     assert (waiting["answer"], waiting["reason"]) == (
         "tau",
-        "its marks were set by hand for an earlier hand-in",
+        "tau: its marks were set by hand for an earlier hand-in",
     )
     assert "set by hand for an earlier hand-in" in (out / "report.html").read_text()
     override_all(out, _csv(tmp_path, "anna,in3140-rp,tau,1,still"))

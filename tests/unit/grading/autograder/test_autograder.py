@@ -130,6 +130,7 @@ def test_setup_makes_an_environment_with_what_dynsolve_needs(root: Path, tmp_pat
     here = {"AUTOGRADER_ROOT": str(root), "AUTOGRADER_PYTHON": str(python), "PATH": os.environ["PATH"]}
     subprocess.run(["bash", root / "source" / "setup.sh"], check=True, env=here)
     assert said.read_text().splitlines() == [
+        "-c import ensurepip, venv",
         f"-m venv {root}/venv",
         f"-m pip install -r {root}/source/requirements.txt",
     ]
