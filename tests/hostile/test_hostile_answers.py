@@ -126,6 +126,7 @@ VALUES = {
     "emoji": "m1*\U0001f600",
     "private use": "\ue000",
     "mathematical alphabet": "\U0001d4b6" * 20_000,
+    "diagonal": "diag(" + "m1, " * 2_000 + "m2)",
 }
 
 
@@ -209,6 +210,12 @@ REPORTS = {
     + "".join(f"$$x_{{{i + 1}}} = x_{{{i}}} x_{{{i}}}$$\n" for i in range(100))
     + "$$K = x_{100}$$",
     "lines": "K = \n" * 50_000,
+    "formulas in a row": r"| \( a " * 9_000 + "|",
+    "rows": "| P1 | m1 |\n" * 5_000,
+    "columns": "g =\n\n a\n b\n\n" * 300,
+    "nested cases": "$$g = " + r"\begin{cases}" * 2_000 + "m_1" + r"\end{cases}" * 2_000 + "$$",
+    "nested lists": "g := " + "<" * 5_000 + "m1" + ">" * 5_000,
+    "said to be": "h is $m_1$ " * 4_000,
     "open lines": "K = (\n" * 20_000,
     "percent signs": "%" * 300_000,
     "equations in a row": "$K=1$ " * 300_000,

@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 _ROW = re.compile(r"(?m)^[ \t]*\|[^\n]*\|[^\n|]*$")
 _BAR = re.compile(r"\$[^$\n]*\$|\\\||\|")
-_INLINE = re.compile(r"\\\(([^$\n]*?)\\\)")
+_INLINE = re.compile(r"\\\(([^$\n]{0,1000}?)\\\)")
 _MARKUP = re.compile(r"[$*`]")
 _VALUE = re.compile(r"[ \t]*(?:\$[^$=]+\$[ \t.,;]*|[^$=]*[^$=\s:-][^$=]*)")
 _LONGEST_NAME = 60

@@ -6,6 +6,7 @@ from dynsolve.answers.reading.grammar import brackets, derivatives, functions
 from dynsolve.answers.reading.grammar.rates import rate, total_rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value, divided, transposed
+from dynsolve.answers.reading.limits import MAX_ENTRIES
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ZERO, Number, Symbol
@@ -97,6 +98,10 @@ def _diagonal(reader: Reader, opening: Token) -> Value:
     reader.expect(")", opening)
     if len(entries) == 1 and isinstance(entries[0], Grid) and 1 in entries[0].shape:
         entries = [entry for row in entries[0].rows for entry in row]
+    if len(entries) ** 2 > MAX_ENTRIES:
+        raise ReadError(
+            f"a matrix of more than {MAX_ENTRIES} entries", opening.start, 1, "check the brackets"
+        )
     rows: list[list[Value]] = [
         [entry if i == j else ZERO for j in range(len(entries))] for i, entry in enumerate(entries)
     ]
