@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import groupby
@@ -12,7 +12,7 @@ from dynsolve.answers.marking.marks import maximum
 from dynsolve.answers.marking.policy import points
 from dynsolve.grading.item_analysis import Item
 from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.queue import Entry, queue
+from dynsolve.grading.queue import Entry
 from dynsolve.grading.record import Key, Record, RecordedAnswer
 from dynsolve.quantities.index import quantities
 
@@ -94,7 +94,7 @@ class Cohort:
     slips: Counter[Slip] = field(default_factory=Counter)
     examples: dict[Slip, SlipExample] = field(default_factory=dict)
     alike: dict[Slip, Alike] = field(default_factory=dict)
-    queue: list[Entry] = field(default_factory=list)
+    queue: Sequence[Entry] = ()
     by_hand: list[RecordedAnswer] = field(default_factory=list)
     pages: set[Key] = field(default_factory=set)
     judged: Set[Key] = frozenset()
@@ -102,9 +102,9 @@ class Cohort:
     names: Mapping[str, str] = field(default_factory=dict)
 
 
-def counted(problems: ProblemSet, record: Record, names: Mapping[str, str] | None = None) -> Cohort:
-    """Everything that the teacher's page shows."""
-    cohort = Cohort(queue=queue(record, problems.stems), uploads=record.uploads(), names=names or {})
+def counted(problems: ProblemSet, record: Record, waits: Sequence[Entry], names: Mapping[str, str]) -> Cohort:
+    """Everything that the teacher's page shows; `waits` is what waits for a human."""
+    cohort = Cohort(queue=waits, uploads=record.uploads(), names=names)
     for item in problems.items:
         for name in item.problem.marks:
             cohort.verdicts[item.stem, name] = Counter()

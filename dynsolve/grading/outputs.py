@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from html import escape
 from itertools import groupby
@@ -16,7 +16,7 @@ from dynsolve.grading.copies import FOLDER
 from dynsolve.grading.files import decimal, folder_name, remove_others, table, write
 from dynsolve.grading.pages import MARKS_HERE, TABLE_HERE, absent_page, unpack
 from dynsolve.grading.problem_set import ProblemSet
-from dynsolve.grading.queue import queue
+from dynsolve.grading.queue import Entry, queue
 from dynsolve.grading.record import Record, RecordedAnswer, RecordedHandIn
 from dynsolve.grading.teacher import teachers_page
 from dynsolve.render.markdown import escaped
@@ -28,17 +28,21 @@ _Explained = list[tuple[str, str, str]]
 _ANSWERS = ("student", "problem", "answer", "verdict", "marks", "of", "line", "diagnosis")
 
 
-def write_outputs(folder: Path, problems: ProblemSet, record: Record, names: Mapping[str, str]) -> None:
+def write_outputs(
+    folder: Path, problems: ProblemSet, record: Record, names: Mapping[str, str]
+) -> tuple[Entry, ...]:
     """Write everything but the record itself; files that are the same already are left alone.
 
-    `names` are what students are called, where the platform's list says it.
+    `names` are what students are called, where the platform's list says it.  Gives what waits for a human.
     """
+    waits = tuple(queue(record, problems.stems))
     write(folder / "grades.csv", table(_grades(problems, record)))
     write(folder / "answers.csv", table(_answers(record)))
-    write(folder / "queue.csv", table(_queue(problems, record)))
+    write(folder / "queue.csv", table(_queue(waits)))
     _feedback(folder / "feedback", problems, record)
     copies = {path.name for path in (folder / FOLDER).glob("*")}
-    write(folder / "report.html", teachers_page(problems, record, names, copies))
+    write(folder / "report.html", teachers_page(problems, record, waits, names, copies))
+    return waits
 
 
 def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
@@ -52,13 +56,13 @@ def _grades(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
         yield (standing.student, *cells, decimal(standing.total), of)
 
 
-def _queue(problems: ProblemSet, record: Record) -> Iterator[tuple[str, ...]]:
+def _queue(waits: Iterable[Entry]) -> Iterator[tuple[str, ...]]:
     """The page to fill: `dynsolve override OUT --from` takes it back.
 
     What waits without an answer that waits for marks, such as a file of nobody, is a row to look at.
     """
     yield (*COLUMNS, "of", "reason")
-    for entry in queue(record, problems.stems):
+    for entry in waits:
         reason = f"{entry.what}: {entry.why}"
         for a in entry.answers:
             yield (a.student, a.problem, a.answer, "", "", decimal(points(a.of)), reason)

@@ -30,7 +30,7 @@ from dynsolve.grading.platforms.registry import (
 )
 from dynsolve.grading.pool import Bounds, LocalPool
 from dynsolve.grading.problem_set import ProblemSet, store_set, stored_set
-from dynsolve.grading.queue import Entry, queue
+from dynsolve.grading.queue import Entry
 from dynsolve.grading.record import FILE, Record, Waiting
 from dynsolve.grading.run import Pool, grade_all
 from dynsolve.grading.set_file import load_set
@@ -122,11 +122,10 @@ def grade(
             store_set(record, chosen)
             done = grade_all(chosen, uploads, intake, record, pool, progress)
         write_copies(folder, uploads, intake.files)
-        write_outputs(folder, chosen, record, names(record))
+        waits = write_outputs(folder, chosen, record, names(record))
         warnings = (*export(folder, chosen, record), *filter(None, (unknown,)))
         changed = tuple(changes(record)) if diff else ()
         record.finish()
-        waits = tuple(queue(record, chosen.stems))
         totals = {standing.student: standing.total for standing in standings(record)}
     return Grades(
         folder,

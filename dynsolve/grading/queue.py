@@ -7,9 +7,8 @@ hand-in that was judged when a teacher has said a word on one of its answers.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from dataclasses import dataclass, replace
-from itertools import groupby
 
 from dynsolve.answers.unwritten import BY_PARTS
 from dynsolve.grading.record import Key, Record, RecordedAnswer
@@ -33,11 +32,7 @@ def queue(record: Record, stems: Collection[str]) -> list[Entry]:
     """All that waits, files first; `stems` are the problems of the set."""
     unjudged = {(s, p): why for s, found in record.unjudged().items() for p, why in found.items()}
     judged_by_hand = {(s, p) for s, p, _ in record.overrides()}
-    answers = {
-        key: [a for a in found if a.of != "0" and not a.said]
-        for key, found in groupby(record.answers(), key=lambda a: (a.student, a.problem))
-        if key in unjudged
-    }
+    answers, single = _answers(record, unjudged)
     hand_ins = [replace(row, html=b"", markdown=b"") for row in record.rows()]
     reasons = {(row.student, row.problem): row.reason for row in hand_ins}
     found: list[Entry] = []
@@ -54,20 +49,27 @@ def queue(record: Record, stems: Collection[str]) -> list[Entry]:
             found.append(Entry(*key, ", ".join(row.files), row.reason, tuple(answers[key])))
         if row.left and key not in judged_by_hand:
             found.append(Entry(*key, ", ".join(row.left), LEFT_ASIDE))
-    return found + list(_answers(record, unjudged))
+    return found + single
 
 
-def _answers(record: Record, unjudged: Collection[Key]) -> Iterator[Entry]:
-    """The single answers that wait."""
+def _answers(
+    record: Record, unjudged: Collection[Key]
+) -> tuple[dict[Key, list[RecordedAnswer]], list[Entry]]:
+    """The answers of the hand-ins that nobody has judged, and the single answers of others that wait."""
+    of_unjudged: dict[Key, list[RecordedAnswer]] = {}
+    single: list[Entry] = []
     overtaken = record.overtaken()
     for a in record.answers():
-        what = f"{a.answer} {a.label}".strip()
-        if (a.student, a.problem, a.answer) in overtaken:
-            yield Entry(a.student, a.problem, what, OVERTAKEN, (a,))
-        elif a.of != "0" and not a.said and (a.student, a.problem) not in unjudged:
-            reason = for_a_human(a)
-            if reason:
-                yield Entry(a.student, a.problem, what, reason, (a,))
+        key, what = (a.student, a.problem), f"{a.answer} {a.label}".strip()
+        if (*key, a.answer) in overtaken:
+            single.append(Entry(*key, what, OVERTAKEN, (a,)))
+        elif a.of == "0" or a.said:
+            continue
+        elif key in unjudged:
+            of_unjudged.setdefault(key, []).append(a)
+        elif reason := for_a_human(a):
+            single.append(Entry(*key, what, reason, (a,)))
+    return of_unjudged, single
 
 
 def for_a_human(a: RecordedAnswer) -> str:

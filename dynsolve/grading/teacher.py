@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from fractions import Fraction
 from html import escape
 from importlib.resources import files
@@ -17,6 +17,7 @@ from dynsolve.grading.files import decimal, folder_name
 from dynsolve.grading.histogram import histogram
 from dynsolve.grading.item_analysis import Item
 from dynsolve.grading.problem_set import ProblemSet
+from dynsolve.grading.queue import Entry
 from dynsolve.grading.record import Record
 from dynsolve.render.prose import visible
 
@@ -34,14 +35,18 @@ ITEM_REST = (
 
 
 def teachers_page(
-    problems: ProblemSet, record: Record, names: Mapping[str, str], copies: Set[str] = frozenset()
+    problems: ProblemSet,
+    record: Record,
+    waits: Sequence[Entry],
+    names: Mapping[str, str],
+    copies: Set[str],
 ) -> str:
     """The page; every table can be sorted by its header's buttons.
 
-    `names` are what students are called, where the platform's list says it, `copies` the
-    files of what was handed in that the page can link to.
+    `waits` is what waits for a human, `names` are what students are called, where the platform's
+    list says it, `copies` the files of what was handed in that the page can link to.
     """
-    cohort = counted(problems, record, names)
+    cohort = counted(problems, record, waits, names)
     title = _text(problems.title)
     sections = {
         "Marks": _distribution(problems, cohort),

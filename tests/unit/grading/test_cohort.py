@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import dynsolve
-from dynsolve.grading.cohort import counted
+from dynsolve.grading.queue import queue
 from dynsolve.grading.record import Record
-from dynsolve.grading.set_file import load_set
 from dynsolve.problem.library import find
 
 HALF_K2 = """answers:
@@ -32,7 +31,7 @@ def test_a_whole_waits_in_its_parts_and_a_loss_where_it_costs_marks(tmp_path: Pa
     (tmp_path / "set" / "set.yaml").write_text("marks: {in3140-rp: {K: 4, tau1: 2}}\n")
     dynsolve.grade(tmp_path / "set", tmp_path / "in", tmp_path / "out", jobs=1)
     record = Record(tmp_path / "out")
-    waits = counted(load_set(str(tmp_path / "set")), record).queue
+    waits = queue(record, ("in3140-rp",))
     record.close()
     assert [(w.student, w.what, w.why) for w in waits] == [
         ("lost", "tau1", "follows, but body 2 is lost on the way")
