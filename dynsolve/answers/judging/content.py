@@ -8,7 +8,7 @@ two were written.
 What counts are the kinds of terms: the masses and moments, the rates and the powers of all
 others in a term, whether a sine or cosine stands in it, and how many lengths, but not which:
 a term with the wrong angle, number, sign or point of a body is of its kind still.  A term with
-one symbol left out or too many keeps a part.
+one factor left out, too many or in the place of another keeps a part.
 """
 
 from __future__ import annotations
@@ -25,12 +25,15 @@ LEAST = Fraction(1, 4)
 """An answer that keeps no more than this share of the key's kinds of terms keeps nothing."""
 
 NEARLY = Fraction(1, 3)
-"""What a term counts that has one symbol more or less than one of the key's."""
+"""What a term counts that has one factor more or less than one of the key's, or another in its place."""
 
 Kind = tuple[tuple[tuple[int, int], ...], int, bool]
 """(symbol, power) of all but the lengths; the power of the lengths; whether a sine or cosine is in it."""
 
 _CONSTANT: Kind = ((), 0, False)
+
+_LENGTH = -1
+"""The place of the lengths among the symbols."""
 
 
 class Content:
@@ -50,10 +53,8 @@ class Content:
                 self._places[g.index] = "length"
 
     def is_kept(self, value: Iterable[Expr], key: Iterable[Expr]) -> bool:
-        """Whether the entries of an answer keep more than next to nothing of the key's."""
+        """Whether the entries of an answer keep more than next to nothing of the key's; of 0 none can."""
         wanted, mine = self._kinds(key), self._kinds(value)
-        if not wanted:
-            return True
         kept = Fraction(len(wanted & mine))
         left = wanted - mine
         for kind in mine - wanted:
@@ -85,9 +86,12 @@ class Content:
 
 
 def _is_near(mine: Kind, other: Kind) -> bool:
-    """Whether a kind of terms is another but for one symbol, or for one length."""
-    powers = dict(other[0])
-    for index, power in mine[0]:
+    """Whether one symbol, or one kind of factor, is left out, too many or in the place of another."""
+    powers = {**dict(other[0]), _LENGTH: other[1]}
+    for index, power in (*mine[0], (_LENGTH, mine[1])):
         powers[index] = powers.get(index, 0) - power
-    lost = sum(map(abs, powers.values())) + abs(mine[1] - other[1])
-    return lost <= 1 and mine[2] == other[2]
+    missing = [power for power in powers.values() if power > 0]
+    needless = [-power for power in powers.values() if power < 0]
+    if mine[2] != other[2]:
+        return not missing and not needless
+    return max(len(missing), len(needless)) <= 1 and (not missing or not needless or missing == needless)

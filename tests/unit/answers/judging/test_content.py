@@ -64,6 +64,10 @@ SLIPS: Rows = [
      {"tau": column(TAU1.replace(G1, f"2*({G1})"), f"2*({TAU2})"), "g": column(f"2*({G1})", f"2*({G2})"),
       "D": [[D11, D12], [f"2*({D12})", f"2*({D22})"]]}, "wff"),
     ("a mass lost in the only term", RP, {"dLdqd2": "L2_dot", "ddt2": "L2_ddot"}, "wf"),
+    ("a dot lost in the only term", RP, {"dLdqd2": "m2*L2", "ddt2": "m2*L2_dot"}, "wf"),
+    ("a function lost in the only term", ELBOW,
+     {"P1": "m1*g*lc1", "P2": "m2*g*(l1*sin(q1) + lc2*sin(q1 + q2))",
+      "P": "m1*g*lc1 + m2*g*(l1*sin(q1) + lc2*sin(q1 + q2))"}, "wcf"),
     ("a height of 0 in a sum", RP, {"P1": "0", "P2": "m2*g*L1", "P": "m2*g*L1"}, "wcf"),
     ("a right g beside a τ without it", ELBOW, {"tau": UNIT, "g": G}, "wc"),
     ("P without body 2, and g of it", ELBOW,
@@ -93,6 +97,8 @@ INVENTIONS: Rows = [
      {"K": "(q1_dot^2 + q2_dot^2)/2", "D": ONE, "C": NOTHING, "tau": UNIT}, "wwww"),
     ("nobody's robot, D first", ELBOW, {"D": SEVEN, "C": FIVE, "g": THREE, "tau": TAU_OF_SEVEN}, "wwww"),
     ("nobody's robot, τ first", ELBOW, {"tau": TAU_OF_SEVEN, "D": SEVEN, "C": FIVE, "g": THREE}, "wwww"),
+    ("a g of nobody's where it is 0", RP,
+     {"tau": column("theta1_ddot + 3*m1", "L2_ddot + 3*m1"), "g": column("3*m1", "3*m1")}, "ww"),
     ("nobody's robot, without g", ELBOW, {"D": SEVEN, "C": FIVE, "tau": TAU_OF_SEVEN}, "www"),
 ]  # fmt: skip
 
