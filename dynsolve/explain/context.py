@@ -12,17 +12,22 @@ from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import letters
+from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.model import Body, Convention, Robot
 
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """A robot with its derivation, exact and as trees, and whether the two ways to D, C, g agree."""
+    """A robot with its derivation, exact and as trees, and whether the two ways to D, C, g agree.
+
+    `normals` are those of a drawing that the table was found from.
+    """
 
     robot: Robot
     values: Derivation
     forms: Forms
     agreement: Agreement | None = None
+    normals: Normals | None = None
 
     @property
     def wanted(self) -> frozenset[str]:

@@ -61,6 +61,11 @@ def hint_document(title: str, context: Context, stage: str) -> Document:
 
 
 def _given(context: Context, stage: Stage) -> Iterator[Block]:
+    if stage is Stage.FRAMES:
+        yield Text(("You have the joint axes as they are drawn:",))
+        drawn = next(step.table for step in explain(context, [stage]) if step.table)
+        yield Table(drawn.header, drawn.rows)
+        return
     if stage is Stage.KINEMATICS:
         yield Text(("You have the Denavit-Hartenberg table:",))
         table = next(step.table for step in explain(context, [Stage.KINEMATICS]) if step.table)

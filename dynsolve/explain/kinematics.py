@@ -46,10 +46,23 @@ def steps(context: Context) -> Iterator[Step]:
         yield _frame(context, joint.index)
 
 
+def table_of(context: Context) -> Table:
+    """The rows of the table as they are written."""
+    header: Prose = ("i", Symbol("theta"), "d", "a", Symbol("alpha"))
+    if not context.standard:
+        header = (
+            "i",
+            Letter("theta", Symbol("i")),
+            Letter("d", Symbol("i")),
+            Letter("a", Words("i-1")),
+            Letter("alpha", Words("i-1")),
+        )
+    return Table(header, tuple((str(joint.index), *joint.written) for joint in context.robot.joints))
+
+
 def _table(context: Context) -> Step:
     robot = context.robot
     if context.standard:
-        header: Prose = ("i", Symbol("theta"), "d", "a", Symbol("alpha"))
         why: Prose = (
             "Each row takes frame i-1 to frame i by four motions: turn by θ about ",
             _axis("z", "i-1"),
@@ -58,13 +71,6 @@ def _table(context: Context) -> Step:
             ", turn by α about that. ",
         )
     else:
-        header = (
-            "i",
-            Letter("theta", Symbol("i")),
-            Letter("d", Symbol("i")),
-            Letter("a", Words("i-1")),
-            Letter("alpha", Words("i-1")),
-        )
         why = (
             "Each row takes frame i-1 to frame i by four motions: turn by α about ",
             _axis("x", "i-1"),
@@ -74,7 +80,6 @@ def _table(context: Context) -> Step:
         )
     if any(joint.type for joint in robot.joints):
         why += ("The star marks a joint variable: ", *_kinds(context))
-    rows = tuple((str(joint.index), *joint.written) for joint in robot.joints)
     return Step(
         id="dh",
         stage=STAGE,
@@ -83,7 +88,7 @@ def _table(context: Context) -> Step:
         source=spong("3.2") if context.standard else craig("3.4"),
         result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
         notes=tuple(_table_notes(context)),
-        table=Table(header, rows),
+        table=table_of(context),
         detail=Detail.BRIEF,
         is_task=False,
     )

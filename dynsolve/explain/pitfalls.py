@@ -211,7 +211,16 @@ def _bodies(bodies: Sequence[Body]) -> Prose:
     return (("body " if len(names) == 1 else "bodies ") + and_joined(names),)
 
 
+def _frames(robot: Robot) -> Iterator[Prose]:
+    yield ("d is measured along z, the axis of a joint, and a across it, along x.",)
+    yield ("Every angle has a sense: θ is seen against z, α against x, counterclockwise.",)
+    if any(joint.variable == "d" for joint in robot.joints):
+        yield ("The axis of a sliding joint has a direction and no place: lay it where lengths vanish.",)
+    yield ("A z may also point the other way, and frame 0 be anywhere on the first axis.",)
+
+
 _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
+    Stage.FRAMES: _frames,
     Stage.KINEMATICS: _kinematics,
     Stage.JACOBIAN: _jacobian,
     Stage.TASK: _task,

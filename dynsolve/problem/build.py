@@ -54,7 +54,9 @@ def build_robot(faults: Faults, parsed: ParsedFile, asked: frozenset[str]) -> Ro
         base_position=move or Matrix.zero(ring, 3, 1),
         parameters=tuple(name for name in ring.parameters if name != "pi"),
     )
-    robot = with_questions(faults, robot, parsed.questions, points, [one for one in loads if one], asked)
+    known_loads = [one for one in loads if one]
+    is_drawn = parsed.normals is not None
+    robot = with_questions(faults, robot, parsed.questions, points, known_loads, asked, is_drawn)
     return None if faults.errors else robot
 
 

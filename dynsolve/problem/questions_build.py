@@ -56,6 +56,7 @@ def with_questions(
     points: Sequence[NamedPoint],
     loads: Sequence[Load],
     asked: frozenset[str],
+    is_drawn: bool,
 ) -> Robot:
     """The robot with what its file asks of it; with a task of its own where one is needed and none given."""
     values = parsed.state.values if parsed.state else {}
@@ -66,6 +67,7 @@ def with_questions(
         loads=tuple(loads),
         state=State(tuple((name, dots, value) for (name, dots), value in values.items())),
         reach=parsed.reach.names,
+        is_drawn=is_drawn,
     )
     if questions.task is None and Stage.TASK in asked_stages(questions):
         questions = replace(questions, task=_default_task(robot))

@@ -359,6 +359,8 @@ def asked_stages(questions: Questions) -> frozenset[Stage]:
     found = {family.stage for family in FAMILIES if family.stage.asked_for and family.name in questions.asked}
     if questions.points or questions.task or found & _OF_THE_TASK:
         found.add(Stage.TASK)
+    if questions.is_drawn:
+        found.add(Stage.FRAMES)
     if questions.loads:
         found.add(Stage.STATICS)
     return frozenset(found)

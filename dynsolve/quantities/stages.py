@@ -21,6 +21,7 @@ class Stage(StrEnum):
     asked_for: bool
     """Whether only a robot has it of which something of it is asked."""
 
+    FRAMES = "frames", "Frames from the drawing", True
     KINEMATICS = "kinematics", "Forward kinematics"
     JACOBIAN = "jacobian", "The Jacobian"
     TASK = "task", "Points and tasks", True

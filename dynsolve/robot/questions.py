@@ -96,7 +96,7 @@ class Questions:
     """Everything that a file asks beside the course's derivation.
 
     `asked` are the names of the answers in `find` and `marks` that no derivation has unless
-    they are asked for; with them comes what they are derived from, and nothing else.
+    they are asked for; `is_drawn` that the table was found from a drawing; with them comes what they are derived from, and nothing else.
     `loads` are the forces from outside; `state` is where rates and torques are asked for.
     `reach` are the names of the values of r(q) in the inverse kinematics, as the file has them.
     """
@@ -104,6 +104,7 @@ class Questions:
     points: tuple[NamedPoint, ...] = ()
     task: Task | None = None
     asked: frozenset[str] = frozenset()
+    is_drawn: bool = False
     loads: tuple[Load, ...] = ()
     state: State = State()
     reach: tuple[str, ...] = ()

@@ -107,7 +107,7 @@ class Dynamics:
         from dynsolve.explain.abbreviated_steps import in_names
         from dynsolve.explain.context import Context
 
-        context = Context(self.robot, self.values, self.forms, self.agreement)
+        context = Context(self.robot, self.values, self.forms, self.agreement, self.problem.normals)
         steps = explain(context, stages)
         return steps if short is None else in_names(steps, context, short)
 

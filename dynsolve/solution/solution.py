@@ -90,7 +90,8 @@ class Solution(Dynamics):
         from dynsolve.explain.context import Context
         from dynsolve.explain.hint import hint_document
 
-        return hint_document(self.problem.title, Context(self.robot, self.values, self.forms), stage)
+        context = Context(self.robot, self.values, self.forms, normals=self.problem.normals)
+        return hint_document(self.problem.title, context, stage)
 
     def to_json(self, abbreviate: Abbreviate | str = "never") -> dict[str, Any]:
         """The solution as JSON, `dynsolve-solution/1`; with `always` a section `abbreviated` too."""
