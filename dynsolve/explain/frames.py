@@ -25,7 +25,23 @@ STAGE = Stage.FRAMES
 _HINT: Prose = (
     "See how the two axes lie, the one of the joint and the next one. Skew axes have one common normal: x "
     "lies along it. Where they meet, x is perpendicular to both, through that point. Of parallel axes, or of "
-    "two on one line, any common normal will do: take the one with which d is 0. The origin is where x meets z.",
+    "two on one line, any common normal will do: take the one with which d is 0. The origin is where x "
+    "meets z.",
+)
+
+_MEASURED = {
+    Convention.STANDARD: (
+        "θ_i turns x_{i-1} to x_i about z_{i-1}, and d_i is the way along it; a_i is the distance from "
+        "z_{i-1} to z_i along x_i, and α_i the angle between them about it."
+    ),
+    Convention.MODIFIED: (
+        "θ_i turns x_{i-1} to x_i about z_i, and d_i is the way along it; a_{i-1} is the distance from "
+        "z_{i-1} to z_i along x_{i-1}, and α_{i-1} the angle between them about it."
+    ),
+}
+_VERIFIED = (
+    "At random joint values this table moves the hand as the product of the exponentials of the drawn axes "
+    "does."
 )
 
 
@@ -57,7 +73,7 @@ class _Explained:
         """The joint axes and the hand, as they are given."""
         rows = tuple(
             (str(i), Symbol(axis.coordinate), "slides along" if axis.slides else "turns about",
-             self._row(axis.line.direction), self._row(axis.line.point))
+             self._row(axis.line.direction), self._row(axis.line.point) if axis.is_placed else "anywhere")
             for i, axis in enumerate(self.drawing.axes, 1)
         )  # fmt: skip
         hand = self.drawing.hand
@@ -84,8 +100,8 @@ class _Explained:
             yield (
                 f"{'The axes of joints' if len(open_places) > 1 else 'The axis of joint'} ",
                 *listed(open_places),
-                " may be anywhere along the direction, for a slide has no place. The line is taken with which "
-                "fewest lengths of the table differ from 0.",
+                " may be anywhere along the direction, for a slide has no place. The line is taken with "
+                "which fewest lengths of the table differ from 0.",
             )
         if self.drawing.ring.parameters:
             yield (
@@ -94,7 +110,9 @@ class _Explained:
             )
 
     def _row(self, vector: Matrix) -> Node:
-        return tree.Matrix((tuple(map(self.form, vector.entries)),))
+        x, y, z = map(self.form, vector.entries)
+        between = tree.Words(", ")
+        return tree.Row((tree.Words("("), x, between, y, between, z, tree.Words(")")))
 
     def _column(self, vector: Matrix) -> Node:
         return tree.column(*map(self.form, vector.entries))
@@ -131,11 +149,12 @@ class _Explained:
 
     def _why_base(self, normal: Normal) -> str:
         start = (
-            "z_0 lies along the axis of joint 1; the origin may be anywhere on it, and x_0 points anywhere across. "
+            "z_0 lies along the axis of joint 1; the origin may be anywhere on it, and x_0 may point "
+            "anywhere across it. "
         )
         if normal.end.is_zero:
-            return start + "The origin is that of the world, x_0 an axis of the world."
-        return start + "The origin is the point of the axis that is nearest to the world's, x_0 an axis of the world."
+            return f"{start}The origin is that of the world, and x_0 an axis of the world."
+        return f"{start}The origin is the point nearest to that of the world, and x_0 an axis of the world."
 
     def _why_hand(self, normal: Normal, n: int) -> str:
         if normal.relation is Relation.COINCIDENT:
@@ -144,26 +163,16 @@ class _Explained:
                 f"across: it is that of frame {n - 1}, so that nothing is turned in the pose that is drawn."
             )
         return (
-            f"The hand lies beside the axis of joint {n}: x_{n} points from the axis across to it, and z_{n} stays "
-            "parallel to the axis."
+            f"The hand lies beside the axis of joint {n}: x_{n} points from the axis across to it, and "
+            f"z_{n} stays parallel to the axis."
         )
 
     # -- the table ---------------------------------------------------------------------------------
 
     def table(self) -> Step:
         """The rows, measured from frame to frame."""
-        z = "z_i" if self.modified else "z_{i-1}"
-        why = (
-            "θ_i turns x_{i-1} to x_i about " + z + ", d_i is the way along it; "
-            + ("a_{i-1} is the distance from z_{i-1} to z_i along x_{i-1}, and α_{i-1} the angle between them about it. "
-               if self.modified else
-               "a_i is the distance from z_{i-1} to z_i along x_i, and α_i the angle between them about it. ")
-            + self._zero()
-        )  # fmt: skip
-        notes: tuple[Prose, ...] = (
-            ("At random joint values this table moves the hand as the product of the exponentials of the drawn "
-             "axes does.",),
-        )  # fmt: skip
+        why = f"{_MEASURED[self.drawing.convention]} {self._zero()}"
+        notes: tuple[Prose, ...] = ((_VERIFIED,),)
         if len(self.context.robot.joints) > len(self.drawing.axes):
             notes = (("One row more, without a joint, takes the last frame to the hand.",), *notes)
         return Step(
@@ -180,7 +189,9 @@ class _Explained:
 
     def _zero(self) -> str:
         if self.drawing.zero_is_drawn:
-            return "Turning joints are at 0 as drawn, so that θ is the coordinate plus the angle that is drawn."
+            return (
+                "Turning joints are at 0 as drawn, so that θ is the coordinate plus the angle that is drawn."
+            )
         return "The coordinates are the variables of the table, so that nothing is added to them."
 
 
@@ -209,20 +220,20 @@ def _of_two(relation: Relation, i: int, following: str, side: str) -> str:
     match relation:
         case Relation.SKEW:
             return (
-                f"{both} are skew: they have one common normal. x_{i} lies along it, from the first to the second, "
-                f"and o_{i} is where it meets {foot}."
+                f"{both} are skew: they have one common normal. x_{i} lies along it, from the first to the "
+                f"second, and o_{i} is where it meets {foot}."
             )
         case Relation.INTERSECTING:
             return (
-                f"{both} meet, so that a is 0: o_{i} is the point where they do, and x_{i} is perpendicular to both. "
-                f"Of its two directions the one nearer to x_{i - 1} is taken."
+                f"{both} meet, so that a is 0: o_{i} is the point where they do, and x_{i} is perpendicular "
+                f"to both. Of its two directions the one nearer to x_{i - 1} is taken."
             )
         case Relation.PARALLEL:
             return (
-                f"{both} are parallel: every line across is a common normal. The one with d_{i} = 0 is taken, and "
-                f"x_{i} points from the first to the second."
+                f"{both} are parallel: every line across is a common normal. The one with d_{i} = 0 is "
+                f"taken, and x_{i} points from the first to the second."
             )
     return (
-        f"{both} lie on one line: x_{i} may point anywhere across, and o_{i} be anywhere on it. x_{i - 1} is kept, "
-        f"and the origin with which d_{i} has no constant part."
+        f"{both} lie on one line: x_{i} may point anywhere across, and o_{i} be anywhere on it. x_{i - 1} "
+        f"is kept, and the origin with which d_{i} has no constant part."
     )

@@ -96,7 +96,8 @@ class Questions:
     """Everything that a file asks beside the course's derivation.
 
     `asked` are the names of the answers in `find` and `marks` that no derivation has unless
-    they are asked for; `is_drawn` that the table was found from a drawing; with them comes what they are derived from, and nothing else.
+    they are asked for; with them comes what they are derived from, and nothing else.
+    `is_drawn` says that the table was found from a drawing.
     `loads` are the forces from outside; `state` is where rates and torques are asked for.
     `reach` are the names of the values of r(q) in the inverse kinematics, as the file has them.
     """

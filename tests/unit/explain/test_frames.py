@@ -1,0 +1,61 @@
+"""The steps from a drawing to the table: every choice with its reason, and no result in a hint."""
+
+from __future__ import annotations
+
+import pytest
+
+import dynsolve
+from dynsolve.explain.step import Step
+from dynsolve.quantities.stages import Stage
+from tests.unit.problem.test_drawing import FOUR_JOINTS, OFFSET_ARM, PLANAR, RRRP
+
+DRAWN = "zero: drawn\n"
+
+
+def steps(text: str) -> dict[str, Step]:
+    found = dynsolve.solve(text + DRAWN).steps
+    return {step.id: step for step in found if step.stage is Stage.FRAMES}
+
+
+def words(step: Step) -> str:
+    return "".join(part if isinstance(part, str) else "_" for part in step.why)
+
+
+REASONS = [
+    (OFFSET_ARM, "frame0", "that of the world"),
+    (OFFSET_ARM, "frame1", "meet, so that a is 0"),
+    (OFFSET_ARM, "frame2", "are skew: they have one common normal"),
+    (OFFSET_ARM, "frame3", "The hand lies on the axis of joint 3"),
+    (PLANAR, "frame1", "are parallel"),
+    (PLANAR, "frame2", "The hand lies beside the axis of joint 2"),
+    (FOUR_JOINTS, "frame1", "lie on one line"),
+    (RRRP, "frame4", "The axis of joint 4 and the z of the hand lie on one line"),
+]
+
+
+@pytest.mark.parametrize(("text", "frame", "reason"), REASONS)
+def test_each_frame_says_how_the_axes_lie(text: str, frame: str, reason: str) -> None:
+    assert reason in words(steps(text)[frame])
+
+
+def test_a_slide_without_a_place_is_told() -> None:
+    notes = [part for note in steps(FOUR_JOINTS)["axes"].notes for part in note]
+    assert any("a slide has no place" in part for part in notes if isinstance(part, str))
+    assert len(steps(OFFSET_ARM)["axes"].notes) == 1
+
+
+def test_the_stage_ends_with_the_table() -> None:
+    found = steps(OFFSET_ARM)
+    assert list(found) == ["axes", "frame0", "frame1", "frame2", "frame3", "DH"]
+    table = found["DH"].table
+    assert table is not None and len(table.rows) == 3
+
+
+def test_a_hint_has_no_result() -> None:
+    text = str(dynsolve.solve(OFFSET_ARM + DRAWN).hint("frames"))
+    assert "Skew axes have one common normal" in text
+    assert "Degrees" not in text
+
+
+def test_a_robot_with_a_table_has_no_such_stage() -> None:
+    assert not [step for step in dynsolve.solve("planar-2r").steps if step.stage is Stage.FRAMES]
