@@ -124,7 +124,7 @@ class _Explained:
         origin, x, z = self.frames[i]
         shown = (
             equation(letters.o(i), self._column(origin)),
-            equation(letters.bold("x", tree.Words(str(i))), self._column(x)),
+            equation(letters.bold("x", tree.Number(i)), self._column(x)),
             equation(letters.z(i), self._column(z)),
         )
         return Step(
@@ -203,7 +203,9 @@ def _prose(text: str) -> Prose:
     pieces: list[Inline] = []
     done = 0
     for found in _LETTER.finditer(text):
-        base, index = _GREEK.get(found[1], found[1]), tree.Words(found[2].strip("{}"))
+        written = found[2].strip("{}")
+        index = tree.Number(int(written)) if written.isdecimal() else tree.Words(written)
+        base = _GREEK.get(found[1], found[1])
         letter = letters.bold(base, index) if base in ("o", "x", "z") else tree.Letter(base, index)
         pieces += [text[done : found.start()], letter]
         done = found.end()

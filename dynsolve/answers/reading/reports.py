@@ -9,8 +9,10 @@ from itertools import islice
 from operator import itemgetter
 
 from dynsolve.answers.reading.asides import read_aside
+from dynsolve.answers.reading.dh_tables import NAME, tables_of, without
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.given_values import read_value
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.plain_lines import FORMULA, plain_lines
@@ -75,6 +77,8 @@ class MacroDefinition:
 def read_report(reader: EquationReader, source: Source, latex: bool = False) -> None:
     """Read the displayed equations of a report, in order, with the macros that hold for each."""
     text, macros = _macros(visible(source.text, latex))
+    tables = list(tables_of(text)) if NAME in reader.vocabulary.quantities else []
+    text = without(text, tables)
     names_answer = _answer_names(reader)
     text = text if latex else with_equations(text, names_answer)
     spans = list(islice(_displays(text, source, names_answer), 2 * MAX_EQUATIONS))
@@ -87,6 +91,8 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     displays, unread = continued(displays[:MAX_EQUATIONS]), displays[MAX_EQUATIONS:]
     while True:
         waiting = list(reversed(macros))
+        for table in tables:
+            read_value(reader, NAME, source.place(table.start, 1), table.value.display(source))
         for offset, display in displays:
             while waiting and waiting[-1].offset <= offset:
                 found = waiting.pop()

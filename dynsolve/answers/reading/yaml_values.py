@@ -17,6 +17,7 @@ from itertools import islice
 from typing import Any
 
 from dynsolve.answers.reading import yaml_scalars
+from dynsolve.answers.reading.dh_tables import column_of, order_of
 from dynsolve.answers.reading.placed_text import Piece, PlacedText, placed
 
 MAX_EVENTS = 100_000
@@ -141,11 +142,38 @@ def _list(text: str, node: YamlNode) -> Iterator[Piece]:
         yield text[node.start : node.end], node.start  # [a, b; c, d], as MATLAB writes a matrix
         return
     yield "[", node.start
-    for number, item in enumerate(_rejoined(text, node.inside)):
+    for number, item in enumerate(_rejoined(text, _without_head(text, node.inside))):
         if number:
             yield ", ", item.start
         yield from _item(text, item)
     yield "]", max(node.end - 1, node.start)
+
+
+def _without_head(text: str, items: list[YamlNode]) -> list[YamlNode]:
+    """The rows of a table in the order θ, d, a, α, where the first of them is a head that says another."""
+    rows = [item.inside for item in items if item.style == "list" and not item.as_it_stands]
+    if len(rows) < 2 or len(rows) < len(items) or any(cell.inside for cell in rows[0]):
+        return items
+    order = order_of([text[cell.start : cell.end].strip("'\"") for cell in rows[0]])
+    if order is None or any(len(row) != len(rows[0]) for row in rows):
+        return items
+    return [
+        YamlNode("list", item.start, item.end, inside=[item.inside[place] for place in order])
+        for item in items[1:]
+    ]
+
+
+def _row_of_table(text: str, node: YamlNode) -> list[Piece] | None:
+    """A row {theta: ..., d: ..., a: ..., alpha: ...} as its cells; None of another mapping."""
+    cells = {word(text, key): value for key, value in node.entries()}
+    columns = {column_of(head): cell for head, cell in cells.items()}
+    if None in columns or len(columns) < len(cells) or not cells:
+        return None
+    pieces: list[Piece] = [("[", node.start)]
+    for column in range(4):
+        pieces += [(", ", node.start)] * bool(column)
+        pieces += _item(text, columns[column]) if column in columns else [("0", node.start)]
+    return [*pieces, ("]", max(node.end - 1, node.start))]
 
 
 def _rejoined(text: str, items: list[YamlNode]) -> Iterator[YamlNode]:
@@ -171,6 +199,9 @@ def _item(text: str, node: YamlNode) -> Iterator[Piece]:
     """One entry of a list, read by itself: what it holds is never taken for further entries."""
     if node.style == "list" and not node.as_it_stands:
         yield from _list(text, node)
+        return
+    if node.style == "mapping" and not node.as_it_stands and (row := _row_of_table(text, node)):
+        yield from row
         return
     found = _without_delimiters(placed(_pieces(text, node)))
     commas = _commas(found.text)

@@ -81,6 +81,9 @@ def read_table(rows: Sequence[Sequence[Node]], coordinates: Sequence[Coordinate]
 
     Raises TableError for a row that has not four columns, for a joint variable where none can be.
     """
+    numbered = [Number(i) for i in range(1, len(rows) + 1)]
+    if all(len(row) == 5 for row in rows) and [row[0] for row in rows] == numbered:
+        rows = [row[1:] for row in rows]
     return tuple(_read_row(i, row, coordinates) for i, row in enumerate(rows, 1))
 
 
