@@ -18,12 +18,14 @@ from typing import Any
 from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.marking.marks import Marked, mark
 from dynsolve.answers.marking.policy import from_data
+from dynsolve.answers.reading.occurrences import readable
 from dynsolve.answers.sandbox import REMEDY, Stopped, limited
 from dynsolve.answers.submission import Submission
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.grading.marking import basis
 from dynsolve.grading.pages import student_page
 from dynsolve.problem.reader import read_problem
+from dynsolve.quantities.index import Quantities
 
 Data = dict[str, Any]
 
@@ -44,7 +46,7 @@ def grade_one(payload: Data, answer_by_answer: float = 0.0) -> Data:
     """
     checker = checker_of(payload)
     read = [checker.reader(base64.b64decode(file["content"]), file["name"]) for file in payload["files"]]
-    submission = _joined(read)
+    submission = _joined(read, checker.reader.vocabulary.quantities)
     if not answer_by_answer:
         return _graded(checker, submission, payload)
     tried = sound(submission, lambda one: _graded(checker, one, payload), answer_by_answer)
@@ -86,7 +88,7 @@ def _checker(file: str, text: str, marks: tuple[tuple[str, str], ...]) -> Checke
     return Checker(replace(problem, marks={name: Fraction(of) for name, of in marks}))
 
 
-def _joined(read: list[Submission]) -> Submission:
+def _joined(read: list[Submission], quantities: Quantities) -> Submission:
     """Several files of one student as one hand-in, in their order; each place then says its file."""
     if len(read) == 1:
         return read[0]
@@ -97,12 +99,16 @@ def _joined(read: list[Submission]) -> Submission:
             place = replace(answer.place, file=one.file)
             answers.append(replace(answer, place=place, occurrence=(chain + chains, member)))
         chains += 1 + max((a.occurrence[0] for a in one.answers), default=0)
+    kept, lost = readable(answers, quantities)
     return Submission(
         read[0].problem,
         read[0].student,
         ", ".join(one.file for one in read),
-        tuple(answers),
-        tuple(replace(n, place=replace(n.place, file=o.file)) for o in read for n in o.not_recognized),
+        tuple(kept),
+        (
+            *(replace(n, place=replace(n.place, file=o.file)) for o in read for n in o.not_recognized),
+            *lost,
+        ),
         tuple(replace(f, message=f"{o.file}: {f.message}") for o in read for f in o.faults),
     )
 

@@ -64,6 +64,12 @@ def test_several_files_are_one_hand_in() -> None:
     assert (found["K"]["marks"], found["tau"]["verdict"]) == ("4", "missing")
 
 
+def test_a_later_file_that_cannot_be_read_takes_no_answer_away() -> None:
+    result = grade_one(payload(RIGHT_K, "answers:\n  K: F_v q1_dot\n"))
+    assert _answers(result)["K"]["marks"] == "4"
+    assert [line for line in result["not_recognized"] if line.startswith("line 2 of part1.yaml")]
+
+
 def test_of_several_files_a_line_says_which() -> None:
     from dynsolve.grading.pages import unpack
 
