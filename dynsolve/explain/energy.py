@@ -233,7 +233,7 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         if is_small(velocity, velocity):
             total = squares[0] if len(squares) == 1 else Sum(squares)
             working = (equation(Kv, Product((letters.HALF, mass, total))),)
-    way = kinetic.linear(context, body) if working else SILENT
+    way = kinetic.linear(context, body, squares_shown=bool(working))
     return Step(
         id=f"Kv{b}",
         stage=STAGE,

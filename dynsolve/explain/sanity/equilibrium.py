@@ -51,7 +51,8 @@ def _hanging_and_upright(context: Context) -> Prose:
         why += (*_zero_at(hanging), "minimum: the arm hangs, and stays when it is let go. ")
     if upright is not None:
         why += (*_zero_at(upright), "maximum: the arm stands upright, and the least push makes it fall. ")
-    return ("With positive lengths. ", *why) if why else ()
+    assumed = ("With positive lengths. ",) if context.robot.parameters else ()
+    return (*assumed, *why) if why else ()
 
 
 def balanced_poses(context: Context) -> tuple[Pose | None, Pose | None]:

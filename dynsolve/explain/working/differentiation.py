@@ -113,7 +113,7 @@ class _Worker:
             for base, power in _flattened(node, exponent):
                 merged[base] = merged.get(base, 0) + power
         kept = [(node, exponent) for node, exponent in merged.items() if exponent]
-        return times(coefficient, sorted(kept, key=_place), decimal=self.decimal)
+        return times(coefficient, _sines_first(sorted(kept, key=_place)), decimal=self.decimal)
 
 
 def _place(factor: tuple[Node, int]) -> tuple[int, str]:
@@ -124,6 +124,15 @@ def _place(factor: tuple[Node, int]) -> tuple[int, str]:
         case Symbol(name, dots):
             return 4 - dots, name
     return 1, ""
+
+
+def _sines_first(factors: list[tuple[Node, int]]) -> list[tuple[Node, int]]:
+    """s₂ c₂ and not c₂ s₂, as elsewhere."""
+    for k in range(len(factors) - 1):
+        (left, _), (right, _) = factors[k : k + 2]
+        if isinstance(right, Function) and right.name == "sin" and left == Function("cos", right.argument):
+            factors[k : k + 2] = factors[k + 1], factors[k]
+    return factors
 
 
 def _flattened(node: Node, exponent: int) -> list[tuple[Node, int]]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
@@ -36,21 +37,62 @@ from dynsolve.robot.model import Body
 _COLLECTED: Prose = ("Collected by the products of the rates:",)
 
 
-def linear(context: Context, body: Body) -> Way:
-    """From the sum of the squares of v to K_v."""
-    ring = context.robot.ring
-    components = [x for x in context.values[f"v{body.name}"].entries if not x.is_zero]
-    if context.robot.n > MOST_JOINTS or not components or body.mass.is_zero:
+def linear(context: Context, body: Body, squares_shown: bool) -> Way:
+    """From the sum of the squares of v to K_v, along the axes of the first frame in which they come apart.
+
+    Those along the base's axes are of use where they are shown before.
+    """
+    velocity = context.values[f"v{body.name}"]
+    if context.robot.n > MOST_JOINTS or velocity.is_zero or body.mass.is_zero:
         return SILENT
+    found = _from_components(context, body, velocity) if squares_shown else None
+    if found is not None:
+        return found
+    for i in range(body.link + 1):
+        turned = rotation(context.values[f"H{i}"]).T @ velocity
+        way = _from_components(context, body, turned)
+        if way is not None:
+            return Way((_along(context, body, i, turned), *way.lines), way.concluding)
+    squared = _squared(context, body, turned)
+    return Way((_along(context, body, body.link, turned), *squared.lines), squared.concluding)
+
+
+def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
+    """The squares of some components, which become the result at once."""
+    result, ring = context.form(f"Kv{body.name}"), context.robot.ring
+    tree = _sum_of_squares(context, [x for x in velocity.entries if not x.is_zero])
+    used = identities(ring, Product((letters.HALF, context.show(body.mass), tree)), result)
+    named: Prose = ("Multiplied out, with ", *said(used), ", and collected:") if used else _COLLECTED
+    return _chain(context, body, [(("Its squares:",), tree)], named)
+
+
+def _along(context: Context, body: Body, i: int, turned: Matrix) -> Line:
+    """v along the axes of another frame, in which its square is the same."""
+    v, R = letters.of_body("v", body, "bold"), letters.R(context.robot, i)
+    why: Prose = (f"The speed is the same along the axes of frame {i}, where the velocity is",)
+    return Line((*why, ":"), (equation(Product((Transpose(R), v)), context.show(turned)),))
+
+
+def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | None:
+    """The lines from the squares of some components on; None where these do not come apart plainly."""
+    ring = context.robot.ring
+    components = [x for x in velocity.entries if not x.is_zero]
     lines: list[tuple[Prose, Node]] = []
+    if velocity != context.values[f"v{body.name}"]:
+        lines.append((("Its squares:",), _sum_of_squares(context, components)))
     while (found := squares.turned(ring, components)) is not None:
         components = _exchanged(components, found)
         lines.append((_turn(context, found), _sum_of_squares(context, components)))
+    if any(squares.has_roots(x) for x in components):
+        return None
+    concluding = _COLLECTED
     if all(len(x) == 1 for x in components):
         concluding = lines.pop()[0] if lines else ()
     else:
-        lines += _multiplied(context, components)
-        concluding = _COLLECTED
+        multiplied = _multiplied(context, components)
+        if multiplied is None:
+            return None
+        lines += multiplied
     return _chain(context, body, lines, concluding)
 
 
@@ -96,14 +138,16 @@ def _without_signs(node: Node) -> Node:
     return inner
 
 
-def _multiplied(context: Context, components: Sequence[Expr]) -> list[tuple[Prose, Node]]:
-    """The squares multiplied out, and the brackets worked out."""
+def _multiplied(context: Context, components: Sequence[Expr]) -> list[tuple[Prose, Node]] | None:
+    """The squares multiplied out, and the brackets worked out; None where a bracket holds rates too."""
     ring = context.robot.ring
     alone, together = squares.separate(ring, components)
     if not together:
         return []
     poly = sum((x.poly * x.poly for x in together), start=ring.zero.poly)
     found = squares.groups(context.forms, poly)
+    if found is None:
+        return None
     first = [_sum_of_squares(context, alone)] if alone else []
     multiplied = sum_of([*first, *(group.multiplied for group in found)])
     reduced = sum_of([*first, *(group.reduced for group in found)])

@@ -81,8 +81,17 @@ class Group:
     reduced: Node
 
 
-def groups(forms: Forms, poly: fmpq_mpoly) -> list[Group]:
-    """A polynomial before s² + c² = 1 is used, by lengths and by the angles of its sines and cosines."""
+def has_roots(x: Expr) -> bool:
+    """Whether a square root or the cosine of a constant angle stands in an expression."""
+    degrees = x.poly.degrees()
+    return any(g.kind in ("root", "constant") and degrees[g.index] > 0 for g in x.ring.generators)
+
+
+def groups(forms: Forms, poly: fmpq_mpoly) -> list[Group] | None:
+    """A polynomial before s² + c² = 1 is used, by lengths and by the angles of its sines and cosines.
+
+    None where sines and cosines do not come apart from rates.
+    """
     ring = forms.robot.ring
     trig = [(pair.sine, pair.cosine) for pair in ring.pairs]
     angular = {g for both in trig for g in both}
@@ -93,11 +102,12 @@ def groups(forms: Forms, poly: fmpq_mpoly) -> list[Group]:
         lengths = tuple(int(x) for i, x in enumerate(e) if i not in angular and i not in rates)
         split.setdefault((angles, lengths), {})[e] = factor
     in_order = sorted(split, key=lambda key: (sum(map(bool, key[0])) > 1, [-a for a in key[0]]))
-    return [_group(forms, ring.ctx.from_dict(split[key]), angular, rates) for key in in_order]
+    made = [_group(forms, ring.ctx.from_dict(split[key]), angular, rates) for key in in_order]
+    return None if None in made else [group for group in made if group is not None]
 
 
-def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -> Group:
-    """The product of the factors: lengths, what is in brackets, rates."""
+def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -> Group | None:
+    """The product of the factors: lengths, what is in brackets, rates; None for a bracket with rates."""
     ring, decimal = forms.robot.ring, is_numeric(forms.robot)
     content, factors = poly.factor()
     lengths = Expr(ring, ring.one.poly)
@@ -105,6 +115,8 @@ def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -
     velocities: list[tuple[fmpq_mpoly, int]] = []
     for factor, exponent in factors:
         held = {i for i, degree in enumerate(factor.degrees()) if degree > 0}
+        if held & angular and held & rates:
+            return None
         if held & angular:
             brackets.append((factor, int(exponent)))
         elif held & rates:
