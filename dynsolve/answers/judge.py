@@ -16,10 +16,12 @@ from fractions import Fraction
 from functools import cached_property
 
 from dynsolve.answers.answer_verdict import AnswerJudge
+from dynsolve.answers.configuration_verdict import judged_set
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.factors import FactorPairs
 from dynsolve.answers.judging.answer_ring import AnswerRing
+from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.explanation import Explanations
 from dynsolve.answers.judging.graph import AnswerGraph
@@ -69,6 +71,12 @@ class Checker:
     def factors(self) -> FactorPairs:
         """The factors that are mistaken for one another, in the problem's own ring."""
         return FactorPairs(self.answer_ring.ring)
+
+    @cached_property
+    def configurations(self) -> ConfigurationKey:
+        """The sets of configurations that are right."""
+        values = {name: float(value) for name, value in self.problem.values.items()}
+        return ConfigurationKey(self.problem.robot, self.key, values)
 
     def __call__(self, submission: Submission) -> Report:
         """Judge a hand-in."""
@@ -141,6 +149,11 @@ class Judge:
         answers = {name: judge(name) for name in self.hand_in.chains}
         if self.tables:
             answers[TABLE] = self.checker.table_judge(self.tables)
+        sets = self.submission.configurations
+        answers |= {
+            answer.name: judged_set(self.checker.configurations, answer, self._marks_of(answer.name))
+            for answer in sets
+        }
         assembled = self.hand_in.assembled_coriolis
         if assembled is not None:
             answers |= dict(coriolis_entries(judge, assembled, answers))
@@ -184,6 +197,9 @@ class Judge:
 
     def _has_key(self, name: str) -> bool:
         return self.hand_in.compare.target(name).node in self.hand_in.answer_ring.rules
+
+    def _marks_of(self, name: str) -> Fraction:
+        return Fraction(self.problem.marks.get(name, 0))
 
     def _unwritten(self, name: str, answers: dict[str, JudgedAnswer]) -> JudgedAnswer:
         return unwritten(self.graph, name, Fraction(self.problem.marks.get(name, 0)), answers)

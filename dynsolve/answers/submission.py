@@ -65,6 +65,29 @@ class Answer:
 
 
 @dataclass(frozen=True, slots=True)
+class Part:
+    """One formula of an alternative: that of a coordinate, or without a name what is 0."""
+
+    coordinate: str
+    node: Node
+
+
+@dataclass(frozen=True, slots=True)
+class ConfigurationAnswer:
+    """A set that was given for one quantity: singular configurations, branches of the inverse kinematics.
+
+    `fault` says why it could not be read, `expected` what to write.
+    """
+
+    name: str
+    place: Place
+    text: str
+    alternatives: tuple[tuple[Part, ...], ...] = ()
+    fault: str = ""
+    expected: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class NotRecognized:
     """An equation that is no answer; `why` says what kept it from being one.
 
@@ -94,3 +117,4 @@ class Submission:
     not_recognized: tuple[NotRecognized, ...] = ()
     faults: tuple[Finding, ...] = ()
     left_alone: tuple[NotRecognized, ...] = ()
+    configurations: tuple[ConfigurationAnswer, ...] = ()

@@ -29,32 +29,41 @@ DIFFERENCE = 1e-6
 
 Values = Mapping[str, float]
 
+NO_VALUE = (KeyError, ValueError, TypeError, ArithmeticError)
+"""What is raised where a formula has no real value, or lacks one of a name."""
+
 
 def verify_inverse(robot: Robot, r: Node, branches: Sequence[Mapping[str, Node]]) -> None:
     """Put every branch into r(q).  Raises VerificationError where one is none, or one is missing."""
     task = compile_trees([r])
-    for values in _states(robot):
-        reached = _flat(task.run(values)[0])
+    for values in states_of(robot):
+        reached = reaches(task, values)
         given = {**values, **dict(zip(robot.questions.reached, reached, strict=True))}
-        found = [q for q in (_on_branch(branch, given) for branch in branches) if q is not None]
-        if not all(_near(_flat(task.run(q)[0]), reached) for q in found):
+        found = [q for q in (on_branch(branch, given) for branch in branches) if q is not None]
+        if not all(near(reaches(task, q), reached) for q in found):
             raise VerificationError("a branch of the inverse kinematics does not reach what it should")
-        if not any(_same(robot, q, values) for q in found):
+        if not any(same_configuration(robot, q, values) for q in found):
             raise VerificationError("a branch of the inverse kinematics is missing")
 
 
-def _on_branch(branch: Mapping[str, Node], given: Values) -> dict[str, float] | None:
-    """The configuration; None where the branch does not exist."""
+def reaches(task: Program, q: Values) -> list[float]:
+    """r(q)"""
+    (value,) = task.run(q)
+    return _flat(value)
+
+
+def on_branch(branch: Mapping[str, Node], given: Values) -> dict[str, float] | None:
+    """The configuration; None where the branch does not exist, or a formula lacks a value."""
     q = dict(given)
     for name, formula in branch.items():
         try:
             q[name] = evaluate(formula, q)
-        except (ValueError, ZeroDivisionError):
+        except NO_VALUE:
             return None
     return q
 
 
-def _near(mine: Sequence[float], theirs: Sequence[float]) -> bool:
+def near(mine: Sequence[float], theirs: Sequence[float]) -> bool:
     """Whether the values of a task are the same; of angles it does not matter how often they turn."""
     return all(
         abs(a - b) <= CLOSE * max(1.0, abs(b)) or 1 - cos(a - b) <= CLOSE**2
@@ -62,7 +71,8 @@ def _near(mine: Sequence[float], theirs: Sequence[float]) -> bool:
     )
 
 
-def _same(robot: Robot, q: Values, other: Values) -> bool:
+def same_configuration(robot: Robot, q: Values, other: Values) -> bool:
+    """Whether two configurations are the same; angles modulo 2π."""
     for coordinate in robot.coordinates:
         gap = q[coordinate.name] - other[coordinate.name]
         if coordinate.type is JointType.REVOLUTE:
@@ -78,25 +88,33 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, alternatives: Seque
     Raises VerificationError where it is not less, or less where it should not be.
     """
     program = compile_trees([jacobian])
-    for values in _states(robot):
-        if _rank(program.run(values)[0]) != rank:
+    for values in states_of(robot):
+        if rank_of(program.run(values)[0]) != rank:
             raise VerificationError("the rank of the Jacobian is not what it should be")
     for conditions in alternatives:
         zeros = compile_trees(conditions)
-        for values in _states(robot):
-            at = _solved(robot, zeros, values)
-            if at is not None and _rank(program.run(at)[0]) >= rank:
+        for values in states_of(robot):
+            at = zero_near(robot, zeros, values)
+            if at is not None and rank_of(program.run(at)[0]) >= rank:
                 raise VerificationError("a singular configuration is none")
 
 
-def _states(robot: Robot) -> Iterator[dict[str, float]]:
+def states_of(robot: Robot) -> Iterator[dict[str, float]]:
+    """Random configurations with values for the parameters, the same ones every time."""
     random = Random(SEED)  # noqa: S311 - the same states every time are wanted
     for _ in range(STATES):
         yield dict(draw(robot, random)[0])
 
 
-def _solved(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:
+def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:
     """A configuration near `start` at which everything is 0, by Newton's method; None where none is found."""
+    try:
+        return _newton(robot, zeros, start)
+    except NO_VALUE:
+        return None
+
+
+def _newton(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:
     at = dict(start)
     names = [q.name for q in robot.coordinates]
     for _ in range(NEWTON_STEPS):
@@ -104,17 +122,16 @@ def _solved(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | N
         if max(map(abs, f)) < CLOSE**2:
             return at
         moved = [zeros.run({**at, name: at[name] + DIFFERENCE}) for name in names]
-        rows = [[(m[k] - f[k]) / DIFFERENCE for m in moved] for k in range(len(f))]
-        for row, value in zip(rows, f, strict=True):  # one equation after the other, each by its own gradient
+        for k, value in enumerate(f):  # one equation after the other, each by its own gradient
+            row = [(m[k] - value) / DIFFERENCE for m in moved]
             square = sum(x * x for x in row)
-            if square < CLOSE**2:
-                continue
-            for name, x in zip(names, row, strict=True):
-                at[name] -= value * x / square
+            if square >= CLOSE**2:
+                for name, x in zip(names, row, strict=True):
+                    at[name] -= value * x / square
     return None
 
 
-def _rank(rows: Sequence[Sequence[float]]) -> int:
+def rank_of(rows: Sequence[Sequence[float]]) -> int:
     """The rank of a matrix of numbers, by elimination with full pivots."""
     left = [list(row) for row in rows]
     size = max((abs(x) for row in left for x in row), default=0.0)

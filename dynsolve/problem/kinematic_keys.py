@@ -31,6 +31,7 @@ POINT = Keyed(
 )
 
 TWIST = Word(("twist",))
+ALL = Word(("all",))
 IN_LINK = Word(("link",))
 BY = Word(("world", "robot"))
 
@@ -95,6 +96,13 @@ KINEMATIC_KEYS = (
         "[px, py]",
         "r1, r2, ...",
         remedy="write reach: [px, py], a name for each component of the task",
+    ),
+    Key(
+        "branches",
+        ALL,
+        "Whether every branch of the inverse kinematics is asked for; else some are enough.",
+        "all",
+        "a correct part is correct",
     ),
     Key(
         "forces",

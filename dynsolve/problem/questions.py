@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from dynsolve.notation.tree import Function, Node, Reference, Symbol
 from dynsolve.notation.walk import mapped, names_in, walk
 from dynsolve.problem.cells import Cell, denominators, forbid, read_cell
-from dynsolve.problem.fields import Fields, did_you_mean, items
-from dynsolve.problem.kinematic_keys import MAX_POINTS, MAX_TASK, POINT, TWIST
+from dynsolve.problem.fields import Fields, did_you_mean, items, word
+from dynsolve.problem.kinematic_keys import ALL, MAX_POINTS, MAX_TASK, POINT, TWIST
 from dynsolve.problem.loads import ParsedLoad, read_loads
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
 from dynsolve.problem.reach import NO_REACH, ParsedReach, read_reach
@@ -52,6 +52,7 @@ class ParsedQuestions:
     loads: tuple[ParsedLoad, ...] = ()
     state: ParsedState | None = None
     reach: ParsedReach = NO_REACH
+    all_branches: bool = False
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -99,6 +100,7 @@ def read_questions(
         read_loads(faults, fields.get("forces"), rows, coordinates),
         read_state(faults, fields.get("state"), coordinates),
         read_reach(faults, fields.get("reach"), coordinates),
+        word(faults, fields.get("branches"), ALL.choices, "branches", "write branches: all") is not None,
     )
 
 

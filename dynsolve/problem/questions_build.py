@@ -68,6 +68,7 @@ def with_questions(
         state=State(tuple((name, dots, value) for (name, dots), value in values.items())),
         reach=parsed.reach.names,
         is_drawn=is_drawn,
+        all_branches=parsed.all_branches,
     )
     if questions.task is None and Stage.TASK in asked_stages(questions):
         questions = replace(questions, task=_default_task(robot))

@@ -99,7 +99,8 @@ class Questions:
     they are asked for; with them comes what they are derived from, and nothing else.
     `is_drawn` says that the table was found from a drawing.
     `loads` are the forces from outside; `state` is where rates and torques are asked for.
-    `reach` are the names of the values of r(q) in the inverse kinematics, as the file has them.
+    `reach` are the names of the values of r(q) in the inverse kinematics, as the file has them;
+    `all_branches` says that an answer must have them all.
     """
 
     points: tuple[NamedPoint, ...] = ()
@@ -109,6 +110,7 @@ class Questions:
     loads: tuple[Load, ...] = ()
     state: State = State()
     reach: tuple[str, ...] = ()
+    all_branches: bool = False
 
     @property
     def reached(self) -> tuple[str, ...]:

@@ -17,6 +17,8 @@ explanations one after the other, the nearest first, in the order of the list at
 What they share: `wrong_entry` (the scalar that is wrong), `parts` (an expression as terms),
 `term_writer` (terms in words).
 
+`configuration_slips` are what is said of sets of configurations, which are held in numbers.
+
 To add a slip, write its record with an example in `slips`, and its recognition with its mend in
 the file above that it belongs to; the tests run every example.
 """

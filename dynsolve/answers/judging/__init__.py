@@ -17,4 +17,5 @@ follow_through                the values that they lead to
 content                       what a wrong answer keeps of the key, so that inventions lead nowhere
 direction                     which way between τ and D, C, g, so that nothing explains itself
 explanation                   which of those explains an answer
+configurations                sets: singular configurations, branches of the inverse, in numbers
 """

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from dynsolve.answers.reading import answer_lines, yaml_values
+from dynsolve.answers.reading.configurations import read_configurations
 from dynsolve.answers.reading.definitions import own_symbols
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.given_values import read_value
@@ -27,11 +28,15 @@ KEYS = ("problem", "student", "symbols", "let", "answers")
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A key, the offset that it stands at, and its value, None where it is blank."""
+    """A key, the offset that it stands at, and its value, None where it is blank.
+
+    `node` is the value as YAML has it, None in a file that YAML refuses.
+    """
 
     key: str
     at: int
     value: PlacedText | None
+    node: YamlNode | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +64,10 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
     for entry in file.answers[:MAX_ANSWERS]:
         if entry.value is not None:
             place = source.place(entry.at, len(entry.key))
+            if (configurations := reader.vocabulary.set_named(entry.key)) is not None:
+                text = source.text if entry.node is not None else entry.value.text
+                read_configurations(reader, configurations, place, text, entry.node)
+                continue
             read_value(reader, entry.key, place, entry.value.display(source))
     return (file.problem, file.student), faults
 
@@ -89,7 +98,7 @@ def parsed(text: str) -> AnswerFile:
 
 def _entries(text: str, pairs: Iterable[tuple[YamlNode, YamlNode]]) -> Iterator[Entry]:
     for key, node in pairs:
-        yield Entry(yaml_values.word(text, key), key.start, yaml_values.value(text, node))
+        yield Entry(yaml_values.word(text, key), key.start, yaml_values.value(text, node), node)
 
 
 def _by_lines(text: str) -> AnswerFile:

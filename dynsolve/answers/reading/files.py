@@ -58,7 +58,14 @@ class FileReader:
         answers = tuple(with_own_coordinates(reader.found.answers, reader.coordinates, names))
         refused = tuple(reader.found.not_recognized)
         return Submission(
-            problem, student, file, answers, refused, tuple(faults), tuple(reader.found.left_alone)
+            problem,
+            student,
+            file,
+            answers,
+            refused,
+            tuple(faults),
+            tuple(reader.found.left_alone),
+            tuple(reader.found.configurations),
         )
 
 

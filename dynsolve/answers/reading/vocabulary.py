@@ -17,6 +17,7 @@ from dynsolve.answers.reading.index_order import USUAL, in_usual_order
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Function, Node, Sum, Symbol
 from dynsolve.problem.model import Problem
+from dynsolve.quantities.family import Kind
 from dynsolve.quantities.index import Quantities, Shape, quantities
 from dynsolve.quantities.spelling import key, open_index, subscripts
 from dynsolve.robot.model import Coordinate, JointType
@@ -48,7 +49,8 @@ class Vocabulary:
     could not be read, `angles` the student's own by subscript.
     `missed` are names that were looked for before anything defined them;
     `orders` says for letters of Christoffel symbols which index counts the row (`index_order`).
-    `masses` are the masses, the moments of inertia and g; `defined` is what the student defined.
+    `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
+    its like are known; `defined` is what the student defined.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -56,6 +58,7 @@ class Vocabulary:
     others: dict[str, Symbol]
     quantities: Quantities
     masses: frozenset[str]
+    has_inverse_functions: bool = False
     defined: dict[str, Meaning] = field(default_factory=dict)
     derived: dict[tuple[str, int], Value] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
@@ -68,7 +71,7 @@ class Vocabulary:
         """The names of the problem alone, for another hand-in."""
         return Vocabulary(
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
-            subscripts=self.subscripts,
+            self.has_inverse_functions, subscripts=self.subscripts,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
@@ -191,6 +194,11 @@ class Vocabulary:
         quantity = self.quantities.get(name)
         return quantity is not None and quantity.family.is_answer
 
+    def set_named(self, name: str) -> str | None:
+        """The answer of that name that is a set of equations, or of branches; None for any other."""
+        found = self.quantities.canonical(name)
+        return found if found and self.quantities[found].family.kind is not Kind.VALUE else None
+
     def shape(self, name: str) -> Shape:
         """Rows and columns of an answer; None for a scalar, and for what is none."""
         quantity = self.quantities.get(name)
@@ -214,11 +222,14 @@ def vocabulary(problem: Problem) -> Vocabulary:
     coordinates = robot.coordinates
     symbols = {key(name): Symbol(name) for name in robot.parameters}
     symbols |= {key(q.name): Symbol(q.name) for q in coordinates}
+    solves = "inverse" in robot.questions.asked
+    if solves:
+        symbols |= {key(name): Symbol(name) for name in robot.questions.reached}
     others: dict[str, Symbol] = {"pi": Symbol("pi")}
     spoken = subscripts(coordinates)
     _add_derivatives(others, symbols, spoken)
     masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
-    return Vocabulary(coordinates, symbols, others, quantities(robot), masses, subscripts=spoken)
+    return Vocabulary(coordinates, symbols, others, quantities(robot), masses, solves, subscripts=spoken)
 
 
 def _add_derivatives(

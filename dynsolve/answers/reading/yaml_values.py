@@ -176,6 +176,27 @@ def _row_of_table(text: str, node: YamlNode) -> list[Piece] | None:
     return [*pieces, ("]", max(node.end - 1, node.start))]
 
 
+def items_of(text: str, node: YamlNode) -> list[YamlNode]:
+    """The items of a list, those that a comma inside parentheses has cut made one again."""
+    return list(_rejoined(text, node.inside))
+
+
+def pairs_of(text: str, node: YamlNode) -> Iterator[tuple[str, str]]:
+    """The keys of a mapping with the texts of their values, `{q1: atan2(y, x)}` made one again."""
+    pairs = list(node.entries())
+    while pairs:
+        name, found = pairs.pop(0)
+        start, end = found.start, found.end
+        while pairs and _is_open(text[start:end]):
+            more = pairs.pop(0)
+            end = max(more[0].end, more[1].end)
+        yield word(text, name), word(text, found) if end == found.end else text[start:end]
+
+
+def _is_open(text: str) -> bool:
+    return sum(_OPENS.get(character, 0) for character in text) > 0
+
+
 def _rejoined(text: str, items: list[YamlNode]) -> Iterator[YamlNode]:
     """The items; those that a comma inside parentheses has cut, `atan2(y, x)`, are one again."""
     whole: YamlNode | None = None

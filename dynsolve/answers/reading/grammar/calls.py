@@ -27,7 +27,7 @@ def is_call(reader: Reader) -> bool:
         return True
     if token.kind != "name" or reader.peek().kind != "(":
         return False
-    if functions.is_elsewhere(token):
+    if functions.is_elsewhere(token) and functions.name_of(token, reader.vocabulary) is None:
         length = token.end - token.start
         raise ReadError(
             f"unknown function `{token.text}`", token.start, length, "functions are sin, cos, tan and sqrt"

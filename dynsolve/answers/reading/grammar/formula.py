@@ -218,7 +218,7 @@ class FormulaReader(Reader):
                 return symbol
             if derivatives.stands_here(self):
                 return self.scripted(derivatives.read(self))
-            if (function := functions.name_of(token)) is not None:
+            if (function := functions.name_of(token, self.vocabulary)) is not None:
                 return functions.read(self, function)
             if calls.is_call(self):
                 return self.scripted(calls.read(self))
@@ -280,7 +280,7 @@ class FormulaReader(Reader):
         if token.kind not in ("name", "letter") and not accented:
             return False
         return not (
-            functions.name_of(token) is not None
+            functions.name_of(token, self.vocabulary) is not None
             or calls.is_call(self)
             or derivatives.stands_here(self)
             or shorthand.is_short_function(self)
@@ -322,7 +322,7 @@ class FormulaReader(Reader):
         name = token.text
         if name in ACCENTS or name == "script":
             return names.value_of(self, self.form())
-        if (function := functions.name_of(token)) is not None:
+        if (function := functions.name_of(token, self.vocabulary)) is not None:
             return functions.read(self, function)
         if name == "frac":
             return self.scripted(self.fraction())

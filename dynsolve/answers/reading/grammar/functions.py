@@ -8,13 +8,17 @@ from dynsolve.answers.reading.grammar.forms import Scripts
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum
+from dynsolve.notation.tree import Arguments, Function, Negative, Node, Number, Power, Product, Quotient, Sum
 
 _NAMES = {"sin": "sin", "cos": "cos", "tan": "tan", "sqrt": "sqrt", "cot": "cot", "sec": "sec", "csc": "csc"}
 _NAMES |= (
     {name.capitalize(): name for name in _NAMES} | {name.upper(): name for name in _NAMES} | {"cosec": "csc"}
 )
+_INVERSES = {name: name for name in ("asin", "acos", "atan", "atan2")}
+_INVERSES |= {f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan", "tan2")}
+_INVERSES |= {name.capitalize(): meant for name, meant in _INVERSES.items()}
 _RECIPROCALS = {"cot": ("cos", "sin"), "sec": ("", "cos"), "csc": ("", "sin")}
 _ELSEWHERE = frozenset(
     "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh abs sgn sign max min pow "
@@ -22,11 +26,12 @@ _ELSEWHERE = frozenset(
 )
 
 
-def name_of(token: Token) -> str | None:
-    """The function that a token names."""
-    if token.kind in ("name", "command") and not token.dots:
-        return _NAMES.get(token.text)
-    return None
+def name_of(token: Token, vocabulary: Vocabulary) -> str | None:
+    """The function that a token names; arccos and its like where the inverse kinematics is asked for."""
+    if token.kind not in ("name", "command") or token.dots:
+        return None
+    known = _NAMES.get(token.text)
+    return _INVERSES.get(token.text) if known is None and vocabulary.has_inverse_functions else known
 
 
 def is_elsewhere(token: Token) -> bool:
@@ -52,6 +57,10 @@ def read(reader: Reader, function: str) -> Value:
             length,
             f"write {function}(x)^2 for a square",
         )
+    if function == "atan2":
+        found: Value = Function(function, _two_arguments(reader, name))
+        reader.nesting -= 1
+        return found
     argument, outer = _argument(reader, name)
     found = applied(reader, function, argument, name)
     for power in [*scripts.powers, *outer]:
@@ -60,6 +69,24 @@ def read(reader: Reader, function: str) -> Value:
     if not outer and _is_closed(reader):
         found = reader.scripted(found)
     return found
+
+
+def _two_arguments(reader: Reader, name: Token) -> Arguments:
+    """(y, x) of atan2."""
+    help = f"write {name.text}(y, x)"
+    if reader.token.kind != "(":
+        raise ReadError(f"`{name.text}` has no arguments", name.start, name.end - name.start, help)
+    opening = reader.take()
+    parts = [reader.sum()]
+    if reader.token.kind != ",":
+        raise reader.unexpected(help)
+    reader.take()
+    parts.append(reader.sum())
+    reader.expect(")", opening)
+    y, x = parts
+    if not isinstance(y, Node) or not isinstance(x, Node):
+        raise ReadError(f"`{name.text}` of a matrix or a vector", name.start, name.end - name.start, help)
+    return Arguments((y, x))
 
 
 def _is_closed(reader: Reader) -> bool:
@@ -109,7 +136,9 @@ def _open(reader: Reader) -> tuple[Value, list[Fraction]]:
         parts.append(number)
         if reader.token.kind in ("*", "cdot") and reader.peek().kind in ("name", "letter"):
             reader.take()
-        if reader.token.kind not in ("name", "letter", "(", "command", "{") or name_of(reader.token):
+        if reader.token.kind not in ("name", "letter", "(", "command", "{") or name_of(
+            reader.token, reader.vocabulary
+        ):
             return number, []
     factor = reader.atom()
     if not isinstance(factor, Node):

@@ -1,0 +1,29 @@
+"""The verdict of a set of configurations: singular ones, branches of the inverse kinematics."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+from dynsolve.answers.diagnosis.configuration_slips import SET_SLIPS
+from dynsolve.answers.judging.configurations import ConfigurationKey
+from dynsolve.answers.submission import ConfigurationAnswer
+from dynsolve.answers.verdict import JudgedAnswer, Verdict
+
+INCOMPLETE = "incomplete"
+"""The note of an answer that has some of the branches, all right."""
+
+
+def judged_set(key: ConfigurationKey, answer: ConfigurationAnswer, of: Fraction) -> JudgedAnswer:
+    """What is said of a set; `of` are its marks."""
+    base = JudgedAnswer(answer.name, Verdict.UNREADABLE, place=answer.place, read_as=answer.text, of=of)
+    if answer.fault:
+        return replace(base, fault=answer.fault, expected=answer.expected)
+    if answer.name not in key.values:
+        return replace(base, fault=f"{answer.name} is not asked for in this problem")
+    found = key.verdict(answer)
+    if not found.is_right:
+        slip = SET_SLIPS[found.code].told(number=str(found.number))
+        return replace(base, verdict=Verdict.WRONG, diagnosis=(slip,))
+    notes = (INCOMPLETE,) if found.is_incomplete else ()
+    return replace(base, verdict=Verdict.CORRECT, notes=notes)

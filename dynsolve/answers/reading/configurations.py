@@ -1,0 +1,147 @@
+r"""Answers that are sets: singular configurations, and the branches of the inverse kinematics.
+
+    singular: [sin(q2) = 0, "q2 = 0 and sin(q3) = 0"]
+    inverse:
+      - {q1: atan2(py, px), q3: ±acos((px^2 + py^2 - l1^2 - l2^2)/(2*l1*l2)), q2: ...}
+
+Alternatives are the items of a list; equations that hold together are joined by `and`, or are a
+list of their own.  A branch is a mapping from coordinates to formulas.  `±` stands for two branches
+(alternatives), linked with every other ± of the same branch, and against every ∓ of it; `k*pi`
+with a letter that means nothing else, for all whole multiples.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import islice
+
+from dynsolve.answers.reading import yaml_values
+from dynsolve.answers.reading.displays import chain
+from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.right_side import RightSide, read_right_side
+from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.tokens.prepare import prepared
+from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode
+from dynsolve.answers.submission import ConfigurationAnswer, Part, Place
+from dynsolve.errors import ReadError
+from dynsolve.notation.build import negated, total
+from dynsolve.notation.tree import ZERO, Node
+from dynsolve.quantities.family import Kind
+from dynsolve.quantities.spelling import key
+
+MOST_ITEMS = 64
+"""More alternatives, with every ± written out, are not read."""
+
+_AND = re.compile(r"\s(?:and|und|og|et|y)\s|&&?|∧|\\(?:land|wedge)\b|\s\\text\{\s*and\s*\}\s")
+_OR = re.compile(r"\s(?:or|oder|eller|ou)\s|\|\|?|∨|\\(?:lor|vee)\b")
+_EITHER = re.compile(r"±|\\pm\b|\+/-")
+_OPPOSITE = re.compile(r"∓|\\mp\b|-/\+")
+_MULTIPLE = re.compile(r"(?<![\w\\])([kn])\s*\*?\s*(?=(?:\\?pi\b|π))")
+
+
+def read_configurations(
+    reader: EquationReader, name: str, place: Place, text: str, node: YamlNode | None
+) -> None:
+    """Read the alternatives of a set; what cannot be read makes the answer unreadable, with its reason."""
+    kind = reader.vocabulary.quantities[name].family.kind
+    written = text.strip() if node is None else ""
+    try:
+        source, root = (text, _parsed(text)) if node is None else (text, node)
+        written = source[root.start : root.end].strip()
+        items = list(islice(_alternatives(source, root, kind), MOST_ITEMS + 1))
+        if len(items) > MOST_ITEMS:
+            raise ReadError(f"more than {MOST_ITEMS} alternatives", 0, 1, "write fewer")
+        read = tuple(tuple(_part(reader.vocabulary, *part) for part in item) for item in items)
+    except ReadError as error:
+        found = ConfigurationAnswer(name, place, written, fault=error.message, expected=error.help)
+    else:
+        found = ConfigurationAnswer(name, place, written, read)
+    reader.found.configurations.append(found)
+
+
+def _parsed(text: str) -> YamlNode:
+    """A value that stands in a file that YAML refuses, read by itself."""
+    try:
+        (root,) = yaml_values.documents(text)
+    except (NotYaml, ValueError):
+        raise ReadError("this is no list", 0, 1, "write a list: [sin(q2) = 0, cos(q3) = 0]") from None
+    return root
+
+
+_Item = tuple[tuple[str, str], ...]
+"""An alternative: (coordinate or nothing, text) for each of its formulas."""
+
+
+def _alternatives(text: str, root: YamlNode, kind: Kind) -> Iterator[_Item]:
+    items = yaml_values.items_of(text, root) if root.style == "list" else [root]
+    for item in items:
+        parts = tuple(_branch(text, item)) if kind is Kind.BRANCHES else tuple(_together(text, item))
+        yield from _signed(parts)
+
+
+def _branch(text: str, node: YamlNode) -> Iterator[tuple[str, str]]:
+    """The formulas of a branch, by coordinate."""
+    if node.style != "mapping":
+        help = "write a mapping for each branch: {q1: atan2(py, px), q2: ...}"
+        raise ReadError("a branch gives a formula for each coordinate", 0, 1, help)
+    yield from yaml_values.pairs_of(text, node)
+
+
+def _together(text: str, node: YamlNode) -> Iterator[tuple[str, str]]:
+    """Equations that hold together."""
+    items = yaml_values.items_of(text, node) if node.style == "list" else [node]
+    for item in items:
+        for part in _AND.split(yaml_values.word(text, item)):
+            yield "", part
+
+
+def _signed(parts: _Item) -> Iterator[_Item]:
+    """Every ± written out, and `or` and whole multiples of π, as alternatives of their own."""
+    for index, (name, text) in enumerate(parts):
+        choices = _OR.split(text)
+        if len(choices) == 1 and (found := _MULTIPLE.search(text)):
+            choices = [text[: found.start()] + f"{factor}*" + text[found.end() :] for factor in (0, 1)]
+        if len(choices) > 1:
+            before = text.split("=")[0] if "=" in text else ""
+            for choice in choices:
+                whole = choice if "=" in choice or not before else f"{before}= {choice}"
+                yield from _signed((*parts[:index], (name, whole), *parts[index + 1 :]))
+            return
+    if any(_EITHER.search(text) or _OPPOSITE.search(text) for _, text in parts):
+        for sign, other in (("+", "-"), ("-", "+")):
+            yield tuple((name, _OPPOSITE.sub(other, _EITHER.sub(sign, text))) for name, text in parts)
+    else:
+        yield parts
+
+
+def _part(vocabulary: Vocabulary, name: str, text: str) -> Part:
+    """A formula of an alternative: of a coordinate, or what is 0."""
+    members = [_value(vocabulary, tokens) for tokens in chain(prepared(text))]
+    if not name:
+        if len(members) == 1:
+            return Part("", members[0])
+        if len(members) == 2:
+            return Part("", members[0] if _is_zero(members[1]) else total([members[0], negated(members[1])]))
+        raise ReadError(f"`{text.strip()[:60]}` is no equation", 0, 1, "write sin(q2) = 0")
+    found = vocabulary.symbol(key(name))
+    q = vocabulary.coordinate(found.value) if found is not None and isinstance(found.value, Node) else None
+    if q is None:
+        raise ReadError(f"{name} is no coordinate", 0, 1, "a branch gives a formula for each coordinate")
+    return Part(q.name, members[-1])
+
+
+def _is_zero(node: Node) -> bool:
+    return node == ZERO
+
+
+def _value(vocabulary: Vocabulary, tokens: list[Token]) -> Node:
+    found = read_right_side(vocabulary, tokens)
+    if not isinstance(found, RightSide):
+        raise found
+    if found.free:
+        raise ReadError(f"{found.free[0]} is no name of this problem", 0, 1, "write it in its symbols")
+    if not isinstance(found.value, Node):
+        raise ReadError("a single expression is expected", 0, 1, "write one formula")
+    return found.value

@@ -1,0 +1,101 @@
+"""Singular configurations and branches of the inverse, in forms of the student's own."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.answers.judge import check
+from dynsolve.answers.reading.files import FileReader
+from dynsolve.answers.verdict import JudgedAnswer
+from dynsolve.problem import read_problem
+
+TWO_LINKS = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+reach: [px, py]
+find: [singular, inverse]
+"""
+ELBOW = """
+dh: [{theta: q1*, d: L1, alpha: 90deg}, {theta: q2*, a: L2}, {theta: q3*, a: L3}]
+find: [singular, inverse]
+"""
+PLANAR_RPRP = """
+gravity: none
+dh: [{theta: q1* + 90deg, alpha: 90deg}, {d: q2*, alpha: -90deg}, {theta: q3*, alpha: 90deg}, {d: q4*}]
+task: [tip.x, tip.y, q1 + q3]
+find: [singular]
+"""
+
+
+def judged(problem: str, name: str, value: str) -> JudgedAnswer:
+    read = read_problem(problem, "own.yaml")
+    report = check(read, FileReader(read)(f"answers:\n  {name}: {value}\n", "answer.yaml"))
+    return next(answer for answer in report.answers if answer.name == name)
+
+
+C2 = "(px^2 + py^2 - l1^2 - l2^2)/(2*l1*l2)"
+Q1 = "atan2(py, px) - atan2(l2*sin(q2), l1 + l2*cos(q2))"
+
+# (the branches, the verdict, the note or the code of the slip)
+BRANCHES = [
+    (f"[{{q1: '{Q1}', q2: 'acos({C2})'}}, {{q1: '{Q1}', q2: '-acos({C2})'}}]", "correct", ""),
+    (f"[{{q1: {Q1}, q2: ±acos({C2})}}]", "correct", ""),
+    (f"{{q1: {Q1}, q2: acos({C2})}}", "correct", "incomplete"),
+    (f"[{{q2: '±atan2(sqrt(1 - ({C2})^2), {C2})', q1: 'atan2(py*(l1 + l2*cos(q2)) - px*l2*sin(q2), "
+     "px*(l1 + l2*cos(q2)) + py*l2*sin(q2))'}]", "correct", ""),
+    (f"[{{q1: '{Q1}', q2: '±\\arccos({C2})'}}]", "correct", ""),
+    (f"[{{q1: 'atan2(px, py) - atan2(l1 + l2*cos(q2), l2*sin(q2))', q2: '±acos({C2})'}}]", "wrong", "atan2_order"),
+    (f"[{{q1: 'atan2(py, px) + atan2(l2*sin(q2), l1 + l2*cos(q2))', q2: '±acos({C2})'}}]", "wrong", "branch_misses"),
+    (f"[{{q1: '∓atan2(py, px)', q2: '±acos({C2})'}}]", "wrong", "branch_misses"),
+    (f"[{{q2: 'acos({C2})'}}]", "wrong", "branch_lacks_coordinate"),
+    ("[{q1: q1, q2: q2}]", "wrong", "branch_never_exists"),
+    (f"[{{q1: '{Q1}', q2: 'acos(2 + ({C2})^2)'}}]", "wrong", "branch_never_exists"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("value", "verdict", "said"), BRANCHES)
+def test_branches(value: str, verdict: str, said: str) -> None:
+    answer = judged(TWO_LINKS, "inverse", value)
+    assert answer.verdict == verdict, (answer.fault, answer.diagnosis)
+    codes = [one.code for one in answer.diagnosis] if verdict == "wrong" else list(answer.notes)
+    assert codes == ([said] if said else [])
+
+
+def test_every_branch_where_all_are_asked_for() -> None:
+    one = f"[{{q1: '{Q1}', q2: 'acos({C2})'}}]"
+    answer = judged(TWO_LINKS + "branches: all\n", "inverse", one)
+    assert (answer.verdict, answer.diagnosis[0].code) == ("wrong", "branches_missing")
+
+
+# (the problem, the alternatives, the verdict, the code of the slip)
+SETS = [
+    (TWO_LINKS, "[sin(q2) = 0]", "correct", ""),
+    (TWO_LINKS, "sin(q2) = 0", "correct", ""),
+    (TWO_LINKS, "[l1*l2*s2 = 0]", "correct", ""),
+    (TWO_LINKS, "[q2 = 0, q2 = pi]", "correct", ""),
+    (TWO_LINKS, "[q2 = 0 or q2 = 180deg]", "correct", ""),
+    (TWO_LINKS, "[q2 = k*pi]", "correct", ""),
+    (TWO_LINKS, "[q2 = 0]", "wrong", "configurations_missing"),
+    (TWO_LINKS, "[cos(q2) = 0]", "wrong", "configurations_missing"),
+    (TWO_LINKS, "[sin(q2) = 0, sin(q1) = 0]", "wrong", "not_singular"),
+    (TWO_LINKS, "[sin(q2) = 0, cos(q2) = 2]", "wrong", "condition_never_holds"),
+    (ELBOW, "[sin(q3) = 0, L2*cos(q2) + L3*cos(q2 + q3) = 0]", "correct", ""),
+    (ELBOW, "[s3 = 0, 'L2*c2 = -L3*c23']", "correct", ""),
+    (ELBOW, "[sin(q3) = 0]", "wrong", "configurations_missing"),
+    (PLANAR_RPRP, '["q2 = 0 and sin(q3) = 0"]', "correct", ""),
+    (PLANAR_RPRP, "[[q2 = 0, sin(q3) = 0]]", "correct", ""),
+    (PLANAR_RPRP, "[q2 = 0, sin(q3) = 0]", "wrong", "not_singular"),
+]
+
+
+@pytest.mark.parametrize(("problem", "value", "verdict", "code"), SETS)
+def test_sets(problem: str, value: str, verdict: str, code: str) -> None:
+    answer = judged(problem, "singular", value)
+    assert answer.verdict == verdict, (answer.fault, answer.diagnosis)
+    assert [one.code for one in answer.diagnosis] == ([code] if code else [])
+
+
+@pytest.mark.parametrize("value", ["[sin(q2 = 0]", "{q1: 0}", "[x7 = 0]", "[a = b = c]"])
+def test_what_cannot_be_read_says_why(value: str) -> None:
+    answer = judged(TWO_LINKS, "singular", value)
+    assert answer.verdict == "unreadable"
+    assert answer.fault
