@@ -102,7 +102,6 @@ KINEMATIC_KEYS = (
         ALL,
         "Whether every branch of the inverse kinematics is asked for; else some are enough.",
         "all",
-        "a correct part is correct",
     ),
     Key(
         "forces",

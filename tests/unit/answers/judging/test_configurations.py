@@ -43,8 +43,10 @@ BRANCHES = [
     (f"[{{q2: '±atan2(sqrt(1 - ({C2})^2), {C2})', q1: 'atan2(py*(l1 + l2*cos(q2)) - px*l2*sin(q2), "
      "px*(l1 + l2*cos(q2)) + py*l2*sin(q2))'}]", "correct", ""),
     (f"[{{q1: '{Q1}', q2: '±\\arccos({C2})'}}]", "correct", ""),
-    (f"[{{q1: 'atan2(px, py) - atan2(l1 + l2*cos(q2), l2*sin(q2))', q2: '±acos({C2})'}}]", "wrong", "atan2_order"),
-    (f"[{{q1: 'atan2(py, px) + atan2(l2*sin(q2), l1 + l2*cos(q2))', q2: '±acos({C2})'}}]", "wrong", "branch_misses"),
+    (f"[{{q1: 'atan2(px, py) - atan2(l1 + l2*cos(q2), l2*sin(q2))', q2: '±acos({C2})'}}]",
+     "wrong", "atan2_order"),
+    (f"[{{q1: 'atan2(py, px) + atan2(l2*sin(q2), l1 + l2*cos(q2))', q2: '±acos({C2})'}}]",
+     "wrong", "branch_misses"),
     (f"[{{q1: '∓atan2(py, px)', q2: '±acos({C2})'}}]", "wrong", "branch_misses"),
     (f"[{{q2: 'acos({C2})'}}]", "wrong", "branch_lacks_coordinate"),
     ("[{q1: q1, q2: q2}]", "wrong", "branch_never_exists"),
