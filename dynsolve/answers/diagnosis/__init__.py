@@ -14,7 +14,8 @@ explanations one after the other, the nearest first, in the order of the list at
     changed_rules    an earlier step done otherwise, and all that follows from it
     terms            several such slips, each in a term of its own
 
-What they share: `wrong_entry` (the scalar that is wrong), `parts` (an expression as terms),
+What they share: `wrong_entry` (the scalar that is wrong), `case` (it, and an explanation that is to
+hold of it), `parts` (an expression as terms),
 `term_writer` (terms in words).
 
 `configuration_slips` are what is said of sets of configurations, which are held in numbers.

@@ -3,14 +3,13 @@
 What is explained is the difference between the answer and the value that the student's
 own nearest answers lead to.  The explanations are tried in the order of `_IN_ORDER`, at
 the end of this file, the nearest first.  Each brings its mend, and is told only where the
-mend, put into the answer, gives exactly what is expected (`_Explanation.holds`); where none
+mend, put into the answer, gives exactly what is expected (`Explanation.holds`); where none
 does, what differs is said, and no more.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -18,11 +17,12 @@ from typing import Any
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.diagnosis.case import Case, Explanation, in_common, likeness
 from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, ChangedDerivation, DerivationSlips
 from dynsolve.answers.diagnosis.differences import what_differs
 from dynsolve.answers.diagnosis.exchanges import HEAVY, Exchanges, TermSlip
 from dynsolve.answers.diagnosis.factors import FactorPairs
-from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing, mends
+from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing
 from dynsolve.answers.diagnosis.one_place import ratio_of
 from dynsolve.answers.diagnosis.parts import is_small, parts
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
@@ -47,27 +47,6 @@ MOST_NAMED = 4
 
 MOST_OF_IT = Fraction(1, 2)
 """An answer with at least this share of the key's terms is compared with the key."""
-
-
-@dataclass(frozen=True)
-class _Case:
-    """An answer that is wrong, as an element of the ring, and the value that it is compared with."""
-
-    wrong: WrongEntry
-    mine: Expr
-    expected: Expr
-
-
-@dataclass(frozen=True)
-class _Explanation:
-    """What is told of an answer, and what mends it; `told` makes the words."""
-
-    mends: tuple[Mend, ...]
-    told: Callable[[], Iterable[Diagnosis]]
-
-    def holds(self, case: _Case) -> bool:
-        """Whether it is true: with the slips mended the answer is what is expected, exactly."""
-        return mends(self.mends, case.mine, case.expected)
 
 
 class Diagnoser:
@@ -132,8 +111,8 @@ class Diagnoser:
         nearest, key = self.dimension_check.first_that_fits(wrong), wrong.expected[-1]
         mine = wrong.mine
         if mine is not None and nearest is not key:
-            likeness = _likeness(mine, key)
-            if likeness >= MOST_OF_IT and likeness > _likeness(mine, nearest):
+            alike = likeness(mine, key)
+            if alike >= MOST_OF_IT and alike > likeness(mine, nearest):
                 return key
         return nearest
 
@@ -142,7 +121,7 @@ class Diagnoser:
         constant = self._is_constant(wrong, mine)
         if constant:
             yield slip("constant_term")
-        case = _Case(wrong, *self._with_numbers(mine, self.expected(wrong)))
+        case = Case(wrong, *self._with_numbers(mine, self.expected(wrong)))
         for explain in _IN_ORDER:
             found = next((one for one in explain(self, case) if one.holds(case)), None)
             if found is not None:
@@ -167,17 +146,17 @@ class Diagnoser:
             (mine, substituted(expected, unused)),
             (substituted(mine, put), substituted(expected, put)),
         ]
-        return max(choices, key=lambda pair: _likeness(*pair))
+        return max(choices, key=lambda pair: likeness(*pair))
 
     # -- one explanation after the other, see _IN_ORDER --------------------------------------------
 
-    def _step_otherwise(self, case: _Case) -> Iterator[_Explanation]:
+    def _step_otherwise(self, case: Case) -> Iterator[Explanation]:
         """This step was done wrongly: a Jacobian at the frame's origin, a rule of d/dt left out."""
         node = case.wrong.target.node
         for value, diagnosis in self._variants(node):
             yield from self._redone(case, value, self._done_right(node), diagnosis)
 
-    def _one_number(self, case: _Case) -> Iterator[_Explanation]:
+    def _one_number(self, case: Case) -> Iterator[Explanation]:
         """One number for all of it: a sign, a factor."""
         mine, expected = case.mine, case.expected
         ratio = ratio_of(mine, expected)
@@ -191,7 +170,7 @@ class Diagnoser:
             told = slip("factor_all", part=self.words.number(ratio))
         yield self._told((mend,), self._refined(told, case.wrong))
 
-    def _one_place(self, case: _Case) -> Iterator[_Explanation]:
+    def _one_place(self, case: Case) -> Iterator[Explanation]:
         """One slip in one place: a lost square, a dropped mass, an index, a missing term."""
         one = self.terms.one_place(case.mine, case.expected)
         if one is not None and (
@@ -199,30 +178,30 @@ class Diagnoser:
         ):
             yield from self._in_one_place(case, one)
 
-    def _one_bracket(self, case: _Case) -> Iterator[_Explanation]:
+    def _one_bracket(self, case: Case) -> Iterator[Explanation]:
         """A missing term that is several, multiplied out."""
         one = self.terms.one_place(case.mine, case.expected)
         if one is not None and one.code == "missing_term":
             yield from self._in_one_place(case, one)
 
-    def _in_one_place(self, case: _Case, one: TermSlip) -> Iterator[_Explanation]:
-        if one.code != "missing_term" or _in_common(case.mine, case.expected):
-            yield _Explanation((one.mend,), lambda: [self.exchanges.told(one)])
+    def _in_one_place(self, case: Case, one: TermSlip) -> Iterator[Explanation]:
+        if one.code != "missing_term" or in_common(case.mine, case.expected):
+            yield Explanation((one.mend,), lambda: [self.exchanges.told(one)])
 
-    def _one_substitution(self, case: _Case) -> Iterator[_Explanation]:
+    def _one_substitution(self, case: Case) -> Iterator[Explanation]:
         """One symbol, angle or function for another throughout: m₁ for m₂, θ₂ for θ₁ + θ₂."""
         for diagnosis, mend in substitutions(self.graph, self.words, case.mine, case.expected):
             yield self._told((mend,), self._refined(diagnosis, case.wrong))
 
-    def _something_left_out(self, case: _Case) -> Iterator[_Explanation]:
+    def _something_left_out(self, case: Case) -> Iterator[Explanation]:
         """Something was left out in an earlier step, and every step after it was done correctly."""
         return self._earlier_step(case, omits=True)
 
-    def _earlier_step_otherwise(self, case: _Case) -> Iterator[_Explanation]:
+    def _earlier_step_otherwise(self, case: Case) -> Iterator[Explanation]:
         """An earlier step was done wrongly, and every step after it correctly."""
         return self._earlier_step(case, omits=False)
 
-    def _earlier_step(self, case: _Case, omits: bool) -> Iterator[_Explanation]:
+    def _earlier_step(self, case: Case, omits: bool) -> Iterator[Explanation]:
         key = self.graph.key(case.wrong.target.node)
         for value, diagnosis, changed in self.derivation_slips.values(case.wrong.target.node):
             if SLIPS[diagnosis.code].omits == omits:
@@ -230,7 +209,7 @@ class Diagnoser:
                     if found.holds(case) and self._fits_the_rest(case.wrong, changed):
                         yield found
 
-    def _several_terms(self, case: _Case) -> Iterator[_Explanation]:
+    def _several_terms(self, case: Case) -> Iterator[Explanation]:
         """One term too many; several slips in several terms, each named, where they are few.
 
         Missing terms are named only beside at least as many right ones, so that an answer 0 does not
@@ -242,13 +221,13 @@ class Diagnoser:
         missing = sum(one.code == "missing_term" for one in found)
         if sum(one.code == "trig_part" for one in found) > 1:
             return
-        if 0 < len(found) <= MOST_NAMED and missing <= _in_common(case.mine, case.expected):
-            yield _Explanation(tuple(one.mend for one in found), lambda: map(self.exchanges.told, found))
+        if 0 < len(found) <= MOST_NAMED and missing <= in_common(case.mine, case.expected):
+            yield Explanation(tuple(one.mend for one in found), lambda: map(self.exchanges.told, found))
 
-    def _told(self, all_of: tuple[Mend, ...], diagnosis: Diagnosis) -> _Explanation:
-        return _Explanation(all_of, lambda: [diagnosis])
+    def _told(self, all_of: tuple[Mend, ...], diagnosis: Diagnosis) -> Explanation:
+        return Explanation(all_of, lambda: [diagnosis])
 
-    def _redone(self, case: _Case, value: Any, right: Any, diagnosis: Diagnosis) -> Iterator[_Explanation]:
+    def _redone(self, case: Case, value: Any, right: Any, diagnosis: Diagnosis) -> Iterator[Explanation]:
         """A step that gave `value` where it gives `right`; not what only a whole matrix can show."""
         before, after = case.wrong.at(value), case.wrong.at(right)
         if diagnosis.code not in OF_THE_MATRIX and before is not None and after is not None:
@@ -408,20 +387,7 @@ def _agree(changed: Any, own: Any, key: Any) -> bool:
     return all(new in (right, mine) for new, mine, right in entries)
 
 
-def _in_common(a: Expr, b: Expr) -> int:
-    """How many terms two values share."""
-    if not a.poly or not b.poly:
-        return 0
-    return len(a.poly.to_dict().items() & b.poly.to_dict().items())
-
-
-def _likeness(a: Expr, b: Expr) -> Fraction:
-    """The share of the terms of two values that they have in common."""
-    same = _in_common(a, b)
-    return Fraction(same, max(len(a) + len(b) - same, 1))
-
-
-_IN_ORDER: tuple[Callable[[Diagnoser, _Case], Iterator[_Explanation]], ...] = (
+_IN_ORDER: tuple[Callable[[Diagnoser, Case], Iterator[Explanation]], ...] = (
     Diagnoser._step_otherwise,
     Diagnoser._one_number,
     Diagnoser._one_place,
