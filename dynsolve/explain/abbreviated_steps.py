@@ -173,7 +173,7 @@ def _left_out(step: Step) -> Step:
     """The step with its formula as its result."""
     if step.formula is None:
         return step
-    note: Prose = ("Written out it would be too long to be of use; the formula says what it is.",)
+    note: Prose = ("Written out it would be too long to be useful; the formula defines it.",)
     return replace(step, result=(), notes=(*step.notes, note))
 
 
@@ -285,7 +285,7 @@ class _LongModel:
             step,
             title="D, assembled from the Jacobians",
             why=(
-                "The forces above are written in the entries of D. These come of the bodies: ",
+                "The forces above are written in the entries of D. They follow from the kinetic energy: ",
                 equation(letters.K, _QUADRATIC),
                 " makes D a sum over them, here multiplied out. It is symmetric, and depends on the "
                 "coordinates, but on no rate.",

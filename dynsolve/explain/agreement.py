@@ -65,7 +65,7 @@ def skew_step(context: Context) -> Step:
         why=(
             "With C from the Christoffel symbols, N plus its transpose is zero, compared exactly, so that ",
             equation(letters.transposed_product(letters.QD, name), Number(0)),
-            " whatever the rates. Passivity rests on that.",
+            " for all rates. Passivity follows from this.",
         ),
         formula=equation(name, SKEW),
         lines=rate,

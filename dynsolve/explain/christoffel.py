@@ -60,8 +60,8 @@ def christoffel_step(context: Context) -> Step:
         concluding=way.concluding,
         result=results,
         hint=(
-            "They say how D changes as the arm moves: three partial derivatives of entries of D each. The "
-            "first two indices may be swapped, so that half of the work is enough.",
+            "Each is made of three partial derivatives of entries of D. The "
+            "first two indices may be swapped, which halves the work.",
         ),
         notes=tuple(_zero_note(zero)) if nonzero else (),
     )
@@ -75,7 +75,7 @@ def _christoffel_why(n: int, count: int) -> Prose:
     if not count:
         return ("D is constant, so every Christoffel symbol is zero.",)
     swapped = equation(Letter("c", Row((_I, _J, _K))), Letter("c", Row((_J, _I, _K))))
-    why: Prose = ("They say how D changes as the arm moves. ",)
+    why: Prose = ("They are made of the derivatives of D by the coordinates. ",)
     if n > 1:
         why += ("The first two indices may be swapped: ", swapped, ". ")
     return (*why, "Partial derivatives that are zero are left out.")

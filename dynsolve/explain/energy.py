@@ -140,12 +140,12 @@ def _total(context: Context, name: str, kind: str, letter: Letter, parts: list[L
         members.append(parts[0])
     notes: tuple[Prose, ...] = ()
     if name == "K":
-        notes = (("Kinetic energy is counted per mass; torques and forces, below, per joint.",),)
+        notes = (("Each body has its kinetic energy, but each joint its torque or force, below.",),)
     return Step(
         id=name,
         stage=STAGE,
         title=f"Total {kind} energy",
-        why=("The sum over the bodies.",) if len(parts) > 1 else ("There is one body only.",),
+        why=("The sum over the bodies.",) if len(parts) > 1 else ("There is only one body.",),
         formula=equation(*members),
         source=spong("7.2.3" if name == "P" else "7.2.2"),
         result=(equation(letter, context.form(name)),),
@@ -164,7 +164,7 @@ def _jacobians(context: Context, body: Body) -> Step:
     ]
     late = [Symbol(q.name) for q, both in zip(robot.coordinates, columns, strict=True) if both[0] == ZERO]
     why: Prose = (
-        "Like the Jacobian of the arm, but of the mass centre: only the joints up to the body's link move it",
+        "As for the end of the arm, but for the mass centre: only the joints up to the body's link move it",
     )
     if late:
         why += (", so the column of " if len(late) == 1 else ", so the columns of ", *listed(late))
@@ -273,7 +273,7 @@ def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
                 _pythagoras(angle),
                 ", so that the speed does not depend on ",
                 angle,
-                ". (The difference of the squares, which is the cosine of twice the angle, does not occur.)",
+                ". (The difference of the squares would be the cosine of twice the angle.)",
             )
             return
 
@@ -291,7 +291,7 @@ def _rotational(context: Context, body: Body) -> Step:
             id=f"Kw{b}",
             stage=STAGE,
             title=f"Rotational kinetic energy of {name_of(body)}",
-            why=("Skipped: a point mass has no inertia tensor, and so no rotational energy.",),
+            why=("A point mass has no inertia tensor, and so no rotational energy.",),
             source=spong("7.2"),
             result=(equation(Kw, Number(0)),),
         )
@@ -331,7 +331,7 @@ def _kinetic(context: Context, body: Body) -> Step:
         id=f"K{body.name}",
         stage=STAGE,
         title=f"Kinetic energy of {name_of(body)}",
-        why=("Linear and rotational together.",),
+        why=("The sum of the linear and the rotational part.",),
         formula=equation(K, parts),
         source=spong("7.2"),
         result=(equation(K, context.form(f"K{body.name}")),),

@@ -156,7 +156,7 @@ def _parallel_axis(context: Context, body: Body) -> Step:
         stage=STAGE,
         title=f"Parallel axis: the tensor of {name_of(body)} about its mass centre",
         why=(
-            "The given tensor is about another point, but the kinetic energy asks for the one about the mass "
+            "The given tensor is about another point, but the kinetic energy needs the one about the mass "
             "centre. r goes from the given point to the mass centre, in the body's axes; E is the identity.",
         ),
         formula=equation(tensor, Sum((given, Negative(shift)))),
@@ -223,8 +223,8 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
             product = Product((letters.R(robot, 0), turned)) if letters.has_base(robot) else None
             fixed = not inertia.turns_with_link(robot, body, context.values[f"H{link}"])
             note = (
-                f"This frame does not turn with link {link}. It may be used all the same: the kinetic "
-                "energy comes out as with the frame that turns (compared exactly)."
+                f"This frame does not turn with link {link}. It may still be used: the kinetic energy is "
+                "the same as with the frame that turns (compared exactly)."
             )
             return (why,), product, ((note,),) if fixed else ()
 
@@ -267,14 +267,14 @@ def _base_tensor(context: Context, body: Body) -> Step:
     base = context.form(f"I{b}")
     notes: tuple[Prose, ...] = ()
     if base == given:
-        notes = (("Here the turn changes nothing.",),)
+        notes = (("This rotation does not change the tensor.",),)
     return Step(
         id=f"I{b}",
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
         why=(
-            f"ω is found in {context.ground} coordinates, so the tensor must be too: R turns the body's axes "
-            f"into the {context.ground}'s.",
+            f"ω is written in {context.ground} coordinates, so the tensor must be too: R leads from the "
+            f"body's axes to those of the {context.ground}.",
         ),
         formula=equation(*members[:2]),
         source=spong("7.2.1"),

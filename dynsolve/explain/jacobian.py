@@ -217,13 +217,13 @@ def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
         return (
             " turns everything after it about the axis ",
             letters.z(joint_frame(robot, joint)),
-            f": {context.end} moves with the cross product of that and the vector to it from the axis, and "
-            "turns with the axis.",
+            f". At unit rate {context.end} has as its velocity the cross product of the axis and the "
+            f"vector from there to it, and as its angular velocity the axis.",
         )
     z = letters.z(joint_frame(robot, joint))
     return (
-        " slides everything after it along the axis ", z,
-        f": {context.end} moves with that, and does not turn.",
+        " moves everything after it along the axis ", z,
+        f". At unit rate the velocity of {context.end} is that axis, and nothing turns.",
     )  # fmt: skip
 
 
@@ -234,11 +234,11 @@ def _whole(context: Context) -> Step:
         stage=STAGE,
         title=f"The Jacobian of {context.end}",
         why=(
-            "Its columns side by side: ",
+            "The columns side by side: ",
             equation(letters.bold("v"), Product((letters.JV, letters.QD))),
             " and ",
             equation(letters.bold("omega"), Product((letters.JW, letters.QD))),
-            ", however the joints move.",
+            " for all velocities of the joints.",
         ),
         formula=equation(letters.J, column(letters.JV, letters.JW)),
         source=spong("4.6.3"),
@@ -253,6 +253,6 @@ def _whole(context: Context) -> Step:
 def _notes(context: Context) -> Iterator[Prose]:
     if context.robot.bodies:
         yield (
-            f"This Jacobian belongs to {context.end}. Each body gets its own below, taken at its mass "
-            "centre.",
+            f"This Jacobian belongs to {context.end}. Each body has its own, at its mass centre; they "
+            "follow below.",
         )

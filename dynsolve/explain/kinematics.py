@@ -64,19 +64,19 @@ def _table(context: Context) -> Step:
     robot = context.robot
     if context.standard:
         why: Prose = (
-            "Each row takes frame i-1 to frame i by four motions: turn by θ about ",
+            "Each row takes frame i-1 to frame i by four motions: a rotation by θ about ",
             _axis("z", "i-1"),
-            ", slide by d along it, slide by a along ",
+            ", a translation by d along it, a translation by a along ",
             _axis("x", "i"),
-            ", turn by α about that. ",
+            " and a rotation by α about that. ",
         )
     else:
         why = (
-            "Each row takes frame i-1 to frame i by four motions: turn by α about ",
+            "Each row takes frame i-1 to frame i by four motions: a rotation by α about ",
             _axis("x", "i-1"),
-            ", slide by a along it, turn by θ about ",
+            ", a translation by a along it, a rotation by θ about ",
             _axis("z", "i"),
-            ", slide by d along that. ",
+            " and a translation by d along that. ",
         )
     if any(joint.type for joint in robot.joints):
         why += ("The star marks a joint variable: ", *_kinds(context))
@@ -123,7 +123,7 @@ def _table_notes(context: Context) -> Iterator[Prose]:
         yield (
             "Rows ",
             *rows,
-            " have no star: fixed frames, each of which keeps its place in the one before it.",
+            " have no star: frames that are each fixed in the one before it.",
         )
     shared = [str(joint.index) for joint in robot.joints if len(joint.rates) > 1]
     if len(shared) == 1:
@@ -206,7 +206,8 @@ def _general(context: Context) -> Step:
         stage=STAGE,
         title="The matrix of a row",
         why=(
-            "The product of the four motions, the same for every row; the rows of the table are put into it.",
+            "The product of the four motions. It is the same for every row; the entries of each row are "
+            "put into it.",
         ),
         formula=equation(Letter("A", i, style="bold"), product, matrix),
         source=spong("3.2") if context.standard else craig("3.5"),
@@ -302,7 +303,7 @@ def _products(context: Context) -> str:
     return spong("3.1") if context.standard else craig("3.5")
 
 
-_OUTWARDS = "Each A takes one frame further out, so it is multiplied from the right."
+_OUTWARDS = "Each A leads one frame further along the arm, so it multiplies from the right."
 
 
 def _frame_why(context: Context) -> Prose:

@@ -84,14 +84,14 @@ def _where(context: Context, body: Body) -> Prose:
             f", half the way {direction}",
         )
     if body.center.is_zero:
-        return ("falls on the origin ", letters.o(link), f" of frame {link}")
+        return ("is at the origin ", letters.o(link), f" of frame {link}")
     if is_given_by(body, "near") and context.standard:
         return (
             f"is given from the near end of link {link}, ",
             letters.o(near),
             f", along the axes of frame {link}. The origin of that frame is at the far end, ",
             letters.o(far),
-            ", so the way back from there is added",
+            ", so the vector back from there is added",
         )
     if is_given_by(body, "along"):
         ends: Prose = ("from ", letters.o(near), " to ", letters.o(far))

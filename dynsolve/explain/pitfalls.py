@@ -54,7 +54,7 @@ def _jacobian(robot: Robot) -> Iterator[Prose]:
         what = " is a length: its column has" if len(sliding) == 1 else " are lengths: their columns have"
         yield (*listed(sliding), f"{what} no cross product, and zero in the angular part.")
     if _of_type(robot, JointType.REVOLUTE):
-        yield ("The cross product is not symmetric: the axis stands first, the lever second.",)
+        yield ("The cross product is not symmetric: the axis comes first, the vector from it second.",)
     if any(len(joint.rates) > 1 or any(rate != 1 for _, rate in joint.rates) for joint in robot.joints):
         yield (
             "Not every joint variable here is a coordinate itself: the column of a joint counts for each "
@@ -98,7 +98,7 @@ def _inertia(robot: Robot) -> Iterator[Prose]:
         yield (
             "The tensor of ",
             *_bodies(moved),
-            " is not given about the mass centre. Going there, the parallel-axis term is subtracted.",
+            " is not given about the mass centre. On the way there the parallel-axis term is subtracted.",
         )
     if any(body.axes.kind is AxesKind.LINK for body in extended):
         standard = robot.convention is Convention.STANDARD
@@ -130,7 +130,7 @@ def _energy(robot: Robot) -> Iterator[Prose]:
             equation(Sum(squares), Number(1)),
             ". The difference, ",
             Sum((squares[1], Negative(squares[0]))),
-            ", is another thing: the cosine of twice the angle.",
+            ", is something else: the cosine of twice the angle.",
         )
     points = [body for body in robot.bodies if body.is_point]
     if points:
@@ -141,7 +141,7 @@ def _energy(robot: Robot) -> Iterator[Prose]:
 
 def _lagrangian(robot: Robot) -> Iterator[Prose]:
     yield (
-        "The difference of the energies, not their sum: every term of the potential energy turns its sign.",
+        "The difference of the energies, not their sum: every term of the potential energy changes its sign.",
     )
 
 
@@ -149,7 +149,7 @@ def _torque(robot: Robot) -> Iterator[Prose]:
     yield ("One equation for each coordinate, not for each mass.",)
     yield ("By time, everything that moves is differentiated: ",
            *listed([Symbol(q.name) for q in robot.coordinates]), " and their rates.",
-           " Masses and lengths that do not move stay as they are.")  # fmt: skip
+           " Masses and constant lengths stay as they are.")  # fmt: skip
     yield ("In the partial derivatives a coordinate and its rate are different variables.",)
     turning, sliding = _of_type(robot, JointType.REVOLUTE), _of_type(robot, JointType.PRISMATIC)
     if turning and sliding:

@@ -69,7 +69,7 @@ def _rate_why(context: Context, q: Coordinate) -> Prose:
     momentum = context.values[f"dLdqd{q.index}"]
     moving = [c for k, c in enumerate(context.robot.coordinates) if not ring.diff(momentum, k).is_zero]
     if not moving:
-        return ("No coordinate stands in it: each rate becomes an acceleration, and nothing else changes.",)
+        return ("No coordinate occurs in it: each rate becomes an acceleration, and nothing else changes.",)
     rates = "the rate" if context.robot.n == 1 else "the rates"
     return (
         f"Everything that changes with time is differentiated (product and chain rule): {rates}, and also ",
@@ -82,7 +82,7 @@ def _slope(context: Context, q: Coordinate) -> Step:
     form = context.form(f"dLdq{q.index}")
     why: Prose = _partial(context, Symbol(q.name), "rate", "coordinate")
     if form == Number(0):
-        why = (Symbol(q.name), " itself does not stand in L.")
+        why = (Symbol(q.name), " itself does not occur in L.")
     way = derivatives.coordinate_derivative(context, q)
     return Step(
         id=f"dLdq{q.index}",
@@ -95,7 +95,7 @@ def _slope(context: Context, q: Coordinate) -> Step:
         result=(equation(letters.partial_derivative(letters.L, Symbol(q.name)), form),),
         hint=(
             "Differentiate L with respect to the coordinate alone: the rates are held fixed, and a term "
-            "in which the coordinate does not stand drops out.",
+            "in which the coordinate does not occur drops out.",
         ),
     )
 

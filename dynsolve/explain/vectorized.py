@@ -94,7 +94,7 @@ def _rest(context: Context) -> Step:
     if values["Cqd"].is_zero:
         why += (" No term has rates here.",)
     if values["g"].is_zero:
-        why += (" Nothing remains at rest here.",)
+        why += (" No term remains at rest here.",)
     return Step(
         id="Cqd",
         stage=STAGE,

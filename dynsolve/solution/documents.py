@@ -147,7 +147,7 @@ def _constant_blocks(short: Abbreviated) -> Iterator[Block]:
 
 
 def _recurring_blocks(short: Abbreviated) -> Iterator[Block]:
-    yield Text(("What stands in several places below, each made of those before it.",))
+    yield Text(("Terms that occur several times below, each in terms of those before it.",))
     yield Equations(tuple(map(_defined, short.sums)), in_columns=True)
 
 
