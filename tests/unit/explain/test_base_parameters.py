@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import dynsolve
+from dynsolve.derivation.arm_values import arm_at
 from dynsolve.derivation.newton_euler import Arm, inverse_dynamics
 from dynsolve.derivation.rules import derive
-from dynsolve.derivation.verification import _arm
 from dynsolve.explain.base_parameters import BaseParameters
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Symbol
@@ -38,7 +38,7 @@ def rank_of_the_regressor(robot: Robot, fixed: set[str]) -> int:
         values = {name: kept.get(name, random.uniform(0.4, 1.6)) for name in robot.ring.parameters}
         for q in robot.coordinates:
             values |= {name: random.uniform(-1.5, 1.5) for name in (q.name, q.velocity, q.acceleration)}
-        return _arm(robot, {**values, "pi": math.pi})
+        return arm_at(robot, {**values, "pi": math.pi})
 
     table = {name: random.uniform(0.4, 1.6) for name in fixed}
     most = 10 * len(robot.bodies) + 2
