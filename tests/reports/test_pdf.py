@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import time
@@ -11,7 +12,7 @@ import pytest
 
 from dynsolve.solution.reports import Format
 from tests.cli.running import dynsolve
-from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, text_of
+from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, needed, text_of
 from tests.support import LIBRARY, ROOT
 
 pytestmark = pytest.mark.slow
@@ -26,6 +27,40 @@ def test_every_problem_gives_a_pdf(problem: Path, tmp_path: Path) -> None:
     shown = text_of(pdf)
     assert "Forward kinematics" in shown
     assert "(10)" in shown
+
+
+@pytest.mark.parametrize("name", ["planar-2r", "elbow-3r"])
+def test_every_equation_has_its_number_once_and_no_page_is_nearly_empty(name: str, tmp_path: Path) -> None:
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == name), Format.PDF))
+    pages = lines_of(pdf)
+    beside = [int(found[1]) for page in pages for line in page if (found := NUMBER.search(line))]
+    assert beside == list(range(1, len(beside) + 1))
+    assert len(beside) > 50
+    assert min(map(len, pages)) > 4
+
+
+def test_a_report_has_contents_and_page_numbers(tmp_path: Path) -> None:
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == "elbow-3r"), Format.PDF))
+    first, *others = lines_of(pdf)
+    listed = dict(re.findall(r"^ *(\d\. [A-Z].*?)[ .\u2060]{5,}(\d+)$", "\n".join(first), re.MULTILINE))
+    assert len(listed) >= 7
+    for heading, number in listed.items():
+        assert any(line.strip() == heading for line in [first, *others][int(number) - 1])
+    for number, page in enumerate(others, 2):
+        assert page[0].split() == [*"Spatial elbow manipulator (3R)".split(), str(number)]
+
+
+NUMBER = re.compile(r" {3,}\((\d+)\)$")
+"""The number of an equation, at the right edge."""
+
+
+def lines_of(pdf: Path) -> list[list[str]]:
+    """The lines of each page, as they are laid out."""
+    done = subprocess.run([needed("pdftotext"), "-layout", str(pdf), "-"], capture_output=True, check=True)
+    pages = done.stdout.decode().split("\f")[:-1]
+    return [[line for line in page.splitlines() if line.strip()] for page in pages]
 
 
 def test_the_same_bytes_in_every_process_and_at_every_time(tmp_path: Path) -> None:
