@@ -81,7 +81,9 @@ class _Worker:
                 return self._product(factors)
             case Quotient(numerator, denominator):
                 if self._is_fixed(denominator):
-                    return self._times(1, (self.derivative(numerator), 1), (denominator, -1))
+                    slope = self.derivative(numerator)
+                    cancelled = divided(slope, denominator)
+                    return cancelled or self._times(1, (slope, 1), (denominator, -1))
             case Power(base, Number(p, 1)):
                 slope = self.derivative(base)
                 self.by_product_rule |= slope not in (ZERO, ONE) and not isinstance(base, Symbol)
@@ -114,6 +116,32 @@ class _Worker:
                 merged[base] = merged.get(base, 0) + power
         kept = [(node, exponent) for node, exponent in merged.items() if exponent]
         return times(coefficient, _sines_first(sorted(kept, key=_place)), decimal=self.decimal)
+
+
+def divided(node: Node, by: Node) -> Node | None:
+    """A tree over a whole number that divides all its terms, where they stand; None where it does not.
+
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> a, b = Symbol("a"), Symbol("b")
+    >>> even = Sum((Product((Number(2), a)), Negative(Product((Number(4), b)))))
+    >>> to_unicode(divided(Product((even, a)), Number(2))), divided(Sum((even, a)), Number(2))
+    ('(a - 2b) a', None)
+    """
+    match node, by:
+        case Number(p, 1), Number(q, 1):
+            return Number(p // q) if p % q == 0 else None
+        case Negative(argument), _:
+            part = divided(argument, by)
+            return None if part is None else negated(part)
+        case Sum(terms), _:
+            parts = [part for part in (divided(term, by) for term in terms) if part is not None]
+            return total(parts) if len(parts) == len(terms) else None
+        case Product(factors), _:
+            for k, factor in enumerate(factors):
+                part = divided(factor, by)
+                if part is not None:
+                    return times(1, [(f, 1) for f in (*factors[:k], part, *factors[k + 1 :])])
+    return None
 
 
 def _place(factor: tuple[Node, int]) -> tuple[int, str]:
