@@ -164,7 +164,7 @@ def _jacobians(context: Context, body: Body) -> Step:
     ]
     late = [Symbol(q.name) for q, both in zip(robot.coordinates, columns, strict=True) if both[0] == ZERO]
     why: Prose = (
-        "As for the end of the arm, but for the mass centre: only the joints up to the body's link move it",
+        f"As for {context.end}, but for the mass centre: only the joints up to the body's link move it",
     )
     if late:
         why += (", so the column of " if len(late) == 1 else ", so the columns of ", *listed(late))

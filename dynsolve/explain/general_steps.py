@@ -64,7 +64,7 @@ def general_steps(context: Context) -> Iterator[GeneralStep]:
             names = [body.name for body in solid]
             yield GeneralStep(_tensors(context, solid), _ids(["I_body", "R", "I"], names))
         yield GeneralStep(_potential(context), _ids(["P"], bodies))
-        yield GeneralStep(_kinetic(), _ids(["Jv", "v", "Kv", "Kw", "K"], bodies))
+        yield GeneralStep(_kinetic(context), _ids(["Jv", "v", "Kv", "Kw", "K"], bodies))
         coordinates = [q.index for q in robot.coordinates]
         yield GeneralStep(_forces(), _ids(["dLdqd", "ddt", "dLdq", "tau"], coordinates))
 
@@ -118,7 +118,7 @@ def _columns(context: Context) -> Step:
         stage=Stage.JACOBIAN,
         title="The columns of the Jacobian",
         why=(
-            "The velocity and the angular velocity of the end of the arm at unit rate of joint i.",
+            f"The velocity and the angular velocity of {context.end} at unit rate of joint i.",
             *((words,) if len(present) > 1 else ()),
         ),
         formula=side_by_side([equation(name, kinds[kind][1]) for kind in present]),
@@ -200,7 +200,7 @@ def _potential(context: Context) -> Step:
     )
 
 
-def _kinetic() -> Step:
+def _kinetic(context: Context) -> Step:
     v, w = (Letter(base, _I, style="bold") for base in ("v", "omega"))
     center = Letter("r", Row((Words("c"), _I)), style="bold")
     Jv, Jw = (letters.bold("J", Letter(base, _I)) for base in ("v", "omega"))
@@ -215,7 +215,7 @@ def _kinetic() -> Step:
         why=(
             "The Jacobians of a mass centre are like those of the arm, with ",
             center,
-            " in place of the end of the arm; the columns of the joints after the body's link are zero.",
+            f" in place of {context.end}; the columns of the joints after the body's link are zero.",
         ),
         formula=side_by_side(velocities),
         source=spong("7.2.2"),

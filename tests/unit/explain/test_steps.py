@@ -306,7 +306,7 @@ masses:
 
 def test_fixed_rows_scaled_joints_and_the_world() -> None:
     text = everything_said(ODD)
-    assert "Rows 1 and 3 have no star: fixed frames, each of which" in text
+    assert "Rows 1 and 3 have no star: frames that are each fixed" in text
     assert "The joint of row 2 moves at ½ times the rate of q₁." in text
     assert "combination of coordinates" not in text
     assert "the body belongs to the ground and does not move." in said(step(ODD, "rc1").why, ODD)
