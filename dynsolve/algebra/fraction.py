@@ -100,6 +100,70 @@ def simplified(value: RationalExpr) -> RationalExpr:
     return RationalExpr(Expr(ring, numerator.poly / lead), Expr(ring, divisor.poly / lead))
 
 
+def cancelled(value: RationalExpr) -> RationalExpr:
+    """The same fraction with what numerator and denominator share divided out.
+
+    A denominator keeps its form, s₂ and not 1 - c₂², unless the whole becomes shorter without
+    sines, or without roots of numbers, below; its leading coefficient is 1.
+
+    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
+    >>> a, b = ring.symbol("a"), ring.symbol("b")
+    >>> cancelled(RationalExpr(a * b, a * a))
+    RationalExpr(numerator=Expr(1*b), divisor=Expr(1*a))
+    """
+    if value.divisor is None or is_zero(value.numerator):
+        return RationalExpr(value.numerator)
+    plain = _without_common(_without_roots(value))
+    other = simplified(plain)
+    return other if _length(other) < _length(plain) else plain
+
+
+def _length(value: RationalExpr) -> int:
+    return len(value.numerator) + (0 if value.divisor is None else len(value.divisor))
+
+
+def _without_common(value: RationalExpr) -> RationalExpr:
+    """Numerator and denominator over their greatest common divisor as polynomials."""
+    ring, numerator, divisor = value.ring, value.numerator.poly, value.denominator.poly
+    shared = numerator.gcd(divisor)
+    if not shared.is_constant():
+        numerator, divisor = divmod(numerator, shared)[0], divmod(divisor, shared)[0]
+    lead = divisor.leading_coefficient()
+    above, below = Expr(ring, numerator / lead), Expr(ring, divisor / lead)
+    return RationalExpr(above) if below.is_number else RationalExpr(above, below)
+
+
+def _without_roots(value: RationalExpr) -> RationalExpr:
+    """The fraction without square roots of numbers below, where that makes it shorter."""
+    ring, numerator, divisor = value.ring, value.numerator, value.denominator
+    for _ in ring.radicands:
+        conjugate = ring.conjugate(divisor)
+        if conjugate is None:
+            break
+        above, below = numerator * conjugate, divisor * conjugate
+        if len(below) > len(divisor):
+            break
+        numerator, divisor = above, below
+    return RationalExpr(numerator, divisor)
+
+
+def add(a: RationalExpr, b: RationalExpr) -> RationalExpr:
+    """a + b"""
+    if a.denominator == b.denominator:
+        return RationalExpr(a.numerator + b.numerator, a.divisor)
+    above = a.numerator * b.denominator + b.numerator * a.denominator
+    return RationalExpr(above, a.denominator * b.denominator)
+
+
+def multiply(a: RationalExpr, b: RationalExpr) -> RationalExpr:
+    """a · b"""
+    if a.divisor is None and b.divisor is None:
+        return RationalExpr(a.numerator * b.numerator)
+    return RationalExpr(a.numerator * b.numerator, a.denominator * b.denominator)
+
+
 MOST_PRODUCTS = 20_000
 """Above so many products of terms a sine stays in the denominator."""
 

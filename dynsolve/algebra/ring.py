@@ -204,6 +204,11 @@ class Ring:
             result = result * (self._inverse_generator(factor) ** int(times))
         return result
 
+    def conjugate(self, expr: Expr) -> Expr | None:
+        """a - b√p of an expression a + b√p; None where it has no square root."""
+        found = self._relations.rationalized(expr.poly)
+        return None if found is None else Expr(self, found[0])
+
     def _inverse_generator(self, factor: fmpq_mpoly) -> Expr:
         lead = factor.leading_coefficient()
         factor = factor / lead

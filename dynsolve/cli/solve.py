@@ -95,9 +95,10 @@ def solve(
 ) -> int:
     """Derive a robot's dynamics step by step, verified.
 
-    The stages, in order: kinematics, jacobian, task, singular, inverse, inertia, energy,
-    lagrangian, torque, vectorized, statics. A robot without masses has none of the dynamics;
-    task, singular, inverse and statics are there where a file asks for something of them.
+    The stages, in order: kinematics, jacobian, task, singular, inverse, rates, inertia,
+    energy, lagrangian, torque, vectorized, statics. A robot without masses has none of the
+    dynamics; task, singular, inverse, rates and statics are there where a file asks for
+    something of them.
     """
     view = _View(_stages(stage, first, last), detail, star, abbreviate, fragment, hint)
     options = {"json": json, "latex": latex, "pdf": pdf, "html": html, "markdown": markdown}

@@ -11,6 +11,7 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     task            4.6, 4.8, 4.11   points, the task r(q), J_r, J̇: where a file asks for them
     singular        4.9   where a Jacobian loses rank
     inverse         3.3   q from r(q): one unknown after the other, in known forms; the branches
+    rates           4.9, 4.11   det J, q̇ and q̈ for those of the task: likewise
     statics         4.10  forces from outside, the torques that hold them: likewise
 
 What hangs together how:
@@ -32,6 +33,7 @@ And the independent check, which shares no formula with any of these:
     kinematic_check points, the task and Jacobians, against the motion of the arm
     configuration_check
                     singular configurations and branches of the inverse, put in
+    rate_check      determinants, rates and accelerations, against elimination on numbers
     static_check    generalized forces and holding torques, against the power of the forces
 
 A rule takes exact values and returns an exact value, and does nothing else: what a

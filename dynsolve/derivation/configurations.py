@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Rule
+from dynsolve.derivation.rates import whole_or_task
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
@@ -33,17 +34,10 @@ def configuration_rules(robot: Robot) -> Iterator[Rule]:
     """The rules of singular configurations and of inverse kinematics, where they are asked for."""
     stages = asked_stages(robot.questions)
     if Stage.SINGULAR in stages:
-        yield Rule("singular", (_jacobian(robot),), where_singular)
+        yield Rule("singular", (whole_or_task(robot),), where_singular)
     task = robot.questions.task
     if Stage.INVERSE in stages and task is not None and not task.is_twist:
         yield Rule("inverse", ("r",), lambda r: inverse(robot, r))
-
-
-def _jacobian(robot: Robot) -> str:
-    """The Jacobian whose rank is looked at: that of the task; J of an arm of six joints without one."""
-    task = robot.questions.task
-    is_whole = task is not None and task.is_default and robot.n == 6
-    return "J" if is_whole else "Jr"
 
 
 def where_singular(jacobian: Matrix) -> SingularSet:

@@ -1,7 +1,7 @@
 """What exercises ask of the kinematics as rules: points, the task, its Jacobian and their rates.
 
 A robot has the rules of those stages of which something is asked; the formulas are in
-`task`.  A point's quantities are called by its name: `pP`, `JvP`, `JwP`, `vP`.
+`task` and `rates`.  A point's quantities are called by its name: `pP`, `JvP`, `JwP`, `vP`.
 """
 
 from __future__ import annotations
@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
+from dynsolve.algebra.at_state import AtState
+from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix, vstack
-from dynsolve.derivation import energy, jacobian, kinematics, task
+from dynsolve.derivation import energy, jacobian, kinematics, rates, task
 from dynsolve.derivation.graph import Rule
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
@@ -67,6 +69,28 @@ def _task(robot: Robot, asked: Task) -> Iterator[Rule]:
         yield Rule("r", inputs, value)
         yield Rule("Jr", ("r",), partial(task.task_jacobian, robot))
     yield Rule("Jr_dot", ("Jr",), task.rate)
+    yield Rule("det", (rates.whole_or_task(robot),), rates.jacobian_determinant)
+
+
+def rate_rules(robot: Robot) -> Iterator[Rule]:
+    """The rules of joint rates and accelerations; none where no velocity and no acceleration is given."""
+    asked = robot.questions
+    at = AtState(robot.ring, asked.state.by_symbol)
+    velocity, acceleration = asked.velocity, asked.acceleration
+
+    def joint_rates(J: Matrix) -> Matrix | FractionMatrix:
+        assert velocity is not None
+        return rates.joint_rates(at.matrix(J), at.matrix(velocity))
+
+    def joint_accelerations(J: Matrix, J_dot: Matrix) -> Matrix | FractionMatrix:
+        assert acceleration is not None
+        wanted = rates.wanted_by_accelerations(robot, acceleration, J_dot)
+        return rates.joint_rates(at.matrix(J), at.matrix(wanted))
+
+    if velocity is not None:
+        yield Rule("qd", ("Jr",), joint_rates)
+    if acceleration is not None:
+        yield Rule("qdd", ("Jr", "Jr_dot"), joint_accelerations)
 
 
 def _position_rule(robot: Robot, point: str) -> str:

@@ -16,7 +16,7 @@ from dynsolve.algebra.matrix import Matrix, vstack
 from dynsolve.derivation import energy, euler_lagrange, inertia, jacobian, kinematics, vectorized
 from dynsolve.derivation.configurations import configuration_rules
 from dynsolve.derivation.graph import Derivation, Rule
-from dynsolve.derivation.kinematic_rules import frame_names, kinematic_rules
+from dynsolve.derivation.kinematic_rules import frame_names, kinematic_rules, rate_rules
 from dynsolve.derivation.link_frame import link_frame_rules
 from dynsolve.derivation.static_rules import static_rules
 from dynsolve.robot.model import Body, Robot
@@ -37,6 +37,7 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
     yield from _end_jacobian(robot)
     yield from kinematic_rules(robot)
     yield from configuration_rules(robot)
+    yield from rate_rules(robot)
     if robot.bodies:
         for body in robot.bodies:
             yield from _body(robot, body)

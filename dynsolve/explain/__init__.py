@@ -2,8 +2,9 @@
 
 A stage is a file of its name with a function `steps`, which yields its steps in order: `kinematics`,
 `jacobian`, `inertia` (with `mass_centers`), `energy`, `lagrangian`, `torque`, `vectorized` (with
-`christoffel` and `agreement`); `frames` of a drawing; `task`, `singular`, `inverse` and `statics`
-where something of them is asked.  To explain a further quantity, yield a `Step` in the file of its stage:
+`christoffel` and `agreement`); `frames` of a drawing; `task`, `singular`, `inverse`, `rates` and
+`statics` where something of them is asked.  To explain a further quantity, yield a `Step` in the
+file of its stage:
 
     yield Step(
         id="K",                          # the quantity, by its name in an answer file
@@ -21,6 +22,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     step        what a step is, and in which detail it is shown
     context     the robot, its exact values, their compact forms
     forms       the compact form of every value; how long ones are put together from parts
+    product_forms
+                products and quotients: a determinant in its factors, fractions
     entry_formulas
                 energies, momenta and forces in the entries of D and g and the Christoffel symbols
     style       how a robot's formulas look: s_1 for sin θ_1

@@ -9,9 +9,11 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation
 from dynsolve.explain.entry_formulas import EntryFormulas, coriolis_matrix
@@ -22,6 +24,9 @@ from dynsolve.quantities import families
 from dynsolve.quantities.index import quantities
 from dynsolve.robot.model import Convention, Robot
 from dynsolve.robot.parallel import Turn, parallel_groups
+
+if TYPE_CHECKING:
+    from dynsolve.explain.product_forms import ProductForms
 
 LONG = 300
 """From this number of terms on a value is put together from parts."""
@@ -56,9 +61,18 @@ class Forms:
             found = self._made[name] = self._make(name)
         return found
 
-    def of(self, value: Expr | Matrix) -> Node:
+    def of(self, value: Expr | Matrix | FractionMatrix) -> Node:
         """The compact tree of any value of this robot's ring."""
+        if isinstance(value, FractionMatrix):
+            return tree.Matrix(tuple(tuple(map(self._products.fraction, row)) for row in value.rows))
         return self.compactor.matrix(value) if isinstance(value, Matrix) else self.compactor.form(value)
+
+    @cached_property
+    def _products(self) -> ProductForms:
+        """Products and quotients of this robot's ring."""
+        from dynsolve.explain.product_forms import ProductForms
+
+        return ProductForms(self.compactor)
 
     def christoffel(self, i: int, j: int, k: int) -> Node:
         """c_ijk, from 0."""
@@ -70,6 +84,10 @@ class Forms:
 
     def _make(self, name: str) -> Node:
         value = self.values[name]
+        if isinstance(value, FractionMatrix):
+            return self.of(value)
+        if name == "det":
+            return self._products.form(value)
         entries = value.entries if isinstance(value, Matrix) else (value,)
         if max(map(len, entries), default=0) > LONG:
             made = self._from_parts(name)

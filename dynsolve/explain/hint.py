@@ -21,8 +21,8 @@ from dynsolve.explain.pitfalls import pitfalls
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import is_small, listed
 from dynsolve.notation.tree import Node, equation
-from dynsolve.quantities import letters
-from dynsolve.quantities.index import stages_of
+from dynsolve.quantities import kinematic_families, letters
+from dynsolve.quantities.index import quantities, stages_of
 from dynsolve.quantities.stages import Stage
 
 
@@ -88,6 +88,7 @@ _AT_HAND = {
     Stage.TASK: "You have the frames of the forward kinematics:",
     Stage.SINGULAR: "You have the Jacobian of the task:",
     Stage.INVERSE: "You have the task as a function of the joint variables:",
+    Stage.RATES: "You have the Jacobian of the task:",
     Stage.INERTIA: "You have the frames of the forward kinematics, and what the problem says of each body:",
     Stage.ENERGY: (
         "You have the axes and origins of the joints, and of each body its mass centre and its tensor:"
@@ -108,6 +109,11 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
         yield letters.J_TASK, "Jr"
     elif stage is Stage.INVERSE:
         yield letters.TASK, "r"
+    elif stage is Stage.RATES:
+        given = (kinematic_families.JR, kinematic_families.JR_DOT)
+        for quantity in quantities(robot).values():
+            if quantity.family in given and quantity.name in context.wanted:
+                yield quantity.letter(robot), quantity.name
     elif stage is Stage.ENERGY:
         for body in robot.bodies:
             yield letters.rc(body), f"rc{body.name}"

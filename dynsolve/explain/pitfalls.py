@@ -85,6 +85,13 @@ def _task(robot: Robot) -> Iterator[Prose]:
         )
 
 
+def _rates(robot: Robot) -> Iterator[Prose]:
+    yield ("Where the Jacobian is singular it has no inverse: look at its rank at this state first.",)
+    if robot.questions.acceleration is not None:
+        yield ("The acceleration of the task is not ", Product((letters.J_TASK, letters.QDD)),
+               " alone: what the joints' rates bring is taken off before anything is solved.")  # fmt: skip
+
+
 def _inertia(robot: Robot) -> Iterator[Prose]:
     off = [body for body in robot.bodies if not body.center.is_zero]
     if off:
@@ -226,6 +233,7 @@ _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.TASK: _task,
     Stage.SINGULAR: _singular,
     Stage.INVERSE: _inverse,
+    Stage.RATES: _rates,
     Stage.INERTIA: _inertia,
     Stage.ENERGY: _energy,
     Stage.LAGRANGIAN: _lagrangian,

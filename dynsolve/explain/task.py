@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import ZERO, coordinate_column
+from dynsolve.explain.rates import determinant_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import is_small, listed, spong
 from dynsolve.notation.tree import (
@@ -155,6 +156,8 @@ def _task(context: Context, task: Task, wanted: frozenset[str]) -> Iterator[Step
         yield _twist(context) if task.is_twist else _jacobian(context, task)
     if "Jr_dot" in wanted:
         yield _rate(context, "Jr", letters.J_TASK)
+    if "det" in wanted:
+        yield determinant_step(context)
 
 
 def _map(context: Context, task: Task) -> Step:

@@ -56,7 +56,7 @@ def build_robot(faults: Faults, parsed: ParsedFile, asked: frozenset[str]) -> Ro
     )
     known_loads = [one for one in loads if one]
     is_drawn = parsed.normals is not None
-    robot = with_questions(faults, robot, parsed.questions, points, known_loads, asked, is_drawn)
+    robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn)
     return None if faults.errors else robot
 
 

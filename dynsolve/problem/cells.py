@@ -103,6 +103,17 @@ def read_vector(faults: Faults, node: YamlNode | None, what: str) -> tuple[Cell,
     return None if None in cells else tuple(cell for cell in cells if cell)
 
 
+def read_expressions(faults: Faults, node: YamlNode | None, what: str, help: str) -> tuple[Cell, ...] | None:
+    """A list of expressions, None (reported) where it is none, or is not given."""
+    if node is None or isinstance(node, FaultyNode):
+        return None
+    if not isinstance(node, ListNode) or not node.items:
+        faults.error(node.span, f"{what} is a list of expressions, not {describe(node)}", help)
+        return None
+    cells = [read_cell(faults, item, f"{what}, component {i}") for i, item in enumerate(node.items, 1)]
+    return None if None in cells else tuple(cell for cell in cells if cell)
+
+
 def read_matrix(faults: Faults, node: ListNode, what: str) -> tuple[tuple[Cell, ...], ...] | None:
     """A 3×3 list of rows, None (reported) where it is none."""
     if len(node.items) != 3:

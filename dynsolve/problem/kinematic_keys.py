@@ -114,10 +114,24 @@ KINEMATIC_KEYS = (
     Key(
         "state",
         MapOf(EXPRESSION, "values by coordinate"),
-        "Where Q and tau_static are asked for: values of coordinates and of their rates (q1').",
+        "Where Q, tau_static, qd and qdd are asked for: values of coordinates and of their rates (q1').",
         "{q1: 90deg, q1': 1}",
         "every q",
         remedy="write state: {q1: 90deg, q1': 1}",
+    ),
+    Key(
+        "velocity",
+        ListOf(EXPRESSION, "a list of expressions", 1, MAX_TASK),
+        "The velocity of the task, for which the rates qd are asked.",
+        "[vx, vy]",
+        remedy="write velocity: [vx, vy], an expression for each component of the task",
+    ),
+    Key(
+        "acceleration",
+        ListOf(EXPRESSION, "a list of expressions", 1, MAX_TASK),
+        "The acceleration of the task, for which the accelerations qdd are asked.",
+        "[0, 0]",
+        remedy="write acceleration: [0, 0], an expression for each component of the task",
     ),
 )
 """The keys, in the order of the documentation."""

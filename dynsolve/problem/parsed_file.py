@@ -50,6 +50,7 @@ class ParsedFile:
             named=self.questions.names,
             stages=frozenset(ASKED_FOR),
             is_twist=self.questions.task is not None and self.questions.task.is_twist,
+            rates=self.questions.rates,
         )
 
     @property

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from dynsolve.notation.tree import Function, Node, Reference, Symbol
 from dynsolve.notation.walk import mapped, names_in, walk
-from dynsolve.problem.cells import Cell, denominators, forbid, read_cell
+from dynsolve.problem.cells import Cell, denominators, forbid, read_cell, read_expressions
 from dynsolve.problem.fields import Fields, did_you_mean, items, word
 from dynsolve.problem.kinematic_keys import ALL, MAX_POINTS, MAX_TASK, POINT, TWIST
 from dynsolve.problem.loads import ParsedLoad, read_loads
@@ -18,7 +18,7 @@ from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.state import ParsedState, read_state
-from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode
+from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, Span, YamlNode
 from dynsolve.robot.questions import TIP, coordinate_of
 
 _NAME = re.compile(r"[A-Za-z][0-9]{0,4}")
@@ -44,6 +44,15 @@ class ParsedTask:
 
 
 @dataclass(frozen=True, slots=True)
+class ParsedRates:
+    """`velocity:` or `acceleration:` of the task."""
+
+    key: str
+    span: Span
+    cells: tuple[Cell, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class ParsedQuestions:
     """What a file asks around the model."""
 
@@ -51,6 +60,8 @@ class ParsedQuestions:
     task: ParsedTask | None = None
     loads: tuple[ParsedLoad, ...] = ()
     state: ParsedState | None = None
+    velocity: ParsedRates | None = None
+    acceleration: ParsedRates | None = None
     reach: ParsedReach = NO_REACH
     all_branches: bool = False
 
@@ -58,6 +69,11 @@ class ParsedQuestions:
     def names(self) -> tuple[str, ...]:
         """The names of the points."""
         return tuple(point.name for point in self.points)
+
+    @property
+    def rates(self) -> frozenset[str]:
+        """Which rates are given: velocity, acceleration."""
+        return frozenset(rates.key for rates in (self.velocity, self.acceleration) if rates)
 
     @property
     def constant(self) -> Iterator[Cell]:
@@ -74,6 +90,8 @@ class ParsedQuestions:
         yield from self.task.cells if self.task else ()
         for load in self.loads:
             yield from (*load.force, *load.moment)
+        for rates in (self.velocity, self.acceleration):
+            yield from rates.cells if rates else ()
 
     @property
     def rotations(self) -> Iterator[ParsedRotation]:
@@ -99,9 +117,16 @@ def read_questions(
         task,
         read_loads(faults, fields.get("forces"), rows, coordinates),
         read_state(faults, fields.get("state"), coordinates),
+        _read_rates(faults, fields, "velocity"),
+        _read_rates(faults, fields, "acceleration"),
         read_reach(faults, fields.get("reach"), coordinates),
         word(faults, fields.get("branches"), ALL.choices, "branches", "write branches: all") is not None,
     )
+
+
+def _read_rates(faults: Faults, fields: Fields, key: str) -> ParsedRates | None:
+    cells = read_expressions(faults, fields.get(key), key, PROBLEM[key].help)
+    return None if cells is None else ParsedRates(key, fields.span_of(key), cells)
 
 
 # -- points ----------------------------------------------------------------------------------------

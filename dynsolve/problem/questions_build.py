@@ -8,9 +8,9 @@ from dataclasses import replace
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.loads import ParsedLoad
 from dynsolve.problem.positions import PlaceBuilder
-from dynsolve.problem.questions import ParsedPoint, ParsedQuestions, ParsedTask
+from dynsolve.problem.questions import ParsedPoint, ParsedQuestions, ParsedRates, ParsedTask
 from dynsolve.problem.reach import check_reach
-from dynsolve.problem.source import Faults
+from dynsolve.problem.values import CellValues
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import last_origin
@@ -50,7 +50,7 @@ def load(places: PlaceBuilder, parsed: ParsedLoad, points: Sequence[NamedPoint],
 
 
 def with_questions(
-    faults: Faults,
+    values: CellValues,
     robot: Robot,
     parsed: ParsedQuestions,
     points: Sequence[NamedPoint],
@@ -59,22 +59,42 @@ def with_questions(
     is_drawn: bool,
 ) -> Robot:
     """The robot with what its file asks of it; with a task of its own where one is needed and none given."""
-    values = parsed.state.values if parsed.state else {}
+    state = parsed.state.values if parsed.state else {}
     questions = Questions(
         points=tuple(points),
         task=_task(parsed.task),
         asked=asked,
         loads=tuple(loads),
-        state=State(tuple((name, dots, value) for (name, dots), value in values.items())),
+        state=State(tuple((name, dots, value) for (name, dots), value in state.items())),
         reach=parsed.reach.names,
         is_drawn=is_drawn,
         all_branches=parsed.all_branches,
     )
-    if questions.task is None and Stage.TASK in asked_stages(questions):
+    if questions.task is None and (parsed.rates or Stage.TASK in asked_stages(questions)):
         questions = replace(questions, task=_default_task(robot))
     if questions.task is not None and not questions.task.is_twist:
-        check_reach(faults, parsed.reach, questions.task.rows)
+        check_reach(values.faults, parsed.reach, questions.task.rows)
+    if questions.task is not None:
+        rows = questions.task.rows
+        questions = replace(
+            questions,
+            velocity=_rates(values, parsed.velocity, rows),
+            acceleration=_rates(values, parsed.acceleration, rows),
+        )
     return replace(robot, questions=questions)
+
+
+def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix | None:
+    """The velocity or acceleration of the task, m×1; one of another length is reported."""
+    if parsed is None:
+        return None
+    if len(parsed.cells) != rows:
+        has = f"the task has {rows} component{'s' * (rows != 1)}"
+        values.faults.error(
+            parsed.span, f"{parsed.key} has {len(parsed.cells)} components; {has}", "write one for each"
+        )
+        return None
+    return values.column(parsed.cells)
 
 
 def _task(parsed: ParsedTask | None) -> Task | None:

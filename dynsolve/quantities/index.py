@@ -24,13 +24,18 @@ MOST_INDEXED = 9
 """Entries have names up to this index: d_111 could be two of them."""
 
 
+_FROM_RATES = {kinematic_families.QD: "velocity", kinematic_families.QDD: "acceleration"}
+"""What is asked of the joints, and the rate of the task that it belongs to."""
+
+
 @dataclass(frozen=True, slots=True)
 class Owners:
     """The owners of a robot's quantities: rows of its table, coordinates, bodies and points by name, forces.
 
     `points` are the bodies without inertia, `named` the points that the exercise names.
     `stages` are those of which something is asked, `task_rows` the components of the task;
-    a twist is a task that is no function r(q).
+    a twist is a task that is no function r(q).  `rates` says whether its velocity, and its
+    acceleration, is given.
     """
 
     rows: int
@@ -42,6 +47,7 @@ class Owners:
     loads: int = 0
     task_rows: int = 0
     is_twist: bool = False
+    rates: frozenset[str] = frozenset()
 
     @staticmethod
     def of(robot: Robot) -> Owners:
@@ -59,11 +65,14 @@ class Owners:
             loads=len(asked.loads),
             task_rows=asked.task.rows if asked.task else 0,
             is_twist=asked.task is not None and asked.task.is_twist,
+            rates=given_rates(asked),
         )
 
     def has(self, family: Family) -> bool:
         """Whether there are quantities of a family: those of the course, and of what is asked."""
         if self.is_twist and family is kinematic_families.R:
+            return False
+        if family in _FROM_RATES and _FROM_RATES[family] not in self.rates:
             return False
         return not family.stage.asked_for or family.stage in self.stages
 
@@ -350,13 +359,21 @@ class Quantities(Mapping[str, Quantity]):
         return {stem: tuple(sorted(names, key=self.position)) for stem, names in found.items() if names}
 
 
-_OF_THE_TASK = {Stage.SINGULAR, Stage.INVERSE}
+_OF_THE_TASK = {Stage.SINGULAR, Stage.INVERSE, Stage.RATES}
 """The stages that go on from the task."""
+
+
+def given_rates(questions: Questions) -> frozenset[str]:
+    """Which rates of the task an exercise gives."""
+    given = {"velocity": questions.velocity, "acceleration": questions.acceleration}
+    return frozenset(name for name, value in given.items() if value is not None)
 
 
 def asked_stages(questions: Questions) -> frozenset[Stage]:
     """The stages of which an exercise asks something."""
     found = {family.stage for family in FAMILIES if family.stage.asked_for and family.name in questions.asked}
+    if given_rates(questions):
+        found.add(Stage.RATES)
     if questions.points or questions.task or found & _OF_THE_TASK:
         found.add(Stage.TASK)
     if questions.is_drawn:

@@ -107,11 +107,36 @@ JR_DOT = Family(
     spellings=("dJr", "Jdot", "dJ"),
 )
 
+DET = Family(
+    name="det",
+    stage=Stage.TASK,
+    letter=of_robot(letters.DET),
+    spellings=("detJ", "detJr", "detJJT", "Delta"),
+)
+
 # -- its configurations ----------------------------------------------------------------------------
 
 SINGULAR = Family(name="singular", stage=Stage.SINGULAR, kind=Kind.EQUATIONS, spellings=("singularities",))
 
 INVERSE = Family(name="inverse", stage=Stage.INVERSE, kind=Kind.BRANCHES, spellings=("ik",))
+
+# -- rates for a velocity or an acceleration of the task -------------------------------------------
+
+QD = Family(
+    name="qd",
+    stage=Stage.RATES,
+    shape=("n", 1),
+    letter=of_robot(letters.QD),
+    spellings=("qdot", "dq"),
+)
+
+QDD = Family(
+    name="qdd",
+    stage=Stage.RATES,
+    shape=("n", 1),
+    letter=of_robot(letters.QDD),
+    spellings=("qddot", "ddq"),
+)
 
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
 """The records above, in their order."""

@@ -27,6 +27,7 @@ class Stage(StrEnum):
     TASK = "task", "Points and tasks", True
     SINGULAR = "singular", "Singular configurations", True
     INVERSE = "inverse", "Inverse kinematics", True
+    RATES = "rates", "Rates and accelerations of the joints", True
     INERTIA = "inertia", "The bodies: mass centres and inertia"
     ENERGY = "energy", "Potential and kinetic energy"
     LAGRANGIAN = "lagrangian", "The Lagrangian"

@@ -98,9 +98,10 @@ class Questions:
     `asked` are the names of the answers in `find` and `marks` that no derivation has unless
     they are asked for; with them comes what they are derived from, and nothing else.
     `is_drawn` says that the table was found from a drawing.
-    `loads` are the forces from outside; `state` is where rates and torques are asked for.
-    `reach` are the names of the values of r(q) in the inverse kinematics, as the file has them;
-    `all_branches` says that an answer must have them all.
+    `loads` are the forces from outside; `state` is where rates and torques are asked for,
+    `velocity` and `acceleration` (m×1) what the task is to have there.  `reach` are the names of
+    the values of r(q) in the inverse kinematics, as the file has them; `all_branches` says that an
+    answer must have them all.
     """
 
     points: tuple[NamedPoint, ...] = ()
@@ -109,6 +110,8 @@ class Questions:
     is_drawn: bool = False
     loads: tuple[Load, ...] = ()
     state: State = State()
+    velocity: Matrix | None = None
+    acceleration: Matrix | None = None
     reach: tuple[str, ...] = ()
     all_branches: bool = False
 

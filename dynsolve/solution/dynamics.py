@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Self
 from dynsolve.derivation.agreement import Agreement, agreement
 from dynsolve.derivation.drawn_motion import verify_drawing
 from dynsolve.derivation.graph import Derivation
-from dynsolve.derivation.kinematic_check import checked_names, verify_kinematics
 from dynsolve.derivation.rules import course_rules, derive
-from dynsolve.derivation.static_check import verify_statics
 from dynsolve.derivation.verification import Verification, verify
 from dynsolve.errors import Finding, VerificationError
 from dynsolve.explain.forms import Forms
@@ -77,11 +75,10 @@ class Dynamics:
         verification = verify(robot, _checked(robot, forms), states)
         if problem.normals is not None:
             verify_drawing(problem.normals, forms(f"H{len(robot.joints)}"), states)
-        wanted = values.leading_to(robot.questions.asked)
-        verify_kinematics(robot, {name: forms(name) for name in checked_names(robot, wanted)}, states)
-        static = [name for name in ("Q", "tau_static") if name in wanted]
-        verify_statics(robot, {name: forms(name) for name in static}, states)
-        _verify_configurations(robot, values, forms, wanted)
+        if robot.questions.asked:
+            from dynsolve.solution.asked_checks import verify_asked
+
+            verify_asked(robot, values, forms, states)
         return cls(problem, values, forms, verification, agreed, warnings)
 
     @property
@@ -136,21 +133,6 @@ class Dynamics:
         D, C, g = expanded(short.definitions, [short.D, short.C, short.g])
         verify(self.robot, {"D": D, "C": C, "g": g}, self.verification.states)
         return short
-
-
-def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str]) -> None:
-    """Hold the singular configurations and the branches of the inverse, as printed, in numbers."""
-    if not {"inverse", "singular"} & wanted:
-        return
-    from dynsolve.derivation.configuration_check import verify_inverse, verify_singular
-    from dynsolve.explain.configurations import ConfigurationForms
-
-    shown = ConfigurationForms(robot, values)
-    if "inverse" in wanted and shown.solved is not None:
-        verify_inverse(robot, forms("r"), shown.inverse)
-    if "singular" in wanted:
-        (jacobian,) = values.rules["singular"].inputs
-        verify_singular(robot, forms(jacobian), shown.singular_set.rank, shown.singular)
 
 
 def _make_all(forms: Forms, progress: Progress) -> None:

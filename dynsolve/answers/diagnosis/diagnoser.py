@@ -15,7 +15,8 @@ from functools import cached_property
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.fraction import as_expr
+from dynsolve.algebra.fraction import as_expr, equal
+from dynsolve.algebra.fraction_matrix import fraction_of
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.case import Case, Explanation, in_common, likeness
 from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, ChangedDerivation, DerivationSlips
@@ -97,6 +98,8 @@ class Diagnoser:
     def __call__(self, wrong: WrongEntry) -> tuple[Diagnosis, ...]:
         """The slips in one scalar."""
         mine = wrong.mine
+        if not all(isinstance(value, Expr) for value in wrong.expected):
+            return tuple(_of_fractions(wrong))
         if mine is None or not is_small(mine):
             return ()
         found = tuple(dict.fromkeys(self._named(wrong, mine)))
@@ -360,7 +363,7 @@ class Diagnoser:
     def difference(self, wrong: WrongEntry) -> Node | None:
         """The answer minus what was expected, in compact form."""
         mine = wrong.mine
-        if mine is None:
+        if mine is None or not all(isinstance(value, Expr) for value in wrong.expected):
             return None
         difference = mine - self.expected(wrong)
         return self.words.form(difference) if is_small(difference) else None
@@ -377,6 +380,12 @@ def _is_explained(found: Iterable[Diagnosis]) -> bool:
 
 _LISTS = ("terms_differ", "terms_missing", "trig_part")
 """What says that something differs, and not why."""
+
+
+def _of_fractions(wrong: WrongEntry) -> Iterator[Diagnosis]:
+    """Where fractions are expected nothing is told but the wrong sign of all of it."""
+    if any(equal(-fraction_of(value), wrong.written.value) for value in wrong.expected):
+        yield slip("sign_all")
 
 
 def _agree(changed: Any, own: Any, key: Any) -> bool:

@@ -8,6 +8,7 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
+from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.parts import is_small, monomial_expr, monomials
 from dynsolve.answers.diagnosis.slips import slip
@@ -42,11 +43,11 @@ class WrongEntry:
     def at(self, value: Any) -> Expr | None:
         """What a value of the node has at the place of this scalar, None where it has no such place."""
         found = self.target.of(value)
-        if isinstance(found, Matrix):
+        if isinstance(found, Matrix | FractionMatrix):
             rows, columns = found.shape
             if self.row >= rows or self.column >= columns:
                 return None
-            return found[self.row, self.column]
+            found = found[self.row, self.column]
         return found if isinstance(found, Expr) else None
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, as_expr, equal
+from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing, AnswerRingBuilder
 from dynsolve.answers.judging.evaluate import AnswerEvaluator
@@ -134,19 +135,19 @@ def same(a: Rows, b: Rows) -> bool:
     return all(equal(x, y) for r, s in zip(a, b, strict=True) for x, y in zip(r, s, strict=True))
 
 
-def as_value(rows: Rows, like: Expr | Matrix) -> Expr | Matrix | None:
+def as_value(rows: Rows, like: Expr | Matrix | FractionMatrix) -> Expr | Matrix | None:
     """The value as one of the ring, of the key's shape; None where it is none."""
     exprs = [[as_expr(entry) for entry in row] for row in rows]
     if any(e is None for row in exprs for e in row):
         return None
     flat: Iterable[Iterable[Expr]] = [[e for e in row if e is not None] for row in exprs]
     matrix = Matrix.of(rows[0][0].ring, flat)
-    return matrix if isinstance(like, Matrix) else matrix[0, 0]
+    return matrix if isinstance(like, Matrix | FractionMatrix) else matrix[0, 0]
 
 
-def fitted(rows: Rows, like: Expr | Matrix) -> Rows | None:
+def fitted(rows: Rows, like: Expr | Matrix | FractionMatrix) -> Rows | None:
     """The rows in the key's shape: a row for a column, 0 for a zero vector; None where they do not fit."""
-    shape = like.shape if isinstance(like, Matrix) else (1, 1)
+    shape = like.shape if isinstance(like, Matrix | FractionMatrix) else (1, 1)
     mine = len(rows), len(rows[0])
     if mine == shape:
         return rows

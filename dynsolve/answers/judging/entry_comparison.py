@@ -13,7 +13,7 @@ numbers for its symbols or the answer holds decimals, the other two are tried:
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import cos, pi, radians, sqrt
 from typing import Any
@@ -62,8 +62,10 @@ class EntryComparer:
     values: Mapping[str, Fraction]
     exact: frozenset[Fraction] = frozenset()
 
-    def __call__(self, expected: Expr, written: WrittenEntry) -> str | None:
+    def __call__(self, expected: Expr | RationalExpr, written: WrittenEntry) -> str | None:
         """Empty where they are equal, `rounded` where a decimal rounds, None where they differ."""
+        if isinstance(expected, RationalExpr):
+            return self._with_fraction(expected, written)
         if equal(RationalExpr(expected), written.value):
             return ""
         mine = written.value
@@ -76,6 +78,20 @@ class EntryComparer:
         if mine.divisor is None and _rounds(expected, mine.numerator, self._steps(written)):
             return ROUNDED
         return None
+
+    def _with_fraction(self, expected: RationalExpr, written: WrittenEntry) -> str | None:
+        """The same where a fraction is expected: as it is, or with numbers for all symbols that have one."""
+        if equal(expected, written.value):
+            return ""
+        ring = expected.ring
+        put = {ring.symbol_indices[n, 0]: v for n, v in self.values.items() if ring.has_symbol(n)}
+        if not put:
+            return None
+        number = simplified(put_numbers(expected, put))
+        mine = replace(written, value=simplified(put_numbers(written.value, put)))
+        if number.divisor is None:
+            return replace(self, values={})(number.numerator, mine)
+        return "" if equal(number, mine.value) else None
 
     def _with_numbers(self, expected: Expr, mine: RationalExpr) -> tuple[Expr, RationalExpr]:
         """Both with numbers for those valued symbols that do not occur in the answer."""
@@ -113,6 +129,12 @@ class EntryComparer:
             value = simplified(written.evaluate(changed))
             if value.divisor is None and written.value.divisor is None:
                 yield value.numerator - written.value.numerator
+
+
+def put_numbers(value: RationalExpr, put: Mapping[int, Fraction]) -> RationalExpr:
+    """A fraction with numbers for some generators."""
+    divisor = value.divisor and substituted(value.divisor, put)
+    return RationalExpr(substituted(value.numerator, put), divisor)
 
 
 def _used(expr: Expr) -> set[int]:

@@ -15,6 +15,7 @@ from itertools import islice
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.content import Content
 from dynsolve.answers.judging.direction import Direction
@@ -180,8 +181,10 @@ class Explanations:
 
 def entry_of(value: Any, i: int, j: int) -> Any:
     """One entry of a matrix; a scalar is its own."""
-    return value[i, j] if isinstance(value, Matrix) else value
+    return value[i, j] if isinstance(value, Matrix | FractionMatrix) else value
 
 
 def _entries(value: Any) -> tuple[Expr, ...]:
+    if isinstance(value, FractionMatrix):
+        return tuple(entry.numerator for entry in value.entries)
     return value.entries if isinstance(value, Matrix) else (value,)

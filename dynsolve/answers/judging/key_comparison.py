@@ -7,10 +7,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from dynsolve.algebra.fraction import RationalExpr, as_expr
+from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_values import AnswerValue, fitted
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.other_solutions import is_other_solution
 from dynsolve.answers.judging.planar import unfolded
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
@@ -40,13 +42,17 @@ class Obstacle:
 
 @dataclass(frozen=True, slots=True)
 class KeyComparison:
-    """An answer compared with the key: its entries as they are compared, and whether each is right."""
+    """An answer compared with the key: its entries as they are compared, and whether each is right.
+
+    `is_other`: it is right although it is not the key's, one of many solutions.
+    """
 
     answer_value: AnswerValue
     target: Target
     rows: tuple[tuple[WrittenEntry, ...], ...] = ()
     right: tuple[tuple[str | None, ...], ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
+    is_other: bool = False
 
     @property
     def correct(self) -> bool:
@@ -100,12 +106,15 @@ class KeyComparer:
         rows, obstacles = self._coriolis(value) if name == "C" else self._rows(name, value, key)
         if not rows:
             return KeyComparison(value, target, obstacles=obstacles)
-        matrix = key if isinstance(key, Matrix) else Matrix(self.answer_ring.ring, ((key,),))
+        expected = key.rows if isinstance(key, Matrix | FractionMatrix) else ((key,),)
         right = tuple(
-            tuple(map(self.compare, expected, written))
-            for expected, written in zip(matrix.rows, rows, strict=True)
+            tuple(map(self.compare, wanted, written)) for wanted, written in zip(expected, rows, strict=True)
         )
-        return KeyComparison(value, target, rows, right, obstacles)
+        compared = KeyComparison(value, target, rows, right, obstacles)
+        if not compared.correct and is_other_solution(self.graph, target.node, rows, self.compare.values):
+            right = tuple(tuple("" for _ in row) for row in rows)
+            return replace(compared, right=right, is_other=True)
+        return compared
 
     def _rows(self, name: str, value: AnswerValue, key: Any) -> tuple[Rows, tuple[Obstacle, ...]]:
         """The entries as they are compared, in the key's shape."""
@@ -131,7 +140,7 @@ class KeyComparer:
 
     def _misfit(self, value: AnswerValue, key: Any) -> Obstacle:
         assert value.rows is not None
-        shape = key.shape if isinstance(key, Matrix) else (1, 1)
+        shape = key.shape if isinstance(key, Matrix | FractionMatrix) else (1, 1)
         wanted = f"a {shape[0]}×{shape[1]} matrix" if shape != (1, 1) else "a single expression"
         mine = (
             f"a {len(value.rows)}×{len(value.rows[0])} matrix" if value.is_matrix else "a single expression"

@@ -18,7 +18,10 @@ from dynsolve.quantities import kinematic_families as asked
 from dynsolve.quantities.family import Owner
 from dynsolve.quantities.index import Quantities, Quantity
 
-_OF_ROWS = (families.TAU, families.G, families.CQD, static_families.Q, static_families.TAU_STATIC)
+_OF_ROWS = (
+    families.TAU, families.G, families.CQD, static_families.Q, static_families.TAU_STATIC,
+    asked.QD, asked.QDD,
+)  # fmt: skip
 _OF_COLUMNS = (
     families.JV, families.JW, families.J, families.JV_BODY, families.JW_BODY, asked.JV_POINT, asked.JW_POINT,
     asked.JV_DOT, asked.JW_DOT, asked.J_DOT, asked.JR, asked.JR_DOT,

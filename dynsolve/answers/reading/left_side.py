@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from dynsolve.answers.reading.grammar.derivatives import UnknownVariable
@@ -16,6 +17,11 @@ from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Negative, Reference, Sum
 from dynsolve.quantities.spelling import key
+
+_DETERMINANT = re.compile(r"(?:det\(?|\|)J[\w^()]*\|?")
+_LONGEST_DETERMINANT = 20
+_WHOLE = 6
+"""With so many joints J itself is square."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +79,8 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
     """The name that a side is, None where it is something else."""
     if len(member) > 200:
         return None
+    if _is_determinant(vocabulary, member):
+        return NamedAnswers(("det",))
     tokens = split_names(member, vocabulary, naming=True)
     reader = FormulaReader(tokens, vocabulary, naming=True)
     try:
@@ -101,12 +109,21 @@ def _is_called(reader: FormulaReader) -> bool:
     return reader.token.kind == "end"
 
 
+def _is_determinant(vocabulary: Vocabulary, member: list[Token]) -> bool:
+    """Whether a side is det J or |J_r|, det(J Jᵀ) of one that is not square, where that is an answer."""
+    if not vocabulary.is_answer("det") or len(member) > _LONGEST_DETERMINANT:
+        return False
+    text, n = "".join(token.text for token in member), len(vocabulary.coordinates)
+    is_square = vocabulary.quantities.owners.task_rows == n or n == _WHOLE
+    return bool(_DETERMINANT.fullmatch(text)) and text.count("J") == (1 if is_square else 2)
+
+
 def name_alone(vocabulary: Vocabulary, tokens: list[Token]) -> str:
     """The key of the name that tokens are, without powers; empty where they are more."""
     reader = FormulaReader(tokens, vocabulary, naming=True)
-    if len(tokens) > 12 or not reader.begins_with_name():
-        return ""
     try:
+        if len(tokens) > 12 or not reader.begins_with_name():
+            return ""
         form = reader.form()
     except ReadError:
         return ""

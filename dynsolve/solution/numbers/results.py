@@ -11,15 +11,22 @@ from typing import Any
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction import RationalExpr, cancelled, is_zero
+from dynsolve.algebra.fraction_matrix import FractionMatrix, tidy
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation
-from dynsolve.errors import Finding
+from dynsolve.errors import AlgebraError, Finding
 from dynsolve.explain.forms import Forms, is_numeric, leading_names
+from dynsolve.explain.product_forms import ProductForms
+from dynsolve.notation import tree
 from dynsolve.notation.tree import Node
 from dynsolve.robot.model import Robot
 from dynsolve.solution.numbers.given import Given
 from dynsolve.solution.numbers.rounding import DIGITS, has_constants, rounded, without_constants
 from dynsolve.solution.numbers.substitution import Substitution
+
+Exact = Expr | Matrix | FractionMatrix
+"""What a result may be."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,9 +104,11 @@ class State(_NumericResults):
         odd = any(all(atom == () for atom, _ in angle.terms) for angle in turned)
         return self.decimal or self.given.decimal or is_numeric(self.robot) or odd
 
-    def exact(self, name: str) -> Expr | Matrix:
+    def exact(self, name: str) -> Exact:
         """A result in the exact ring of this state."""
         value: Any = self.values[name]
+        if isinstance(value, FractionMatrix):
+            return tidy(self._put.ring, ([self._fraction(entry) for entry in row] for row in value.rows))
         return self._put.matrix(value) if isinstance(value, Matrix) else self._put(value)
 
     def __call__(self, name: str) -> Node:
@@ -110,7 +119,16 @@ class State(_NumericResults):
         """A result without roots and the like."""
         return self._form(_plain(self.exact(name)))
 
-    def _form(self, value: Expr | Matrix) -> Node:
+    def _fraction(self, value: RationalExpr) -> RationalExpr:
+        below = self._put(value.denominator)
+        if is_zero(below):
+            raise AlgebraError("a denominator is 0 at this state")
+        return cancelled(RationalExpr(self._put(value.numerator), below))
+
+    def _form(self, value: Exact) -> Node:
+        if isinstance(value, FractionMatrix):
+            forms = ProductForms(self._compactor)
+            return tree.Matrix(tuple(tuple(map(forms.fraction, row)) for row in value.rows))
         return self._compactor.matrix(value) if isinstance(value, Matrix) else self._compactor.form(value)
 
     def number(self, name: str) -> Any:
@@ -120,6 +138,8 @@ class State(_NumericResults):
         parameter without a value is left in it.
         """
         value = self.exact(name)
+        if isinstance(value, FractionMatrix):
+            return [[_quotient(entry, name) for entry in row] for row in value.rows]
         if isinstance(value, Matrix):
             return [[_float(entry, name) for entry in row] for row in value.rows]
         return _float(value, name)
@@ -131,9 +151,19 @@ class State(_NumericResults):
         return to_sympy(self(name))
 
 
-def _plain(value: Expr | Matrix) -> Expr | Matrix:
+def _plain(value: Exact) -> Exact:
     """A value with its roots, cosines of numbers and π as decimals."""
+    if isinstance(value, FractionMatrix):
+        return tidy(value.ring, ([_plain_fraction(entry) for entry in row] for row in value.rows))
     return value.map(without_constants) if isinstance(value, Matrix) else without_constants(value)
+
+
+def _plain_fraction(value: RationalExpr) -> RationalExpr:
+    return cancelled(RationalExpr(without_constants(value.numerator), without_constants(value.denominator)))
+
+
+def _quotient(value: RationalExpr, name: str) -> float:
+    return _float(value.numerator, name) / _float(value.denominator, name)
 
 
 def _float(expr: Expr, name: str) -> float:

@@ -160,6 +160,8 @@ def _questions(questions: Questions, put: Substitution) -> Questions:
         task=task and replace(task, entries=tuple(replaced(entry, put.values) for entry in task.entries)),
         loads=tuple(_load(load, put) for load in questions.loads),
         state=State(tuple(values)),
+        velocity=questions.velocity and put.matrix(questions.velocity),
+        acceleration=questions.acceleration and put.matrix(questions.acceleration),
     )
 
 

@@ -103,6 +103,9 @@ FORCES = {
     "no coordinate": ("state: {«q3»: 0}", "no coordinate and no rate", "state: {q1"),
     "a bare number": ("state: {theta1: «90»}", "bare number 90", "did you mean 90deg?"),
     "a coordinate in a value": ("state: {theta1: «theta2»}", "contains the coordinate", "numbers and param"),
+    "a velocity of another length": ("velocity: «[vx]»", "the task has 2 components", "one for each"),
+    "a velocity as a number": ("velocity: «3»", "a list of expressions", "velocity: [vx, vy]"),
+    "rates without a velocity": ("find: [«qd»]", "`qd` is no answer of this problem", ""),
     "twice": ("state: {theta1': 1, «theta1_dot»: 2}", "has a value already", "keep one"),
 }
 

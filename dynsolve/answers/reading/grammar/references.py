@@ -32,7 +32,7 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
         if name.startswith("rc") and form.dots == 1:
             names = vocabulary.named("v" + name[2:])
         else:
-            names = vocabulary.named(name + "dot") if form.dots == 1 else ()
+            names = vocabulary.named(name + "d" * form.dots + "ot")
             if not names:
                 return None
     if len(names) > 1 and not reader.naming and _has_rates(reader):

@@ -1,0 +1,141 @@
+"""Determinants, joint rates and accelerations, compared with elimination on numbers.
+
+The Jacobian is taken as it is printed, for `kinematic_check` has held it to the motion of the
+arm.  Rates x for a velocity b are right where Jᵀ (J x - b) = 0, so that no others come nearer
+to b, and where they are a sum of rows of J, so that none of those are shorter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from random import Random
+from typing import Any
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.arm_values import draw
+from dynsolve.derivation.rates import whole_or_task
+from dynsolve.derivation.static_check import state_numbers
+from dynsolve.derivation.verification import SEED
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import compile_trees
+from dynsolve.robot.model import Robot
+
+TOLERANCE = 1e-7
+"""The largest relative error: near a singular state rounding is divided by a small number."""
+
+NEGLIGIBLE = 1e-9
+"""A row that is shorter than this after the others were taken off depends on them."""
+
+Vector = list[float]
+Rows = Sequence[Sequence[float]]
+
+
+def rate_names(robot: Robot, wanted: frozenset[str]) -> tuple[str, ...]:
+    """Which of the wanted results are compared, with the Jacobians that they come from."""
+    asked = [name for name in ("det", "qd", "qdd") if name in wanted]
+    if not asked:
+        return ()
+    needed = {whole_or_task(robot), "Jr"} | ({"Jr_dot"} if "qdd" in asked else set())
+    return tuple(dict.fromkeys((*(name for name in sorted(needed) if name in wanted), *asked)))
+
+
+def verify_rates(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
+    """Compare printed forms of `det`, `qd` and `qdd` with elimination on numbers (see `rate_names`).
+
+    Raises VerificationError where one is off by more than `TOLERANCE` of its size.
+    """
+    program = compile_trees(list(results.values()))
+    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
+    for _ in range(states if results else 0):
+        values, _ = draw(robot, random)
+        here = dict(zip(results, program.run(values), strict=True))
+        at_state = {**values, **state_numbers(robot, values)}
+        there = dict(zip(results, program.run(at_state), strict=True))
+        for name, gap in (*_determinant(robot, here), *_rates(robot, at_state, there)):
+            if not gap <= TOLERANCE:
+                raise VerificationError(f"{name} differs from elimination; this is a fault of dynsolve")
+
+
+def _determinant(robot: Robot, ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
+    if "det" in ours:
+        J = ours[whole_or_task(robot)]
+        rows = [list(row) for row in J]
+        if len(rows) > len(rows[0]):
+            rows = _products(_transposed(rows), _transposed(rows))
+        elif len(rows) < len(rows[0]):
+            rows = _products(rows, rows)
+        theirs = eliminated(rows)
+        yield "det", abs(ours["det"] - theirs) / max(1.0, abs(theirs))
+
+
+def eliminated(rows: list[Vector]) -> float:
+    """The determinant, by Gauss's elimination with the largest pivot of each column."""
+    rows, total = [list(row) for row in rows], 1.0
+    for k in range(len(rows)):
+        best = max(range(k, len(rows)), key=lambda i: abs(rows[i][k]))
+        if not rows[best][k]:
+            return 0.0
+        if best != k:
+            rows[k], rows[best], total = rows[best], rows[k], -total
+        total *= rows[k][k]
+        for row in rows[k + 1 :]:
+            factor = row[k] / rows[k][k]
+            row[k:] = [a - factor * b for a, b in zip(row[k:], rows[k][k:], strict=True)]
+    return total
+
+
+def _rates(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
+    asked, rates = robot.questions, [values[q.velocity] for q in robot.coordinates]
+    if "qd" in ours and asked.velocity is not None:
+        yield "qd", _gap(ours["Jr"], _flat(ours["qd"]), _numbers(robot, asked.velocity, values))
+    if "qdd" in ours and asked.acceleration is not None:
+        wanted = _numbers(robot, asked.acceleration, values)
+        wanted = [a - b for a, b in zip(wanted, _times(ours["Jr_dot"], rates), strict=True)]
+        yield "qdd", _gap(ours["Jr"], _flat(ours["qdd"]), wanted)
+
+
+def _numbers(robot: Robot, column: Matrix, values: Mapping[str, float]) -> Vector:
+    return [robot.ring.evaluate(entry, values) for entry in column.entries]
+
+
+def _gap(J: Rows, x: Vector, wanted: Vector) -> float:
+    """How far x is from the shortest of the nearest to a solution, relative to its size."""
+    left = [a - b for a, b in zip(_times(J, x), wanted, strict=True)]
+    across = list(x)
+    for row in _orthonormal(J):
+        along = sum(a * b for a, b in zip(row, across, strict=True))
+        across = [a - along * b for a, b in zip(across, row, strict=True)]
+    size = max(1.0, *map(abs, x), *map(abs, wanted)) * max(1.0, *(abs(e) for row in J for e in row)) ** 2
+    return max(map(abs, (*_times(_transposed(J), left), *across))) / size
+
+
+def _orthonormal(J: Rows) -> list[Vector]:
+    """Orthogonal rows of length 1 that span those of J."""
+    found: list[Vector] = []
+    for row in J:
+        rest = list(row)
+        for other in (*found, *found):
+            along = sum(a * b for a, b in zip(other, rest, strict=True))
+            rest = [a - along * b for a, b in zip(rest, other, strict=True)]
+        length = sum(a * a for a in rest) ** 0.5
+        if length > NEGLIGIBLE:
+            found.append([a / length for a in rest])
+    return found
+
+
+def _products(a: Rows, b: Rows) -> list[Vector]:
+    """A Bᵀ"""
+    return [[sum(x * y for x, y in zip(row, other, strict=True)) for other in b] for row in a]
+
+
+def _transposed(rows: Rows) -> list[Vector]:
+    return [list(column) for column in zip(*rows, strict=True)]
+
+
+def _times(rows: Rows, x: Vector) -> Vector:
+    return [sum(a * b for a, b in zip(row, x, strict=True)) for row in rows]
+
+
+def _flat(rows: Any) -> Vector:
+    return [entry for row in rows for entry in row]

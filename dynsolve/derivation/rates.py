@@ -1,0 +1,45 @@
+"""The determinant of a Jacobian; joint rates and accelerations for those of the task.
+
+Spong, Hutchinson, Vidyasagar, section 4.9 for det J, 4.11 for q̇ = J⁻¹ ṙ and
+q̈ = J⁻¹ (r̈ - J̇ q̇), and for the pseudoinverse where J is not square.
+"""
+
+from __future__ import annotations
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction_matrix import FractionMatrix
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.minors import determinant
+from dynsolve.algebra.pseudoinverse import pseudoinverse_times
+from dynsolve.derivation.energy import velocities
+from dynsolve.robot.model import Robot
+
+
+def whole_or_task(robot: Robot) -> str:
+    """The Jacobian whose rank is looked at: that of the task, or all of J of six joints without a task."""
+    task = robot.questions.task
+    is_whole = task is not None and task.is_default and robot.n == 6
+    return "J" if is_whole else "Jr"
+
+
+def squared(jacobian: Matrix) -> Matrix:
+    """J where it is square, else J Jᵀ of one with more columns than rows, Jᵀ J of one with more rows."""
+    rows, columns = jacobian.shape
+    if rows == columns:
+        return jacobian
+    return jacobian @ jacobian.T if rows < columns else jacobian.T @ jacobian
+
+
+def jacobian_determinant(jacobian: Matrix) -> Expr:
+    """det J, det(J Jᵀ) or det(Jᵀ J), whichever is the determinant of a square matrix and not always 0."""
+    return determinant(squared(jacobian))
+
+
+def joint_rates(jacobian: Matrix, velocity: Matrix) -> Matrix | FractionMatrix:
+    """q̇ = J⁺ ṙ, n×1."""
+    return pseudoinverse_times(jacobian, velocity)
+
+
+def wanted_by_accelerations(robot: Robot, acceleration: Matrix, jacobian_rate: Matrix) -> Matrix:
+    """r̈ - J̇ q̇, m×1: what J q̈ must be."""
+    return acceleration - jacobian_rate @ velocities(robot)

@@ -1,0 +1,180 @@
+"""Steps of the determinant of a Jacobian, and of joint rates and accelerations for those of the task."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from dynsolve.algebra.at_state import AtState
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.minors import determinant
+from dynsolve.algebra.pseudoinverse import is_solvable, rank_parts
+from dynsolve.derivation.rates import squared, wanted_by_accelerations, whole_or_task
+from dynsolve.document import Prose
+from dynsolve.explain.citations import spong
+from dynsolve.explain.context import Context
+from dynsolve.explain.statics import state_prose
+from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import is_small
+from dynsolve.notation.tree import (
+    Letter,
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Row,
+    Sum,
+    Transpose,
+    Words,
+    equation,
+)
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+
+_R_DOT, _R_DDOT = letters.rate(letters.TASK), letters.bold("r", dots=2)
+_J, _JT = letters.J_TASK, Transpose(letters.J_TASK)
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """q̇ and q̈, where they are asked for."""
+    if "qd" in context.wanted:
+        yield _rates(context)
+    if "qdd" in context.wanted:
+        yield _accelerations(context)
+
+
+# -- the determinant -------------------------------------------------------------------------------
+
+
+def determinant_step(context: Context) -> Step:
+    """det J_r, or that of J_r J_rᵀ or J_rᵀ J_r where J_r is not square."""
+    name = whole_or_task(context.robot)
+    J: Letter = letters.J if name == "J" else letters.J_TASK
+    matrix: Matrix = context.values[name]
+    rows, columns = matrix.shape
+    square = squared(matrix)
+    if rows == columns:
+        of: Node = J
+        why: Prose = ("Where it is 0 the Jacobian has no inverse: some motion of the task is lost there.",)
+    else:
+        of = Parenthesized(Product((J, Transpose(J)) if rows < columns else (Transpose(J), J)))
+        what = "rows" if rows < columns else "columns"
+        why = (
+            J, f" is {rows}×{columns} and has no determinant. The determinant of its product with its "
+            f"transpose is the sum of the squares of its minors: it is 0 where the {what} are dependent.",
+        )  # fmt: skip
+    shown = context.show(square)
+    letter = Row((Words("det "), of))
+    working = (equation(letter, Row((Words("det "), shown))),) if is_small(shown) else ()
+    return Step(
+        id="det",
+        stage=Stage.TASK,
+        title="The determinant of the Jacobian",
+        why=why,
+        formula=letter,
+        source=spong("4.9"),
+        working=working,
+        result=(equation(letter, context.form("det")),),
+        detail=Detail.BRIEF,
+    )
+
+
+# -- rates and accelerations -----------------------------------------------------------------------
+
+
+def _rates(context: Context) -> Step:
+    robot = context.robot
+    at = AtState(robot.ring, robot.questions.state.by_symbol)
+    velocity = robot.questions.velocity
+    assert velocity is not None
+    J, right = at.matrix(context.values["Jr"]), at.matrix(velocity)
+    return Step(
+        id="qd",
+        stage=Stage.RATES,
+        title="The rates of the joints",
+        why=(equation(_R_DOT, Product((_J, letters.QD))), *_solved_by(J, right), *state_prose(context)),
+        formula=equation(letters.QD, _inverse_times(J, right, _R_DOT)),
+        source=spong("4.11"),
+        working=tuple(_working(context, J, right, _R_DOT)),
+        result=(equation(letters.QD, context.form("qd")),),
+        notes=tuple(_notes(J, right)),
+        detail=Detail.BRIEF,
+    )
+
+
+def _accelerations(context: Context) -> Step:
+    robot = context.robot
+    at = AtState(robot.ring, robot.questions.state.by_symbol)
+    acceleration = robot.questions.acceleration
+    assert acceleration is not None
+    J = at.matrix(context.values["Jr"])
+    right = at.matrix(wanted_by_accelerations(robot, acceleration, context.values["Jr_dot"]))
+    turned = Product((letters.rate(_J), letters.QD))
+    wanted = Sum((_R_DDOT, Negative(turned)))
+    why = (
+        equation(_R_DDOT, Sum((Product((_J, letters.QDD)), turned))),
+        ": what J̇ brings without the joints' accelerations is taken off first. The rest ",
+        *_solved_by(J, right), *state_prose(context),
+    )  # fmt: skip
+    return Step(
+        id="qdd",
+        stage=Stage.RATES,
+        title="The accelerations of the joints",
+        why=why,
+        formula=equation(letters.QDD, _inverse_times(J, right, Parenthesized(wanted))),
+        source=spong("4.11"),
+        working=(equation(wanted, context.show(right)), *_working(context, J, right, None)),
+        result=(equation(letters.QDD, context.form("qdd")),),
+        notes=tuple(_notes(J, right)),
+        detail=Detail.BRIEF,
+    )
+
+
+def _solved_by(J: Matrix, right: Matrix) -> Prose:
+    """How the system is solved, in words that end a sentence."""
+    rank, (rows, columns) = rank_parts(J).rank, J.shape
+    if rank == rows == columns:
+        return (" has one solution. ",)
+    if not is_solvable(J, right):
+        return (" has no solution: these come nearest to one, in the sense of least squares. ",)
+    if rank == rows:
+        return (" has many solutions: this is the one of least norm. ",)
+    return (f" has many solutions, the rank being {rank}: this is the one of least norm. ",)
+
+
+def _inverse_times(J: Matrix, right: Matrix, vector: Node) -> Node:
+    """J⁻¹ b, Jᵀ (J Jᵀ)⁻¹ b, (Jᵀ J)⁻¹ Jᵀ b or J⁺ b."""
+    rank, (rows, columns) = rank_parts(J).rank, J.shape
+    minus = Negative(Number(1))
+    if rank == rows == columns:
+        return Product((Power(_J, minus), vector))
+    if rank == rows:
+        return Product((_JT, Power(Parenthesized(Product((_J, _JT))), minus), vector))
+    if rank == columns:
+        return Product((Power(Parenthesized(Product((_JT, _J))), minus), _JT, vector))
+    return Product((Letter("J", _J.sub, Words("+"), "bold"), vector))
+
+
+def _working(context: Context, J: Matrix, right: Matrix, vector: Node | None) -> Iterator[Node]:
+    """The Jacobian and what is asked of it at the state, and the determinant that is divided by."""
+    if context.robot.questions.state:
+        yield equation(_J, context.show(J))
+    if vector is not None:
+        yield equation(vector, context.show(right))
+    rank, (rows, columns) = rank_parts(J).rank, J.shape
+    if rank in (rows, columns) and rank:
+        square = squared(J)
+        of = _J if rows == columns else Parenthesized(Product((_J, _JT) if rows < columns else (_JT, _J)))
+        yield equation(Row((Words("det "), of)), context.show(determinant(square)))
+
+
+def _notes(J: Matrix, right: Matrix) -> Iterator[Prose]:
+    rank = rank_parts(J).rank
+    if rank < J.shape[1] and is_solvable(J, right):
+        yield (
+            "Every motion of the joints that the task does not see may be added: ",
+            letters.QD, " with ", equation(Product((_J, letters.QD)), Number(0)), ".",
+        )  # fmt: skip
+    if rank < min(J.shape):
+        yield (f"The rank is {rank} here, less than it can be: ", Product((_J, _JT)), " has no inverse.")

@@ -1,0 +1,38 @@
+"""What only some exercises ask, verified by computations that share no formula with it."""
+
+from __future__ import annotations
+
+from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.kinematic_check import checked_names, verify_kinematics
+from dynsolve.derivation.rate_check import rate_names, verify_rates
+from dynsolve.derivation.static_check import verify_statics
+from dynsolve.explain.forms import Forms
+from dynsolve.robot.model import Robot
+
+
+def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) -> None:
+    """Verify what is asked for beside the course's derivation, and what that is derived from.
+
+    Raises VerificationError where a result is wrong.
+    """
+    wanted = values.leading_to(robot.questions.asked)
+    verify_kinematics(robot, {name: forms(name) for name in checked_names(robot, wanted)}, states)
+    verify_rates(robot, {name: forms(name) for name in rate_names(robot, wanted)}, states)
+    static = [name for name in ("Q", "tau_static") if name in wanted]
+    verify_statics(robot, {name: forms(name) for name in static}, states)
+    _verify_configurations(robot, values, forms, wanted)
+
+
+def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str]) -> None:
+    """Hold the singular configurations and the branches of the inverse, as printed, in numbers."""
+    if not {"inverse", "singular"} & wanted:
+        return
+    from dynsolve.derivation.configuration_check import verify_inverse, verify_singular
+    from dynsolve.explain.configurations import ConfigurationForms
+
+    shown = ConfigurationForms(robot, values)
+    if "inverse" in wanted and shown.solved is not None:
+        verify_inverse(robot, forms("r"), shown.inverse)
+    if "singular" in wanted:
+        (jacobian,) = values.rules["singular"].inputs
+        verify_singular(robot, forms(jacobian), shown.singular_set.rank, shown.singular)

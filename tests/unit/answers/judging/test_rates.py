@@ -1,0 +1,117 @@
+"""Answers on determinants, rates and accelerations: fractions, other solutions, numbers for symbols."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.answers.answer_verdict import OTHER_SOLUTION
+from dynsolve.answers.judge import check
+from dynsolve.answers.reading.files import FileReader
+from dynsolve.problem import read_problem
+from tests.unit.answers.hands import judge, judged, verdicts
+
+ELBOW = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+velocity: [vx, vy]
+acceleration: [0, 0]
+values: {l1: 2}
+find: [Jr, Jr_dot, det, qd, qdd]
+"""
+QD = [
+    "(vx*cos(q1+q2) + vy*sin(q1+q2))/(l1*sin(q2))",
+    "-(vx*(l1*cos(q1) + l2*cos(q1+q2)) + vy*(l1*sin(q1) + l2*sin(q1+q2)))/(l1*l2*sin(q2))",
+]
+RANK_1 = """
+dh: [{theta: q1*, a: L}, {theta: q2*, d: M, alpha: 90deg}, {theta: q3*, a: N}]
+velocity: [sin(q1), -cos(q1), 0]
+state: {q2: 90deg, q3: 90deg}
+find: [qd]
+"""
+"""Sapienza Robotics 1, exam 10 June 2022: least norm, and (-1/L, 0, 0) realizes the same velocity."""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "verdict"),
+    [
+        ("det", "l1*l2*sin(q2)", "correct"),
+        ("det", "2*l2*sin(q2)", "correct"),
+        ("det", "l1*l2*(sin(q1+q2)*cos(q1) - cos(q1+q2)*sin(q1))", "correct"),
+        ("det", "l1*l2*cos(q2)", "wrong"),
+        ("qd", QD, "correct"),
+        ("qd", [entry.replace("l1", "2") for entry in QD], "correct"),
+        ("qd", [QD[0], QD[0]], "wrong"),
+        ("qd", [f"-({entry})" for entry in QD], "wrong"),
+        ("qd", ["0", "0"], "wrong"),
+    ],
+)
+def test_verdicts(name: str, text: str | list[str], verdict: str) -> None:
+    written = text if isinstance(text, str) else [[entry] for entry in text]
+    assert judged(ELBOW, name, written).verdict == verdict
+
+
+def test_the_sign_of_a_fraction_is_told() -> None:
+    found = judged(ELBOW, "qd", [[f"-({entry})"] for entry in QD])
+    assert "sign_all" in {one.code for one in found.diagnosis}
+
+
+def test_rates_follow_from_a_jacobian_that_is_wrong() -> None:
+    J = [["-l1*sin(q1)", "-l2*sin(q1+q2)"], ["l1*cos(q1)", "l2*cos(q1+q2)"]]
+    qd = [
+        ["(vx*cos(q1+q2) + vy*sin(q1+q2))/(l1*sin(q2))"],
+        ["-(vx*cos(q1) + vy*sin(q1))/(l2*sin(q2))"],
+    ]
+    found = verdicts(judge(ELBOW, {"Jr": J, "det": "l1*l2*sin(q2)", "qd": qd}))
+    assert (found["Jr"], found["det"], found["qd"]) == ("wrong", "correct", "follows")
+
+
+@pytest.mark.parametrize(
+    ("entries", "verdict", "noted"),
+    [
+        (["-L/(L^2+N^2)", "0", "N/(L^2+N^2)"], "correct", False),
+        (["-1/L", "0", "0"], "correct", True),
+        (["0", "7", "1/N"], "correct", True),
+        (["1/L", "0", "0"], "wrong", False),
+        (["-1/L", "0", "1/N"], "wrong", False),
+    ],
+)
+def test_every_solution_counts_where_there_are_many(entries: list[str], verdict: str, noted: bool) -> None:
+    found = judged(RANK_1, "qd", [[entry] for entry in entries])
+    assert (found.verdict, OTHER_SOLUTION in found.notes) == (verdict, noted)
+
+
+def test_least_squares_where_there_is_no_solution() -> None:
+    text = RANK_1.replace("[sin(q1), -cos(q1), 0]", "[sin(q1), -cos(q1), 5]")
+    assert judged(text, "qd", [["-L/(L^2+N^2)"], ["0"], ["N/(L^2+N^2)"]]).verdict == "correct"
+    assert judged(text, "qd", [["-1/L"], ["0"], ["0"]]).verdict == "correct"
+    assert judged(text, "qd", [["0"], ["0"], ["0"]]).verdict == "wrong"
+
+
+@pytest.mark.parametrize(
+    ("written", "name"),
+    [
+        (r"\det(J) = l_1 l_2 s_2", "det"),
+        (r"\det J_r = l_1 l_2 s_2", "det"),
+        (r"\left|\mathbf{J}\right| = l_1 l_2 s_2", "det"),
+        (r"\dot{q} = \begin{bmatrix} \frac{v_x c_{12} + v_y s_{12}}{l_1 s_2} \\ "
+         r"-\frac{v_x (l_1 c_1 + l_2 c_{12}) + v_y (l_1 s_1 + l_2 s_{12})}{l_1 l_2 s_2} \end{bmatrix}", "qd"),
+    ],
+)  # fmt: skip
+def test_notations(written: str, name: str) -> None:
+    problem = read_problem(ELBOW, "own.yaml")
+    submission = FileReader(problem)(f"$${written}$$\n".encode(), "report.md")
+    assert {a.name: a.verdict for a in check(problem, submission).answers if a.given} == {name: "correct"}
+
+
+def test_of_a_jacobian_that_is_not_square_it_is_that_of_the_product() -> None:
+    text = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\ntask: [tip.x]\nfind: [det]\n"
+    problem = read_problem(text, "own.yaml")
+    wide = "(l_1 s_1 + l_2 s_{12})^2 + l_2^2 s_{12}^2"
+    for side, given in ((r"\det(J_r J_r^T)", 1), (r"\det(J_r)", 0)):
+        submission = FileReader(problem)(f"$${side} = {wide}$$\n".encode(), "report.md")
+        assert [a.verdict for a in check(problem, submission).answers if a.given] == ["correct"] * given
+
+
+def test_a_determinant_is_no_name_where_none_is_asked_for() -> None:
+    problem = read_problem("dh: [{theta: q1*, a: l1}]\nfind: [Jv]\n", "own.yaml")
+    submission = FileReader(problem)(b"$$det(J) = l_1$$\n", "report.md")
+    assert not submission.answers and submission.not_recognized

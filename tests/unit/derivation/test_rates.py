@@ -1,0 +1,90 @@
+"""Determinants and rates: by hand, and against elimination on numbers."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import simplify, sympify
+
+import dynsolve
+from dynsolve.derivation.rate_check import eliminated, rate_names, verify_rates
+from dynsolve.derivation.rules import derive
+from dynsolve.errors import VerificationError
+from dynsolve.explain.forms import Forms
+from dynsolve.notation.tree import Matrix, Negative, Node
+from dynsolve.problem import read_problem
+
+ELBOW = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\n"
+THREE = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]\n"
+ROBOTS = {
+    "square": ELBOW + "velocity: [vx, vy]\nacceleration: [ax, 0]\n",
+    "redundant": THREE + "velocity: [vx, q1*vy]\nacceleration: [0, 0]\n",
+    "too few joints": "dh: [{theta: q1*, a: l1}]\nvelocity: [vx, vy]\nacceleration: [ax, 0]\n",
+    "singular": ELBOW + "velocity: [vx, vy]\nacceleration: [ax, 0]\nstate: {q2: 0}\n",
+    "twist": "dh: [{theta: q1*, alpha: 90deg}, {d: d2*}]\ntask: twist\nvelocity: [0, 0, v, 0, 0, w]\n",
+}
+
+
+def forms(text: str) -> tuple[object, dict[str, Node]]:
+    asked = [name for key, name in (("velocity", "qd"), ("acceleration", "qdd")) if key in text]
+    robot = read_problem(f"{text}find: [det, {', '.join(asked)}]").robot
+    values = derive(robot)
+    made = Forms(robot, values)
+    return robot, {n: made(n) for n in rate_names(robot, values.leading_to(robot.questions.asked))}
+
+
+@pytest.mark.parametrize("text", ROBOTS.values(), ids=ROBOTS)
+def test_what_is_derived_agrees(text: str) -> None:
+    robot, results = forms(text)
+    verify_rates(robot, results)
+    for name in results.keys() & {"det", "qd", "qdd"}:
+        with pytest.raises(VerificationError, match="differs from elimination"):
+            verify_rates(robot, {**results, name: negative(results[name])})
+
+
+def negative(node: Node) -> Node:
+    if isinstance(node, Matrix):
+        return Matrix(tuple(tuple(map(Negative, row)) for row in node.rows))
+    return Negative(node)
+
+
+def test_elimination() -> None:
+    assert eliminated([[0.0, 2.0], [3.0, 1.0]]) == pytest.approx(-6.0)
+    assert eliminated([[1.0, 2.0, 0.0], [2.0, 4.0, 1.0], [0.0, 1.0, 1.0]]) == pytest.approx(-1.0)
+    assert eliminated([[1.0, 2.0], [2.0, 4.0]]) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("text", "det"),
+    [
+        (ELBOW, "l1*l2*sin(q2)"),
+        (THREE + "task: [tip.x, tip.y, q1 + q2 + q3]\n", "l1*l2*sin(q2)"),
+        (ELBOW + "task: [tip.x]\n", "(l1*sin(q1) + l2*sin(q1 + q2))**2 + l2**2*sin(q1 + q2)**2"),
+        ("dh: [{theta: q1*, a: l1}]\n", "l1**2"),
+        ("dh: [{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, alpha: 90deg}, {d: d3*}]\n",
+         "d3**2*sin(q2)"),
+    ],
+)  # fmt: skip
+def test_determinants_are_written_in_factors(text: str, det: str) -> None:
+    found = dynsolve.solve(text + "find: [det]\n").to_json()["results"]["det"]
+    assert simplify(sympify(found) - sympify(det)) == 0
+    assert len(found) <= 1.3 * len(det)
+
+
+def test_of_six_joints_without_a_task_it_is_that_of_all_of_j() -> None:
+    wrist = "{theta: q4*, alpha: -90deg}, {theta: q5*, alpha: 90deg}, {theta: q6*, d: d6}"
+    gantry = f"dh: [{{d: d1*, alpha: 90deg}}, {{d: d2*, theta: 90deg, alpha: 90deg}}, {{d: d3*}}, {wrist}]\n"
+    assert dynsolve.solve(gantry + "find: [det]\n").to_json()["results"]["det"].strip("-") == "sin(q5)"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (ROBOTS["square"], "has one solution"),
+        (ROBOTS["redundant"], "of least norm"),
+        (ROBOTS["too few joints"], "least squares"),
+        (ROBOTS["singular"], "least squares"),
+    ],
+)
+def test_the_step_says_how_it_is_solved(text: str, words: str) -> None:
+    steps = {step.id: step for step in dynsolve.solve(text + "find: [qd]\n").steps}
+    assert words in "".join(part for part in steps["qd"].why if isinstance(part, str))
