@@ -27,6 +27,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     entry_formulas
                 energies, momenta and forces in the entries of D and g and the Christoffel symbols
     style       how a robot's formulas look: s_1 for sin θ_1
+    signs       the style of a report, in which no sign stands for two things
     citations   the books and their sections that steps refer to
     writing     sentences and pieces of formulas
     configurations
@@ -37,6 +38,13 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     sanity      checks that a person can do on the finished model
     closing     the step of D q̈ + C q̇ + g = τ
     working     the lines between a formula and its result, each proved before it is shown
+
+What the signs of a report mean:
+
+    notation_list    the list of notation: a line for every sign that occurs
+    textbook_letters the lines of the textbook's letters
+    roles            what the parameters of a problem are
+    sign_kinds       which signs occur in a document
 
 Long models are written in names (`--abbreviate`):
 

@@ -62,7 +62,7 @@ def steps(context: Context) -> Iterator[Step]:
 def _potential(context: Context, body: Body) -> Step:
     P = letters.of_body("P", body)
     general = equation(
-        P, Negative(Product((context.mass(body), Transpose(letters.bold("g")), letters.rc(body))))
+        P, Negative(Product((context.mass(body), Transpose(letters.GRAVITY), letters.rc(body))))
     )
     formula: Node = general
     working: tuple[Node, ...] = ()
@@ -92,8 +92,10 @@ def _weight(context: Context, body: Body, general: Node) -> tuple[Prose, Node, t
     vectors = equation(P, Negative(Product((context.show(body.mass), row, center))))
     working: tuple[Node, ...] = (vectors,) if is_small(center) else ()
     product: Prose = (
-        Product((Transpose(letters.bold("g")), letters.bold("r", Words("c")))),
-        ", g being the acceleration of gravity, which points down.",
+        Product((Transpose(letters.GRAVITY), letters.bold("r", Words("c")))),
+        ", ",
+        letters.GRAVITY,
+        " being the acceleration of gravity, which points down.",
     )
     height = _height(context, body)
     if height is None:

@@ -104,8 +104,8 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     """coefficient · Π node^exponent; negative exponents go below the fraction line.
 
     Signs and numbers of the factors are drawn to the front, products flattened, in
-    the given order.  With `decimal` a fraction that ends is one number in front, 0.12 c₂
-    and not 3 c₂/25.
+    the given order.  With `decimal` a fraction is one number in front, 0.12 c₂ and not
+    3 c₂/25; one that does not end is kept exact, and rounded where it is shown.
     """
     above: list[Node] = []
     below: list[Node] = []
@@ -128,7 +128,7 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     if coefficient == -1 and not below and len(above) == 1 and isinstance(above[0], Sum):
         return total([negated(term) for term in above[0].terms])
     size = coefficient if coefficient > 0 else -coefficient
-    if decimal and not below and size.denominator != 1 and _ends(size.denominator):
+    if decimal and not below and size.denominator != 1:
         node = _decimal(size, above)
     else:
         node = _fraction(size, above, below)

@@ -77,6 +77,24 @@ def script_letter(base: str) -> str:
     return base
 
 
+_BOLD = {"A": 0x1D400, "a": 0x1D41A, "Α": 0x1D6A8, "α": 0x1D6C2, "0": 0x1D7CE}
+"""The first of each row of letters -> the code point of the bold one."""
+
+
+def bold_letter(base: str) -> str:
+    """A Latin or Greek letter, or a digit, in bold; everything else as it is.
+
+    >>> bold_letter("z"), bold_letter("τ"), bold_letter("ab")
+    ('𝐳', '𝛕', 'ab')
+    """
+    if len(base) == 1:
+        for first, code in _BOLD.items():
+            place = ord(base) - ord(first)
+            if 0 <= place < (10 if first == "0" else 26):
+                return chr(code + place)
+    return base
+
+
 # Letters of other alphabets that cannot be told from a Latin letter by eye.
 _LOOK_ALIKES = dict(
     zip(

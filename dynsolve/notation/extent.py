@@ -16,6 +16,7 @@ from dynsolve.notation.tree import (
     Cross,
     Degrees,
     Derivative,
+    Entry,
     Function,
     Letter,
     Matrix,
@@ -128,6 +129,8 @@ class Ruler:
         match node:
             case Letter():
                 return self._letter(node)
+            case Entry(of, index):
+                return self.width(of) + 2 * PARENTHESIS + self.index(index)
             case Row(parts):
                 return sum(map(self.width, parts))
             case Words(text):
@@ -173,10 +176,13 @@ class Ruler:
         return self.width(node) * _SCRIPT[1] + _SCRIPT_SPACE
 
     def _number(self, node: Number | Degrees) -> float:
-        text = str(node.p) if node.q == 1 else (decimal_text(node.p, node.q) or "")
+        if type(node) is Number:
+            text = str(node.p) if node.q == 1 else (self.style.number(node) or "")
+        else:
+            text = decimal_text(node.p, node.q) or ""
         if type(node) is Degrees:
             return _DIGIT * max(len(text), 4) + 0.5
-        if node.q == 1 or (self.style.decimal and text):
+        if text:
             return _DIGIT * len(text)
         return _DIGIT * max(len(str(node.p)), len(str(node.q))) + _FRACTION_SPACE
 
@@ -200,7 +206,8 @@ class Ruler:
     def _letter(self, node: Letter) -> float:
         factor = _BOLD if node.style == "bold" else 1.0
         indices = [self.index(part) for part in (node.sub, node.sup) if part is not None]
-        base = words_width(node.base) if node.style == "upright" else _letters(node.base)
+        letter = self.style.base(node)
+        base = words_width(letter) if node.style == "upright" else _letters(letter)
         return base * factor + max(indices, default=0.0)
 
 

@@ -19,7 +19,6 @@ from dynsolve.notation.printing import (
     PLAIN,
     Printer,
     Style,
-    decimal_text,
     flat_factors,
     is_numeric,
     is_whole,
@@ -30,6 +29,7 @@ from dynsolve.notation.tree import (
     BigSum,
     Cross,
     Derivative,
+    Entry,
     Function,
     Letter,
     Matrix,
@@ -153,7 +153,7 @@ class FormulaPrinter(Printer):
     def _number(self, node: Number) -> str:
         if node.q == 1:
             return self._digits(str(node.p))
-        if (self.style.decimal or node.decimal) and (decimal := decimal_text(node.p, node.q)):
+        if decimal := self.style.number(node):
             return self._digits(decimal)
         sign = self.minus if node.p < 0 else ""
         return sign + self._fraction(self._digits(str(abs(node.p))), self._digits(str(node.q)))
@@ -184,7 +184,7 @@ class FormulaPrinter(Printer):
         return self._scripted(*self._letter_parts(node), "" if node.sup is None else self._index(node.sup))
 
     def _letter_parts(self, node: Letter) -> tuple[str, str]:
-        base = self._styled(node.base, node.style)
+        base = self._styled(self.style.base(node), node.style)
         sub = "" if node.sub is None else self._index(node.sub)
         return self._dotted(base, node.dots) if node.dots else base, sub
 
@@ -260,6 +260,9 @@ class FormulaPrinter(Printer):
 
     def _matrix(self, node: Matrix) -> str:
         return self._bracketed([list(map(self.text, row)) for row in node.rows])
+
+    def _entry(self, node: Entry) -> str:
+        return self._scripted(self._one(self.parenthesized(self.text(node.of))), self._index(node.index), "")
 
     def _row(self, node: Row) -> str:
         return self.between.join(map(self.text, node.parts))

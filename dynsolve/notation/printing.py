@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any, ClassVar
 
 from dynsolve.notation.tree import (
@@ -23,9 +24,28 @@ from dynsolve.notation.tree import (
     Power,
     Product,
     Quotient,
+    Row,
     Sum,
     Symbol,
+    Words,
 )
+
+Sign = tuple[str, str, int]
+"""A kind of letters of the textbook: base, style and number of lower indices; c_121 is ("c", "italic", 3)."""
+
+
+def lower_indices(node: Letter) -> int:
+    """The number of lower indices of a letter.
+
+    >>> from dynsolve.notation.tree import Row
+    >>> lower_indices(Letter("c")), lower_indices(Letter("c", Row((Number(1), Number(2)))))
+    (0, 2)
+    """
+    if node.sub is None:
+        return 0
+    if isinstance(node.sub, Row):
+        return sum(not isinstance(part, Words) for part in node.sub.parts)
+    return 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,13 +54,37 @@ class Style:
 
     `shorthand` maps the name of a coordinate to its subscript in s_1 and c_12,
     `star` shows the mark of joint variables, and `stars` puts it on every symbol of
-    these names; `decimal` writes 981/100 as 9.81 where that is exact.
+    these names; `decimal` writes 981/100 as 9.81 where that is exact, and with `digits` every number
+    as a decimal of so many significant digits.
+
+    Letters of the textbook that would be taken for something else are set otherwise:
+    `letters` maps their base, style and number of lower indices to another base, and those of
+    `bold` are shown bold where a notation has one weight only, in a terminal.
     """
 
     shorthand: Mapping[str, str] = field(default_factory=dict)
     star: bool = False
     decimal: bool = False
     stars: frozenset[str] = frozenset()
+    digits: int = 0
+    letters: Mapping[Sign, str] = field(default_factory=dict)
+    bold: frozenset[str] = frozenset()
+
+    def number(self, node: Number) -> str | None:
+        """A number with a decimal point, where the style wants that and a fraction is not as good."""
+        if not (self.decimal or node.decimal):
+            return None
+        text = decimal_text(node.p, node.q)
+        if self.digits and (text is None or len(text.replace(".", "").lstrip("-0")) > self.digits):
+            value = significant(Fraction(node.p, node.q), self.digits)
+            return decimal_text(value.numerator, value.denominator)
+        return text
+
+    def base(self, node: Letter) -> str:
+        """The base that a letter of the textbook is set with."""
+        if not self.letters:
+            return node.base
+        return self.letters.get((node.base, node.style, lower_indices(node)), node.base)
 
     def starred(self, node: Symbol) -> bool:
         """Whether a symbol is printed with the mark of a joint variable."""
@@ -160,6 +204,27 @@ def decimal_text(p: int, q: int) -> str | None:
         return None
     sign, digits = "-" if p < 0 else "", str(abs(p) * 10**places // q).zfill(places + 1)
     return f"{sign}{digits[:-places]}.{digits[-places:]}" if places else sign + digits
+
+
+def significant(value: Fraction, digits: int) -> Fraction:
+    """A number rounded to significant digits; the digits before the point are all kept.
+
+    >>> significant(Fraction(2, 3), 4), significant(Fraction(123456), 4)
+    (Fraction(6667, 10000), Fraction(123456, 1))
+    """
+    if not value:
+        return value
+    size = abs(value)
+    exponent = len(str(int(size))) if size >= 1 else -_zeros(size)
+    return round(value, max(digits - exponent, 0))
+
+
+def _zeros(size: Fraction) -> int:
+    """How many zeros follow the point: 0.0042 -> 2."""
+    count = 0
+    while size * 10 < 1:
+        size, count = size * 10, count + 1
+    return count
 
 
 def is_whole(node: Node) -> bool:

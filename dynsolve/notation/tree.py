@@ -166,6 +166,14 @@ class Letter(Node):
 
 
 @node_class
+class Entry(Node):
+    """The entry of a matrix that has indices itself: (𝓘_2)_{11}."""
+
+    of: Node
+    index: Node
+
+
+@node_class
 class Row(Node):
     """Nodes side by side with nothing between them: a subscript `v_1 i`, a list with commas."""
 

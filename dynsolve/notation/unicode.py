@@ -10,7 +10,13 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS, script_letter
+from dynsolve.notation.characters import (
+    GREEK,
+    SUBSCRIPT_DIGITS,
+    SUPERSCRIPT_DIGITS,
+    bold_letter,
+    script_letter,
+)
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.printing import (
     PLAIN,
@@ -131,11 +137,17 @@ class UnicodePrinter(FormulaPrinter):
     star = "⋆"
     compound = FormulaPrinter.compound | {Quotient}
 
+    def __init__(self, style: Style = PLAIN) -> None:
+        super().__init__(style)
+        self._bold = frozenset(map(self._base, style.bold))
+
     def _base(self, base: str) -> str:
         return GREEK.get(base, base)
 
     def _styled(self, base: str, style: str) -> str:
         base = self._base(printable(base))
+        if style == "bold" and base in self._bold:
+            return bold_letter(base)
         return script_letter(base) if style == "script" else base
 
     def _dotted(self, base: str, dots: int) -> str:

@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
-from dynsolve.notation.tree import Derivative, Letter, Node, Number, Product, Row, Symbol, Transpose, Words
+from dynsolve.notation.tree import (
+    Derivative,
+    Letter,
+    Node,
+    Number,
+    Product,
+    Quotient,
+    Row,
+    Symbol,
+    Transpose,
+    Words,
+)
 from dynsolve.robot.model import Body, Coordinate, JointType, Robot
 
-HALF = Number(1, 2)
+HALF = Quotient(Number(1), Number(2))
+"""½ of a general formula, a fraction also where the numbers of a robot are decimals."""
 
 
 def bold(base: str, sub: Node | None = None, sup: Node | None = None, dots: int = 0) -> Letter:
@@ -64,6 +76,8 @@ QDD = bold("q", dots=2)
 D = bold("D")
 C = bold("C")
 G = bold("g")
+GRAVITY = bold("g", Number(0))
+"""g_0, the vector of the acceleration of gravity: g is the number, and in D q̈ + C q̇ + g = τ the term."""
 TAU = bold("tau")
 Q_FORCES = bold("Q")
 TAU_STATIC = bold("tau", Words("static"))

@@ -24,7 +24,7 @@ from dynsolve.notation.tree import Node, Words
 from dynsolve.render.columns import Cell, Columns
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import TypesetPage, leads_on
+from dynsolve.render.page import TypesetPage, leads_on, prose_columns
 from dynsolve.render.references import is_long, numbered, running_title, slug
 from dynsolve.render.typesetting import Line
 
@@ -35,6 +35,8 @@ FRAGMENT_PAGE = 32.8
 """The narrowest page of the standard classes, which a fragment must fit."""
 
 _NUMBER = 3.4
+_MOST_ROWS = 18
+_PROSE_COLUMN = r"p{0.5\linewidth}"
 _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 _TALL = (r"\frac", r"\sum", r"\begin")
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
@@ -226,14 +228,14 @@ class _Page(TypesetPage):
         yield f"\\begin{{quote}}\\small\\textbf{{Note.}} {self.prose(parts)}\\end{{quote}}"
 
     def table(self, table: Table) -> Iterator[str]:
-        rows = [" & ".join(map(self.part, row)) for row in (table.header, *table.rows)]
-        head, *body = rows
-        columns = "c" * len(table.header)
-        yield (
-            f"\\begin{{center}}\n\\begin{{tabular}}{{{columns}}}\n{head} \\\\ \\hline\\rule{{0pt}}{{2.6ex}}"
-            + " \\\\\n".join(body)
-            + " \\\\\n\\end{tabular}\n\\end{center}"
-        )
+        prose = prose_columns(table)
+        plain = "l" if prose else "c"
+        columns = "".join(_PROSE_COLUMN if k in prose else plain for k in range(len(table.header)))
+        begin, end = rf"\begin{{center}}\begin{{tabular}}{{{columns}}}", r"\end{tabular}\end{center}"
+        head, *body = [" & ".join(map(self.part, row)) + r" \\" for row in (table.header, *table.rows)]
+        for start in range(0, len(body), _MOST_ROWS):  # a tabular stays on one page
+            rows = "\n".join(body[start : start + _MOST_ROWS])
+            yield f"{begin}\n{head} \\hline\\rule{{0pt}}{{2.6ex}}\n{rows}\n{end}"
 
     def picture(self, picture: Picture) -> Iterator[str]:
         if picture.latex:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dynsolve.document import Formula
-from dynsolve.notation.tree import ZERO, Letter, Matrix, Node, Number, Row, Words
+from dynsolve.notation.tree import ZERO, Entry, Letter, Matrix, Node, Number, Row, Words
 from dynsolve.notation.walk import children
 
 _SHALLOW = 4
@@ -45,9 +45,9 @@ def entry_name(i: int, j: int, matrix: Matrix, left: Node | None, formula: Formu
     place: list[Node] = [Number(i + 1), Number(j + 1)]
     if len(matrix.rows[0]) == 1 or len(matrix.rows) == 1:
         place = [Number(max(i, j) + 1)]
-    if isinstance(left, Letter):
-        index = [left.sub, Words(","), *place] if left.sub else place
-        return Letter(left.base, Row(tuple(index)), left.sup, dots=left.dots)
+    index = place[0] if len(place) == 1 else Row(tuple(place))
+    if isinstance(left, Letter) and left.sub is None and left.sup is None:
+        return Letter(left.base, index, None, dots=left.dots)
     if left is None:
         return Row((Words("["), *place, Words("]")))
-    return Row((Words("("), left, Words(")"), Letter("", Row(tuple(place)))))
+    return Entry(left, index)

@@ -158,6 +158,18 @@ def leads_on(parts: Prose) -> bool:
     return bool(parts) and isinstance(parts[-1], str) and parts[-1].rstrip().endswith(":")
 
 
+_PROSE = 30
+"""Cells with more letters than this are sentences, which are broken."""
+
+
+def prose_columns(table: Table) -> frozenset[int]:
+    """The columns of a table that hold sentences, from 0."""
+    columns = enumerate(zip(*table.rows, strict=True))
+    return frozenset(
+        k for k, cells in columns if any(isinstance(cell, str) and len(cell) > _PROSE for cell in cells)
+    )
+
+
 class MarkupPage(Page[str]):
     """A page of text with markup, in which mathematics among words is set as formulas."""
 

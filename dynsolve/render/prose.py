@@ -21,6 +21,9 @@ _SUPERSCRIPTS = dict(zip(SUPERSCRIPT_DIGITS + "ⁱⁿᵀ", "0123456789inT", stri
 _DOTS = {"\u0307": 1, "\u0308": 2}
 _SCRIPTS = {"𝓘": "I", "𝓛": "L", "𝒦": "K", "𝒫": "P"}
 _DOTTED = {"Ḋ": "D", "ẋ": "x", "ẏ": "y", "ż": "z"}
+_BOLD = {True: frozenset("AH"), False: frozenset({"q", "D", "tau", "omega"})}
+"""The vectors and matrices that the explanations name in words: A₁ with an index, q̇ and ω without one."""
+
 _GREEK_LETTERS = "".join(_SPELLED)
 
 _FORMULA = re.compile(
@@ -58,7 +61,7 @@ def with_formulas(text: str) -> Iterator[str | Node]:
     """Words of an explanation, the mathematics in them as formulas: A₁, θ, q̇.
 
     >>> list(with_formulas("Row 1: A₁"))
-    ['Row 1: ', Letter(base='A', sub=Number(...), sup=None, style='italic', dots=0)]
+    ['Row 1: ', Letter(base='A', sub=Number(...), sup=None, style='bold', dots=0)]
     """
     if text.isascii():  # every formula in a text has a dot, an index or a Greek letter
         if text:
@@ -108,9 +111,9 @@ def _parts(text: str) -> tuple[str | Node, ...]:
 
 @lru_cache(maxsize=2048)
 def _formula(base: str, dots: str, sub: str, sup: str) -> Node:
-    style = "script" if base in _SCRIPTS else "italic"
-    count = _DOTS.get(dots, 1 if base in _DOTTED else 0)
     letter = _DOTTED.get(base) or _SCRIPTS.get(base) or _SPELLED.get(base) or base
+    style = "script" if base in _SCRIPTS else "bold" if letter in _BOLD[bool(sub)] else "italic"
+    count = _DOTS.get(dots, 1 if base in _DOTTED else 0)
     return Letter(letter, _index(sub, _SUBSCRIPTS), _index(sup, _SUPERSCRIPTS), style, count)
 
 

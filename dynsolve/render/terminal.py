@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 from dynsolve.document import (
     Document,
@@ -139,10 +140,17 @@ class _Page(Page[StyledLine]):
 
     def table(self, table: Table) -> Iterator[StyledLine]:
         rows = (table.header, *table.rows)
-        cells = [[self.part(cell).replace(HARD_SPACE, " ") for cell in row] for row in rows]
+        cells = [[self.part(cell) for cell in row] for row in rows]
         widths = [max(map(width, column)) for column in zip(*cells, strict=True)]
+        between = _INDENT + 3 * (len(widths) - 1)
+        while sum(widths) + between > self.columns:  # the cells of the widest columns are broken
+            widths[widths.index(max(widths))] -= 1
         for i, row in enumerate(cells):
-            yield StyledLine(" " * _INDENT + _padded(row, widths))
+            broken = [wrap(cell, room, room) or [""] for cell, room in zip(row, widths, strict=True)]
+            for line in zip_longest(*broken, fillvalue=""):
+                yield StyledLine(
+                    " " * _INDENT + _padded([part.replace(HARD_SPACE, " ") for part in line], widths)
+                )
             if i == 0:
                 yield StyledLine(" " * _INDENT + "─" * (sum(widths) + 3 * (len(widths) - 1)))
         yield StyledLine("")

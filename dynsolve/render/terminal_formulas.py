@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from dynsolve.document import Formula
 from dynsolve.notation.tree import Letter, Matrix, Node, Relation
-from dynsolve.notation.unicode import UnicodePrinter, lowered, width
-from dynsolve.render.matrices import entries_by_value, given_name
+from dynsolve.notation.unicode import UnicodePrinter, width
+from dynsolve.render.matrices import entries_by_value, entry_name
 from dynsolve.render.terminal_boxes import TextBox, beside, matrix_box, matrix_width, pieces
 from dynsolve.render.terminal_breaking import break_sum
 
@@ -117,21 +117,10 @@ def _flushed(row: TextBox) -> list[str]:
 def _entry_by_entry(matrix: Matrix, formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
     """`d₁₂ = ...` a line for each entry; equal ones in one chain, those that are 0 last."""
     lines: list[str] = []
+    left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
     for value, places in entries_by_value(matrix):
-        names = [_name(i, j, matrix, formula, printer) for i, j in places]
+        names = [printer.text(entry_name(i, j, matrix, left, formula)) for i, j in places]
         text = " = ".join((*names, printer.text(value)))
         first, *others = break_sum(text, room - 2, room - _HANG - 2)
         lines += ["  " + first, *("  " + " " * _HANG + other for other in others)]
     return lines
-
-
-def _name(i: int, j: int, matrix: Matrix, formula: Formula, printer: UnicodePrinter) -> str:
-    """The name of an entry: given, or the letter on the left with the entry's place."""
-    if (given := given_name(i, j, matrix, formula)) is not None:
-        return printer.text(given)
-    place = str(i + 1) if len(matrix.rows[0]) == 1 else f"{i + 1}{j + 1}"
-    left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
-    if isinstance(left, Letter):
-        letter = printer.text(left)
-        return (f"({letter})" if left.sub or left.sup else letter) + lowered(place)
-    return f"[{', '.join(place)}]"

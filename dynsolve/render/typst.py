@@ -21,7 +21,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.columns import Columns
 from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import TypesetPage, leads_on
+from dynsolve.render.page import TypesetPage, leads_on, prose_columns
 from dynsolve.render.prose import visible
 from dynsolve.render.references import is_long, numbered, running_title
 from dynsolve.render.typesetting import Line
@@ -166,8 +166,9 @@ class _Page(TypesetPage):
     def table(self, table: Table) -> Iterator[str]:
         cells = [f"[{self.part(cell)}]" for row in (table.header, *table.rows) for cell in row]
         columns = len(table.header)
+        side = "left" if prose_columns(table) else "center"
         yield (
-            f"#align(center, table(columns: {columns}, stroke: none, align: center, "
+            f"#align(center, table(columns: {columns}, stroke: none, align: {side}, "
             f"inset: (x: 0.8em, y: 0.35em), {', '.join(cells[:columns])}, table.hline(stroke: 0.5pt), "
             f"{', '.join(cells[columns:])}))"
         )

@@ -21,6 +21,7 @@ from dynsolve.document import (
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
 from dynsolve.explain.citations import KHALIL_DOMBRE, cited
+from dynsolve.explain.notation_list import notation
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import Relation, equation
@@ -49,13 +50,33 @@ def solution_document(
     stages = None if stages is None else tuple(stages)
     short = solution.abbreviated(abbreviate)
     steps = tuple(solution.explain(stages, short))
-    return Document((
-        *_opening(solution, _sources(steps, detail, short)),
+    derivation = (
         *_stages(solution, detail, steps, short),
         *_numbers(solution, detail, stages),
         *summary_blocks(solution.robot, steps),
+    )
+    return Document((
+        *_opening(solution, _sources(steps, detail, short)),
+        *_notation(solution, derivation, detail, short),
+        *derivation,
         *_closing(solution),
     ))  # fmt: skip
+
+
+def _notation(
+    solution: Dynamics, derivation: tuple[Block, ...], detail: Detail, short: Abbreviated | None
+) -> Iterator[Block]:
+    """Every sign that occurs in the derivation, with its meaning and unit; in brief in one paragraph."""
+    told = notation(solution.robot, solution.style, derivation, short)
+    if not told.lines:
+        return
+    if detail is Detail.BRIEF:
+        yield Text(told.sentence)
+        return
+    yield Heading("Notation", 2)
+    if told.remarks:
+        yield Text(told.remarks)
+    yield told.table
 
 
 def _numbers(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:

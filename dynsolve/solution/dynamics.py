@@ -14,8 +14,8 @@ from dynsolve.derivation.rules import course_rules, derive
 from dynsolve.derivation.verification import Verification, verify
 from dynsolve.errors import Finding, VerificationError
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.signs import report_style
 from dynsolve.explain.step import Step
-from dynsolve.explain.style import style_of
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem
@@ -88,8 +88,8 @@ class Dynamics:
 
     @cached_property
     def style(self) -> Style:
-        """How the formulas look: s_1 for sin θ_1 where that is clear."""
-        return style_of(self.robot)
+        """How the formulas of a report look: s_1 for sin θ_1, and no sign with two meanings."""
+        return report_style(self.robot)
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:

@@ -14,6 +14,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.ring import Ring
+from dynsolve.notation.printing import significant
 from dynsolve.notation.tree import (
     Function,
     Letter,
@@ -29,27 +30,6 @@ DIGITS = 4
 
 _WORKING_DIGITS = 40
 _WORKING_BITS = 400
-
-
-def significant(value: Fraction, digits: int) -> Fraction:
-    """A number rounded to significant digits; the digits before the point are all kept.
-
-    >>> significant(Fraction(2, 3), 4), significant(Fraction(123456), 4)
-    (Fraction(6667, 10000), Fraction(123456, 1))
-    """
-    if not value:
-        return value
-    size = abs(value)
-    exponent = len(str(int(size))) if size >= 1 else -_zeros(size)
-    return round(value, max(digits - exponent, 0))
-
-
-def _zeros(size: Fraction) -> int:
-    """How many zeros follow the point: 0.0042 -> 2."""
-    count = 0
-    while size * 10 < 1:
-        size, count = size * 10, count + 1
-    return count
 
 
 def rounded(node: Node, digits: int) -> Node:

@@ -246,15 +246,15 @@ masses:
 
 
 def test_a_letter_of_the_formula_is_not_another_thing_of_the_problem() -> None:
-    assert formula(NAMED, "P1") == "P₁ = m₂ G h_c1, P₁ = -m₂ gᵀ r_c1"
+    assert formula(NAMED, "P1") == "P₁ = m₂ G h_c1, P₁ = -m₂ 𝐠₀ᵀ r_c1"
     assert shown_working(NAMED, "P1")[0] == "h_c1 = h₁/2"
     assert formula(NAMED, "P2").startswith("P₂ = (m₁ + M) G h₂, ")
     assert "D = m₂ J_v1ᵀ J_v1 + (m₁ + M) J_v2ᵀ J_v2" in shown_working(NAMED, "D_direct")
 
 
 def test_a_mass_without_a_symbol_is_called_after_its_body() -> None:
-    assert formula("numeric-2r", "P1") == "P₁ = m₁ g h₁, P₁ = -m₁ gᵀ r_c1"
-    assert formula("numeric-2r", "Kvp") == "K_vp = 0.5 m_p v_pᵀ v_p"
+    assert formula("numeric-2r", "P1") == "P₁ = m₁ g h₁, P₁ = -m₁ 𝐠₀ᵀ r_c1"
+    assert formula("numeric-2r", "Kvp") == "K_vp = ½ m_p v_pᵀ v_p"
 
 
 def test_where_a_centre_comes_from() -> None:
@@ -268,7 +268,7 @@ def test_where_a_centre_comes_from() -> None:
 
 
 def test_c_and_g_are_read_off_too() -> None:
-    assert shown("in3140-rp", "Cqd") == ["C q̇ = [[2m₂ L₂ θ̇₁ L̇₂], [-m₂ L₂ θ̇₁²]]", "g = [[0], [0]]"]
+    assert shown("in3140-rp", "Cqd") == ["C q̇ = [[2m₂ L₂ θ̇₁ L̇₂], [-m₂ L₂ θ̇₁²]]", "𝐠 = [[0], [0]]"]
     assert "No term remains at rest here." in said(step("in3140-rp", "Cqd").why, "in3140-rp")
     assert "Nothing remains" not in said(step("planar-2r", "Cqd").why, "planar-2r")
     assert "No term has rates here." in said(step("cartesian-pp", "Cqd").why, "cartesian-pp")
@@ -313,7 +313,7 @@ def test_fixed_rows_scaled_joints_and_the_world() -> None:
     assert "belongs to the ground" not in said(step(ODD, "rc2").why, ODD)
     assert "world coordinates" in text and "base coordinates" not in text
     assert formula(ODD, "R2").startswith("R₂ = R₀^w [[")
-    assert formula(ODD, "J2") == "J₂ = [[2z₃], [0]]"
+    assert formula(ODD, "J2") == "𝐉₂ = [[2z₃], [0]]"  # J is a moment of inertia here
 
 
 def test_a_body_without_mass_has_no_weight() -> None:

@@ -43,6 +43,7 @@ ONE_OF_EACH: list[tuple[Node, tuple[Node, ...]]] = [
     (tree.Letter("J", A, B, "bold"), (A, B)),
     (tree.Letter("J", None, B), (B,)),
     (tree.Letter("D"), ()),
+    (tree.Entry(A, B), (A, B)),
     (tree.Row((A, B)), (A, B)),
     (tree.Words("and"), ()),
     (tree.Transpose(A), (A,)),

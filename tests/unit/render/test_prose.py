@@ -19,11 +19,11 @@ def shown(text: str) -> list[str]:
 @pytest.mark.parametrize(
     ("text", "parts"),
     [
-        ("Row 1 of the table: A₁", ["Row 1 of the table: ", "$A_{1}$"]),
+        ("Row 1 of the table: A₁", ["Row 1 of the table: ", r"$\mathbf{A}_{1}$"]),
         ("turn by θ about", ["turn by ", r"$\theta$", " about"]),
-        ("D, C q̇, g: equal", ["D, C ", r"$\dot{q}$", ", g: equal"]),
-        ("Ḋ - 2C", [r"$\dot{D}$", " - 2C"]),
-        ("H₂⁰", ["$H_{2}^{0}$"]),
+        ("D, C q̇, g: equal", ["D, C ", r"$\dot{\mathbf{q}}$", ", g: equal"]),
+        ("Ḋ - 2C", [r"$\dot{\mathbf{D}}$", " - 2C"]),
+        ("H₂⁰", [r"$\mathbf{H}_{2}^{0}$"]),
         ("Überarm naïve I a", ["Überarm naïve I a"]),
     ],
 )

@@ -1,0 +1,191 @@
+"""The list of notation of a report: every sign that occurs in it, with its meaning and its unit.
+
+The names of the problem come first, by what they are (`explain.roles`), then the shorthands of sines and
+cosines, then the letters of the textbook (`explain.textbook_letters`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from dynsolve.document import Block, Inline, Prose, Table
+from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.explain.roles import Role, roles
+from dynsolve.explain.sign_kinds import Kind, formulas_in, kind_of, kinds_in
+from dynsolve.explain.signs import shorthands
+from dynsolve.explain.textbook_letters import SHAPES, Line, textbook
+from dynsolve.explain.writing import listed, side_by_side
+from dynsolve.notation.characters import GREEK
+from dynsolve.notation.names import split
+from dynsolve.notation.printing import Style
+from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Words, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.letters import index_of
+from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.units import node as unit_node
+
+COUNTING = ("i", "j", "k", "n", "t")
+"""The names that every textbook counts with, and time: told in a sentence."""
+
+# -- the names of the problem ----------------------------------------------------------------------
+
+
+def of_problem(robot: Robot, style: Style) -> Iterator[Line]:
+    """The names of the problem, and the shorthands."""
+    yield from problem_names(robot)
+    yield from _shorthands(robot, style)
+
+
+def problem_names(robot: Robot) -> Iterator[Line]:
+    """The coordinates, and the parameters by what they are."""
+    yield from _coordinates(robot)
+    known = roles(robot)
+    for role in Role:
+        units = dict.fromkeys(unit for own, unit in known.values() if own is role)
+        for unit in units:
+            names = [name for name, found in known.items() if found == (role, unit)]
+            yield _named(names, role.meaning if len(names) > 1 else role.of_one, unit)
+
+
+def _named(names: Sequence[str], meaning: str, unit: str) -> Line:
+    kinds = frozenset(("", "name", name) for name in names)
+    return Line(tuple(map(Symbol, names)), meaning, unit, kinds)
+
+
+def _coordinates(robot: Robot) -> Iterator[Line]:
+    for kind, (what, unit) in _COORDINATES.items():
+        names = [q.name for q in robot.coordinates if q.type is kind]
+        if names:
+            many = "s" if len(names) > 1 else ""
+            yield _named(names, f"{what}{many}: generalized coordinate{many}", unit)
+
+
+_COORDINATES = {
+    JointType.REVOLUTE: ("joint angle", "rad"),
+    JointType.PRISMATIC: ("joint displacement", "m"),
+}
+
+
+def _shorthands(robot: Robot, style: Style) -> Iterator[Line]:
+    """s_1 and c_1, each by its meaning: of the coordinates, whatever a row of the table adds to them."""
+    shown = list(shorthands(robot, style))
+    if not shown:
+        return
+    kinds = frozenset(kind for node in shown if (kind := kind_of(node, style)))
+    yield Line(tuple(shown), "sines and cosines of the coordinates", "", kinds)
+
+
+def written_out(node: Function) -> Node:
+    """A sine or cosine that no style abbreviates: sin θ_1, sin(θ_1 + θ_2)."""
+    if isinstance(node.argument, Sum):
+        return Row((Words(f"{node.name}("), node.argument, Words(")")))
+    return Row((Words(f"{node.name} "), node.argument))
+
+
+def _meaning_of_shorthands(shown: Sequence[Function]) -> Node:
+    """The first sine and cosine, and the first of a sum."""
+    examples = [*shown[:2], *[node for node in shown if isinstance(node.argument, Sum)][:1]]
+    return side_by_side([equation(node, written_out(node)) for node in examples])
+
+
+# -- the lines of a report -------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Notation:
+    """What is said of the signs of a report: sentences about all of them, and a line for each."""
+
+    remarks: Prose
+    lines: tuple[Line, ...]
+
+    @property
+    def table(self) -> Table:
+        """The lines as a table."""
+        rows = tuple(
+            (line.sign, line.words, unit_node(line.unit) if line.unit else "") for line in self.lines
+        )
+        return Table(("Sign", "Meaning", "Unit"), rows)
+
+    @property
+    def sentence(self) -> Prose:
+        """The lines as a sentence."""
+        prose: list[Inline] = ["Notation: "]
+        for place, line in enumerate(self.lines):
+            unit: Prose = (" (", unit_node(line.unit), ")") if line.unit else ()
+            what = (line.sign, f" {words}") if isinstance(words := line.words, str) else (words,)
+            prose += (*(("; ",) if place else ()), *what, *unit)
+        return (*prose, ".")
+
+
+def notation(
+    robot: Robot, style: Style, blocks: Iterable[Block], short: Abbreviated | None = None
+) -> Notation:
+    """The notation of blocks: the lines for the signs that occur there, the problem's own first."""
+    occurring = kinds_in(formulas_in(blocks), style)
+    own = {("", "name", name) for name in (*robot.parameters, *(q.name for q in robot.coordinates))}
+    general = [replace(line, kinds=line.kinds - own) for line in textbook(robot)]
+    lines = [*of_problem(robot, style), *_of_abbreviations(short), *general, *_of_shapes(occurring - own)]
+    shown = tuple(
+        _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
+    )
+    return Notation((*_counting(occurring - own), *_numbers(style), *_bold(occurring, style)), shown)
+
+
+def _told(line: Line, style: Style) -> Line:
+    """The line with what there is to say of the choice of its signs."""
+    sines = [sign for sign in line.signs if isinstance(sign, Function)]
+    if sines:
+        return replace(line, meaning=_meaning_of_shorthands(sines))
+    changed = [sign for sign in line.signs if isinstance(sign, Letter) and style.base(sign) != sign.base]
+    if changed:
+        letter = GREEK.get(changed[0].base, changed[0].base)
+        return replace(line, meaning=f"{line.meaning}; the textbook's letter is {letter}")
+    return line
+
+
+def _of_abbreviations(short: Abbreviated | None) -> Iterator[Line]:
+    """The names of constants and recurring terms."""
+    if short is not None and short.constants:
+        yield _named([d.name.name for d in short.constants], "inertial constants, see Abbreviations", "")
+    if short is not None and short.sums:
+        yield _named([d.name.name for d in short.sums], "recurring terms, see Abbreviations", "")
+
+
+def _of_shapes(occurring: set[Kind]) -> Iterator[Line]:
+    """The letters of the formulas of uniform shapes, which those formulas alone have."""
+    names = [name for name in SHAPES if ("", "name", name) in occurring]
+    if names:
+        meaning = f"of a uniform shape: {', '.join(SHAPES[name] for name in names)}"
+        yield _named(names, meaning, "")
+
+
+def _counting(occurring: set[Kind]) -> Iterator[Inline]:
+    """What counts, and the time."""
+    names = [name for name in COUNTING if ("", "name", name) in occurring]
+    if any("#" in shape for _, kind, shape in occurring if kind != "name"):
+        yield from (*listed([Symbol(name) for name in "ijk"]), " count rows, bodies and coordinates. ")
+    if "n" in names:
+        yield from (Symbol("n"), " is the number of coordinates. ")
+    if "t" in names:
+        yield from ("A dot is the derivative with respect to the time ", Symbol("t"), ". ")
+
+
+def _numbers(style: Style) -> Iterator[Inline]:
+    """How numbers are shown."""
+    if style.digits:
+        yield f"Numbers are exact, and shown with {style.digits} significant digits. "
+
+
+def _bold(occurring: set[Kind], style: Style) -> Prose:
+    """That a bold letter is not the same as a name of the problem, where both occur."""
+    pairs: list[Prose] = []
+    for base in sorted(style.bold):
+        shapes = {shape for vector, kind, shape in occurring if (vector, kind) == (base, "bold")}
+        names = sorted(name for _, kind, name in occurring if kind == "name" and split(name)[0] == base)
+        if shapes and names:
+            index = "".join(split(names[0])[1])
+            pairs.append(
+                (letters.bold(base, index_of(index) if index else None), " is not ", Symbol(names[0]))
+            )
+    return ("A bold letter is a vector or a matrix: ", *listed(pairs), ".") if pairs else ()

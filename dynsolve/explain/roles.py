@@ -1,0 +1,84 @@
+"""What the parameters of a problem are, by where they stand: a mass, a length of the table, a moment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from enum import Enum
+
+from dynsolve.algebra.angles import names_of
+from dynsolve.algebra.expr import Expr
+from dynsolve.robot.dimensions import Dimensions
+from dynsolve.robot.model import Robot
+from dynsolve.robot.units import si
+
+
+class Role(Enum):
+    """A role: its meaning for several parameters and for one, in the order in which they are listed."""
+
+    GRAVITY = "acceleration of gravity", "acceleration of gravity"
+    LENGTH = "lengths in the table", "length in the table"
+    ANGLE = "constant angles in the table", "constant angle in the table"
+    BASE = "place of frame 0 in the world", "place of frame 0 in the world"
+    MASS = "masses of the bodies", "mass of a body"
+    INERTIA = "given moments and products of inertia", "given moment of inertia"
+    SHAPE = "dimensions of the bodies", "dimension of a body"
+    CENTER = "place of the mass centres in their links", "place of a mass centre in its link"
+    OTHER = "parameters of the problem", "parameter of the problem"
+
+    @property
+    def meaning(self) -> str:
+        """What several are."""
+        return self.value[0]
+
+    @property
+    def of_one(self) -> str:
+        """What one is."""
+        return self.value[1]
+
+
+def roles(robot: Robot) -> dict[str, tuple[Role, str]]:
+    """The role and the SI unit of every parameter; the first role counts where one has several."""
+    found: dict[str, Role] = {}
+    for role, names in _places(robot):
+        for name in names:
+            if name in robot.parameters:
+                found.setdefault(name, role)
+    dimensions = _dimensions(robot)
+    return {name: (found.get(name, Role.OTHER), dimensions.get(name, "")) for name in robot.parameters}
+
+
+def _dimensions(robot: Robot) -> dict[str, str]:
+    known = Dimensions(robot.ring, robot)
+    units: dict[str, str] = {}
+    for generator in robot.ring.generators:
+        if generator.kind == "symbol" and not generator.dots:
+            found = known.of_generator(generator)
+            units[generator.name] = "" if found is None else si(found)
+    return units
+
+
+def _places(robot: Robot) -> Iterator[tuple[Role, Iterable[str]]]:
+    """Where parameters stand, the strongest role first."""
+    for entry in robot.gravity.entries:
+        yield Role.GRAVITY, _names(entry)
+    for joint in robot.joints:
+        yield Role.LENGTH, (*_names(joint.d), *_names(joint.a))
+        yield Role.ANGLE, (*names_of(joint.theta), *names_of(joint.alpha))
+    for entry in robot.base_position.entries:
+        yield Role.BASE, _names(entry)
+    for body in robot.bodies:
+        yield Role.MASS, _names(body.mass)
+    for body in robot.bodies:
+        role = Role.INERTIA if body.shape is None else Role.SHAPE
+        for entry in body.inertia.entries if body.inertia is not None else ():
+            yield role, _names(entry)
+    for body in robot.bodies:
+        for entry in body.center.entries:
+            yield Role.CENTER, _names(entry)
+
+
+def _names(expr: Expr) -> Iterator[str]:
+    """The symbols of a value."""
+    for generator, degree in zip(expr.ring.generators, expr.poly.degrees(), strict=True):
+        if degree > 0 and generator.kind == "symbol":
+            yield generator.name

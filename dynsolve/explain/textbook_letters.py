@@ -1,0 +1,176 @@
+"""What the letters of the textbook mean, and their units: the lines of every list of notation.
+
+To explain a further letter, add its line; a test finds the letters of reports that have none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from dynsolve.explain.sign_kinds import MOTIONS, Kind, kind_of
+from dynsolve.explain.writing import side_by_side
+from dynsolve.notation.extent import Ruler
+from dynsolve.notation.printing import PLAIN, Style
+from dynsolve.notation.tree import Letter, Node, Row, Symbol, Words
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Robot
+
+WIDEST = 8.0
+"""Signs of one meaning that are wider together, in em, are the first, the second and the last."""
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line of the list: signs, their meaning and unit; the kinds of signs that it explains.
+
+    Where each sign has words of its own, these are `each`, and `meaning` is what follows them.
+    """
+
+    signs: tuple[Node, ...]
+    meaning: str | Node
+    unit: str = ""
+    kinds: frozenset[Kind] = frozenset()
+    each: tuple[str, ...] = ()
+
+    @property
+    def sign(self) -> Node:
+        """The signs, side by side."""
+        shown = self.signs
+        if len(shown) == 1:
+            return shown[0]
+        together = side_by_side(shown)
+        if len(shown) > 3 and Ruler().width(together) > WIDEST:
+            return Row((*side_by_side(shown[:2]).parts, Words(", …, "), shown[-1]))
+        return together
+
+    @property
+    def words(self) -> str | Node:
+        """What the signs mean."""
+        return f"{', '.join(self.each)}{self.meaning}" if self.each else self.meaning
+
+    def of(self, kinds: Collection[Kind], style: Style) -> Line:
+        """The line with its signs of these kinds alone."""
+        kept = [k for k, sign in enumerate(self.signs) if kind_of(sign, style) in kinds]
+        if not kept:  # it explains names that are written otherwise
+            return self
+        each = tuple(self.each[k] for k in kept) if self.each else ()
+        return replace(self, signs=tuple(self.signs[k] for k in kept), each=each)
+
+
+_I, _J, _K = Symbol("i"), Symbol("j"), Symbol("k")
+_TABLE = ("theta", "d", "a", "alpha")
+SHAPES = {
+    "m": "mass",
+    "l": "length",
+    "r": "radius",
+    "ro": "outer radius",
+    "ri": "inner radius",
+    "x": "side along x",
+    "y": "side along y",
+    "z": "side along z",
+}
+"""The letters of the formulas of uniform shapes."""
+
+
+def textbook(robot: Robot) -> Iterator[Line]:
+    """The lines of the textbook's letters, in the order of the derivation."""
+    ground = "the world w" if letters.has_base(robot) else "frame 0"
+    yield from _kinematics(ground, letters.H(robot, 0).sup)
+    yield from _bodies(ground, letters.H(robot, 0).sup)
+    yield from _dynamics()
+
+
+def _line(sign: Node | Sequence[Node], meaning: str, unit: str = "", *kinds: Kind) -> Line:
+    """A line; `kinds` are those that it explains beside the kinds of its signs."""
+    signs = (sign,) if isinstance(sign, Node) else tuple(sign)
+    return Line(signs, meaning, unit, frozenset((*_kinds(signs), *kinds)))
+
+
+def _each(told: Sequence[tuple[Node, str]], rest: str = "", unit: str = "") -> Line:
+    """A line of signs with words of their own, and what follows these."""
+    signs = tuple(sign for sign, _ in told)
+    return Line(signs, rest, unit, frozenset(_kinds(signs)), tuple(words for _, words in told))
+
+
+def _kinds(signs: Iterable[Node]) -> Iterator[Kind]:
+    return (kind for sign in signs if (kind := kind_of(sign, PLAIN)))
+
+
+def _kinematics(ground: str, above: Node | None) -> Iterator[Line]:
+    row = tuple(Letter(name, _I) for name in _TABLE)
+    yield _line(row, "row i of the Denavit-Hartenberg table", "", *(("", "name", name) for name in _TABLE))
+    yield _line([Letter(name, style="upright") for name in MOTIONS], "turn about, slide along an axis")
+    yield _line([Symbol("A"), Symbol("B")], "any two angles, in an identity")
+    yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
+    frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
+    yield _each([(frame, "frame i"), (turned, "its orientation")], f", seen from {ground}")
+    yield _each([(_numbered("x"), "axis x"), (_numbered("z"), "axis z")], " of frame i")
+    yield _line(_numbered("o"), "origin of frame i", "m")
+    yield _line(letters.bold("0"), "zero vector")
+    yield _each([(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")])
+    yield _each([
+        (letters.J, "Jacobian of the last frame"), (letters.JV, "linear part of J"),
+        (letters.JW, "angular part of J"), (_numbered("J"), "column i of J"),
+    ])  # fmt: skip
+    velocities = [(letters.bold("v"), "velocity"), (letters.bold("omega"), "angular velocity")]
+    yield _each(velocities, " of the last frame")
+
+
+def _bodies(ground: str, above: Node | None) -> Iterator[Line]:
+    center = Row((Words("c"), _I))
+    yield _line(_body("m"), "mass of body i", "kg")
+    centers = [
+        (Letter("r", center, None, "bold"), "mass centre of body i"),
+        (Letter("r", center, _I, "bold"), "the same in its link's frame"),
+    ]
+    yield _each(centers, "", "m")
+    yield _line(letters.bold("r"), "from the point of a given tensor to the mass centre", "m")
+    yield _line(_numbered("I"), "inertia tensor of body i, along its own axes", "kg m^2")
+    yield _line(_body("I", "script"), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
+    yield _line(_numbered("R"), f"axes of body i, seen from {ground}")
+    yield _line([Letter("I", Words(a)) for a in ("xx", "yy", "zz")], "moments of a uniform shape", "kg m^2")
+    yield _line(letters.bold("E"), "identity matrix")
+    yield _line(Symbol("g"), "acceleration of gravity", "m/s^2")
+    yield _line(letters.GRAVITY, "acceleration of gravity, a vector down; §7.2.3 has it up", "m/s^2")
+    yield _line(_body("h"), "height of the mass centre of body i", "m")
+
+
+def _dynamics() -> Iterator[Line]:
+    yield _line([_sub("J", "v"), _sub("J", "omega")], "Jacobians of the mass centre of body i")
+    yield _each([(_numbered("v"), "velocity of its mass centre"), (_numbered("omega"), "angular velocity")])
+    energies = [
+        (_sub("K", "v"), "kinetic energy of translation"), (_sub("K", "omega"), "of rotation"),
+        (_body("K"), "of both"), (_body("P"), "potential energy"),
+    ]  # fmt: skip
+    yield _each(energies, ", of body i", "J")
+    of_arm = [(letters.K, "kinetic energy"), (letters.P, "potential energy"), (letters.L, "Lagrangian")]
+    yield _each(of_arm, " of the arm", "J")
+    yield _line(_body("tau"), "generalized force i, a torque: coordinate i is an angle", "N m")
+    yield _line(_body("f"), "generalized force i, a force: coordinate i is a length", "N")
+    yield _line(letters.TAU, "column of the generalized forces")
+    yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")])
+    yield _line(letters.bold("D", Words("p")), "D where the bodies are point masses")
+    yield _line(_entry("c", _I, _J, _K), "Christoffel symbol")
+    yield _line(letters.C, "matrix of the Coriolis and centrifugal terms")
+    yield _line(_entry("c", _K, _J), "entry (k, j) of C")
+    yield _each([(letters.G, "column of the gravity terms"), (_entry("g", _K), "its entries")])
+    yield _each([(letters.bold("N"), "Ḋ - 2C"), (_entry("n", _I, _J), "its entries")])
+
+
+def _numbered(base: str) -> Letter:
+    """z_i, bold"""
+    return Letter(base, _I, None, "bold")
+
+
+def _body(base: str, style: str = "italic") -> Letter:
+    return Letter(base, _I, None, style)
+
+
+def _entry(base: str, *indices: Node) -> Letter:
+    return Letter(base, Row(indices) if len(indices) > 1 else indices[0])
+
+
+def _sub(base: str, part: str) -> Letter:
+    """J_{v_i}, K_{v_i}"""
+    return Letter(base, Letter(part, _I), None, "bold" if base == "J" else "italic")

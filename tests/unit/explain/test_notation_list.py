@@ -1,0 +1,207 @@
+"""One sign, one meaning: every sign of a report is in its list of notation, and stands for one thing."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+import pytest
+
+import dynsolve
+from dynsolve.document import Document, Fold, Heading, Table
+from dynsolve.explain.notation_list import COUNTING, notation
+from dynsolve.explain.sign_kinds import Kind, formulas_in, kind_of, kinds_in
+from dynsolve.explain.step import Detail
+from dynsolve.notation.formulas import FormulaPrinter
+from dynsolve.notation.latex import LatexPrinter
+from dynsolve.notation.mathml import MathMLPrinter
+from dynsolve.notation.tree import Letter, Node, Symbol
+from dynsolve.notation.typst import TypstPrinter
+from dynsolve.notation.unicode import UnicodePrinter, to_unicode
+from dynsolve.notation.walk import children
+from dynsolve.problem.library import bundled
+from dynsolve.render import latex, markdown
+from dynsolve.solution.documents import solution_document
+
+LONG = ["puma560", "stanford-6"]
+SHORT = sorted(set(bundled()) - {*LONG, "panda-7r"})
+PROBLEMS = [*SHORT, *(pytest.param(name, marks=pytest.mark.slow) for name in LONG)]
+
+# Names that look like the textbook's letters: entries of D and g, energies, a force, an axis, the Jacobian
+CLASHING = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: d12}, {theta: q2*, a: g1}, {d: L*, a: z1}]
+masses:
+  - {mass: P1, link: 1, center: {near: [f3, 0, 0]}, inertia: {zz: K1}}
+  - {mass: J, link: 2}
+  - {mass: C, link: 3}
+"""
+
+# A coordinate is called s1, so that s₁ cannot be the sine of θ₁; c12 is a length
+TAKEN = """
+dh: [{theta: theta1*, a: c12}, {theta: theta2*, a: l}, {d: s1*}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]
+"""
+
+PRINTERS = (UnicodePrinter, LatexPrinter, MathMLPrinter, TypstPrinter)
+
+
+@lru_cache
+def solved(problem: str) -> dynsolve.Solution:
+    return dynsolve.solve(problem)
+
+
+@lru_cache
+def document(problem: str, detail: Detail = Detail.FULL) -> Document:
+    return solution_document(solved(problem), detail)
+
+
+def signs(problem: str) -> set[Node]:
+    """Every name, letter and shorthand of a report, without the letters inside indices."""
+    style = solved(problem).style
+    found: set[Node] = set()
+    pending = list(formulas_in(document(problem).blocks))
+    while pending:
+        node = pending.pop()
+        if kind_of(node, style):
+            found.add(node)
+        elif not isinstance(node, Letter):
+            pending += children(node)
+    return found
+
+
+@pytest.mark.parametrize("problem", [*PROBLEMS, CLASHING, TAKEN])
+@pytest.mark.parametrize("printer", PRINTERS, ids=lambda printer: printer.notation)
+def test_no_sign_stands_for_two_things(problem: str, printer: type[FormulaPrinter]) -> None:
+    style = solved(problem).style
+    write = printer(style)
+    meanings: dict[str, set[Kind]] = {}
+    for node in signs(problem):
+        kind = kind_of(node, style)
+        assert kind is not None
+        meanings.setdefault(write.text(node), set()).add(kind)
+    assert {text: kinds for text, kinds in meanings.items() if len(kinds) > 1} == {}
+
+
+@pytest.mark.parametrize("problem", [*PROBLEMS, CLASHING, TAKEN])
+@pytest.mark.parametrize("detail", Detail)
+def test_every_sign_is_in_the_list(problem: str, detail: Detail) -> None:
+    solution = solved(problem)
+    blocks = document(problem, detail).blocks
+    told = notation(solution.robot, solution.style, blocks, solution.abbreviated("auto"))
+    known = {kind for line in told.lines for kind in line.kinds} | {("", "name", name) for name in COUNTING}
+    assert kinds_in(formulas_in(blocks), solution.style) - known == set()
+
+
+_NO_LETTERS = re.compile(r"\\(?:text|begin|end|href|label|ref|tag|operatorname)\{[^{}]*\}")
+_INDEX = re.compile(r"_\{[^{}]*\}")
+_SIGN = re.compile(
+    r"\\math(?:bf|cal)\{\w\}|\\boldsymbol\{\\\w+\}|\\(?:theta|tau|omega|alpha|kappa|sigma)\b"
+    r"|(?<![\\A-Za-z])[A-Za-z](?![A-Za-z])"
+)
+
+
+def letters_of(formulas: list[str]) -> set[str]:
+    """The letters of LaTeX formulas, without their indices: read off the text, by no code of the program."""
+    found: set[str] = set()
+    for text in formulas:
+        text = _NO_LETTERS.sub(" ", text)
+        while (shorter := _INDEX.sub(" ", text)) != text:
+            text = shorter
+        text = re.sub(r"\\(?:dot|ddot)\{([^{}]*)\}", r" \1 ", text)
+        found |= set(_SIGN.findall(text))
+    return found
+
+
+@pytest.mark.parametrize("problem", ["elbow-3r", "rp-vertical", "box-cylinder-rod-sphere", "numeric-2r"])
+def test_every_letter_of_the_printed_page_is_in_the_printed_list(problem: str) -> None:
+    text = markdown.render(document(problem), solved(problem).style)
+    listed, derived = text.split("# Notation", 1)[1].split("## 1. ", 1)
+    formula = re.compile(r"\$\$(.*?)\$\$|\$(.*?)\$", re.S)
+    in_list = letters_of(["".join(found) for found in formula.findall(listed)])
+    in_text = letters_of(["".join(found) for found in formula.findall(derived)])
+    transposes_and_differentials = {"T", "d", "w"}
+    assert in_text - in_list <= transposes_and_differentials
+
+
+def test_the_list_stands_before_what_it_explains() -> None:
+    for problem in SHORT:
+        headings = [block.text for block in document(problem).blocks if isinstance(block, Heading)]
+        assert headings[1] == "Notation"
+
+
+def lines(problem: str, detail: Detail = Detail.NORMAL) -> dict[str, tuple[str, str]]:
+    """The lines of the table: sign -> meaning and unit, as a terminal shows them."""
+    style = solved(problem).style
+
+    def cell(part: object) -> str:
+        return part if isinstance(part, str) else to_unicode(part, style)  # type: ignore[arg-type]
+
+    (table,) = (
+        block
+        for block in document(problem, detail).blocks
+        if isinstance(block, Table) and block.header[0] == "Sign"
+    )
+    return {cell(row[0]): (cell(row[1]), cell(row[2])) for row in table.rows}
+
+
+# problem, sign -> meaning, unit
+MEANINGS = [
+    ("in3140-rp", "θ₁", "joint angle: generalized coordinate", "rad"),
+    ("in3140-rp", "L₂", "joint displacement: generalized coordinate", "m"),
+    ("in3140-rp", "L₁", "length in the table", "m"),
+    ("in3140-rp", "m₁, m₂", "masses of the bodies", "kg"),
+    ("in3140-rp", "I_1zz", "given moment of inertia", "kg m²"),
+    ("in3140-rp", "s₁, c₁", "s₁ = sin θ₁, c₁ = cos θ₁", ""),
+    ("in3140-rp", "fᵢ", "generalized force i, a force: coordinate i is a length", "N"),
+    ("in3140-rp", "cₖⱼ", "entry (k, j) of C", ""),
+    ("elbow-3r", "s₁, c₁, …, c₂₃", "s₁ = sin θ₁, c₁ = cos θ₁, s₂₃ = sin(θ₂ + θ₃)", ""),
+    ("elbow-3r", "Cₖⱼ", "entry (k, j) of C; the textbook's letter is c", ""),
+    ("elbow-3r", "𝐠, gₖ", "column of the gravity terms, its entries", ""),
+    ("planar-2r-remote", "s₁, c₁, s₂, c₂", "s₁ = sin p₁, c₁ = cos p₁", ""),
+    ("box-cylinder-rod-sphere", "r₁, l₂, b, l₃, r₄", "dimensions of the bodies", "m"),
+    ("box-cylinder-rod-sphere", "m, l, r, x, y, z",
+     "of a uniform shape: mass, length, radius, side along x, side along y, side along z", ""),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("problem", "sign", "meaning", "unit"), MEANINGS)
+def test_what_a_sign_means_is_told(problem: str, sign: str, meaning: str, unit: str) -> None:
+    assert lines(problem)[sign] == (meaning, unit)
+
+
+def test_a_letter_that_is_taken_gives_way() -> None:
+    """c₂₃ is cos(θ₂ + θ₃): the entry of C is C₂₃; z₁ is a mass centre's coordinate: the axis is bold."""
+    elbow = solved("elbow-3r").style
+    assert to_unicode(Letter("c", Symbol("2")), elbow) == "c₂"
+    assert elbow.letters == {("c", "italic", 2): "C"}
+    assert solved("crustcrawler-2r").style.letters == {}  # no joints are parallel, so c₁₂ is no cosine
+    clashing = solved(CLASHING).style
+    assert {base for base, _, _ in clashing.letters} == {"c", "d", "g", "P", "K", "f"}
+    assert {"g", "z", "J", "C"} <= clashing.bold
+
+
+@pytest.mark.slow
+def test_an_axis_is_not_the_coordinate_of_a_mass_centre() -> None:
+    style = solved("puma560").style
+    assert to_unicode(Letter("z", Symbol("1"), None, "bold"), style) == "𝐳₁"
+    assert to_unicode(Symbol("z1"), style) == "z₁"
+
+
+def test_no_shorthand_where_its_letter_is_a_coordinate() -> None:
+    style = solved(TAKEN).style
+    assert "theta1" not in style.shorthand
+    page = latex.render(document(TAKEN), style)
+    assert r"\sin(\theta_{1})" in page and r"\cos(\theta_{1}+\theta_{2})" in page.replace(" ", "")
+    assert "s₁, " not in "".join(lines(TAKEN))
+
+
+def test_in_brief_the_list_is_a_sentence() -> None:
+    text = "".join(
+        part if isinstance(part, str) else to_unicode(part, solved("in3140-rp").style)
+        for block in document("in3140-rp", Detail.BRIEF).blocks[:4]
+        if not isinstance(block, Heading | Fold)
+        for part in block.parts  # type: ignore[union-attr]
+    )
+    assert "Notation: θ₁ joint angle: generalized coordinate (rad); " in text
+    assert "𝓘ᵢ" in text and "Aᵢ" not in text
