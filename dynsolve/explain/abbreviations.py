@@ -11,7 +11,7 @@ of sines, cosines and these.
 2. What then recurs is named σ₁, σ₂, ... (`explain.recurring`): h₁, h₂, ... are heights.
 
 A short model needs no constants.  What recurs in it gets a name alone; if that is one
-term, it is the books' h: h = m₂ l₁ l_c2 s₂ of the planar elbow.
+term, it is the books' h: h = -m₂ l₁ l_c2 s₂ of the planar elbow.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ from dynsolve.explain.entry_formulas import coriolis_matrix, pairs
 from dynsolve.explain.forms import Forms, is_numeric
 from dynsolve.explain.recurring import Definition, name_recurring
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, negated
-from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.build import cost, negated, times, total
+from dynsolve.notation.tree import Negative, Node, Product, Sum, Symbol
 from dynsolve.notation.walk import with_children
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "expanded", "is_long"]
@@ -163,7 +163,9 @@ def _assembled(
     name = partial(name_recurring, entries, whole=long, decimal=is_numeric(forms.robot))
     sums, used = name(_names(RECURRING, taken))
     if len(sums) == 1 and SINGLE not in taken:
-        sums, used = name(iter([Symbol(SINGLE)]))
+        order = sorted(enumerate(symbols), key=lambda entry: (entry[1][2], entry[1][:2]))
+        places = [len(upper) + n + place for place, _ in order]
+        sums, used = _leading_with_plus(*name(iter([Symbol(SINGLE)])), places)
     d = dict(zip(upper, used, strict=False))
     short = dict(zip(symbols, used[len(upper) + n :], strict=True))
     return Abbreviated(
@@ -176,6 +178,33 @@ def _assembled(
         long=long,
         kept=kept,
     )
+
+
+def _leading_with_plus(
+    definitions: tuple[Definition, ...], used: list[Node], symbols: Sequence[int]
+) -> tuple[tuple[Definition, ...], list[Node]]:
+    """The one name with the sign of its first Christoffel symbol, as the books' h = -m₂ l₁ l_c2 s₂ has it.
+
+    `symbols` are the places of the symbols, in the order in which they are shown.
+    """
+    (definition,) = definitions
+    minus = negated(definition.name)
+    if next((used[k] for k in symbols if used[k] in (definition.name, minus)), None) != minus:
+        return definitions, used
+
+    def turned(node: Node) -> Node:
+        match node:
+            case Symbol():
+                return minus if node == definition.name else node
+            case Sum(terms):
+                return total([turned(term) for term in terms])
+            case Negative(argument):
+                return negated(turned(argument))
+            case Product(factors):
+                return times(1, [(turned(factor), 1) for factor in factors])
+        return node
+
+    return (Definition(definition.name, negated(definition.meaning)),), [turned(node) for node in used]
 
 
 def _names(letter: str, taken: set[str]) -> Iterator[Symbol]:

@@ -188,4 +188,4 @@ def _bold(occurring: set[Kind], style: Style) -> Prose:
             pairs.append(
                 (letters.bold(base, index_of(index) if index else None), " is not ", Symbol(names[0]))
             )
-    return ("A bold letter is a vector or a matrix: ", *listed(pairs), ".") if pairs else ()
+    return (*listed(pairs), ": a bold letter is a vector or a matrix.") if pairs else ()

@@ -155,13 +155,13 @@ masses:
 
 
 def test_the_elbow_has_the_h_of_the_books() -> None:
-    """Spong, Hutchinson, Vidyasagar, section 7.4: h = -m_2 l_1 l_c2 sin q_2, here with its other sign."""
+    """Spong, Hutchinson, Vidyasagar, section 7.4: h = -m_2 l_1 l_c2 sin q_2."""
     names = short("planar-2r")
     style = solved("planar-2r").style
     assert [to_unicode(d.name, style) + " = " + to_unicode(d.meaning, style) for d in names.definitions] == [
-        "h = m₂ l₁ l_c2 s₂"
+        "h = -m₂ l₁ l_c2 s₂"
     ]
-    assert to_unicode(names.C, style) == "[[-h q̇₂, -h (q̇₁ + q̇₂)], [h q̇₁, 0]]"
+    assert to_unicode(names.C, style) == "[[h q̇₂, h (q̇₁ + q̇₂)], [-h q̇₁, 0]]"
 
 
 def rank_of_the_regressor(problem: str) -> int:
