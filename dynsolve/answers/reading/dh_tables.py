@@ -19,6 +19,8 @@ NAME = "DH"
 
 MOST_TABLES = 20
 MOST_ROWS = 40
+LONGEST = 20_000
+"""Longer tables are none of these."""
 
 _HEAD = re.compile(
     r"[\s$\\*{}(]*(?:(?:mathbf|boldsymbol|text|mathrm|bm)[\s{\\]*)?(?:var)?(theta|alpha|θ|ϑ|α|d|a)(?![A-Za-z])"
@@ -26,11 +28,8 @@ _HEAD = re.compile(
 _COLUMNS = {"theta": 0, "θ": 0, "ϑ": 0, "d": 1, "a": 2, "alpha": 3, "α": 3}
 _MARKDOWN = re.compile(r"(?:^[ \t]*\|[^\n]*\|[ \t]*(?:\n|\Z)){3,}", re.MULTILINE)
 _RULE = re.compile(r"[\s|:-]*")
-_LATEX = re.compile(
-    r"(?:\$\$\s*|\\\[\s*)?\\begin\{(?P<name>tabular[x*]?|longtable|array|tblr)\}(?P<body>.{0,20000}?)"
-    r"\\end\{(?P=name)\}(?:\s*\$\$|\s*\\\])?",
-    re.DOTALL,
-)
+_LATEX = re.compile(r"(?:\$\$\s{0,9}|\\\[\s{0,9})?\\begin\{(?P<name>tabular[x*]?|longtable|array|tblr)\}")
+_AFTER = re.compile(r"\s{0,9}(?:\$\$|\\\])")
 _LINES = re.compile(
     r"\\(?:hline|toprule|midrule|bottomrule|endhead|cline\s*\{[^{}]*\}|cmidrule(?:\([^)]*\))?\s*\{[^{}]*\})"
 )
@@ -103,13 +102,22 @@ def _markdown(text: str) -> Iterator[FoundTable]:
 
 
 def _latex(text: str) -> Iterator[FoundTable]:
-    if "\\begin{" not in text:
-        return
-    for block in _LATEX.finditer(text):
-        preamble = _PREAMBLE.match(text, block.start("body"), block.end("body"))
-        start = preamble.end() if preamble else block.start("body")
-        rows = [_cells(text, a, b, r"(?<!\\)&") for a, b in _cells(text, start, block.end("body"), r"\\\\")]
-        yield from _table(text, block.start(), block.end(), rows)
+    unclosed: set[str] = set()
+    done = 0
+    for opening in _LATEX.finditer(text) if "\\begin{" in text else ():
+        name = opening["name"]
+        closing = f"\\end{{{name}}}"
+        end = -1 if name in unclosed or opening.start() < done else text.find(closing, opening.end())
+        if end < 0:
+            unclosed |= {name} if opening.start() >= done else set()
+            continue
+        after = _AFTER.match(text, end + len(closing)) if opening[0][0] in "$\\" else None
+        done = after.end() if after and not opening[0].startswith("\\begin") else end + len(closing)
+        if end - opening.end() <= LONGEST:
+            preamble = _PREAMBLE.match(text, opening.end(), end)
+            start = preamble.end() if preamble else opening.end()
+            rows = [_cells(text, a, b, r"(?<!\\)&") for a, b in _cells(text, start, end, r"\\\\")]
+            yield from _table(text, opening.start(), done, rows)
 
 
 def _cells(text: str, start: int, end: int, separator: str) -> list[Cell]:
