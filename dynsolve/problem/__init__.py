@@ -10,6 +10,7 @@
                      table, linear  `dh`: rows, stars, coordinates
                      drawing        `axes`, `tip`, `zero`: joint axes as they are drawn
                      framing        the table and the base of a drawing
+                     drawn_places   points of a drawing, in the frames of their links
                      bodies         `masses`
                      base           `gravity`, `base`
                      places         a point of a link: `center`, `at`

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix
+from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
 from dynsolve.problem.rotations import ParsedRotation, check_moving, read_rotation
@@ -106,14 +107,18 @@ class ParsedBody:
 
 
 def read_bodies(
-    faults: Faults, node: YamlNode | None, rows: int, coordinates: Mapping[str, str]
+    faults: Faults,
+    node: YamlNode | None,
+    rows: int,
+    coordinates: Mapping[str, str],
+    drawn: DrawnFrames = NOT_DRAWN,
 ) -> tuple[ParsedBody, ...]:
     """The entries under `masses:`; everything wrong with one is reported."""
     nodes = items(faults, node, "masses", f"a list of bodies; {_EXAMPLE}") if not _is_empty(node) else ()
     if len(nodes) > MAX_BODIES and node:
         faults.error(node.span, f"{len(nodes)} bodies; at most {MAX_BODIES} are read", "leave some out")
         nodes = nodes[:MAX_BODIES]
-    entries = [_read_body(faults, entry, i, rows, coordinates) for i, entry in enumerate(nodes, 1)]
+    entries = [_read_body(faults, entry, i, rows, coordinates, drawn) for i, entry in enumerate(nodes, 1)]
     bodies = tuple(parsed for parsed in entries if parsed)
     _check_names(faults, bodies)
     return bodies
@@ -124,7 +129,12 @@ def _is_empty(node: YamlNode | None) -> bool:
 
 
 def _read_body(
-    faults: Faults, node: YamlNode, index: int, rows: int, coordinates: Mapping[str, str]
+    faults: Faults,
+    node: YamlNode,
+    index: int,
+    rows: int,
+    coordinates: Mapping[str, str],
+    drawn: DrawnFrames,
 ) -> ParsedBody | None:
     before = len(faults.errors)
     if not isinstance(node, MappingNode):
@@ -137,18 +147,19 @@ def _read_body(
             faults.error(node.span, f"body {index} has no `{key.name}`", f"add {key.help}")
     shape = _read_shape(faults, fields.get("shape"), f"body {index}")
     tensor = _read_tensor(faults, fields.get("inertia"), f"body {index}")
+    link = read_link(faults, fields.get("link"), rows, "whose bodies do not move")
     parsed = ParsedBody(
         index=index,
         span=node.span,
         fields=fields,
         name=_read_name(faults, fields.get("name"), index),
         mass=read_cell(faults, fields.get("mass"), f"the mass of body {index}"),
-        link=read_link(faults, fields.get("link"), rows, "whose bodies do not move"),
-        center=_read_center(faults, fields, index),
+        link=link,
+        center=drawn.place(faults, _read_center(faults, fields, index), link),
         shape=shape,
         tensor=tensor,
         about=_read_about(faults, fields, index),
-        axes=_read_axes(faults, fields.get("axes"), index, coordinates),
+        axes=_in_drawn_pose(_read_axes(faults, fields.get("axes"), index, coordinates), link, drawn),
         faulty=False,
     )
     forbid(
@@ -283,6 +294,14 @@ def _read_about(faults: Faults, fields: Fields, index: int) -> str:
         )
         return "center"
     return about
+
+
+def _in_drawn_pose(axes: ParsedAxes | None, link: int | None, drawn: DrawnFrames) -> ParsedAxes | None:
+    """Axes of the base in the pose that is drawn, relative to the link where q = 0 is another pose."""
+    if axes is None or axes.kind is not AxesKind.REST:
+        return axes
+    rotation = drawn.axes_of_base(link, axes.span)
+    return axes if rotation is None else ParsedAxes(AxesKind.LINK, axes.span, rotation, axes.written)
 
 
 def _read_axes(

@@ -13,7 +13,7 @@ from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, Span,
 
 @dataclass(frozen=True, slots=True)
 class ParsedPlace:
-    """A point of a link: `kind` is tip, origin, midpoint, along (one cell), near or at (three)."""
+    """A point of a link: `kind` is tip, origin, midpoint, along (one cell), near, drawn or at (three)."""
 
     kind: str
     span: Span
@@ -51,12 +51,13 @@ def read_place(faults: Faults, node: YamlNode | None, what: str, help: str) -> P
 def _read_measured(faults: Faults, node: MappingNode, what: str, help: str) -> ParsedPlace | None:
     fields = Fields(faults, node, MEASURED.names, what)
     given = tuple(fields)
-    if len(given) == 2 or not node.entries:
-        faults.error(node.span, f"{what} takes one of along and near", help)
+    if len(given) > 1 or not node.entries:
+        faults.error(node.span, f"{what} takes one of along, near and drawn", help)
     if len(given) != 1:
         return None
     if "along" in fields:
         cell = read_cell(faults, fields.get("along"), f"along in {what}")
         return ParsedPlace("along", node.span, (cell,)) if cell else None
-    cells = read_vector(faults, fields.get("near"), f"near in {what}")
-    return ParsedPlace("near", node.span, cells) if cells else None
+    (kind,) = given
+    cells = read_vector(faults, fields.get(kind), f"{kind} in {what}")
+    return ParsedPlace(kind, node.span, cells) if cells else None

@@ -30,10 +30,12 @@ class PlaceBuilder:
 
         None (reported) for a point that would not be fixed there.
         """
-        given = self.values.column(place.cells) if place.kind in ("near", "at") else None
+        given = self.values.column(place.cells) if place.kind in ("near", "at", "drawn") else None
         fraction = self.values.expr(place.cells[0]) if place.kind == "along" else None
         if place.kind == "at":
             return given
+        if place.kind == "drawn":
+            return self._drawn(place, given, link)
         if self.links is None or link is None:
             return None
         if place.kind == "origin":
@@ -54,6 +56,15 @@ class PlaceBuilder:
             self._report_moving(self.links, place, link, key, written)
             return None
         return point
+
+    def _drawn(self, place: ParsedPlace, given: Matrix | None, link: int | None) -> Matrix | None:
+        """A point of the drawing, which must slide with what its link slides on."""
+        if given is None or self.links is None or self.links.is_fixed(given):
+            return given
+        message = f"this point is not fixed in link {link}: it slides otherwise than the drawing of the link"
+        help = "add the letters of the slides that come before the link, and no others"
+        self.faults.error(place.span, message, help)
+        return None
 
     def _report_moving(self, links: Links, place: ParsedPlace, link: int, key: str, written: str) -> None:
         shown = "tip" if place.kind == "tip" else written

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from dynsolve.notation.tree import Function, Node, Reference, Symbol
 from dynsolve.notation.walk import mapped, names_in, walk
 from dynsolve.problem.cells import Cell, denominators, forbid, read_cell, read_expressions
+from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.fields import Fields, did_you_mean, items, word
 from dynsolve.problem.kinematic_keys import ALL, MAX_POINTS, MAX_TASK, POINT, TWIST
 from dynsolve.problem.loads import ParsedLoad, read_loads
@@ -100,10 +101,16 @@ class ParsedQuestions:
 
 
 def read_questions(
-    faults: Faults, fields: Fields, rows: int, coordinates: Mapping[str, str], bodies: Collection[str]
+    faults: Faults,
+    fields: Fields,
+    rows: int,
+    coordinates: Mapping[str, str],
+    bodies: Collection[str],
+    drawn: DrawnFrames = NOT_DRAWN,
 ) -> ParsedQuestions:
     """The keys of a file that ask something of the kinematics; what is wrong with one is reported."""
-    points = tuple(_read_points(faults, fields.get("points"), rows, bodies))
+    read = _read_points(faults, fields.get("points"), rows, bodies)
+    points = tuple(replace(point, place=drawn.place(faults, point.place, point.link)) for point in read)
     for point in points:
         forbid(
             faults,
@@ -115,7 +122,7 @@ def read_questions(
     return ParsedQuestions(
         points,
         task,
-        read_loads(faults, fields.get("forces"), rows, coordinates),
+        read_loads(faults, fields.get("forces"), rows, coordinates, drawn),
         read_state(faults, fields.get("state"), coordinates),
         _read_rates(faults, fields, "velocity"),
         _read_rates(faults, fields, "acceleration"),

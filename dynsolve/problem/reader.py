@@ -17,6 +17,7 @@ from dynsolve.problem.base import read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
 from dynsolve.problem.drawing import read_drawing
+from dynsolve.problem.drawn_places import DrawnFrames
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.fields import Fields, describe, free_text, word
 from dynsolve.problem.framing import Framed, from_drawing
@@ -138,14 +139,15 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     table = framed.table
     coordinates = dict(table.coordinates)
     rows = len(table.rows)
-    bodies = read_bodies(faults, fields.get("masses"), rows, coordinates)
+    drawn = DrawnFrames.of(framed.normals, table.coordinates)
+    bodies = read_bodies(faults, fields.get("masses"), rows, coordinates, drawn)
     return ParsedFile(
         convention=convention,
         table=table,
         gravity=read_gravity(faults, fields, table.names),
         base=framed.base,
         bodies=bodies,
-        questions=read_questions(faults, fields, rows, coordinates, [body.name for body in bodies]),
+        questions=read_questions(faults, fields, rows, coordinates, [body.name for body in bodies], drawn),
         normals=framed.normals,
     )
 

@@ -6,11 +6,14 @@ same one, save where a comment says otherwise.
 
 from __future__ import annotations
 
+from math import pi
+
 import pytest
 
 from dynsolve.notation.printing import Style
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import Problem, read_problem
+from tests.support import assert_close, numbers, solve_json
 from tests.unit.problem.marked import errors, places, unmarked
 
 STARRED = Style(star=True)
@@ -178,6 +181,85 @@ FAULTS = {
 
 @pytest.mark.parametrize(("marked", "message", "help"), FAULTS.values(), ids=FAULTS)
 def test_a_fault_is_told_where_it_stands(marked: str, message: str, help: str) -> None:
+    text, expected = unmarked(marked)
+    found = errors(text)
+    assert places(found) == expected
+    assert message in found[0].message
+    assert help in found[0].help
+
+
+# -- points and bodies in the drawing --------------------------------------------------------------
+
+RRP_AS_DRAWN = """
+axes:
+  - {turn: theta1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {turn: theta2, about: [0, -1, 0], through: [0, 0, L1]}
+  - {slide: d3, along: [1, 0, 0], through: [0, 0, L1]}
+tip: [a2 + d3, 0, L1]
+zero: ZERO
+masses:
+  - {mass: m2, link: 2, center: {drawn: [lc2, 0, L1]}, inertia: {xx: Ix, yy: Iy, zz: Iz}, axes: base}
+  - {mass: m3, link: 3, center: {drawn: [d3 + lc3, 0, L1]}}
+points:
+  P: {link: 3, at: {drawn: [d3, 0, L1 + h]}}
+find: [pP, D]
+"""
+RRP_IN_FRAMES = """
+dh:
+  - {theta: theta1*, d: L1, alpha: 90deg}
+  - {theta: theta2* + 90deg, alpha: 90deg}
+  - {d: d3* + a2}
+masses:
+  - {mass: m2, link: 2, center: [0, 0, lc2], inertia: {xx: Ix, yy: Iy, zz: Iz}, axes: base}
+  - {mass: m3, link: 3, center: [0, 0, lc3 - a2]}
+points:
+  P: {link: 3, at: [h, 0, -a2]}
+find: [pP, D]
+"""
+
+
+def results(text: str) -> dict[str, object]:
+    found: dict[str, object] = solve_json(text)["results"]
+    return {name: found[name] for name in ("pP", "D", "H")}
+
+
+def test_points_of_the_drawing_are_the_same_in_their_frames() -> None:
+    assert results(RRP_AS_DRAWN.replace("ZERO", "drawn")) == results(RRP_IN_FRAMES)
+
+
+def test_they_are_so_too_where_the_coordinates_are_the_tables() -> None:
+    """With θ_2 and d_3 of the table in the place of θ_2 + 90° and d_3 + a_2."""
+    values = {"theta1": 0.3, "theta2": 0.4, "d3": 0.7, "L1": 1.1, "a2": 0.6, "lc2": 0.2, "lc3": 0.5, "h": 0.9,
+              "m2": 2.0, "m3": 3.0, "Ix": 0.1, "Iy": 0.2, "Iz": 0.4}  # fmt: skip
+    table = values | {"theta2": values["theta2"] + pi / 2, "d3": values["d3"] + values["a2"]}
+    ours, theirs = results(RRP_AS_DRAWN.replace("ZERO", "table")), results(RRP_IN_FRAMES)
+    for name, value in ours.items():
+        assert_close(numbers(value, table), numbers(theirs[name], values), name)
+
+
+DRAWN_FAULTS = {
+    "without a drawing": (
+        "dh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1, center: «{drawn: [l, 0, 0]}»}]",
+        "there is no drawing",
+        "`axes`",
+    ),
+    "it stays behind": (
+        RRP_AS_DRAWN.replace("{drawn: [d3 + lc3, 0, L1]}", "«{drawn: [lc3, 0, L1]}»").replace(
+            "ZERO", "drawn"
+        ),
+        "not fixed in link 3",
+        "the letters of the slides",
+    ),
+    "two ways at once": (
+        "dh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1, center: «{along: 1/2, drawn: [l, 0, 0]}»}]",
+        "one of along, near and drawn",
+        "tip",
+    ),
+}
+
+
+@pytest.mark.parametrize(("marked", "message", "help"), DRAWN_FAULTS.values(), ids=DRAWN_FAULTS)
+def test_a_point_that_is_not_in_the_drawing_is_told(marked: str, message: str, help: str) -> None:
     text, expected = unmarked(marked)
     found = errors(text)
     assert places(found) == expected
