@@ -80,7 +80,7 @@ def _unsolved() -> Step:
         title="No closed form",
         why=(
             "No equation with one unknown in a known form was found: turned into the frames of the joints, "
-            "squared and added, these equations stay coupled. Such arms are solved in numbers.",
+            "squared and added, these equations stay coupled. Such arms are solved numerically.",
         ),
         detail=Detail.BRIEF,
         uses=(),

@@ -63,7 +63,7 @@ def _load(context: Context, index: int, load: Load) -> Step:
         why=(
             "In every motion its power is ", *_power(index, load), ", and that of its generalized forces ",
             Product((Transpose(Q), letters.QD)), ": so the transpose of the Jacobian of ", *where,
-            " takes it to the joints.",
+            " gives its effect on the joints.",
         ),
         formula=equation(Q, sum_of(_in_letters(index, load))),
         source=spong("4.10"),
@@ -148,7 +148,7 @@ def _total(context: Context) -> Step:
         id="Q",
         stage=STAGE,
         title="The generalized forces from outside",
-        why=(("The sum over the forces. " if len(parts) > 1 else "There is one force only. "), *at),
+        why=(("The sum over the forces. " if len(parts) > 1 else "There is only one force. "), *at),
         formula=equation(letters.Q_FORCES, sum_of(parts)),
         source=spong("4.10"),
         working=(equation(letters.Q_FORCES, general),) if at and len(parts) > 1 else (),
@@ -160,9 +160,9 @@ def _total(context: Context) -> Step:
 def _holding(context: Context) -> Step:
     Q, g = letters.Q_FORCES, letters.G
     heavy = bool(context.robot.bodies) and not context.robot.gravity.is_zero
-    why: Prose = ("At rest nothing but weight and these forces is left of the equations of motion. ",)
+    why: Prose = ("At rest only gravity and these forces are left in the equations of motion. ",)
     if not heavy:
-        why = ("At rest, and without weight, only these forces are left of the equations of motion. ",)
+        why = ("At rest, and without gravity, only these forces are left in the equations of motion. ",)
     right: Node = Sum((g, Negative(Q))) if heavy else Negative(Q)
     return Step(
         id="tau_static",

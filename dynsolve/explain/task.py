@@ -74,8 +74,8 @@ def _position(context: Context, point: NamedPoint) -> Step:
         in_frame = Letter("p", Symbol(point.name), Number(link), "bold")
         formula = equation(p, Sum((Product((letters.R(context.robot, link), in_frame)), letters.o(link))))
         why = (
-            f"{point.name} is fixed in link {link}: its coordinates in frame {link} are constant, and the "
-            "frame takes it along.",
+            f"{point.name} is fixed in link {link}: its coordinates in frame {link} are constant, and it "
+            "moves with the frame.",
         )
         working = (equation(in_frame, local),)
     return Step(
@@ -194,7 +194,7 @@ def _jacobian(context: Context, task: Task) -> Step:
         stage=STAGE,
         title="The Jacobian of the task",
         why=(
-            "A column a coordinate: the derivatives of all components by it. Then ",
+            "One column for each coordinate: the derivatives of all components by it. Then ",
             equation(letters.rate(letters.TASK), Product((letters.J_TASK, letters.QD))),
             ".",
         ),

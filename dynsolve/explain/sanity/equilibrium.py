@@ -40,7 +40,7 @@ def _everywhere(context: Context) -> Prose:
     heights = [context.values[f"P{body.name}"] for body in context.robot.bodies]
     zero = (equation(letters.G, Number(0)), " in every pose: ")
     if any(ring.depends_on_coordinates(height) for height in heights):
-        return (*zero, "what some mass centres gain in height others lose.")
+        return (*zero, "some mass centres rise as others fall.")
     return (*zero, "no mass centre changes its height, so gravity needs no torque and no force of a joint.")
 
 
@@ -48,9 +48,9 @@ def _hanging_and_upright(context: Context) -> Prose:
     hanging, upright = balanced_poses(context)
     why: Prose = ()
     if hanging is not None:
-        why += (*_zero_at(hanging), "minimum: the arm hangs, and stays when it is let go. ")
+        why += (*_zero_at(hanging), "minimum: the arm hangs; the equilibrium is stable. ")
     if upright is not None:
-        why += (*_zero_at(upright), "maximum: the arm stands upright, and the least push makes it fall. ")
+        why += (*_zero_at(upright), "maximum: the arm stands upright; the equilibrium is unstable. ")
     assumed = ("With positive lengths. ",) if context.robot.parameters else ()
     return (*assumed, *why) if why else ()
 

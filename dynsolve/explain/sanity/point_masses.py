@@ -29,7 +29,7 @@ def point_masses_step(context: Context) -> Step | None:
         stage=Stage.VECTORIZED,
         title="Check: point masses",
         why=(
-            "Without the tensors, as if each mass sat in its mass centre, ",
+            "Without the tensors, as if each mass were concentrated at its mass centre, ",
             letters.D,
             " is made of masses times products of distances:",
         ),
