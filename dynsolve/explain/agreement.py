@@ -34,7 +34,7 @@ def agreement_step(context: Context) -> Step:
     why = ""
     if same:
         verb = "is" if len(same) == 1 else "are"
-        why = f"{and_joined(same)}, read off from the forces and assembled directly, {verb} equal, exactly."
+        why = f"{and_joined(same)}, read off from the forces and assembled directly, {verb} exactly equal."
     if wrong:
         why += f" The two ways differ in {and_joined(wrong)}."
     return Step(

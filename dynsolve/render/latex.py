@@ -54,6 +54,7 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\jot}{2pt}
 \setcounter{tocdepth}{1}
 \setcounter{MaxMatrixCols}{30}
+\renewcommand{\arraystretch}{1.12}
 \allowdisplaybreaks[3]
 \clubpenalty=9000 \widowpenalty=9000
 \AtBeginDocument{\setlength{\abovedisplayskip}{5pt plus 2pt}\setlength{\belowdisplayskip}{5pt plus 2pt}}
@@ -96,7 +97,7 @@ def render_fragment(document: Document, style: Style = PLAIN) -> str:
     r"""A fragment for \input into another document; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
     body = "\n".join(page.blocks(document.blocks))
-    begin = "\\begingroup\\allowdisplaybreaks[3]\\emergencystretch=4em"
+    begin = "\\begingroup\\allowdisplaybreaks[3]\\emergencystretch=4em\\renewcommand{\\arraystretch}{1.12}"
     return f"{_NEEDS}{_MACROS}{begin}\n{body}\n\\par\\endgroup\n"
 
 
