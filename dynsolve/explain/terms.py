@@ -22,6 +22,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import pairs
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.explain.writing import listed
 from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import Node, Symbol, equation
 from dynsolve.quantities import letters
@@ -110,15 +111,14 @@ def terms_step(context: Context) -> Iterator[Step]:
     known = Dimensions(robot.ring, robot)
     units_known = _fit(context, known, found)
     why = [_MEANINGS[kind] for kind in Kind if kind in kinds]
-    if units_known:
-        why.append(_said_of_units(robot.coordinates))
+    checked = _said_of_units(robot.coordinates) if units_known else ()
     header = ("force", "term", "what it is", *(("unit",) if units_known else ()))
     rows = [row for q, terms in found for row in _rows(context, q, terms, known if units_known else None)]
     yield Step(
         id="terms",
         stage=Stage.VECTORIZED,
         title="What the terms of the forces are",
-        why=(" ".join(why),),
+        why=(" ".join(why), *checked),
         source=spong("7.3"),
         table=Table(header, tuple(rows)),
         is_task=False,
@@ -170,11 +170,11 @@ def _force_unit(dim: units.Dimension) -> str:
     return "N m" if dim == units.ENERGY else units.si(dim)
 
 
-def _said_of_units(coordinates: tuple[Coordinate, ...]) -> str:
+def _said_of_units(coordinates: tuple[Coordinate, ...]) -> Prose:
     kinds = {q.type for q in coordinates}
-    said = []
+    said: list[Prose] = []
     if JointType.REVOLUTE in kinds:
-        said.append("kg m²/s² = N m in a torque, since an angle is a number")
+        said.append((units.node("kg m^2/s^2 = N m"), " in a torque (an angle is a number)"))
     if JointType.PRISMATIC in kinds:
-        said.append("kg m/s² = N in a force")
-    return f"The units are a check: factor times rates gives {'; and '.join(said)}."
+        said.append((units.node("kg m/s^2 = N"), " in a force"))
+    return (" The units are a check: factor times rates gives ", *listed(said), ".")

@@ -204,7 +204,8 @@ def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
     uses = (Uses(inputs),) if inputs else ()
     if step.formula is not None:
         yield Formula(step.formula, step.source)
-    if step.lines and step.working:
+    led_on = bool(step.lines or step.concluding)
+    if led_on and step.working:
         yield from uses
     for working in step.working:
         yield Formula(working, optional=True)
@@ -215,7 +216,7 @@ def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
         yield Formula(line.formulas[0]) if len(line.formulas) == 1 else Equations(line.formulas)
     if step.concluding:
         yield Text(step.concluding)
-    if not step.lines:
+    if not led_on:
         yield from uses
 
 

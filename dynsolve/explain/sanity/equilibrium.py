@@ -75,7 +75,7 @@ def _slides(context: Context) -> bool:
 
 
 def _zero_at(pose: Pose) -> Prose:
-    return ("At ", *listed(written(pose)), " ", letters.G, " is zero and ", letters.P, " has a ")
+    return ("At ", *listed(written(pose)), ", ", letters.G, " is zero and ", letters.P, " has a ")
 
 
 def _is_definite(context: Context, pose: Pose, sign: int) -> bool:

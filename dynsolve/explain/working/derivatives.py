@@ -26,16 +26,17 @@ def momentum_rate(context: Context, q: Coordinate) -> Way:
     """From ∂L/∂q̇ to its derivative with respect to time."""
     left = letters.time_derivative(letters.partial_derivative(letters.L, letters.velocity(q)))
     rule = by_time(context.robot.ring.names)
-    return _way(context, f"dLdqd{q.index}", rule, f"ddt{q.index}", left)
+    return _way(context, f"dLdqd{q.index}", rule, f"ddt{q.index}", left, "Term by term:")
 
 
 def coordinate_derivative(context: Context, q: Coordinate) -> Way:
     """From L to ∂L/∂q."""
     left = letters.partial_derivative(letters.L, Symbol(q.name))
-    return _way(context, "L", by_symbol(Symbol(q.name)), f"dLdq{q.index}", left)
+    by = "Term by term, by the product and the chain rule:"
+    return _way(context, "L", by_symbol(Symbol(q.name)), f"dLdq{q.index}", left, by)
 
 
-def _way(context: Context, name: str, rule: Rule, result: str, left: Node) -> Way:
+def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: str) -> Way:
     if context.robot.n > MOST_JOINTS:
         return SILENT
     value, form = context.values[result], context.form(result)
@@ -43,10 +44,7 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node) -> Wa
     used = identities(value.ring, found.tree, form)
     if not (found.by_product_rule or used) or found.tree == form:
         return SILENT
-    by: Prose = ("Term by term, by the product and the chain rule:",)
-    if not found.by_product_rule:
-        by = ("Term by term:",)
-    return chain(value, [(by, found.tree)], lambda tree: equation(left, tree), _collected(used or ()))
+    return chain(value, [((by,), found.tree)], lambda tree: equation(left, tree), _collected(used or ()))
 
 
 def _collected(used: Sequence[Identity]) -> Prose:

@@ -78,8 +78,8 @@ def test_an_upright_elbow_has_no_mass_away_from_its_waist() -> None:
 
 def test_where_the_planar_arm_hangs_and_where_it_stands() -> None:
     text = said("planar-2r", "equilibrium")
-    assert "At q₁ = -90° and q₂ = 0 g is zero and 𝒫 has a minimum: the arm hangs" in text
-    assert "At q₁ = 90° and q₂ = 0 g is zero and 𝒫 has a maximum" in text
+    assert "At q₁ = -90° and q₂ = 0, g is zero and 𝒫 has a minimum: the arm hangs" in text
+    assert "At q₁ = 90° and q₂ = 0, g is zero and 𝒫 has a maximum" in text
 
 
 def test_an_arm_in_the_horizontal_plane_needs_nothing_against_gravity() -> None:
