@@ -17,7 +17,8 @@ from dynsolve.explain.working.differentiation import Rule, by_symbol, by_time, d
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain, equals
 from dynsolve.explain.writing import sum_of
-from dynsolve.notation.tree import Node, Product, Symbol, equation
+from dynsolve.notation.tree import Node, Product, Sum, Symbol, equation
+from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Coordinate
 
@@ -42,9 +43,23 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: s
     value, form = context.values[result], context.form(result)
     found = differentiated(context.form(name), rule, decimal=is_numeric(context.robot))
     used = identities(value.ring, found.tree, form)
-    if not (found.by_product_rule or used) or found.tree == form:
+    if not (found.by_product_rule or used) or _are_alike(found.tree, form):
         return SILENT
     return chain(value, [((by,), found.tree)], lambda tree: equation(left, tree), _collected(used or ()))
+
+
+def _are_alike(left: Node, right: Node) -> bool:
+    """Whether two trees are the same but for the order of terms and factors."""
+    return mapped(left, _ordered) == mapped(right, _ordered)
+
+
+def _ordered(node: Node) -> Node:
+    match node:
+        case Sum(terms):
+            return Sum(tuple(sorted(terms, key=repr)))
+        case Product(factors):
+            return Product(tuple(sorted(factors, key=repr)))
+    return node
 
 
 def _collected(used: Sequence[Identity]) -> Prose:
@@ -66,7 +81,11 @@ def slopes(context: Context) -> Way:
         entry = context.matrix("D").rows[i][j]
         found = differentiated(entry, by_symbol(Symbol(q.name)), decimal=is_numeric(context.robot))
         named = identities(value.ring, found.tree, form)
-        if (found.by_product_rule or named) and found.tree != form and equals(found.tree, value):
+        if (
+            (found.by_product_rule or named)
+            and not _are_alike(found.tree, form)
+            and equals(found.tree, value)
+        ):
             shown.append(equation(_slope(i, j, q), found.tree, form))
             used |= dict.fromkeys(named or ())
     if not shown:

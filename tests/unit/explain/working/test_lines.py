@@ -117,6 +117,7 @@ def test_a_derivative_term_by_term_where_several_factors_move() -> None:
         "Collected:",
     ]
     assert lines("in3140-rp", "ddt2") == lines("planar-2r", "dLdq2") == []
+    assert lines("in3140-rp", "ddt1") == lines("spherical-rrp", "ddt2") == [], "terms in another order"
 
 
 def test_the_addition_theorem_of_a_derivative_is_named() -> None:
