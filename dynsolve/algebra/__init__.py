@@ -10,7 +10,8 @@ Arrows run one way, from the first of these files to the last:
   its derivatives; `floats`: values in floating point;
 - `fraction`, `ring_values`, `build`, `matrix`: fractions, the value of a formula, making a
   ring, matrices; `transfer`: from one ring into another; `at_state`: values for coordinates;
-- `fraction_matrix`, `pseudoinverse`: matrices of fractions, systems of linear equations;
+- `fraction_matrix`, `pseudoinverse`, `spans`: matrices of fractions, systems of linear
+  equations, spaces;
 - `minors`, `trig_factor`, `positivity`: determinants, factors in sines and cosines, what
   is positive by its form;
 - `fourier`, `compact`: the Fourier form, and what a textbook would print.

@@ -75,6 +75,10 @@ class AnswerJudge:
         """The verdict of an answer that was compared with the key; `base` is what else is known of it."""
         if compared.correct:
             return self._correct(base, compared)
+        source = self.explanations.of_span(compared) if compared.written else None
+        if source is not None:
+            used = in_order(self.hand_in.graph, source.used)
+            return replace(base, verdict=Verdict.FOLLOWS, follows_from=used)
         if not compared.rows or compared.obstacles:
             found = tuple(slip(one.code, yours=one.yours) for one in compared.obstacles)
             return replace(base, verdict=Verdict.WRONG, diagnosis=found)

@@ -73,7 +73,7 @@ def _task(robot: Robot, asked: Task) -> Iterator[Rule]:
 
 
 def rate_rules(robot: Robot) -> Iterator[Rule]:
-    """The rules of joint rates and accelerations; none where no velocity and no acceleration is given."""
+    """The rules of joint rates and accelerations, and of what the joints and the task can do."""
     asked = robot.questions
     at = AtState(robot.ring, asked.state.by_symbol)
     velocity, acceleration = asked.velocity, asked.acceleration
@@ -91,6 +91,10 @@ def rate_rules(robot: Robot) -> Iterator[Rule]:
         yield Rule("qd", ("Jr",), joint_rates)
     if acceleration is not None:
         yield Rule("qdd", ("Jr", "Jr_dot"), joint_accelerations)
+    if Stage.RATES in asked_stages(asked):
+        yield Rule("nullspace", ("Jr",), lambda J: rates.motions_without_effect(at.matrix(J)))
+        yield Rule("rangespace", ("Jr",), lambda J: rates.possible_motions(at.matrix(J)))
+        yield Rule("lost", ("Jr",), lambda J: rates.lost_motions(at.matrix(J)))
 
 
 def _position_rule(robot: Robot, point: str) -> str:

@@ -27,13 +27,15 @@ TOLERANCE = 1e-7
 NEGLIGIBLE = 1e-9
 """A row that is shorter than this after the others were taken off depends on them."""
 
+_SPACES = ("nullspace", "rangespace", "lost")
+
 Vector = list[float]
 Rows = Sequence[Sequence[float]]
 
 
 def rate_names(robot: Robot, wanted: frozenset[str]) -> tuple[str, ...]:
     """Which of the wanted results are compared, with the Jacobians that they come from."""
-    asked = [name for name in ("det", "qd", "qdd") if name in wanted]
+    asked = [name for name in ("det", "qd", "qdd", *_SPACES) if name in wanted]
     if not asked:
         return ()
     needed = {whole_or_task(robot), "Jr"} | ({"Jr_dot"} if "qdd" in asked else set())
@@ -52,7 +54,8 @@ def verify_rates(robot: Robot, results: Mapping[str, Node], states: int = 5) -> 
         here = dict(zip(results, program.run(values), strict=True))
         at_state = {**values, **state_numbers(robot, values)}
         there = dict(zip(results, program.run(at_state), strict=True))
-        for name, gap in (*_determinant(robot, here), *_rates(robot, at_state, there)):
+        found = (*_determinant(robot, here), *_rates(robot, at_state, there), *_spaces(there))
+        for name, gap in found:
             if not gap <= TOLERANCE:
                 raise VerificationError(f"{name} differs from elimination; this is a fault of dynsolve")
 
@@ -93,6 +96,29 @@ def _rates(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) -
         wanted = _numbers(robot, asked.acceleration, values)
         wanted = [a - b for a, b in zip(wanted, _times(ours["Jr_dot"], rates), strict=True)]
         yield "qdd", _gap(ours["Jr"], _flat(ours["qdd"]), wanted)
+
+
+def _spaces(ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
+    """How far the vectors of a space are from it, and whether they are as many as its dimension."""
+    asked = [name for name in _SPACES if name in ours]
+    if not asked:
+        return
+    J = ours["Jr"]
+    rank = len(_orthonormal(J))
+    inside = {"nullspace": J, "lost": _transposed(J)}
+    dimension = {"nullspace": len(J[0]) - rank, "rangespace": rank, "lost": len(J) - rank}
+    for name in asked:
+        vectors = _orthonormal(_transposed(ours[name]))
+        gap = 0.0 if len(vectors) == dimension[name] else float("inf")
+        for vector in vectors if name in inside else ():
+            gap = max(gap, *map(abs, _times(inside[name], vector)))
+        for column in _transposed(J) if name == "rangespace" else ():
+            rest = list(column)
+            for vector in vectors:
+                along = sum(a * b for a, b in zip(vector, rest, strict=True))
+                rest = [a - along * b for a, b in zip(rest, vector, strict=True)]
+            gap = max(gap, *map(abs, rest))
+        yield name, gap
 
 
 def _numbers(robot: Robot, column: Matrix, values: Mapping[str, float]) -> Vector:

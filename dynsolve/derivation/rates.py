@@ -11,6 +11,7 @@ from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant
 from dynsolve.algebra.pseudoinverse import pseudoinverse_times
+from dynsolve.algebra.spans import nullspace, rangespace
 from dynsolve.derivation.energy import velocities
 from dynsolve.robot.model import Robot
 
@@ -43,3 +44,18 @@ def joint_rates(jacobian: Matrix, velocity: Matrix) -> Matrix | FractionMatrix:
 def wanted_by_accelerations(robot: Robot, acceleration: Matrix, jacobian_rate: Matrix) -> Matrix:
     """r̈ - J̇ q̇, m×1: what J q̈ must be."""
     return acceleration - jacobian_rate @ velocities(robot)
+
+
+def motions_without_effect(jacobian: Matrix) -> Matrix:
+    """A basis of the joint rates with J q̇ = 0, which the task does not see."""
+    return nullspace(jacobian)
+
+
+def possible_motions(jacobian: Matrix) -> Matrix:
+    """A basis of the velocities J q̇ of the task that are possible."""
+    return rangespace(jacobian)
+
+
+def lost_motions(jacobian: Matrix) -> Matrix:
+    """A basis of the directions across all possible ones: Jᵀ F = 0, so forces along them need no torque."""
+    return nullspace(jacobian.T)

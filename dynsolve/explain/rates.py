@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.matrix import Matrix
@@ -14,7 +15,7 @@ from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.statics import state_prose
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import is_small
+from dynsolve.explain.writing import is_small, side_by_side
 from dynsolve.notation.tree import (
     Letter,
     Negative,
@@ -29,6 +30,7 @@ from dynsolve.notation.tree import (
     Words,
     equation,
 )
+from dynsolve.notation.tree import Matrix as Tree
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
@@ -37,11 +39,13 @@ _J, _JT = letters.J_TASK, Transpose(letters.J_TASK)
 
 
 def steps(context: Context) -> Iterator[Step]:
-    """q̇ and q̈, where they are asked for."""
-    if "qd" in context.wanted:
+    """q̇, q̈ and what the joints and the task can do, where they are asked for."""
+    wanted = context.wanted
+    if "qd" in wanted:
         yield _rates(context)
-    if "qdd" in context.wanted:
+    if "qdd" in wanted:
         yield _accelerations(context)
+    yield from (_space(context, name) for name in _SPACES if name in wanted)
 
 
 # -- the determinant -------------------------------------------------------------------------------
@@ -178,3 +182,63 @@ def _notes(J: Matrix, right: Matrix) -> Iterator[Prose]:
         )  # fmt: skip
     if rank < min(J.shape):
         yield (f"The rank is {rank} here, less than it can be: ", Product((_J, _JT)), " has no inverse.")
+
+
+# -- what the joints and the task can do -----------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Space:
+    """What a space is called, what it is, and its letter."""
+
+    title: str
+    why: str
+    letter: Node
+    condition: Node
+
+
+_F = letters.bold("F")
+_SPACES = {
+    "nullspace": _Space(
+        "Motions of the joints that the task does not see",
+        "Every motion of the joints with ",
+        letters.NULLSPACE,
+        equation(Product((_J, letters.QD)), Number(0)),
+    ),
+    "rangespace": _Space(
+        "Velocities of the task that are possible",
+        "All that the joints can make of it: the columns of the Jacobian span ",
+        letters.RANGESPACE,
+        equation(_R_DOT, Product((_J, letters.QD))),
+    ),
+    "lost": _Space(
+        "Motions of the task that are lost",
+        "Across all possible velocities. A force along them needs no torque: ",
+        letters.LOST,
+        equation(Product((_JT, _F)), Number(0)),
+    ),
+}
+
+
+def _space(context: Context, name: str) -> Step:
+    space, form = _SPACES[name], context.matrix(name)
+    at = AtState(context.robot.ring, context.robot.questions.state.by_symbol)
+    J = at.matrix(context.values["Jr"])
+    vectors = [Tree(tuple((row[k],) for row in form.rows)) for k in range(len(form.rows[0]))]
+    spanned: Node = Row((Words("span "), Row((Words("{"), side_by_side(vectors), Words("}")))))
+    if not vectors:
+        spanned = Row((Words("{"), Number(0), Words("}")))
+    rank, count = rank_parts(J).rank, len(vectors)
+    dimension = f"The rank is {rank}, and the dimension of this space {count}."
+    return Step(
+        id=name,
+        stage=Stage.RATES,
+        title=space.title,
+        why=(space.why, space.condition, ". ", *state_prose(context)),
+        formula=space.condition,
+        source=spong("4.9") if name != "lost" else spong("4.10"),
+        working=(equation(_J, context.show(J)),),
+        result=(equation(space.letter, spanned),),
+        notes=((dimension,),),
+        detail=Detail.BRIEF,
+    )

@@ -50,10 +50,15 @@ class Kind(Enum):
     """Where something holds: alternatives, each of equations that hold together."""
     BRANCHES = "branches"
     """Solutions: alternatives, each an expression for every coordinate."""
+    SPAN = "span"
+    """A space, by a matrix whose columns span it."""
 
 
-Size = int | Literal["n", "m"]
-"""Rows or columns; n is the number of coordinates, m that of the components of the task."""
+Size = int | Literal["n", "m", "any"]
+"""Rows or columns; n is the number of coordinates, m that of the components of the task.
+
+How many vectors span a space is known when it is computed: there may be any number.
+"""
 
 LetterMaker = Callable[..., Node]
 """letter(robot, *index): what a quantity is set with; the printers make every notation of it."""

@@ -78,7 +78,8 @@ class Owners:
 
     def size(self, size: Size) -> int:
         """Rows or columns in numbers."""
-        return {"n": len(self.coordinates), "m": self.task_rows}[size] if isinstance(size, str) else size
+        sizes = {"n": len(self.coordinates), "m": self.task_rows, "any": 0}
+        return sizes[size] if isinstance(size, str) else size
 
     def indices(self, owner: Owner) -> Iterator[tuple[int, ...]]:
         """The index of every owner of a kind, from 1."""

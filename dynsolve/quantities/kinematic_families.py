@@ -138,5 +138,33 @@ QDD = Family(
     spellings=("qddot", "ddq"),
 )
 
+# -- what the joints and the task can do at a state ------------------------------------------------
+
+NULLSPACE = Family(
+    name="nullspace",
+    stage=Stage.RATES,
+    kind=Kind.SPAN,
+    shape=("n", "any"),
+    letter=of_robot(letters.NULLSPACE),
+    spellings=("N", "null", "kernel", "ker"),
+)
+
+RANGESPACE = Family(
+    name="rangespace",
+    stage=Stage.RATES,
+    kind=Kind.SPAN,
+    shape=("m", "any"),
+    letter=of_robot(letters.RANGESPACE),
+    spellings=("range", "image", "R"),
+)
+
+LOST = Family(
+    name="lost",
+    stage=Stage.RATES,
+    kind=Kind.SPAN,
+    shape=("m", "any"),
+    letter=of_robot(letters.LOST),
+)
+
 FAMILIES: tuple[Family, ...] = tuple(record for record in vars().values() if isinstance(record, Family))
 """The records above, in their order."""

@@ -119,7 +119,7 @@ class _Exporter:
         return results | dict(table_results(self.solution, self.python))
 
     def value(self, quantity: Quantity) -> Any:
-        """A scalar as text, a matrix as its rows, a vector as its entries; a set as lists of equations."""
+        """A scalar as text, a matrix as its rows, a vector as its entries; sets and spans as lists."""
         match quantity.family.kind:
             case Kind.EQUATIONS:
                 return [[f"{self.python.text(e)} = 0" for e in one] for one in self.configurations.singular]
@@ -134,6 +134,8 @@ class _Exporter:
         if not isinstance(form, Matrix):
             return self.python.text(form)
         rows = [[self.python.text(entry) for entry in row] for row in form.rows]
+        if quantity.family.kind is Kind.SPAN:
+            return [list(vector) for vector in zip(*rows, strict=True)]
         return [entry for (entry,) in rows] if quantity.family.is_vector else rows
 
     @cached_property

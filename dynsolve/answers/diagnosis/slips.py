@@ -284,6 +284,12 @@ dh: [{theta: q1*}, {theta: q2*, a: l1}, {a: l2}]
 strict: true
 dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
 """, "DH", [["q1", "0", "l1", "0"], ["q2 + 90deg", "0", "l2", "0"]])),
+    Slip("span", "another space", "{yours}", "Put your vectors into the equation that they must solve.",
+         Example("""
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+state: {q2: 0, q3: 0}
+find: [nullspace]
+""", "nullspace", [["l2 + l3", "-l1", "0"], ["l3", "0", "-l1"]])),
     Slip("shape", "the size of the matrix", "{yours}", "Count rows and columns.",
          Example(_2R, "g", [["m2*lc2*g*cos(q1)"]])),
 )  # fmt: skip

@@ -9,6 +9,7 @@ graph                         which answers lead to which, by which routes
 entry_comparison              whether two scalars are equal
 key_comparison                an answer compared with the key, entry by entry
 other_solutions               rates that are right, though not those of least norm
+spans                         vectors that span a space
 planar                        vectors and Jacobians of planar robots, without rows of zeros
 mechanism                     whether two Denavit-Hartenberg tables describe one mechanism
 zero_height                   the zero of height that the student has chosen

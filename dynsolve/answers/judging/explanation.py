@@ -22,6 +22,7 @@ from dynsolve.answers.judging.direction import Direction
 from dynsolve.answers.judging.follow_through import FollowThrough, PossibleValue, StudentValue
 from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
+from dynsolve.answers.judging.spans import spans
 from dynsolve.answers.judging.student_values import student_values
 from dynsolve.robot.model import Coordinate
 
@@ -84,6 +85,12 @@ class Explanations:
             if all(self._explains(value, compared, i, j) for i, j in different):
                 return value
         return None
+
+    def of_span(self, compared: KeyComparison) -> PossibleValue | None:
+        """The first space that the student's own answers lead to and that the written vectors span."""
+        numbers = self.hand_in.compare_entry.values
+        candidates = self._rests_on_answers(compared)
+        return next((v for v in candidates if spans(v.value, compared.written, numbers)), None)
 
     def of_entry(
         self, compared: KeyComparison, i: int, j: int, whole: PossibleValue | None

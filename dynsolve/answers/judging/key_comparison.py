@@ -14,8 +14,10 @@ from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntr
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.other_solutions import is_other_solution
 from dynsolve.answers.judging.planar import unfolded
+from dynsolve.answers.judging.spans import difference, readings, spans
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
+from dynsolve.quantities.family import Kind
 
 Rows = tuple[tuple[WrittenEntry, ...], ...]
 
@@ -44,7 +46,8 @@ class Obstacle:
 class KeyComparison:
     """An answer compared with the key: its entries as they are compared, and whether each is right.
 
-    `is_other`: it is right although it is not the key's, one of many solutions.
+    `is_other`: it is right although it is not the key's, one of many solutions.  `written` are
+    the vectors of an answer that is a space, in the ways in which they may be meant.
     """
 
     answer_value: AnswerValue
@@ -53,6 +56,7 @@ class KeyComparison:
     right: tuple[tuple[str | None, ...], ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
     is_other: bool = False
+    written: tuple[Matrix, ...] = ()
 
     @property
     def correct(self) -> bool:
@@ -103,6 +107,9 @@ class KeyComparer:
         if value.rows is None or target.node not in self.answer_ring.rules:
             return KeyComparison(value, target)
         key = self.key(target)
+        quantity = self.graph.quantities.of_rule(target.node)
+        if quantity is not None and quantity.family.kind is Kind.SPAN:
+            return self._span(value, target, key)
         rows, obstacles = self._coriolis(value) if name == "C" else self._rows(name, value, key)
         if not rows:
             return KeyComparison(value, target, obstacles=obstacles)
@@ -115,6 +122,17 @@ class KeyComparer:
             right = tuple(tuple("" for _ in row) for row in rows)
             return replace(compared, right=right, is_other=True)
         return compared
+
+    def _span(self, value: AnswerValue, target: Target, key: Matrix) -> KeyComparison:
+        """Vectors, whether they span the key's space; the verdict is one for all of them."""
+        assert value.rows is not None
+        height = key.shape[0]
+        written = readings(value.rows, height)
+        if not spans(key, written, self.compare.values):
+            obstacle = Obstacle("span", difference(key, written, height))
+            return KeyComparison(value, target, obstacles=(obstacle,), written=written)
+        first = WrittenEntry(value.rows[0][0], value.nodes[0][0], self.changed)
+        return KeyComparison(value, target, ((first,),), (("",),), written=written)
 
     def _rows(self, name: str, value: AnswerValue, key: Any) -> tuple[Rows, tuple[Obstacle, ...]]:
         """The entries as they are compared, in the key's shape."""

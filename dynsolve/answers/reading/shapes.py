@@ -102,6 +102,8 @@ def fitted(vocabulary: Vocabulary, candidates: tuple[str, ...], value: Value) ->
             exact.append((name, Matrix(((value,),)), ""))
         elif isinstance(value, Node) and value != ZERO and vocabulary.quantities[name].family is families.W:
             loose.append((name, Matrix(((value,),)), ""))  # of a planar robot, whose axis is known
+        elif value == ZERO and 0 in shape:
+            exact.append((name, Matrix(((value,),)), ""))
         elif value == ZERO:
             rows, columns = shape
             zeros = Matrix(((ZERO,) * columns,) * rows)

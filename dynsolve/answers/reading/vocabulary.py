@@ -197,7 +197,9 @@ class Vocabulary:
     def set_named(self, name: str) -> str | None:
         """The answer of that name that is a set of equations, or of branches; None for any other."""
         found = self.quantities.canonical(name)
-        return found if found and self.quantities[found].family.kind is not Kind.VALUE else None
+        return (
+            found if found and self.quantities[found].family.kind in (Kind.EQUATIONS, Kind.BRANCHES) else None
+        )
 
     def shape(self, name: str) -> Shape:
         """Rows and columns of an answer; None for a scalar, and for what is none."""

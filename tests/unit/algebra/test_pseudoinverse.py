@@ -12,6 +12,7 @@ from dynsolve.algebra.fraction_matrix import FractionMatrix, fraction_of
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.pseudoinverse import is_solvable, pseudoinverse_times, rank_parts
 from dynsolve.algebra.ring_values import value_of
+from dynsolve.algebra.spans import nullspace, rangespace, same_span
 from dynsolve.notation.text import read
 
 Q1, BOTH = Angle.of("q1"), Angle.of("q1") + Angle.of("q2")
@@ -121,3 +122,20 @@ def test_what_is_shared_is_cancelled(above: str, below: str, numerator: str, den
     assert equal(found, RationalExpr(c, d))
     assert (found.divisor is None) == (not denominator)
     assert len(found.numerator) <= len(a) and len(found.denominator) <= len(b)
+
+
+@pytest.mark.parametrize("J", MATRICES.values(), ids=MATRICES)
+def test_spaces_have_their_dimension_and_are_across_each_other(J: Matrix) -> None:
+    """A N = 0, Aᵀ L = 0 and Lᵀ R = 0; rank and nullity add up."""
+    rank, (height, width) = rank_parts(J).rank, J.shape
+    N, R, L = nullspace(J), rangespace(J), nullspace(J.T)
+    assert (N.shape, R.shape, L.shape) == ((width, width - rank), (height, rank), (height, height - rank))
+    assert not N.shape[1] or (J @ N).is_zero
+    assert not L.shape[1] or ((J.T @ L).is_zero and (rank == 0 or (R.T @ L).is_zero))
+    assert not rank or same_span(R, J)
+
+
+def test_the_same_space_by_other_vectors() -> None:
+    one = matrix("a 0", "b 0", "0 1")
+    assert same_span(one, matrix("a 2*a", "b 2*b", "x 1")) and not same_span(one, matrix("a", "b", "x"))
+    assert not same_span(one, matrix("a 1", "b 0", "x 0"))

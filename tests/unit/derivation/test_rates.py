@@ -26,7 +26,8 @@ ROBOTS = {
 
 def forms(text: str) -> tuple[object, dict[str, Node]]:
     asked = [name for key, name in (("velocity", "qd"), ("acceleration", "qdd")) if key in text]
-    robot = read_problem(f"{text}find: [det, {', '.join(asked)}]").robot
+    spaces = "nullspace, rangespace, lost"
+    robot = read_problem(f"{text}find: [det, {spaces}, {', '.join(asked)}]").robot
     values = derive(robot)
     made = Forms(robot, values)
     return robot, {n: made(n) for n in rate_names(robot, values.leading_to(robot.questions.asked))}
@@ -45,6 +46,15 @@ def negative(node: Node) -> Node:
     if isinstance(node, Matrix):
         return Matrix(tuple(tuple(map(Negative, row)) for row in node.rows))
     return Negative(node)
+
+
+@pytest.mark.parametrize("name", ["nullspace", "rangespace", "lost"])
+def test_a_space_with_a_wrong_vector_is_found(name: str) -> None:
+    robot, results = forms(ROBOTS["singular"])
+    (first, *rest) = results[name].rows
+    wrong = Matrix(((Negative(first[0]), *first[1:]), *rest))
+    with pytest.raises(VerificationError, match="differs from elimination"):
+        verify_rates(robot, {**results, name: wrong})
 
 
 def test_elimination() -> None:
