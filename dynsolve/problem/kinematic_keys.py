@@ -114,7 +114,7 @@ KINEMATIC_KEYS = (
     Key(
         "state",
         MapOf(EXPRESSION, "values by coordinate"),
-        "Where Q, tau_static, rates and spaces are asked for: values of coordinates and of their rates (q1').",
+        "Where Q, tau_static, rates and spaces are asked for: values of coordinates and their rates (q1').",
         "{theta1: 90deg, theta1': 1}",
         "every q",
         remedy="write state: {q1: 90deg, q1': 1}",
