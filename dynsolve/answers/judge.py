@@ -79,8 +79,13 @@ class Checker:
         return ConfigurationKey(self.problem.robot, self.key, values)
 
     def __call__(self, submission: Submission) -> Report:
-        """Judge a hand-in."""
-        return Judge(self, submission).report()
+        """Judge a hand-in; what follows a table in other frames is judged in these, too."""
+        report = Judge(self, submission).report()
+        tables = [answer for answer in submission.answers if answer.name == TABLE]
+        if not tables or len(tables) == len(submission.answers):
+            return report
+        own = self.table_judge.own_problem(tables[-1])
+        return report if own is None else in_either(report, Judge(Checker(own), submission).report())
 
 
 def check(problem: Problem, submission: Submission, key: Derivation | None = None) -> Report:
@@ -215,3 +220,26 @@ class Judge:
             for value in chain
         )
         return (*self.submission.not_recognized, *self._of_names_alone, *definitions)
+
+
+IN_OWN_FRAMES = "in your own frames"
+
+
+def in_either(keys: Report, own: Report) -> Report:
+    """The report where each answer counts in the key's frames or in those of the student's table."""
+    theirs = {answer.name: answer for answer in keys.answers}
+    answers = tuple(_better(theirs.get(answer.name), answer) for answer in own.answers)
+    wrong = [answer.name for answer in answers if answer.verdict is Verdict.WRONG]
+    firsts = [first for first in (own.first_wrong, keys.first_wrong, *wrong) if first in wrong]
+    return replace(own, answers=answers, first_wrong=firsts[0] if firsts else "")
+
+
+def _better(in_keys: JudgedAnswer | None, in_own: JudgedAnswer) -> JudgedAnswer:
+    if in_keys is None or in_own.name == TABLE:
+        return in_keys or in_own
+    order = (Verdict.CORRECT, Verdict.FOLLOWS)
+    ranks = [order.index(a.verdict) if a.verdict in order else len(order) for a in (in_keys, in_own)]
+    if ranks[0] < ranks[1]:
+        return in_keys
+    is_other = in_own.given and ranks[0] != ranks[1]
+    return replace(in_own, notes=(*in_own.notes, IN_OWN_FRAMES)) if is_other else in_own

@@ -14,6 +14,7 @@ from fractions import Fraction
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.judging.mechanism.comparison import Agreement, TableComparer
 from dynsolve.answers.judging.mechanism.matching import Mismatch
+from dynsolve.answers.judging.mechanism.own_frames import in_own_frames
 from dynsolve.answers.judging.mechanism.repairs import Exchange, Repair, repair_of
 from dynsolve.answers.judging.mechanism.tables import LETTERS, Table, TableError, read_table
 from dynsolve.answers.judging.mechanism.wording import counted, effect, parting, written
@@ -43,8 +44,8 @@ class TableJudge:
         told = (Occurrence(a.place, a.label, j.verdict) for a, j in zip(answers, judged, strict=True))
         return replace(judged[-1], occurrences=tuple(told))
 
-    def agreement(self, answer: Answer) -> tuple[Table, Agreement] | None:
-        """A right table, and how it counts the coordinates; None of any other."""
+    def own_problem(self, answer: Answer) -> Problem | None:
+        """The problem in the frames of a right table; None where they are the key's, or it is wrong."""
         if not isinstance(answer.node, tree.Matrix):
             return None
         try:
@@ -52,7 +53,9 @@ class TableJudge:
             found = self.comparer(table)
         except TableError:
             return None
-        return (table, found) if isinstance(found, Agreement) else None
+        if isinstance(found, Mismatch) or self.comparer.is_the_keys(table):
+            return None
+        return in_own_frames(self.problem, table, found, self.comparer.letters)
 
     def _judged(self, answer: Answer) -> JudgedAnswer:
         base = JudgedAnswer(

@@ -51,7 +51,7 @@ class Agreement:
     """A table that is the key's mechanism: how it counts the coordinates, how it lies on the key's."""
 
     coordinates: tuple[OwnCoordinate, ...]
-    match: Match
+    matches: tuple[Match, ...]
     is_rounded: bool = False
 
     @property
@@ -95,7 +95,7 @@ class TableComparer:
                 return found
             matches.append(found)
         exact = tolerance == TOLERANCE or self._is_exact(table)
-        return Agreement(tuple(self._coordinates(table, matches)), matches[0], is_rounded=not exact)
+        return Agreement(tuple(self._coordinates(table, matches)), tuple(matches), is_rounded=not exact)
 
     def agrees(self, table: Table) -> int | None:
         """How many coordinates a right table counts otherwise than the key; None of a wrong one."""
@@ -107,6 +107,10 @@ class TableComparer:
     def is_one_of(self, table: Table, accepted: Sequence[Sequence[Sequence[Node]]]) -> bool:
         """Whether a table is one of those that count as they stand, cell by cell."""
         return any(self._is_same(table, read_table(other, self.robot.coordinates)) for other in accepted)
+
+    def is_the_keys(self, table: Table) -> bool:
+        """Whether a table is the key's own, cell by cell."""
+        return len(table) == len(self.key) and self._is_same(table, self.key)
 
     def _is_same(self, table: Table, other: Table) -> bool:
         if [(row.variable, row.rates) for row in table] != [(row.variable, row.rates) for row in other]:

@@ -16,7 +16,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import atan2, pi, sqrt
+from itertools import islice
+from math import atan2, pi, remainder, sqrt
 from typing import Any
 
 from dynsolve.answers.judging.mechanism.chains import Chain, JointLine
@@ -34,6 +35,8 @@ from dynsolve.derivation.newton_euler import (
 )
 
 _DEPENDENT = 1e-9
+_SEEN = 1e-6
+_MOST_WAYS = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,13 +44,14 @@ class Match:
     """How a chain lies on the key's.
 
     `senses` are +1 where a joint's axis points as the key's does, else -1; `offsets` what the
-    student's joint variable is, by its own sense, where the key's is 0 in its; `base` is the
-    rotation that takes the student's frame 0 to the key's world.
+    student's joint variable is, by its own sense, where the key's is 0 in its.  `base` and `shift`
+    take the student's frame 0 to the key's.
     """
 
     senses: tuple[int, ...]
     offsets: tuple[float, ...]
     base: Rotation
+    shift: Vector
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,12 +95,15 @@ class Matching:
         self.deepest = Mismatch(0, "direction")
 
     def found(self) -> Match | Mismatch:
-        """The first way in which the chains agree, or where they part."""
-        for turned in self._turnings(0, None):
-            offsets = self._moved(turned)
-            if offsets is not None:
-                return Match(turned.senses, offsets, turned.base)
-        return self.deepest
+        """The way in which the chains agree with the fewest changes, or where they part."""
+        ways = (Match(t.senses, m[0], t.base, m[1]) for t in self._turnings(0, None) if (m := self._moved(t)))
+        return min(islice(ways, _MOST_WAYS), key=self._changes, default=self.deepest)
+
+    def _changes(self, match: Match) -> int:
+        """How many joints are counted otherwise, and whether frame 0 is turned."""
+        joints = zip(match.senses, match.offsets, self.key.joints, strict=True)
+        turned = abs(match.base[0][0] - 1) > _SEEN or abs(match.base[1][0]) > _SEEN
+        return turned + sum(sense < 0 or _is_seen(offset, joint.turns) for sense, offset, joint in joints)
 
     def _fails(self, joint: int, reason: str) -> None:
         if joint > self.deepest.joint or (joint, reason) == (self.deepest.joint, "place"):
@@ -188,8 +195,8 @@ class Matching:
 
     # -- moved -------------------------------------------------------------------------------------
 
-    def _moved(self, turned: _Turned) -> tuple[float, ...] | None:
-        """How far each joint is displaced, so that every axis lies on the key's; None where none does it."""
+    def _moved(self, turned: _Turned) -> tuple[tuple[float, ...], Vector] | None:
+        """How far each joint and frame 0 are displaced to lie on the key's; None where nothing does it."""
         import numpy as np
 
         joints = self.key.joints
@@ -220,7 +227,16 @@ class Matching:
                 self._fails(end, "place")
                 return None
         ways = {j: value for (kind, j), value in zip(unknowns, solution, strict=True) if kind == "slide"}
-        return tuple(turned.senses[j] * (ways[j] if j in ways else turned.turned[j]) for j in range(n))
+        free = [value for (kind, _), value in zip(unknowns, solution, strict=True) if kind == "base"]
+        x, y, z = scaled(joints[0].direction, solution[0])
+        shift = (x + free[0], y + free[1], z + free[2]) if free else (x, y, z)
+        moves = (ways[j] if j in ways else turned.turned[j] for j in range(n))
+        return tuple(sense * move for sense, move in zip(turned.senses, moves, strict=True)), shift
+
+
+def _is_seen(offset: float, turns: bool) -> bool:
+    """Whether an offset is more than rounding, and of an angle no whole turn."""
+    return abs(remainder(offset, 2 * pi) if turns else offset) > _SEEN
 
 
 def _turned_about(before: _Turned, vector: Vector, target: Vector) -> _Turned:
