@@ -158,7 +158,7 @@ MEANINGS = [
     ("elbow-3r", "s₁, c₁, …, c₂₃", "s₁ = sin θ₁, c₁ = cos θ₁, s₂₃ = sin(θ₂ + θ₃)", ""),
     ("elbow-3r", "Cₖⱼ", "entry (k, j) of C; the textbook's letter is c", ""),
     ("elbow-3r", "𝐠, gₖ", "column of the gravity terms, its entries", ""),
-    ("planar-2r-remote", "s₁, c₁, s₂, c₂", "s₁ = sin p₁, c₁ = cos p₁", ""),
+    ("planar-2r-remote", "s₁, c₁, …, c₂", "s₁ = sin p₁, c₁ = cos p₁", ""),
     ("box-cylinder-rod-sphere", "r₁, l₂, b, l₃, r₄", "dimensions of the bodies", "m"),
     ("box-cylinder-rod-sphere", "m, l, r, x, y, z",
      "of a uniform shape: mass, length, radius, side along x, side along y, side along z", ""),
