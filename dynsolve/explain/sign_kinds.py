@@ -48,7 +48,7 @@ def index_shape(node: Node | None) -> str:
         case Words(text):
             text = text.strip()
             return "" if text == "," else "#" if text == "i" or text.startswith("i-") else text
-        case Symbol(name) if name in GREEK:
+        case Symbol(name) if name in GREEK or name == "r":  # r is the task, in J_r
             return name
     return "#"
 
@@ -63,7 +63,7 @@ def kind_of(node: Node, style: Style) -> Kind | None:
             found = base, kind, index_shape(sub) + raised
             return _SAME.get(found, found)
         case Symbol(name):
-            return "", "name", name
+            return None if name == "pi" else ("", "name", name)
         case Function() if short := shorthand(node, style):
             return short[0], "shorthand", short[1]
     return None

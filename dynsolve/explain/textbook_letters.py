@@ -77,6 +77,7 @@ def textbook(robot: Robot) -> Iterator[Line]:
     """The lines of the textbook's letters, in the order of the derivation."""
     ground = "the world w" if letters.has_base(robot) else "frame 0"
     yield from _kinematics(ground, letters.H(robot, 0).sup)
+    yield from _questions(robot)
     yield from _bodies(ground, letters.H(robot, 0).sup)
     yield from _dynamics()
 
@@ -117,6 +118,26 @@ def _kinematics(ground: str, above: Node | None) -> Iterator[Line]:
     yield _each(velocities, " of the last frame")
 
 
+def _questions(robot: Robot) -> Iterator[Line]:
+    """What an exercise asks for beside the dynamics: a task, its inverse, forces from outside."""
+    reached = tuple(name for name in robot.questions.reached if name not in robot.parameters)
+    if reached:
+        kinds = (("", "name", name) for name in reached)
+        yield _line(tuple(map(Symbol, reached)), "values of the task that are to be reached", "", *kinds)
+    tip = [Letter(axis, Words("tip")) for axis in "xyz"]
+    yield _line(tip, "coordinates of the origin of the last frame", "m")
+    if robot.questions.task is not None:
+        yield _line(letters.TASK, "task")
+    else:
+        yield _line(letters.bold("r"), "from the point of a given tensor to its mass centre", "m")
+    yield _line(letters.J_TASK, "Jacobian of the task; with + its pseudoinverse", "", ("J", "bold", "r^"))
+    yield _line([Letter(name) for name in "ABD"], "constants of a solution, given where they stand")
+    yield _line(_numbered("F"), "force from outside", "N")
+    yield _line([_numbered("M"), _body("M")], "moment from outside, its size", "N m")
+    yield _line(letters.Q_FORCES, "generalized forces of these", "", ("Q", "bold", "F#"))
+    yield _line(letters.TAU_STATIC, "forces and torques that hold the arm at rest")
+
+
 def _bodies(ground: str, above: Node | None) -> Iterator[Line]:
     center = Row((Words("c"), _I))
     yield _line(_body("m"), "mass of body i", "kg")
@@ -125,7 +146,6 @@ def _bodies(ground: str, above: Node | None) -> Iterator[Line]:
         (Letter("r", center, _I, "bold"), "the same in its link's frame"),
     ]
     yield _each(centers, "", "m")
-    yield _line(letters.bold("r"), "from the point of a given tensor to the mass centre", "m")
     yield _line(_numbered("I"), "inertia tensor of body i, along its own axes", "kg m^2")
     yield _line(_body("I", "script"), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
     yield _line(_numbered("R"), f"axes of body i, seen from {ground}")

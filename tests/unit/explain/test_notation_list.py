@@ -205,3 +205,26 @@ def test_in_brief_the_list_is_a_sentence() -> None:
     )
     assert "Notation: θ₁ joint angle: generalized coordinate (rad); " in text
     assert "𝓘ᵢ" in text and "Aᵢ" not in text
+
+
+ASKED = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+task: [tip.x, tip.y]
+reach: [px, py]
+find: [inverse, Jr, det]
+"""
+
+
+def test_what_an_exercise_asks_for_besides_has_its_letters_too() -> None:
+    told = lines(ASKED)
+    assert told["p_x, p_y"][0] == "values of the task that are to be reached"
+    assert told["r"][0] == "task"
+    assert told["J_r"][0] == "Jacobian of the task; with + its pseudoinverse"
+    blocks = document(ASKED).blocks
+    known = {
+        kind
+        for line in notation(solved(ASKED).robot, solved(ASKED).style, blocks).lines
+        for kind in line.kinds
+    }
+    known |= {("", "name", name) for name in COUNTING}
+    assert kinds_in(formulas_in(blocks), solved(ASKED).style) - known == set()
