@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dynsolve.document import Prose, Table
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working.products import product_named
 from dynsolve.explain.writing import craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
     Degrees,
@@ -292,6 +293,7 @@ def _frame(context: Context, i: int) -> Step:
         formula=equation(name, Product(tuple(chain))) if len(chain) > 2 else None,
         source=_products(context),
         working=(equation(*members),),
+        concluding=product_named(context, *(context.values[key] for key in (f"H{i - 1}", f"A{i}", f"H{i}"))),
         result=(equation(name, H),),
         task=equation(name, working) if i > 1 else None,
         detail=detail,

@@ -28,7 +28,7 @@ from dynsolve.notation.tree import (
     Sum,
     equation,
 )
-from dynsolve.notation.walk import walk
+from dynsolve.notation.walk import mapped, walk
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,9 +60,12 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
     >>> identities(ring, squares, Number(2)) is None
     True
     """
+    unreduced = Unreduced(ring)
     try:
-        unreduced = Unreduced(ring)
-        difference = unreduced(before) - unreduced(after)
+        additions = tuple(_additions(ring, before, after))
+        sums = {each.relation.parts[-1]: each.relation.parts[0] for each in additions}
+        without_sums = mapped(after, lambda node: sums.get(node, node))
+        difference = unreduced(before) - unreduced(without_sums)
     except AlgebraError:
         return None
     if ring.reduce(difference):
@@ -70,7 +73,7 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
     degrees = difference.degrees()
     squares = [pair for pair in ring.pairs if degrees[pair.sine] > 1 or degrees[pair.cosine] > 1]
     pythagoras = (_pythagoras(angle_node(pair.angle, ring.names)) for pair in squares)
-    return (*pythagoras, *_additions(ring, before, after))
+    return (*pythagoras, *additions)
 
 
 _FULL = {"sin": "sine", "cos": "cosine"}

@@ -14,7 +14,8 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
-from dynsolve.explain.working.identities import Identity, identities, said
+from dynsolve.explain.working.identities import identities, said
+from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation.build import negated, split_sign, times, total
@@ -203,15 +204,8 @@ def rotational(context: Context, body: Body) -> Rotation | None:
 
 def _named(context: Context, R: Matrix, base: Matrix, own: Matrix) -> Prose:
     """The identities by which Rᵀ ω becomes what is shown."""
-    used: dict[Identity, None] = {}
-    for column, entry in zip(R.T.rows, own.entries, strict=True):
-        products = [
-            Product((context.show(r), context.show(w)))
-            for r, w in zip(column, base.entries, strict=True)
-            if not (r.is_zero or w.is_zero)
-        ]
-        used |= dict.fromkeys(identities(context.robot.ring, sum_of(products), context.show(entry)) or ())
-    return (" (with ", *said(list(used)), ")") if used else ()
+    used = used_in_product(context, R.T, base, own)
+    return (" (with ", *said(used), ")") if used else ()
 
 
 def _terms_of(*matrices: Matrix) -> int:

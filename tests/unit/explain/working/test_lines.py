@@ -151,3 +151,10 @@ def test_a_velocity_is_squared_along_the_axes_in_which_that_is_plain() -> None:
     assert found[0] == "The speed is the same along the axes of frame 0, where the velocity is:"
     assert found[2:5:2] == ["Its squares:", "By (A s₁ + B c₁)² + (A c₁ - B s₁)² = A² + B²:"]
     assert "√" not in "".join(found)
+
+
+def test_the_product_of_two_rows_names_the_sums_of_angles() -> None:
+    assert lines("planar-2r", "H2") == [
+        "With the cosine of a sum, c₁ c₂ - s₁ s₂ = c₁₂ and the sine of a sum, s₁ c₂ + c₁ s₂ = s₁₂:"
+    ]
+    assert not lines("in3140-rp", "H2") and not lines("scara-rrpr", "H2")
