@@ -10,7 +10,7 @@ from dynsolve.algebra.expr import Expr
 def is_nonnegative(expr: Expr) -> bool:
     """Whether every term has a positive factor and no coordinate, sine or cosine to an odd power.
 
-    Parameters count as positive, as lengths and masses do.
+    Parameters count as positive, as lengths and masses are, save those that the ring's plan calls signed.
 
     >>> from dynsolve.algebra.build import build_ring
     >>> from dynsolve.notation.tree import Symbol
@@ -42,7 +42,7 @@ def is_positive(expr: Expr) -> bool:
 
 def _parameters(expr: Expr) -> frozenset[int]:
     ring = expr.ring
-    names = set(ring.names)
+    names = {*ring.names, *ring.plan.signed}
     return frozenset(g.index for g in ring.generators if g.kind == "symbol" and g.name not in names)
 
 

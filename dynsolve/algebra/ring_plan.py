@@ -23,7 +23,7 @@ class RingPlan:
     rates and its offset: θ₁ + 30° is one angle, and cos(θ₁ + 30°) one generator.
     `fixed` are the atoms of the other angles with the rate that is basic; `inverses` so
     many generators are set aside for 1 / a denominator; `functions` are those that are
-    generators of their own.
+    generators of their own; `signed` are symbols that may be negative, as no length or mass is.
     """
 
     coordinates: tuple[str, ...]
@@ -35,6 +35,7 @@ class RingPlan:
     constants: ConstantPlan
     inverses: int
     functions: tuple[Function, ...] = ()
+    signed: tuple[str, ...] = ()
 
     @property
     def basic_angles(self) -> tuple[Angle, ...]:

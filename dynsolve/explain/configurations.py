@@ -6,6 +6,7 @@ from functools import cached_property
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.positivity import is_positive
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.trig_factor import trig_factors
@@ -51,6 +52,14 @@ class ConfigurationForms:
         """What is 0, with the sign that leaves fewer minus signs."""
         return self._signed(expr)[0]
 
+    def vanishing(self, value: Expr) -> Node:
+        """What is 0 where an expression is, without the factors that never are."""
+        product = value.ring.one
+        for factor, _ in trig_factors(value):
+            if not is_positive(factor):
+                product = product * factor
+        return self.zero(product)
+
     def product(self, value: Expr) -> Node:
         """An expression as the product of its factors in sines and cosines."""
         product = value.ring.one
@@ -92,16 +101,14 @@ class ConfigurationForms:
 
     def solutions(self, step: Solved) -> tuple[Node, ...]:
         """The solutions of a step, each as a formula."""
-        return self._inverse_formulas.solutions(step)
-
-    def ratio(self, above: Expr, below: Expr) -> Node:
-        """A fraction in the ring of the search."""
-        return self._inverse_formulas.ratio(above, below)
+        return self.inverse_formulas.solutions(step)
 
     @cached_property
-    def _inverse_formulas(self) -> InverseFormulas:
+    def inverse_formulas(self) -> InverseFormulas:
+        """The formulas of the steps."""
         assert self.solved is not None
-        return InverseFormulas(self.compactor(self.solved.solving.ring))
+        solving = self.solved.solving
+        return InverseFormulas(self.compactor(solving.ring), solving.solved)
 
     def compactor(self, ring: Ring) -> Compactor:
         """The compactor of a ring of the search: the values of the task lead its sums."""

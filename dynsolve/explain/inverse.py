@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from dynsolve.derivation.inverse.equations import Equation, Given, Origin, Squared, Turned
+from dynsolve.algebra.positivity import is_nonnegative, is_positive
+from dynsolve.derivation.inverse.equations import Given, Origin, Squared, Turned
 from dynsolve.derivation.inverse.search import Solving
 from dynsolve.derivation.inverse.subproblems import Length, OneLine, Remainder, RootLength, Solved, TwoLines
 from dynsolve.document import Prose, Table
 from dynsolve.explain.citations import spong
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
+from dynsolve.explain.inverse_formulas import InverseFormulas
+from dynsolve.explain.inverse_way import InverseWay
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import listed
+from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.build import cost, negated
 from dynsolve.notation.tree import (
     Arguments,
@@ -30,6 +33,7 @@ from dynsolve.notation.tree import (
     column,
     equation,
 )
+from dynsolve.notation.walk import names_in
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
@@ -40,6 +44,7 @@ SHORT = 4
 """Formulas with more operations are not repeated in the table of the branches."""
 
 _ORDINALS = ("the first", "the second")
+_SIGNS = ("with +", "with -")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -51,10 +56,7 @@ def steps(context: Context) -> Iterator[Step]:
     if forms.solved is None:
         yield _unsolved()
         return
-    explainer = _Explainer(context, forms, forms.solved.solving)
-    for step in forms.solved.solving.solved:
-        yield explainer.step(step)
-    yield explainer.branches()
+    yield from _Explainer(context, forms, forms.solved.solving).steps()
 
 
 def _task(context: Context) -> Step:
@@ -95,112 +97,85 @@ class _Explainer:
     forms: ConfigurationForms
     solving: Solving
 
-    def step(self, step: Solved) -> Step:
+    def steps(self) -> Iterator[Step]:
+        """The unknowns, one after the other, and the branches."""
+        solved = self.solving.solved
+        for k, step in enumerate(solved):
+            yield self._step(step, solved[:k])
+        yield self._branches()
+
+    def _step(self, step: Solved, before: tuple[Solved, ...]) -> Step:
         """How one unknown is found."""
         unknown = Symbol(step.coordinate)
+        way = InverseWay(self.formulas, step, before)
+        results = self.formulas.results(unknown, step)
+        lines = tuple(way.lines)
+        shown = names_in(*results, *way.working, *(f for line in lines for f in line.formulas))
         return Step(
             id=f"inverse_{step.coordinate}",
             stage=STAGE,
             title=f"Solving for {step.coordinate}",
             why=self._why(step),
+            working=way.working,
+            lines=lines,
             formula=_general(step),
             source=_SOURCE,
-            working=tuple(self._equation(e) for e in step.equations),
-            result=tuple(equation(unknown, value) for value in self.forms.solutions(step)),
+            concluding=("So:",) if lines else (),
+            result=results,
             notes=tuple(self._notes(step)),
-            uses=(),
+            uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),
         )
 
-    def _equation(self, equation_: Equation) -> Node:
-        form = self.forms.compactor(self.solving.ring).form
-        return equation(form(equation_.left), form(equation_.right))
+    @property
+    def formulas(self) -> InverseFormulas:
+        return self.forms.inverse_formulas
 
     # -- words -------------------------------------------------------------------------------------
 
     def _why(self, step: Solved) -> Prose:
         if isinstance(step, Remainder):
             return ("The task gives the sum of the angles; the others are known now.",)
-        origins = [e.origin for e in step.equations]
-        return (*self._origin(origins), *self._form(step))
-
-    def _origin(self, origins: Sequence[Origin]) -> Prose:
-        """Where the equations come from."""
-        if all(isinstance(origin, Given) for origin in origins):
-            which = "component" if len(origins) == 1 else "components"
-            numbers = listed([str(o.index + 1) for o in origins if isinstance(o, Given)])
-            return (f"The {which} ", *numbers, " of the task hold", "s" if len(origins) == 1 else "",
-                    " no other unknown. ")  # fmt: skip
-        (origin, *_) = origins
-        if isinstance(origin, Squared):
-            turns = _turned_by(origin.parts)
-            first: Prose = (
-                ("The components are turned by ", *listed([Symbol(name) for name in turns]), ", and ")
-                if turns
-                else ("The ",)
-            )
-            return (*first, "squares of ", str(len(origin.parts)), " components are added: turning a vector "
-                    "does not change its length, so the other angles drop out. ")  # fmt: skip
-        turns = _turned_by(origins)
-        return (
-            "The equations are turned back by ",
-            *listed([Symbol(name) for name in turns]),
-            ", which then stands on the left alone. ",
-        )
-
-    def _form(self, step: Solved) -> Prose:
-        """What kind of equation it is."""
-        unknown = Symbol(step.coordinate)
-        match step:
-            case TwoLines():
-                return ("Two equations in the sine and the cosine of ", unknown, " give the angle at once.")
-            case OneLine() if step.value.is_zero:
-                return ("The equation gives the direction of ", unknown, ", up to half a turn.")
-            case OneLine() if step.sine.is_zero:
-                return ("The cosine of ", unknown, " leaves its sign open.")
-            case OneLine() if step.cosine.is_zero:
-                return ("The sine of ", unknown, " leaves two angles open.")
-            case OneLine():
-                return ("A cosine and a sine of ", unknown, " with one equation: two angles.")
-            case Length():
-                return (unknown, " stands in it to the first power.")
-            case _:
-                return (unknown, " stands in it as a square: two lengths.")
+        return (*_origin([e.origin for e in step.equations]), *_form(step))
 
     def _notes(self, step: Solved) -> Iterator[Prose]:
         """When there is a solution, and when there are infinitely many."""
-        form = self.forms.compactor(self.solving.ring).form
+        form = self.formulas.form
+        one = "; on the boundary, with =, the two solutions are one."
         match step:
             case OneLine() if not step.value.is_zero and (step.cosine.is_zero or step.sine.is_zero):
-                ratio = self.forms.ratio(step.value, step.cosine + step.sine)
+                ratio = self.formulas.ratio(step.value, step.cosine + step.sine)
                 within = Relation((Negative(Number(1)), ratio, Number(1)), ("≤", "≤"))
-                yield ("Within reach where ", within, "; at the ends the two angles are one.")
+                yield ("There are solutions where ", within, one)
             case OneLine() if not step.value.is_zero:
                 square = step.cosine * step.cosine + step.sine * step.sine
                 reach = Relation((form(step.value * step.value), form(square)), ("≤",))
-                yield ("Within reach where ", reach, "; with = the two angles are one.")
+                yield ("There are solutions where ", reach, one)
             case RootLength():
-                radicand = step.linear * step.linear - step.square * step.constant * 4
-                yield ("Within reach where ", Relation((form(radicand), Number(0)), ("≥",)),
-                       "; with = the two lengths are one.")  # fmt: skip
+                radicand = Relation((self.formulas.radicand(step), Number(0)), ("≥",))
+                yield ("There are solutions where ", radicand, one)
+            case Length() if not (is_nonnegative(step.factor) or is_nonnegative(-step.factor)):
+                yield ("This needs ", Relation((form(step.factor), Number(0)), ("≠",)), ".")
         free = self._free(step)
         if free:
-            yield (
-                "Where ",
-                *listed(free),
-                ", ",
-                Symbol(step.coordinate),
-                " is free: infinitely many solutions.",
-            )
+            unknown = Symbol(step.coordinate)
+            yield ("Where ", *listed(free), ", ", unknown, " is free: infinitely many solutions.")
 
     def _free(self, step: Solved) -> list[Node]:
         """The equations under which an angle may be anything, as far as they can hold."""
-        if not isinstance(step, OneLine) or not step.value.is_zero:
+        match step:
+            case OneLine(_, cosine, sine, value) if value.is_zero:
+                factors = [sine, cosine]
+            case TwoLines(_, (cosine, sine, _), _) if step.is_rotation:
+                factors = [factor for factor in (cosine, sine) if not factor.is_zero]
+            case _:
+                return []
+        if any(is_positive(factor * factor) for factor in factors):
             return []
-        return [equation(self.forms.zero(factor), Number(0)) for factor in (step.sine, step.cosine)]
+        return [equation(self.forms.vanishing(factor), Number(0)) for factor in factors]
 
     # -- the branches ------------------------------------------------------------------------------
 
-    def branches(self) -> Step:
+    def _branches(self) -> Step:
         """All of them, each put into r(q)."""
         found = self.forms.inverse
         names = [step.coordinate for step in self.solving.solved]
@@ -211,8 +186,8 @@ class _Explainer:
             id="inverse",
             stage=STAGE,
             title="The solution" if count == 1 else f"The {count} solutions",
-            why=(*why, ", found to give the task when put into r(q); a coordinate that stands in a formula "
-                 "is that of the same line."),
+            why=(*why, ", each put into r(q) to see that it gives the task. A coordinate that stands in a "
+                 "formula is that of the same line."),
             table=table,
             notes=tuple(self._free_coordinates()),
             detail=Detail.BRIEF,
@@ -227,8 +202,12 @@ class _Explainer:
             for step, index in zip(self.solving.solved, branch.choice, strict=True):
                 solutions = self.forms.solutions(step)
                 shown = solutions[index]
-                short = cost(shown) <= SHORT
-                row.append(shown if short else "as above" if len(solutions) == 1 else _ORDINALS[index])
+                if cost(shown) <= SHORT:
+                    row.append(shown)
+                elif len(solutions) == 1:
+                    row.append("as above")
+                else:
+                    row.append((_SIGNS if self.formulas.has_signs(step) else _ORDINALS)[index])
             yield tuple(row)
 
     def _free_coordinates(self) -> Iterator[Prose]:
@@ -241,21 +220,47 @@ class _Explainer:
             )
 
 
-def _turned_by(origins: Sequence[Origin]) -> tuple[str, ...]:
-    """The angles by which equations were turned, each once."""
-    found: dict[str, None] = {}
-    for origin in origins:
-        match origin:
-            case Turned(first, second, name):
-                found |= dict.fromkeys((*_turned_by([first, second]), name))
-            case Squared(parts):
-                found |= dict.fromkeys(_turned_by(parts))
-    return tuple(found)
+# -- words -----------------------------------------------------------------------------------------
+
+
+def _origin(origins: Sequence[Origin]) -> Prose:
+    """How the equations are made."""
+    match origins[0]:
+        case Given():
+            which = "Component" if len(origins) == 1 else "Components"
+            numbers = listed([str(o.index + 1) for o in origins if isinstance(o, Given)])
+            verb = " has" if len(origins) == 1 else " have"
+            return (f"{which} ", *numbers, f" of the task{verb} no other unknown. ")
+        case Squared():
+            return ("Turning a vector does not change its length: in the sum of the squares the other angles "
+                    "drop out. ",)  # fmt: skip
+        case Turned(_, _, name):
+            return ("Turned back by ", Symbol(name), ", the components have this angle on the left alone. ")
+
+
+def _form(step: Solved) -> Prose:
+    """What kind of equation it is."""
+    unknown = Symbol(step.coordinate)
+    match step:
+        case TwoLines():
+            return ("Two equations in the sine and the cosine of ", unknown, " give the angle.")
+        case OneLine() if step.value.is_zero:
+            return ("The ratio of sine and cosine gives ", unknown, " up to half a turn: two angles.")
+        case OneLine() if step.sine.is_zero:
+            return ("The cosine of ", unknown, " belongs to two angles, which differ by their sign.")
+        case OneLine() if step.cosine.is_zero:
+            return ("The sine of ", unknown, " belongs to two angles, whose sum is π.")
+        case OneLine():
+            return ("One equation in the cosine and the sine of ", unknown, " has two solutions.")
+        case Length():
+            return ("The length ", unknown, " stands in it to the first power.")
+        case _:
+            return ("The length ", unknown, " stands in it as a square: two lengths.")
 
 
 # -- the general formulas --------------------------------------------------------------------------
 
-_A, _B, _C, _D = (Letter(letter, style="italic") for letter in "ABCD")
+_A, _B, _X, _Y = (Letter(letter, style="italic") for letter in "ABXY")
 _ANGLE = Symbol("psi")
 _COS, _SIN = Function("cos", _ANGLE), Function("sin", _ANGLE)
 
@@ -263,22 +268,28 @@ _COS, _SIN = Function("cos", _ANGLE), Function("sin", _ANGLE)
 def _general(step: Solved) -> Node | None:
     """The form that an equation has, and its solution."""
     match step:
-        case TwoLines() if step.is_rotation:
-            return None
-        case OneLine() if not (step.value.is_zero or step.cosine.is_zero or step.sine.is_zero):
-            square = [Power(letter, Number(2)) for letter in (_A, _B, _D)]
-            root = Function("sqrt", Sum((square[0], square[1], negated(square[2]))))
-            middle, either = _atan2(_B, _A), _atan2(root, _D)
-            return Relation(
-                (
-                    Sum((Product((_A, _COS)), Product((_B, _SIN)))),
-                    _D,
-                    equation(_ANGLE, Relation((middle, either), ("±",))),
-                ),
-                ("=", "⇒"),
+        case TwoLines() if step.is_rotation and not (step.first[0].is_zero or step.first[1].is_zero):
+            turned = (
+                equation(Sum((Product((_A, _COS)), Negative(Product((_B, _SIN))))), _X),
+                equation(Sum((Product((_A, _SIN)), Product((_B, _COS)))), _Y),
             )
+            difference = Sum((_atan2(_Y, _X), Negative(_atan2(_B, _A))))
+            return _implies(side_by_side(turned), difference)
+        case OneLine() if step.value.is_zero:
+            both = side_by_side((_atan2(_A, _B), _atan2(Negative(_A), Negative(_B))))
+            return _implies(equation(Product((_A, _COS)), Product((_B, _SIN))), both)
+        case OneLine() if not (step.cosine.is_zero or step.sine.is_zero):
+            square = [Power(letter, Number(2)) for letter in (_A, _B, _X)]
+            root = Function("sqrt", Sum((square[0], square[1], negated(square[2]))))
+            either = Relation((_atan2(_B, _A), _atan2(root, _X)), ("±",))
+            return _implies(equation(Sum((Product((_A, _COS)), Product((_B, _SIN)))), _X), either)
     return None
 
 
 def _atan2(y: Node, x: Node) -> Node:
     return Function("atan2", Arguments((y, x)))
+
+
+def _implies(condition: Node, angle: Node) -> Node:
+    """condition ⇒ ψ = angle"""
+    return Relation((condition, equation(_ANGLE, angle)), ("⇒",))

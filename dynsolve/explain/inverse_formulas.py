@@ -5,6 +5,7 @@ A step of two solutions has two formulas, in the order of `subproblems`' `values
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from functools import singledispatchmethod
 from math import lcm
 
@@ -12,6 +13,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, simplified
 from dynsolve.algebra.positivity import is_nonnegative
+from dynsolve.derivation.inverse.equations import Squared
 from dynsolve.derivation.inverse.subproblems import (
     Length,
     OneLine,
@@ -20,8 +22,8 @@ from dynsolve.derivation.inverse.subproblems import (
     Solved,
     TwoLines,
 )
-from dynsolve.notation.build import negated, split_sign, times, total
-from dynsolve.notation.tree import Arguments, Function, Node, Quotient, Symbol, number
+from dynsolve.notation.build import cost, negated, power, split_sign, times, total
+from dynsolve.notation.tree import Arguments, Function, Node, Quotient, Relation, Sum, Symbol, equation
 
 _PI = Symbol("pi")
 
@@ -34,8 +36,58 @@ def atan2(y: Node, x: Node) -> Node:
 class InverseFormulas:
     """Formulas of solved unknowns; `compactor` is that of the ring of the search."""
 
-    def __init__(self, compactor: Compactor) -> None:
-        self._form = compactor.form
+    def __init__(self, compactor: Compactor, steps: Sequence[Solved] = ()) -> None:
+        self._compact = compactor.form
+        self._squares = [square for step in steps for square in self._sums_of_squares(step)]
+
+    def form(self, expr: Expr) -> Node:
+        """An expression; sums of squares that are told of stay sums of squares where that is shorter."""
+        best = self._compact(expr)
+        for value, node in self._squares:
+            if len(expr) < len(value):
+                continue
+            for sign, signed in ((1, node), (-1, negated(node))):
+                rest = expr - value * sign
+                if len(rest) < len(expr):
+                    parts = [signed] if rest.is_zero else [signed, self._compact(rest)]
+                    best = min(best, total(parts), key=cost)
+        return best
+
+    _form = form
+
+    def _sums_of_squares(self, step: Solved) -> Iterator[tuple[Expr, Node]]:
+        """The left sides of the equations that are sums of squares."""
+        for e in step.equations:
+            if isinstance(e.origin, Squared):
+                squares = [power(self._compact(p.left), 2) for p in e.origin.parts if not p.left.is_zero]
+                if squares:
+                    yield e.origin.left, total(squares)
+
+    def results(self, unknown: Node, step: Solved) -> tuple[Node, ...]:
+        """The solutions as equations; two that differ by a sign alone are one with ±."""
+        found = self.solutions(step)
+        if not self.has_signs(step):
+            return tuple(equation(unknown, value) for value in found)
+        first, second = found
+        if second == negated(first):
+            return (Relation((unknown, first), ("= ±",)),)
+        assert isinstance(first, Sum)
+        middle = total(first.terms[:-1])
+        return (Relation((unknown, middle, first.terms[-1]), ("=", "±")),)
+
+    def has_signs(self, step: Solved) -> bool:
+        """Whether the two solutions of a step differ by one sign alone."""
+        if step.count == 1:
+            return False
+        first, second = self.solutions(step)
+        if second == negated(first):
+            return True
+        return (
+            isinstance(first, Sum)
+            and isinstance(second, Sum)
+            and first.terms[:-1] == second.terms[:-1]
+            and second.terms[-1] == negated(first.terms[-1])
+        )
 
     def solutions(self, step: Solved) -> tuple[Node, ...]:
         """The solutions of a step."""
@@ -130,14 +182,13 @@ class InverseFormulas:
 
     @_solutions.register
     def _remainder(self, step: Remainder) -> tuple[Node, ...]:
-        others = [negated(times(rate, [(Symbol(name), 1)])) for name, rate in step.others]
-        rest = [] if step.rest.is_zero else [negated(self._form(step.rest))]
-        value = total([Symbol(step.value), *others, *rest])
-        if step.rate == 1:
-            return (value,)
-        if step.rate == -1:
-            return (negated(value),)
-        return (Quotient(value, number(step.rate)),)
+        others = [times(rate, [(Symbol(name), 1)]) for name, rate in step.others]
+        rest = [] if step.rest.is_zero else [self._form(step.rest)]
+        value = Symbol(step.value)
+        taken = [*others, *rest]
+        terms = [*taken, negated(value)] if step.rate < 0 else [value, *map(negated, taken)]
+        size = abs(step.rate)
+        return (total(terms) if size == 1 else times(1 / size, [(total(terms), 1)]),)
 
     def ratio(self, above: Expr, below: Expr) -> Node:
         """above / below, cancelled; the sign in front."""

@@ -21,6 +21,8 @@ SIGNS = {
     "→": r"\rightarrow",
     "⇒": r"\Rightarrow",
     "⇔": r"\Leftrightarrow",
+    "±": r"\pm",
+    "= ±": r"= \pm",
 }
 """Sign of a relation, or of a cross product -> LaTeX."""
 

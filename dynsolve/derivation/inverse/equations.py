@@ -12,7 +12,7 @@ Both hold wherever the equations do.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, permutations
 
@@ -31,8 +31,8 @@ class Given:
 class Turned:
     """The first (cos, sin) or second (-sin, cos) component of two equations turned by a coordinate."""
 
-    first: Origin
-    second: Origin
+    first: Equation
+    second: Equation
     coordinate: str
     is_second: bool
 
@@ -41,7 +41,12 @@ class Turned:
 class Squared:
     """The sum of the squares of some equations."""
 
-    parts: tuple[Origin, ...]
+    parts: tuple[Equation, ...]
+
+    @property
+    def left(self) -> Expr:
+        """Σ left²"""
+        return _squares([part.left for part in self.parts])
 
 
 Origin = Given | Turned | Squared
@@ -54,9 +59,9 @@ def turns(origin: Origin) -> int:
         case Given():
             return 0
         case Turned(first, second):
-            return 1 + max(turns(first), turns(second))
+            return 1 + max(turns(first.origin), turns(second.origin))
         case Squared(parts):
-            return max(map(turns, parts))
+            return max(turns(part.origin) for part in parts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +76,17 @@ class Equation:
     def expr(self) -> Expr:
         """right - left, which is 0."""
         return self.right - self.left
+
+
+def lineage(equations: Iterable[Equation]) -> Iterator[Equation]:
+    """The equations that these come from, and they themselves; each after those that it comes from."""
+    for equation in equations:
+        match equation.origin:
+            case Turned(first, second):
+                yield from lineage((first, second))
+            case Squared(parts):
+                yield from lineage(parts)
+        yield equation
 
 
 System = tuple[Equation, ...]
@@ -98,7 +114,7 @@ def turned_systems(system: System, unknowns: Unknowns) -> Iterator[System]:
                 continue
             left = (c * a.left + s * b.left, c * b.left - s * a.left)
             pair = [
-                arranged(Equation(x, y, Turned(a.origin, b.origin, name, k == 1)), unknowns)
+                arranged(Equation(x, y, Turned(a, b, name, k == 1)), unknowns)
                 for k, (x, y) in enumerate(zip(left, right, strict=True))
             ]
             replaced = {i: pair[0], j: pair[1]}
@@ -110,11 +126,8 @@ def squared_sums(system: System) -> Iterator[Equation]:
     moving = [equation for equation in system if not equation.right.is_zero]
     for size in range(2, len(moving) + 1):
         for chosen in combinations(moving, size):
-            yield Equation(
-                _squares([e.left for e in chosen]),
-                _squares([e.right for e in chosen]),
-                Squared(tuple(e.origin for e in chosen)),
-            )
+            origin = Squared(chosen)
+            yield Equation(origin.left, _squares([e.right for e in chosen]), origin)
 
 
 def _squares(values: Sequence[Expr]) -> Expr:

@@ -30,8 +30,10 @@ def search_ring(ring: Ring, values: Sequence[str], given_angles: Mapping[str, st
     plan = ring.plan
     atoms = tuple(((((value, 1),)), Fraction(1)) for value in given_angles.values())
     symbols = tuple(dict.fromkeys((*plan.symbols, *values)))
+    fixed = (*plan.fixed, *atoms)
     return ring_of(
-        ring.coordinates, replace(plan, turning=turning, fixed=(*plan.fixed, *atoms), symbols=symbols)
+        ring.coordinates,
+        replace(plan, turning=turning, fixed=fixed, symbols=symbols, signed=tuple(values)),
     )
 
 
