@@ -89,7 +89,9 @@ def _point(context: Context, body: Body) -> Step:
         title=f"Inertia of {name_of(body)}",
         why=(
             "A point mass has no extent, so its tensor about its own mass centre is zero and it has no "
-            "rotational energy. No R and no ",
+            "rotational energy. No ",
+            letters.of_body("R", body, "bold"),
+            " and no ",
             letters.of_body("I", body, "script"),
             " are needed.",
         ),
@@ -273,8 +275,9 @@ def _base_tensor(context: Context, body: Body) -> Step:
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
         why=(
-            f"ω is written in {context.ground} coordinates, so the tensor must be too: R leads from the "
-            f"body's axes to those of the {context.ground}.",
+            f"ω is written in {context.ground} coordinates, so the tensor must be too: ",
+            R,
+            f" leads from the body's axes to those of the {context.ground}.",
         ),
         formula=equation(*members[:2]),
         source=spong("7.2.1"),

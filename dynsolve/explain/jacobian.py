@@ -69,7 +69,9 @@ def _axes(context: Context) -> Step:
         title="Axes and origins of the joints",
         why=(
             Letter("z", style="bold"),
-            " is the third column of H (its first three entries), ",
+            " is the third column of ",
+            Letter("H", style="bold"),
+            " (its first three entries), ",
             Letter("o", style="bold"),
             f" the fourth. In the {robot.convention.value} convention joint i turns about or slides along ",
             Letter("z", Words(which), style="bold"),

@@ -49,10 +49,10 @@ def steps(context: Context) -> Iterator[Step]:
 
 def table_of(context: Context) -> Table:
     """The rows of the table as they are written."""
-    header: Prose = ("i", Symbol("theta"), "d", "a", Symbol("alpha"))
+    header: Prose = (Symbol("i"), Symbol("theta"), Symbol("d"), Symbol("a"), Symbol("alpha"))
     if not context.standard:
         header = (
-            "i",
+            Symbol("i"),
             Letter("theta", Symbol("i")),
             Letter("d", Symbol("i")),
             Letter("a", Words("i-1")),
@@ -67,7 +67,11 @@ def _table(context: Context) -> Step:
         why: Prose = (
             "Each row takes frame i-1 to frame i by four motions: a rotation by θ about ",
             _axis("z", "i-1"),
-            ", a translation by d along it, a translation by a along ",
+            ", a translation by ",
+            Symbol("d"),
+            " along it, a translation by ",
+            Symbol("a"),
+            " along ",
             _axis("x", "i"),
             " and a rotation by α about that. ",
         )
@@ -75,9 +79,13 @@ def _table(context: Context) -> Step:
         why = (
             "Each row takes frame i-1 to frame i by four motions: a rotation by α about ",
             _axis("x", "i-1"),
-            ", a translation by a along it, a rotation by θ about ",
+            ", a translation by ",
+            Symbol("a"),
+            " along it, a rotation by θ about ",
             _axis("z", "i"),
-            " and a translation by d along that. ",
+            " and a translation by ",
+            Symbol("d"),
+            " along that. ",
         )
     if any(joint.type for joint in robot.joints):
         why += ("The star marks a joint variable: ", *_kinds(context))
@@ -233,7 +241,7 @@ def _row(context: Context, joint: Joint) -> Step:
         case JointType.REVOLUTE:
             why: Prose = ("Only θ varies: a revolute joint.",)
         case JointType.PRISMATIC:
-            why = ("Only d varies: a prismatic joint.",)
+            why = ("Only ", Symbol("d"), " varies: a prismatic joint.")
         case None:
             why = ("Nothing varies: a fixed frame.",)
     return Step(
@@ -289,7 +297,7 @@ def _frame(context: Context, i: int) -> Step:
         id=f"H{i}",
         stage=STAGE,
         title=f"Frame {i} seen from the {context.ground}",
-        why=_frame_why(context) if last else (_OUTWARDS,),
+        why=_frame_why(context) if last else _OUTWARDS,
         formula=equation(name, Product(tuple(chain))) if len(chain) > 2 else None,
         source=_products(context),
         working=(equation(*members),),
@@ -305,12 +313,16 @@ def _products(context: Context) -> str:
     return spong("3.1") if context.standard else craig("3.5")
 
 
-_OUTWARDS = "Each A leads one frame further along the arm, so it multiplies from the right."
+_OUTWARDS: Prose = (
+    "Each ",
+    Letter("A", style="bold"),
+    " leads one frame further along the arm, so it multiplies from the right.",
+)
 
 
 def _frame_why(context: Context) -> Prose:
     """What the last frame tells, and of which point."""
-    why: Prose = (_OUTWARDS, f" The fourth column is where {context.end} is, the first three ")
+    why: Prose = (*_OUTWARDS, f" The fourth column is where {context.end} is, the first three ")
     if not context.robot.ends_in_a_joint:
         return (*why, "how it is turned.")
     return (

@@ -169,7 +169,8 @@ class _Page(TypesetPage):
         side = "left" if prose_columns(table) else "center"
         yield (
             f"#align(center, table(columns: {columns}, stroke: none, align: {side}, "
-            f"inset: (x: 0.8em, y: 0.35em), {', '.join(cells[:columns])}, table.hline(stroke: 0.5pt), "
+            f"inset: (x: 0.8em, y: 0.35em), "
+            f"table.header({', '.join(cells[:columns])}, table.hline(stroke: 0.5pt)), "
             f"{', '.join(cells[columns:])}))"
         )
 
