@@ -101,7 +101,9 @@ def _kinds(signs: Iterable[Node]) -> Iterator[Kind]:
 def _kinematics(ground: str, above: Node | None) -> Iterator[Line]:
     row = tuple(Letter(name, _I) for name in _TABLE)
     yield _line(row, "row i of the Denavit-Hartenberg table", "", *(("", "name", name) for name in _TABLE))
-    yield _line([Letter(name, style="upright") for name in MOTIONS], "rotation about, translation along an axis")
+    yield _line(
+        [Letter(name, style="upright") for name in MOTIONS], "rotation about, translation along an axis"
+    )
     yield _line([Symbol("A"), Symbol("B")], "any two angles, in an identity")
     yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
