@@ -154,7 +154,8 @@ class Solution(Dynamics):
 
         try:
             robot = robot_with(self.robot, given.values)
-            valued = solve(replace(self.problem, robot=robot))
+            # the table was held to the drawing with symbols, and has other ones now
+            valued = solve(replace(self.problem, robot=robot, normals=None))
         except AlgebraError as error:
             raise UsageError(f"with these values the robot has no solution: {error.message}") from error
         return replace(valued, given=Given({**self.given.entries, **given.entries}, given.warnings))

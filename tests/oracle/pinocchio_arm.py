@@ -56,6 +56,22 @@ def dynamics(arm: Arm, q: Array, qd: Array, qdd: Array) -> Dynamics:
     )
 
 
+def jacobians(arm: Arm, q: Array, qd: Array) -> tuple[Array, Array]:
+    """J of the last frame along the axes of the world, and its time derivative, both 6×n."""
+    model, frames, E = _model(arm)
+    joint, place = frames[-1]
+    end = model.addFrame(pin.Frame("end", joint, 0, place, pin.FrameType.OP_FRAME))
+    data = model.createData()
+    pin.computeJointJacobiansTimeVariation(model, data, E @ q, E @ qd)
+    pin.updateFramePlacements(model, data)
+    along = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+    found = (
+        pin.getFrameJacobian(model, data, end, along),
+        pin.getFrameJacobianTimeVariation(model, data, end, along),
+    )
+    return found[0] @ E, found[1] @ E
+
+
 def _model(arm: Arm) -> tuple[pin.Model, list[tuple[int, pin.SE3]], Array]:
     """The model; for each frame of the table its joint and its place on it; and E."""
     model = pin.Model()

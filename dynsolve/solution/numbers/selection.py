@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 
 from dynsolve.notation.tree import Node
 from dynsolve.quantities import families as of
-from dynsolve.quantities.family import Family
+from dynsolve.quantities.family import Family, Kind
 from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
@@ -30,15 +31,21 @@ _ALL = (
 def main_results(robot: Robot) -> dict[Stage, list[Shown]]:
     """The results that an exercise asks for, by stage."""
     last = len(robot.joints)
-    return _by_stage(robot, (q for q in _members(robot, _MAIN) if q.family is not of.H or q.index == (last,)))
+    shown = (q for q in _members(robot, _MAIN) if q.family is not of.H or q.index == (last,))
+    return _by_stage(robot, chain(shown, _asked(robot)))
 
 
 def all_results(robot: Robot) -> dict[Stage, list[Shown]]:
     """Every result of the derivation, by stage; the tensor and the axes of a point mass say nothing."""
     known = quantities(robot)
-    return _by_stage(
-        robot, (q for q in _members(robot, _ALL) if q.family not in (of.R, of.I) or known.is_real(q))
-    )
+    shown = (q for q in _members(robot, _ALL) if q.family not in (of.R, of.I) or known.is_real(q))
+    return _by_stage(robot, chain(shown, _asked(robot)))
+
+
+def _asked(robot: Robot) -> Iterator[Quantity]:
+    """What only this exercise asks, as far as it has values."""
+    asked = robot.questions.asked
+    return (q for q in quantities(robot).values() if q.name in asked and q.family.kind is Kind.VALUE)
 
 
 def _members(robot: Robot, groups: Sequence[tuple[Family, ...]]) -> Iterator[Quantity]:
@@ -54,4 +61,4 @@ def _by_stage(robot: Robot, shown: Iterator[Quantity]) -> dict[Stage, list[Shown
         stage = quantity.family.stage
         if robot.bodies or not stage.needs_masses:
             found.setdefault(stage, []).append((quantity.rule, quantity.letter(robot)))
-    return found
+    return {stage: found[stage] for stage in Stage if stage in found}

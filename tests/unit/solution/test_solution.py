@@ -179,3 +179,24 @@ def test_the_public_face() -> None:
     assert {"load", "solve"} <= set(dir(dynsolve))
     with pytest.raises(AttributeError, match="has no attribute 'sove'"):
         _ = dynsolve.sove  # type: ignore[attr-defined]
+
+
+DRAWN = """
+axes:
+  - {turn: q1, about: [0, 0, 1], through: [0, 0, 0]}
+  - {turn: q2, about: [0, -1, 0], through: [0, 0, d1]}
+tip: [a2, 0, d1]
+zero: drawn
+velocity: [0, 0, v]
+state: {q2: 0}
+find: [r, det, qd]
+"""
+
+
+def test_numbers_go_into_what_only_this_exercise_asks() -> None:
+    solution = dynsolve.solve(DRAWN)
+    assert solution.to_json()["results"]["qd"] == ["0", "v/a2"]
+    valued = solution.with_values(d1=1, a2=2, v=3)
+    assert valued.to_json()["results"]["qd"] == ["0", "3/2"]
+    assert valued.to_json()["results"]["det"] == "16*cos(q2)**2"
+    assert solution.at(q1=0, q2="60deg").symbolic("det") == sympy.Symbol("a2", real=True) ** 4 / 4
