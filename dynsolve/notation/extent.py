@@ -115,7 +115,8 @@ class Ruler:
             case Quotient(numerator, denominator):
                 return max(self.width(numerator), self.width(denominator)) + _FRACTION_SPACE
             case Power(base, exponent):
-                return self._factor(base) + self.index(exponent)
+                enclosed = 2 * TALL_PARENTHESIS if type(base) in (Product, Quotient, Power) else 0.0
+                return self._factor(base) + enclosed + self.index(exponent)
             case Function():
                 return self._function(node)
             case Arguments(parts):

@@ -12,6 +12,7 @@ from dynsolve.document import (
     Equations,
     Formula,
     Heading,
+    Inline,
     Picture,
     Prose,
     Table,
@@ -37,6 +38,8 @@ FRAGMENT_PAGE = 32.8
 _NUMBER = 3.4
 _MOST_ROWS = 18
 _PROSE_COLUMN = r"p{0.5\linewidth}"
+_COLUMN_SPACE = 1.3  # around a column of a table, in em
+_NARROWEST = 12.0
 _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 _TALL = (r"\frac", r"\sum", r"\begin")
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
@@ -229,14 +232,29 @@ class _Page(TypesetPage):
         yield f"\\begin{{quote}}\\small\\textbf{{Note.}} {self.prose(parts)}\\end{{quote}}"
 
     def table(self, table: Table) -> Iterator[str]:
-        prose = prose_columns(table)
-        plain = "l" if prose else "c"
-        columns = "".join(_PROSE_COLUMN if k in prose else plain for k in range(len(table.header)))
+        columns = self.column_kinds(table)
         begin, end = rf"\begin{{center}}\begin{{tabular}}{{{columns}}}", r"\end{tabular}\end{center}"
         head, *body = [" & ".join(map(self.part, row)) + r" \\" for row in (table.header, *table.rows)]
         for start in range(0, len(body), _MOST_ROWS):  # a tabular stays on one page
             rows = "\n".join(body[start : start + _MOST_ROWS])
             yield f"{begin}\n{head} \\hline\\rule{{0pt}}{{2.6ex}}\n{rows}\n{end}"
+
+    def column_kinds(self, table: Table) -> str:
+        """The columns of a tabular; of a table that is wider than the page the widest has broken lines."""
+        if prose := prose_columns(table):
+            return "".join(_PROSE_COLUMN if k in prose else "l" for k in range(len(table.header)))
+        kinds = ["c"] * len(table.header)
+        columns = zip(*(table.header, *table.rows), strict=True)
+        widths = [max(map(self.cell_width, column)) + _COLUMN_SPACE for column in columns]
+        if sum(widths) > self.width:
+            widest = widths.index(max(widths))
+            room = self.width - sum(widths) + widths[widest] - _COLUMN_SPACE
+            kinds[widest] = f"p{{{max(room, _NARROWEST):.1f}em}}"
+        return "".join(kinds)
+
+    def cell_width(self, cell: Inline) -> float:
+        """The width of a cell of a table, in em."""
+        return self.ruler.width(cell) if isinstance(cell, Node) else 0.5 * len(str(cell))
 
     def picture(self, picture: Picture) -> Iterator[str]:
         if picture.latex:
