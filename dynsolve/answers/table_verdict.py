@@ -7,7 +7,7 @@ A wrong table is told by the cell that is to blame, and by what it does instead.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
@@ -15,7 +15,7 @@ from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.judging.mechanism.comparison import Agreement, TableComparer
 from dynsolve.answers.judging.mechanism.matching import Mismatch
 from dynsolve.answers.judging.mechanism.own_frames import in_own_frames
-from dynsolve.answers.judging.mechanism.repairs import Exchange, Repair, repair_of
+from dynsolve.answers.judging.mechanism.repairs import Exchange, Repair, repairs_of
 from dynsolve.answers.judging.mechanism.tables import LETTERS, Table, TableError, read_table
 from dynsolve.answers.judging.mechanism.wording import counted, effect, parting, written
 from dynsolve.answers.submission import Answer
@@ -26,6 +26,8 @@ from dynsolve.robot.model import Convention
 
 NAME = "DH"
 Rows = tuple[tuple[tree.Node, ...], ...]
+Cell = tuple[int, int]
+"""Row and column, from 0."""
 ROUNDED = "rounded"
 
 
@@ -76,9 +78,10 @@ class TableJudge:
             found = self.comparer(table)
         except TableError as error:
             diagnosis = slip("dh_joints", yours=error.message)
-            return _wrong(base, rows, [(error.row - 1, error.column - 1)] if error.column else [], diagnosis)
+            blamed = {(error.row - 1, error.column - 1): diagnosis} if error.column else {}
+            return _wrong(base, rows, blamed, diagnosis)
         if self.comparer.is_one_of(table, self.problem.accepted.also):
-            return replace(base, verdict=Verdict.CORRECT, entries=tuple(_entries(rows, [])))
+            return replace(base, verdict=Verdict.CORRECT, entries=tuple(_entries(rows, {})))
         if isinstance(found, Mismatch):
             return self._mismatched(base, rows, table, found)
         return self._agreed(base, rows, found)
@@ -86,9 +89,9 @@ class TableJudge:
     def _agreed(self, base: JudgedAnswer, rows: Rows, found: Agreement) -> JudgedAnswer:
         notes = [counted(q) for q in found.coordinates if not q.is_the_keys]
         if self.problem.accepted.strict and notes:
-            return _wrong(base, rows, [], slip("dh_sense", yours="; ".join(notes)))
+            return _wrong(base, rows, {}, slip("dh_sense", yours="; ".join(notes)))
         notes += [ROUNDED] * found.is_rounded
-        entries = tuple(_entries(rows, []))
+        entries = tuple(_entries(rows, {}))
         return replace(base, verdict=Verdict.CORRECT, notes=(*base.notes, *notes), entries=entries)
 
     # -- wrong -------------------------------------------------------------------------------------
@@ -96,23 +99,25 @@ class TableJudge:
     def _mismatched(self, base: JudgedAnswer, rows: Rows, table: Table, found: Mismatch) -> JudgedAnswer:
         if self._is_of_the_other_convention(table):
             mine, other = ("modified", "standard") if self.comparer.modified else ("standard", "modified")
-            return _wrong(base, rows, [], slip("dh_convention", part=mine, other=other))
-        repair = repair_of(self.comparer, table, found)
-        match repair:
-            case Repair(row, column, yours, needed):
-                said = slip(
-                    "dh_cell",
-                    part=f"{row + 1}, {LETTERS[column]}",
-                    yours=written(yours),
-                    other=written(needed),
-                    term=effect(self.comparer, table, repair),
-                )
-                return _wrong(base, rows, [(row, column)], said)
-            case Exchange(row, columns):
-                return _wrong(
-                    base, rows, [(row, c) for c in columns], slip("dh_exchanged", part=str(row + 1))
-                )
-        return _wrong(base, rows, [], slip("dh_mechanism", part=parting(found, len(self.comparer.joints))))
+            return _wrong(base, rows, {}, slip("dh_convention", part=mine, other=other))
+        blamed = {
+            cell: self._told(table, repair)
+            for repair in repairs_of(self.comparer, table, found)
+            for cell in repair.cells
+        }
+        where = parting(found, len(self.comparer.joints))
+        return _wrong(base, rows, blamed, slip("dh_mechanism", part=where))
+
+    def _told(self, table: Table, repair: Repair | Exchange) -> Diagnosis:
+        if isinstance(repair, Exchange):
+            return slip("dh_exchanged", part=str(repair.row + 1))
+        return slip(
+            "dh_cell",
+            part=f"{repair.row + 1}, {LETTERS[repair.column]}",
+            yours=written(repair.yours),
+            other=written(repair.needed),
+            term=effect(self.comparer, table, repair),
+        )
 
     def _is_of_the_other_convention(self, table: Table) -> bool:
         """Whether the rows, read in the other convention, are the mechanism."""
@@ -123,18 +128,16 @@ class TableJudge:
 
 
 def _wrong(
-    base: JudgedAnswer, rows: Rows, cells: Sequence[tuple[int, int]], diagnosis: Diagnosis
+    base: JudgedAnswer, rows: Rows, blamed: Mapping[Cell, Diagnosis], whole: Diagnosis | None = None
 ) -> JudgedAnswer:
-    """A wrong table; `cells` are to blame (from 0), none where the whole of it is."""
-    entries = tuple(_entries(rows, cells, diagnosis)) if cells else ()
-    return replace(base, verdict=Verdict.WRONG, entries=entries, diagnosis=(diagnosis,))
+    """A wrong table; `blamed` are the cells (from 0) that are, none where the whole of it is."""
+    entries = tuple(_entries(rows, blamed)) if blamed else ()
+    told = tuple(dict.fromkeys(blamed.values())) or ((whole,) if whole else ())
+    return replace(base, verdict=Verdict.WRONG, entries=entries, diagnosis=told)
 
 
-def _entries(
-    rows: Rows, cells: Sequence[tuple[int, int]], diagnosis: Diagnosis | None = None
-) -> Iterator[EntryVerdict]:
+def _entries(rows: Rows, blamed: Mapping[Cell, Diagnosis]) -> Iterator[EntryVerdict]:
     for i, row in enumerate(rows):
         for j in range(len(row)):
-            wrong = (i, j) in cells
-            told = (diagnosis,) if wrong and diagnosis else ()
-            yield EntryVerdict((i + 1, j + 1), Verdict.WRONG if wrong else Verdict.CORRECT, told)
+            told = (blamed[i, j],) if (i, j) in blamed else ()
+            yield EntryVerdict((i + 1, j + 1), Verdict.WRONG if told else Verdict.CORRECT, told)

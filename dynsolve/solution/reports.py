@@ -55,10 +55,13 @@ def report(
     style = report_style(solution, star)
     shown = Detail.FULL if format is Format.HTML else detail
     document = solution_document(solution, shown, stages, Abbreviate(abbreviate))
-    if format in PICTURED and (stages is None or Stage.KINEMATICS in stages):
+    if format in PICTURED and (stages is None or _SHOWN_IN & set(stages)):
         document = _with_picture(document, solution, star)
     return rendered(document, style, format, detail, fragment)
 
+
+_SHOWN_IN = {Stage.FRAMES, Stage.KINEMATICS}
+"""The stages that show frames."""
 
 PICTURED = (Format.LATEX, Format.PDF, Format.HTML)
 """The forms that can show the manipulator."""

@@ -102,5 +102,5 @@ def _theta(x_before: Matrix, x: Matrix, z: Matrix, axis: DrawnAxis | None) -> An
         help = "name it: with an angle beta a direction is written [cos(beta), 0, sin(beta)]"
         if axis is not None and not axis.slides:
             help = "write zero: table, and the coordinate is the angle of the table itself"
-        raise NoAngle(f"the angle from x to x at {where} is no number of degrees in this pose", help)
+        raise NoAngle(f"θ at {where} is no number of degrees in the pose that is drawn", help)
     return angle

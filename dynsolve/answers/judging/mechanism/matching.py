@@ -64,6 +64,11 @@ class Mismatch:
     joint: int
     reason: str
 
+    @property
+    def depth(self) -> tuple[int, bool]:
+        """How far the chains agree: joint by joint, of each the direction before the place."""
+        return self.joint, self.reason == "place"
+
 
 @dataclass(frozen=True, slots=True)
 class _Turned:
@@ -97,7 +102,8 @@ class Matching:
     def found(self) -> Match | Mismatch:
         """The way in which the chains agree with the fewest changes, or where they part."""
         ways = (Match(t.senses, m[0], t.base, m[1]) for t in self._turnings(0, None) if (m := self._moved(t)))
-        return min(islice(ways, _MOST_WAYS), key=self._changes, default=self.deepest)
+        found = list(islice(ways, _MOST_WAYS))
+        return min(found, key=self._changes) if found else self.deepest
 
     def _changes(self, match: Match) -> int:
         """How many joints are counted otherwise, and whether frame 0 is turned."""
@@ -106,8 +112,7 @@ class Matching:
         return turned + sum(sense < 0 or _is_seen(offset, joint.turns) for sense, offset, joint in joints)
 
     def _fails(self, joint: int, reason: str) -> None:
-        if joint > self.deepest.joint or (joint, reason) == (self.deepest.joint, "place"):
-            self.deepest = Mismatch(joint, reason)
+        self.deepest = max(self.deepest, Mismatch(joint, reason), key=lambda found: found.depth)
 
     # -- turned ------------------------------------------------------------------------------------
 

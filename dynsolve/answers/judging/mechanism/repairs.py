@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 from dynsolve.answers.judging.mechanism.comparison import TableComparer
 from dynsolve.answers.judging.mechanism.matching import Mismatch
@@ -19,6 +20,7 @@ from dynsolve.notation.tree import ZERO, Degrees, Node
 
 _ANGLES = (ZERO, Degrees(90), negated(Degrees(90)), Degrees(180))
 _MOST_TRIED = 400
+_MOST_STEPS = 120
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +32,11 @@ class Repair:
     yours: Node
     needed: Node
 
+    @property
+    def cells(self) -> tuple[tuple[int, int], ...]:
+        """The cell."""
+        return ((self.row, self.column),)
+
 
 @dataclass(frozen=True, slots=True)
 class Exchange:
@@ -37,6 +44,38 @@ class Exchange:
 
     row: int
     columns: tuple[int, int]
+
+    @property
+    def cells(self) -> tuple[tuple[int, int], ...]:
+        """The two cells."""
+        return tuple((self.row, column) for column in self.columns)
+
+
+def repairs_of(
+    comparer: TableComparer, table: Table, found: Mismatch, most: int = 3
+) -> tuple[Repair | Exchange, ...]:
+    """The changes that make a table right: a single one, or a few of which each takes it further."""
+    single = repair_of(comparer, table, found)
+    if single is not None:
+        return (single,)
+    step = _furthest(comparer, table, found) if most > 1 else None
+    if step is None:
+        return ()
+    change, changed, parting = step
+    others = repairs_of(comparer, changed, parting, most - 1)
+    return (change, *others) if others else ()
+
+
+def _furthest(
+    comparer: TableComparer, table: Table, found: Mismatch
+) -> tuple[Repair | Exchange, Table, Mismatch] | None:
+    """The first change after which a table parts from the key's at the latest joint, later than it does."""
+    best: tuple[Repair | Exchange, Table, Mismatch] | None = None
+    for change, changed in islice(_changes(comparer, table, _culprit(comparer, table, found)), _MOST_STEPS):
+        parting = comparer(changed)
+        if isinstance(parting, Mismatch) and parting.depth > (best[2] if best else found).depth:
+            best = change, changed, parting
+    return best
 
 
 def repair_of(comparer: TableComparer, table: Table, found: Mismatch) -> Repair | Exchange | None:

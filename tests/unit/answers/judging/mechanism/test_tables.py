@@ -69,6 +69,21 @@ def test_a_slip_is_told_by_its_row_and_column(
     assert [entry.index for entry in answer.entries if entry.verdict == "wrong"] == [(row, column)]
 
 
+def test_two_slips_are_told_both() -> None:
+    text, rows = OFFICIAL["INF3480 2018"]
+    answer = judged(text + DRAWN, "DH", _changed(_changed(rows, 1, 4, "0"), 2, 2, "0"))
+    assert [told.message.partition(":")[0] for told in answer.diagnosis] == ["Row 1, α", "Row 2, d"]
+    assert [entry.index for entry in answer.entries if entry.verdict == "wrong"] == [(1, 4), (2, 2)]
+
+
+def test_a_table_of_another_robot_says_where_it_parts() -> None:
+    text, _ = OFFICIAL["INF3480 2018"]
+    rows = [["theta1", "0", "L2", "45deg"], ["theta2", "L1", "L1", "45deg"], ["45deg", "L3", "L1", "0"]]
+    answer = judged(text + DRAWN, "DH", rows)
+    assert codes(answer) == ["dh_mechanism"]
+    assert "the axis of joint 2 has another direction" in answer.diagnosis[0].message
+
+
 OTHER_FRAMES = {
     # of the arm of INF3480 2018: z_1 the other way, so θ_2 is counted the other way
     "z_1 turned round": ([["theta1", "L1", "0", "pi/2"], ["-theta2 + pi/2", "-Loff", "L2", "pi/2"],
