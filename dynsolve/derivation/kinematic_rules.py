@@ -20,11 +20,6 @@ from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
 
 
-def frame_names(link: int) -> tuple[str, ...]:
-    """H0..H<link>"""
-    return tuple(f"H{i}" for i in range(link + 1))
-
-
 def kinematic_rules(robot: Robot) -> Iterator[Rule]:
     """The rules of what is asked of the kinematics; none of a robot of which nothing is."""
     stages = asked_stages(robot.questions)
@@ -49,8 +44,8 @@ def _point(robot: Robot, point: NamedPoint) -> Iterator[Rule]:
         return jacobian.angular_jacobian(robot, frames, link)
 
     yield Rule(f"p{p}", (f"H{link}",), lambda H: kinematics.point(H, point.position))
-    yield Rule(f"Jv{p}", (*frame_names(link), f"p{p}"), linear)
-    yield Rule(f"Jw{p}", frame_names(link), angular)
+    yield Rule(f"Jv{p}", (*kinematics.frame_names(link), f"p{p}"), linear)
+    yield Rule(f"Jw{p}", kinematics.frame_names(link), angular)
     yield Rule(f"v{p}", (f"Jv{p}",), partial(energy.velocity, robot))
 
 

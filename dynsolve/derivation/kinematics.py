@@ -58,3 +58,8 @@ def axis(H: Matrix) -> Matrix:
 def point(H: Matrix, local: Matrix) -> Matrix:
     """R·local + o, 3×1: a point fixed in the frame, seen from the base."""
     return rotation(H) @ local + origin(H)
+
+
+def frame_names(link: int) -> tuple[str, ...]:
+    """The frames up to that of a link, as the derivation calls them: H0..H<link>."""
+    return tuple(f"H{i}" for i in range(link + 1))

@@ -14,11 +14,10 @@ from functools import partial
 
 from dynsolve.algebra.matrix import Matrix, vstack
 from dynsolve.derivation import energy, euler_lagrange, inertia, jacobian, kinematics, vectorized
-from dynsolve.derivation.configurations import configuration_rules
 from dynsolve.derivation.graph import Derivation, Rule
-from dynsolve.derivation.kinematic_rules import frame_names, kinematic_rules, rate_rules
 from dynsolve.derivation.link_frame import link_frame_rules
-from dynsolve.derivation.static_rules import static_rules
+from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Robot
 
 
@@ -35,16 +34,28 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
     """Every rule of the textbook's derivation; of a robot without masses those of the kinematics alone."""
     yield from _kinematics(robot)
     yield from _end_jacobian(robot)
-    yield from kinematic_rules(robot)
-    yield from configuration_rules(robot)
-    yield from rate_rules(robot)
+    yield from _asked_of_kinematics(robot)
     if robot.bodies:
         for body in robot.bodies:
             yield from _body(robot, body)
         yield from _energies(robot)
         yield from _euler_lagrange(robot)
         yield from _vectorized(robot)
-    yield from static_rules(robot)
+    if Stage.STATICS in asked_stages(robot.questions):
+        from dynsolve.derivation.static_rules import static_rules
+
+        yield from static_rules(robot)
+
+
+def _asked_of_kinematics(robot: Robot) -> Iterator[Rule]:
+    """What only some exercises ask; it is imported for these alone."""
+    if asked_stages(robot.questions):
+        from dynsolve.derivation.configurations import configuration_rules
+        from dynsolve.derivation.kinematic_rules import kinematic_rules, rate_rules
+
+        yield from kinematic_rules(robot)
+        yield from configuration_rules(robot)
+        yield from rate_rules(robot)
 
 
 def _kinematics(robot: Robot) -> Iterator[Rule]:
@@ -57,7 +68,7 @@ def _kinematics(robot: Robot) -> Iterator[Rule]:
 
 def _end_jacobian(robot: Robot) -> Iterator[Rule]:
     last = len(robot.joints)
-    frames = frame_names(last)
+    frames = kinematics.frame_names(last)
 
     def linear(*H: Matrix) -> Matrix:
         return jacobian.linear_jacobian(robot, H, kinematics.origin(H[-1]), last)
@@ -73,7 +84,7 @@ def _end_jacobian(robot: Robot) -> Iterator[Rule]:
 def _body(robot: Robot, body: Body) -> Iterator[Rule]:
     b, link = body.name, body.link
     H = f"H{link}"
-    from_frames_and_center = (*frame_names(link), f"rc{b}")
+    from_frames_and_center = (*kinematics.frame_names(link), f"rc{b}")
 
     def linear(*values: Matrix) -> Matrix:
         *frames, center = values

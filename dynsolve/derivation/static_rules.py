@@ -9,7 +9,6 @@ from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation import jacobian, kinematics, statics
 from dynsolve.derivation.graph import Rule
-from dynsolve.derivation.kinematic_rules import frame_names
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
@@ -35,7 +34,7 @@ def static_rules(robot: Robot) -> Iterator[Rule]:
 def _load(robot: Robot, name: str, load: Load) -> Rule:
     """J_vᵀ F + J_ωᵀ M of one force: by the Jacobian of its point, where that is derived already."""
     if not load.point:
-        return Rule(name, frame_names(load.link), partial(_from_frames, robot, load))
+        return Rule(name, kinematics.frame_names(load.link), partial(_from_frames, robot, load))
     point = "" if load.point == TIP else load.point
     frame = (f"H{load.link}",) if load.axes is not None else ()
 

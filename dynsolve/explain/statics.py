@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.derivation import statics
-from dynsolve.derivation.kinematic_rules import frame_names
+from dynsolve.derivation.kinematics import frame_names
 from dynsolve.derivation.static_rules import jacobians
 from dynsolve.document import Prose
 from dynsolve.explain.citations import spong

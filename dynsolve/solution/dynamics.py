@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 from dynsolve.derivation.agreement import Agreement, agreement
-from dynsolve.derivation.drawn_motion import verify_drawing
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules, derive
 from dynsolve.derivation.verification import Verification, verify
@@ -74,6 +73,8 @@ class Dynamics:
                 )
         verification = verify(robot, _checked(robot, forms), states)
         if problem.normals is not None:
+            from dynsolve.derivation.drawn_motion import verify_drawing
+
             verify_drawing(problem.normals, forms(f"H{len(robot.joints)}"), states)
         if robot.questions.asked:
             from dynsolve.solution.asked_checks import verify_asked

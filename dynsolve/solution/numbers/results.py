@@ -17,7 +17,6 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation
 from dynsolve.errors import AlgebraError, Finding
 from dynsolve.explain.forms import Forms, is_numeric, leading_names
-from dynsolve.explain.product_forms import ProductForms
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node
 from dynsolve.robot.model import Robot
@@ -127,6 +126,8 @@ class State(_NumericResults):
 
     def _form(self, value: Exact) -> Node:
         if isinstance(value, FractionMatrix):
+            from dynsolve.explain.product_forms import ProductForms
+
             forms = ProductForms(self._compactor)
             return tree.Matrix(tuple(tuple(map(forms.fraction, row)) for row in value.rows))
         return self._compactor.matrix(value) if isinstance(value, Matrix) else self._compactor.form(value)
