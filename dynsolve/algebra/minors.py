@@ -23,6 +23,21 @@ def determinant(matrix: Matrix) -> Expr:
     return _Expansion(matrix).minor(tuple(range(size)), tuple(range(size)))
 
 
+def work(matrix: Matrix) -> int:
+    """The products of terms that a determinant may come to: the permanent of the numbers of terms."""
+    sizes = [[len(entry) for entry in row] for row in matrix.rows]
+    known: dict[tuple[int, ...], int] = {(): 1}
+
+    def of(columns: tuple[int, ...]) -> int:
+        if columns not in known:
+            row = sizes[len(sizes) - len(columns)]
+            rest = ((row[j], columns[:k] + columns[k + 1 :]) for k, j in enumerate(columns) if row[j])
+            known[columns] = sum(size * of(left) for size, left in rest)
+        return known[columns]
+
+    return of(tuple(range(len(sizes))))
+
+
 def minors(matrix: Matrix, size: int) -> Iterator[Expr]:
     """The determinants of all square parts of a size that are not 0 for every state."""
     expansion = _Expansion(matrix)

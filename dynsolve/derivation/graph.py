@@ -21,6 +21,13 @@ class Rule:
     compute: Callable[..., Any]
 
 
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """What stands for a value whose work goes over a bound, and why."""
+
+    why: str
+
+
 class Derivation(Mapping[str, Any]):
     """The values of a graph of rules by name, each computed when it is first asked for.
 

@@ -13,7 +13,7 @@ from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix, vstack
 from dynsolve.derivation import energy, jacobian, kinematics, rates, task
-from dynsolve.derivation.graph import Rule
+from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
@@ -73,11 +73,11 @@ def rate_rules(robot: Robot) -> Iterator[Rule]:
     at = AtState(robot.ring, asked.state.by_symbol)
     velocity, acceleration = asked.velocity, asked.acceleration
 
-    def joint_rates(J: Matrix) -> Matrix | FractionMatrix:
+    def joint_rates(J: Matrix) -> Matrix | FractionMatrix | Skipped:
         assert velocity is not None
         return rates.joint_rates(at.matrix(J), at.matrix(velocity))
 
-    def joint_accelerations(J: Matrix, J_dot: Matrix) -> Matrix | FractionMatrix:
+    def joint_accelerations(J: Matrix, J_dot: Matrix) -> Matrix | FractionMatrix | Skipped:
         assert acceleration is not None
         wanted = rates.wanted_by_accelerations(robot, acceleration, J_dot)
         return rates.joint_rates(at.matrix(J), at.matrix(wanted))

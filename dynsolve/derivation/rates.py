@@ -9,10 +9,11 @@ from __future__ import annotations
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant
+from dynsolve.algebra.minors import determinant, work
 from dynsolve.algebra.pseudoinverse import pseudoinverse_times
 from dynsolve.algebra.spans import nullspace, rangespace
 from dynsolve.derivation.energy import velocities
+from dynsolve.derivation.graph import Skipped
 from dynsolve.robot.model import Robot
 
 
@@ -31,13 +32,22 @@ def squared(jacobian: Matrix) -> Matrix:
     return jacobian @ jacobian.T if rows < columns else jacobian.T @ jacobian
 
 
-def jacobian_determinant(jacobian: Matrix) -> Expr:
+MOST_PRODUCTS = 200_000
+"""A determinant that may come to more products of terms is not multiplied out: nobody could read it."""
+
+TOO_LARGE = "multiplied out it is too large to be read"
+
+
+def jacobian_determinant(jacobian: Matrix) -> Expr | Skipped:
     """det J, det(J Jᵀ) or det(Jᵀ J), whichever is the determinant of a square matrix and not always 0."""
-    return determinant(squared(jacobian))
+    square = squared(jacobian)
+    return Skipped(TOO_LARGE) if work(square) > MOST_PRODUCTS else determinant(square)
 
 
-def joint_rates(jacobian: Matrix, velocity: Matrix) -> Matrix | FractionMatrix:
+def joint_rates(jacobian: Matrix, velocity: Matrix) -> Matrix | FractionMatrix | Skipped:
     """q̇ = J⁺ ṙ, n×1."""
+    if work(squared(jacobian)) > MOST_PRODUCTS:
+        return Skipped(TOO_LARGE)
     return pseudoinverse_times(jacobian, velocity)
 
 

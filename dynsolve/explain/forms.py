@@ -15,7 +15,7 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.entry_formulas import EntryFormulas, coriolis_matrix
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, times, total
@@ -84,6 +84,8 @@ class Forms:
 
     def _make(self, name: str) -> Node:
         value = self.values[name]
+        if isinstance(value, Skipped):
+            return tree.Words(value.why)
         if isinstance(value, FractionMatrix):
             return self.of(value)
         if name == "det":

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant
+from dynsolve.algebra.minors import determinant, work
 from dynsolve.algebra.pseudoinverse import is_solvable, rank_parts
-from dynsolve.derivation.rates import squared, wanted_by_accelerations, whole_or_task
+from dynsolve.derivation.rates import MOST_PRODUCTS, squared, wanted_by_accelerations, whole_or_task
 from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
@@ -169,6 +169,8 @@ def _working(context: Context, J: Matrix, right: Matrix, vector: Node | None) ->
     rank, (rows, columns) = rank_parts(J).rank, J.shape
     if rank in (rows, columns) and rank:
         square = squared(J)
+        if work(square) > MOST_PRODUCTS:
+            return
         of = _J if rows == columns else Parenthesized(Product((_J, _JT) if rows < columns else (_JT, _J)))
         yield equation(Row((Words("det "), of)), context.show(determinant(square)))
 

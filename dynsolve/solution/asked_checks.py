@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dynsolve.derivation.graph import Derivation
+from collections.abc import Iterator
+
+from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.kinematic_check import checked_names, verify_kinematics
 from dynsolve.derivation.rate_check import rate_names, verify_rates
 from dynsolve.derivation.static_check import verify_statics
@@ -15,12 +17,21 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
 
     Raises VerificationError where a result is wrong.
     """
-    wanted = values.leading_to(robot.questions.asked)
+    every = values.leading_to(robot.questions.asked)
+    wanted = every - {name for name, _ in skipped(robot, values)}
     verify_kinematics(robot, {name: forms(name) for name in checked_names(robot, wanted)}, states)
     verify_rates(robot, {name: forms(name) for name in rate_names(robot, wanted)}, states)
     static = [name for name in ("Q", "tau_static") if name in wanted]
     verify_statics(robot, {name: forms(name) for name in static}, states)
     _verify_configurations(robot, values, forms, wanted)
+
+
+def skipped(robot: Robot, values: Derivation) -> Iterator[tuple[str, str]]:
+    """The names of what is asked for and was not worked out, with the reasons."""
+    for name in sorted(robot.questions.asked & values.rules.keys()):
+        value = values[name]
+        if isinstance(value, Skipped):
+            yield name, value.why
 
 
 def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str]) -> None:

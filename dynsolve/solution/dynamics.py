@@ -77,9 +77,11 @@ class Dynamics:
 
             verify_drawing(problem.normals, forms(f"H{len(robot.joints)}"), states)
         if robot.questions.asked:
-            from dynsolve.solution.asked_checks import verify_asked
+            from dynsolve.solution.asked_checks import skipped, verify_asked
 
             verify_asked(robot, values, forms, states)
+            told = (f"{name} is left out: {why}" for name, why in skipped(robot, values))
+            warnings = (*warnings, *(problem.finding(("find",), text) for text in told))
         return cls(problem, values, forms, verification, agreed, warnings)
 
     @property

@@ -19,7 +19,7 @@ from dynsolve.explain.step import Line, Step
 from dynsolve.explain.textbook_letters import Line as NotationLine
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
-from dynsolve.notation.tree import Matrix, Node, Symbol
+from dynsolve.notation.tree import Matrix, Node, Symbol, Words
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Kind, Owner
@@ -131,6 +131,8 @@ class _Exporter:
                     for branch in self.configurations.inverse
                 ]
         form = self.forms(quantity.rule)
+        if isinstance(form, Words):
+            return {"skipped": form.text}
         if not isinstance(form, Matrix):
             return self.python.text(form)
         rows = [[self.python.text(entry) for entry in row] for row in form.rows]

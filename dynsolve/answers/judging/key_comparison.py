@@ -15,6 +15,7 @@ from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.other_solutions import is_other_solution
 from dynsolve.answers.judging.planar import unfolded
 from dynsolve.answers.judging.spans import difference, readings, spans
+from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 from dynsolve.quantities.family import Kind
@@ -107,6 +108,9 @@ class KeyComparer:
         if value.rows is None or target.node not in self.answer_ring.rules:
             return KeyComparison(value, target)
         key = self.key(target)
+        if isinstance(key, Skipped):
+            fault, help = "the key is too large to be compared with", "a person has to look at this"
+            return KeyComparison(replace(value, rows=None, fault=fault, expected=help), target)
         quantity = self.graph.quantities.of_rule(target.node)
         if quantity is not None and quantity.family.kind is Kind.SPAN:
             return self._span(value, target, key)

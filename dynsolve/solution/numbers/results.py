@@ -14,7 +14,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, cancelled, is_zero
 from dynsolve.algebra.fraction_matrix import FractionMatrix, tidy
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.errors import AlgebraError, Finding
 from dynsolve.explain.forms import Forms, is_numeric, leading_names
 from dynsolve.notation import tree
@@ -57,6 +57,9 @@ class _NumericResults(ABC):
 
     def shown(self, name: str, digits: int = 0) -> Node:
         """A result as it is shown: exact where no decimal goes in, else to so many digits."""
+        value = self.values[name]
+        if isinstance(value, Skipped):
+            return tree.Words(value.why)
         return rounded(self.plain(name), digits or self.digits) if self.shows_decimals else self(name)
 
 

@@ -6,6 +6,8 @@ import pytest
 from sympy import simplify, sympify
 
 import dynsolve
+from dynsolve.answers.judge import check
+from dynsolve.answers.reading.files import FileReader
 from dynsolve.derivation.rate_check import eliminated, rate_names, verify_rates
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
@@ -98,3 +100,26 @@ def test_of_six_joints_without_a_task_it_is_that_of_all_of_j() -> None:
 def test_the_step_says_how_it_is_solved(text: str, words: str) -> None:
     steps = {step.id: step for step in dynsolve.solve(text + "find: [qd]\n").steps}
     assert words in "".join(part for part in steps["qd"].why if isinstance(part, str))
+
+
+LONG = "dh:\n" + "".join(
+    f"  - {{theta: q{i}*, d: d{i}, a: a{i}, alpha: {'-' * (i % 2)}90deg}}\n" for i in range(1, 7)
+)
+"""Six joints with every length; its J Jᵀ for the position alone has entries of hundreds of terms."""
+
+
+def test_what_nobody_could_read_is_left_out_and_said_to_be() -> None:
+    text = LONG + "task: [tip.x, tip.y, tip.z]\nvelocity: [vx, 0, 0]\nfind: [Jr, det, qd]\n"
+    solution = dynsolve.solve(text)
+    results = solution.to_json()["results"]
+    assert results["det"] == results["qd"] == {"skipped": "multiplied out it is too large to be read"}
+    assert [w.message.split()[0] for w in solution.warnings] == ["det", "qd"]
+    problem = read_problem(text, "own.yaml")
+    submission = FileReader(problem)(b"answers:\n  det: a1*a2\n", "answers.yaml")
+    assert [a.verdict for a in check(problem, submission).answers if a.given] == ["unreadable"]
+
+
+def test_at_a_state_it_is_not_too_large() -> None:
+    state = "state: {q1: 0, q2: 90deg, q3: 0, q4: 90deg, q5: 0, q6: 0}\n"
+    text = LONG + "task: [tip.x, tip.y, tip.z]\nvelocity: [v, 0, 0]\n" + state + "find: [qd]\n"
+    assert len(dynsolve.solve(text).to_json()["results"]["qd"]) == 6
