@@ -9,7 +9,9 @@ random configurations it has that rank.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from math import cos, pi
+from operator import mul
 from random import Random
 from typing import Any
 
@@ -82,21 +84,34 @@ def same_configuration(robot: Robot, q: Values, other: Values) -> bool:
     return True
 
 
-def verify_singular(robot: Robot, jacobian: Node, rank: int, alternatives: Sequence[Sequence[Node]]) -> None:
+@dataclass(frozen=True, slots=True)
+class Singular:
+    """Expressions that are 0 together, the rank there, and the directions that are lost, m×1 each."""
+
+    zeros: Sequence[Node]
+    rank: int
+    lost: Sequence[Node]
+
+
+def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Singular]) -> None:
     """Compare the rank of a Jacobian at singular and at other configurations.
 
-    Raises VerificationError where it is not less, or less where it should not be.
+    Raises VerificationError where it is not what it should be, or a lost direction is none.
     """
     program = compile_trees([jacobian])
     for values in states_of(robot):
         if rank_of(program.run(values)[0]) != rank:
             raise VerificationError("the rank of the Jacobian is not what it should be")
-    for conditions in alternatives:
-        zeros = compile_trees(conditions)
-        for values in states_of(robot):
-            at = zero_near(robot, zeros, values)
-            if at is not None and rank_of(program.run(at)[0]) >= rank:
-                raise VerificationError("a singular configuration is none")
+    for case in cases:
+        zeros, lost = compile_trees(case.zeros), compile_trees(case.lost)
+        found = (zero_near(robot, zeros, values) for values in states_of(robot))
+        for at in (values for values in found if values is not None):
+            J = program.run(at)[0]
+            if rank_of(J) != case.rank:
+                raise VerificationError("the rank at a singular configuration is not what it should be")
+            columns = list(zip(*J, strict=True))
+            if any(abs(sum(map(mul, _flat(w), column))) > CLOSE for w in lost.run(at) for column in columns):
+                raise VerificationError("a direction that should be lost is not")
 
 
 def states_of(robot: Robot) -> Iterator[dict[str, float]]:

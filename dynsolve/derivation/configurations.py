@@ -40,8 +40,8 @@ def configuration_rules(robot: Robot) -> Iterator[Rule]:
         yield Rule("inverse", ("r",), lambda r: inverse(robot, r))
 
 
-def where_singular(jacobian: Matrix) -> SingularSet:
-    """Where a Jacobian has less than its greatest rank (Spong, section 4.9)."""
+def where_singular(jacobian: Matrix) -> SingularSet | None:
+    """Where a Jacobian has less than its greatest rank (Spong, section 4.9); None where it is too long."""
     from dynsolve.algebra.transfer import Transfer
     from dynsolve.derivation.inverse.unknowns import search_ring
     from dynsolve.derivation.singular.sets import singular_set

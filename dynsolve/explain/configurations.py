@@ -19,7 +19,7 @@ from dynsolve.explain.forms import is_numeric, parallel_coordinates
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.notation.build import cost, split_sign, times
 from dynsolve.notation.python import to_python
-from dynsolve.notation.tree import Negative, Node, Sum
+from dynsolve.notation.tree import Matrix, Negative, Node, Sum, column
 from dynsolve.robot.model import Robot
 
 
@@ -33,16 +33,28 @@ class ConfigurationForms:
     # -- singular configurations -------------------------------------------------------------------
 
     @cached_property
-    def singular_set(self) -> SingularSet:
-        """Where the Jacobian of the task loses rank."""
+    def singular_set(self) -> SingularSet | None:
+        """Where the Jacobian of the task loses rank; None where it is too long."""
         found = self.values["singular"]
-        assert isinstance(found, SingularSet)
+        assert found is None or isinstance(found, SingularSet)
         return found
 
     @cached_property
     def singular(self) -> tuple[tuple[Node, ...], ...]:
         """The alternatives: expressions that are 0 together."""
+        if self.singular_set is None:
+            return ()
         return tuple(tuple(map(self.condition, one)) for one in self.singular_set.alternatives)
+
+    @cached_property
+    def lost(self) -> tuple[tuple[Matrix, ...], ...]:
+        """At each alternative the directions that are lost, each a column."""
+        if self.singular_set is None:
+            return ()
+        return tuple(
+            tuple(column(*map(self.compactor(d[0].ring).form, d)) for d in loss.directions)
+            for loss in self.singular_set.losses
+        )
 
     def condition(self, condition: Condition) -> Node:
         """What is 0 where a condition holds."""

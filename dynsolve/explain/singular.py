@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from dynsolve.derivation.singular.sets import SingularSet
 from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed
-from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Words, equation
+from dynsolve.notation import tree
+from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Transpose, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
 STAGE = Stage.SINGULAR
 _SOURCE = spong("4.9")
+_LOST = spong("4.10")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -23,14 +26,31 @@ def steps(context: Context) -> Iterator[Step]:
     if "singular" not in context.wanted:
         return
     forms = ConfigurationForms(context.robot, context.values)
-    yield _rank(context, forms)
-    yield _alternatives(forms)
-
-
-def _rank(context: Context, forms: ConfigurationForms) -> Step:
     found = forms.singular_set
+    if found is None:
+        yield _skipped()
+        return
+    yield _rank(context, forms, found)
+    yield _alternatives(forms)
+    for case in range(len(found.losses)):
+        yield _loss(context, forms, found, case)
+
+
+def _skipped() -> Step:
+    return Step(
+        id="singular",
+        stage=STAGE,
+        title="Not derived",
+        why=("The Jacobian and its minors are too long to be taken apart into factors. "
+             "At given values of q its rank shows whether the arm is singular.",),
+        detail=Detail.BRIEF,
+        uses=(),
+    )  # fmt: skip
+
+
+def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> Step:
     rows, columns = context.values[_matrix(context)].shape
-    J = letters.J if _matrix(context) == "J" else letters.J_TASK
+    J = _letter(context)
     if rows == columns == found.rank:
         why: Prose = (J, " is square: it has an inverse unless its determinant is 0.")
         results: tuple[Node, ...] = (equation(_det(J), forms.product(found.minors[0])),)
@@ -75,14 +95,63 @@ def _alternatives(forms: ConfigurationForms) -> Step:
     )
 
 
+def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case: int) -> Step:
+    """The rank at one of the alternatives, the matrix there, and what is lost."""
+    loss, lost, J = found.losses[case], forms.lost[case], _letter(context)
+    several = len(found.losses) > 1
+    what = "What is lost" if lost else "The rank"
+    where: Prose = ("Where ", *_equations(forms.singular[case]), ", the rank is ",
+                    f"{loss.rank} instead of {found.rank}. ")  # fmt: skip
+    w = Letter("w", style="bold")
+    names = [w] if len(lost) == 1 else [Letter("w", Number(k), style="bold") for k in range(1, len(lost) + 1)]
+    exact = all(condition.keeps_values for condition in found.alternatives[case])
+    form = forms.compactor(loss.jacobian.ring).form
+    there = tree.Matrix(tuple(tuple(map(form, row)) for row in loss.jacobian.rows))
+    formula = Relation(
+        (
+            equation(Row((Transpose(w), J)), Number(0)),
+            equation(letters.TAU, Row((Transpose(J), w)), Number(0)),
+        ),
+        ("⇒",),
+    )
+    return Step(
+        id=f"singular_{case + 1}",
+        stage=STAGE,
+        title=f"{what} in case {case + 1}" if several else f"{what} there",
+        why=(*where, *(_lost_words(context) if lost else ())),
+        formula=formula if lost else None,
+        source=_LOST if lost else "",
+        working=(equation(J, there),) if lost and exact else (),
+        result=tuple(equation(name, value) for name, value in zip(names, lost, strict=True)),
+        uses=("singular",),
+    )
+
+
+def _lost_words(context: Context) -> Prose:
+    w = Letter("w", style="bold")
+    task = context.robot.questions.task
+    what = "A force" if task is None or task.is_default else "A force or moment"
+    return ("Every velocity that the joints can give is orthogonal to ", w, ": motion along ", w,
+            f" is lost. {what} along ", w, " needs no torque of the joints. ")  # fmt: skip
+
+
 def _together(conditions: tuple[Node, ...]) -> Node:
     """Equations that hold together, in one line."""
-    equations = listed([Relation((value, Number(0))) for value in conditions])
-    return Row(tuple(part if isinstance(part, (Relation,)) else Words(str(part)) for part in equations))
+    parts = _equations(conditions)
+    return Row(tuple(part if isinstance(part, Relation) else Words(str(part)) for part in parts))
+
+
+def _equations(conditions: tuple[Node, ...]) -> Prose:
+    return listed([equation(value, Number(0)) for value in conditions])
 
 
 def _det(matrix: Node) -> Node:
     return Row((Words("det "), matrix))
+
+
+def _letter(context: Context) -> Node:
+    """J of the whole arm, or of the task."""
+    return letters.J if _matrix(context) == "J" else letters.J_TASK
 
 
 def _matrix(context: Context) -> str:

@@ -38,12 +38,15 @@ def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wante
     """Hold the singular configurations and the branches of the inverse, as printed, in numbers."""
     if not {"inverse", "singular"} & wanted:
         return
-    from dynsolve.derivation.configuration_check import verify_inverse, verify_singular
+    from dynsolve.derivation.configuration_check import Singular, verify_inverse, verify_singular
     from dynsolve.explain.configurations import ConfigurationForms
 
     shown = ConfigurationForms(robot, values)
     if "inverse" in wanted and shown.solved is not None:
         verify_inverse(robot, forms("r"), shown.inverse)
-    if "singular" in wanted:
+    found = shown.singular_set if "singular" in wanted else None
+    if found is not None:
         (jacobian,) = values.rules["singular"].inputs
-        verify_singular(robot, forms(jacobian), shown.singular_set.rank, shown.singular)
+        ranks = [loss.rank for loss in found.losses]
+        cases = [Singular(*case) for case in zip(shown.singular, ranks, shown.lost, strict=True)]
+        verify_singular(robot, forms(jacobian), found.rank, cases)

@@ -121,6 +121,8 @@ class _Exporter:
     def value(self, quantity: Quantity) -> Any:
         """A scalar as text, a matrix as its rows, a vector as its entries; sets and spans as lists."""
         match quantity.family.kind:
+            case Kind.EQUATIONS if self.configurations.singular_set is None:
+                return {"skipped": "the Jacobian and its minors are too long"}
             case Kind.EQUATIONS:
                 return [[f"{self.python.text(e)} = 0" for e in one] for one in self.configurations.singular]
             case Kind.BRANCHES if self.configurations.solved is None:

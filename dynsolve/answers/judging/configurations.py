@@ -63,6 +63,10 @@ class ConfigurationKey:
             return self._branches(answer.alternatives)
         return self._equations(answer.alternatives)
 
+    def is_skipped(self, name: str) -> bool:
+        """Whether the key has no set of that name, because it would be too long."""
+        return name == "singular" and self.shown.singular_set is None
+
     def _known(self, answer: ConfigurationAnswer) -> bool:
         """Whether every name in an answer has a value here."""
         names = {"pi", *self.robot.ring.parameters, *(q.name for q in self.robot.coordinates)}
@@ -123,6 +127,7 @@ class ConfigurationKey:
             for q in self._points(compile_trees(conditions)):
                 if not any(_holds(program, q) for program in theirs):
                     return SetVerdict(False, "configurations_missing")
+        assert self.shown.singular_set is not None
         rank = self.shown.singular_set.rank
         for number, program in enumerate(theirs, 1):
             points = list(self._points(program))

@@ -4,6 +4,7 @@ A matrix loses rank exactly where all minors of the size of its greatest rank ar
 minor is taken apart into factors; at a singular configuration one factor of every minor is 0.
 
     conditions  one equation f(q) = 0, and what other expressions become where it holds
+    losses      the rank at a singular configuration, and the directions that are lost there
     sets        all minors at once: the alternatives, each a list of conditions
 
 Spong, Hutchinson, Vidyasagar, section 4.9 (2006).

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -24,15 +25,29 @@ class Condition:
         An angle's sine, cosine or both are put in, a length that stands linearly is replaced;
         of any other condition it is only seen whether the expression has it as a factor.
         """
+        (value,) = self.reduced_together((other,))
+        return value
+
+    def reduced_together(self, others: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Several expressions where this holds, up to a factor that all of them share and is never 0."""
         for pair, sine, cosine in self._turn:
-            return _at_angle(other, pair, sine, cosine)
+            return tuple(_at_angle(other, pair, sine, cosine) for other in others)
         for index, factor, rest in self._length:
-            return _at_length(other, index, factor, rest)
-        if other.is_zero or any(
+            highest = max(
+                (int(other.poly.degrees()[index]) for other in others if not other.is_zero), default=0
+            )
+            return tuple(_at_length(other, index, factor, rest, highest) for other in others)
+        return tuple(other.ring.zero if self._divides(other) else other for other in others)
+
+    def _divides(self, other: Expr) -> bool:
+        return other.is_zero or any(
             factor == self.expr or factor == -self.expr for factor, _ in trig_factors(other)
-        ):
-            return other.ring.zero
-        return other
+        )
+
+    @property
+    def keeps_values(self) -> bool:
+        """Whether expressions that are reduced keep their values, and get no factor."""
+        return not self._length or self._length[0][1] == self.expr.ring.one
 
     @cached_property
     def _turn(self) -> list[tuple[Pair, int | None, int | None]]:
@@ -80,10 +95,9 @@ def _at_angle(expr: Expr, pair: Pair, sine: int | None, cosine: int | None) -> E
     return Expr(ring, ring.ctx.from_dict({key: value for key, value in terms.items() if value}))
 
 
-def _at_length(expr: Expr, index: int, factor: Expr, rest: Expr) -> Expr:
-    """Σ aₖ dᵏ with d = -n/m, times m to the highest power: Σ aₖ (-n)ᵏ mᵗ⁻ᵏ."""
+def _at_length(expr: Expr, index: int, factor: Expr, rest: Expr, highest: int) -> Expr:
+    """Σ aₖ dᵏ with d = -n/m, times m to the highest power t: Σ aₖ (-n)ᵏ mᵗ⁻ᵏ."""
     ring = expr.ring
-    highest = max(int(expr.poly.degrees()[index]), 0)
     by_power: dict[int, dict[tuple[int, ...], Any]] = {}
     for exponents, value in expr.poly.to_dict().items():
         key = (*exponents[:index], 0, *exponents[index + 1 :])

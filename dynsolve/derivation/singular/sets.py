@@ -12,6 +12,7 @@ from dynsolve.algebra.minors import minors
 from dynsolve.algebra.positivity import is_positive
 from dynsolve.algebra.trig_factor import trig_factors
 from dynsolve.derivation.singular.conditions import Condition
+from dynsolve.derivation.singular.losses import Loss, loss
 
 Alternative = tuple[Condition, ...]
 """Conditions that hold together."""
@@ -19,28 +20,43 @@ Alternative = tuple[Condition, ...]
 MOST_ALTERNATIVES = 64
 """So many alternatives are looked at."""
 
+MOST_TERMS = 200
+"""A Jacobian with more terms is not looked at."""
+
+MOST_MINOR_TERMS = 1500
+"""Nor are minors with more terms together."""
+
 
 @dataclass(frozen=True, slots=True)
 class SingularSet:
     """Where a matrix of greatest rank `rank` has less: at any of the `alternatives`.
 
-    `minors` are the expressions that vanish there, all in one ring.
+    `minors` are the expressions that vanish there, all in one ring.  `losses` are the rank and
+    what is lost at each alternative.
     """
 
     rank: int
     minors: tuple[Expr, ...]
     alternatives: tuple[Alternative, ...]
+    losses: tuple[Loss, ...] = ()
 
 
-def singular_set(jacobian: Matrix) -> SingularSet:
+def singular_set(jacobian: Matrix) -> SingularSet | None:
     """Where a Jacobian loses rank; `jacobian` is in a ring of one angle a coordinate.
 
-    Parameters count as positive: no alternative is a condition on them.
+    Parameters count as positive: no alternative is a condition on them.  None where the
+    Jacobian or its minors are too long.
     """
+    if sum(map(len, jacobian.entries)) > MOST_TERMS:
+        return None
     for rank in range(min(jacobian.shape), 0, -1):
         found = tuple(minors(jacobian, rank))
         if found:
-            return SingularSet(rank, found, common_zeros(found))
+            if sum(map(len, found)) > MOST_MINOR_TERMS:
+                return None
+            alternatives = common_zeros(found)
+            losses = tuple(loss(jacobian, conditions, rank) for conditions in alternatives)
+            return SingularSet(rank, found, alternatives, losses)
     return SingularSet(0, (), ())
 
 

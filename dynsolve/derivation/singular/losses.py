@@ -1,0 +1,125 @@
+"""What is lost at singular configurations: the rank there, and the directions w with wᵀ J = 0.
+
+    wᵀ J = 0   ⇒   wᵀ J q̇ = 0 for every q̇,   τ = Jᵀ w = 0
+
+There is no motion along w, and a force along w needs no torque of the joints (Spong, sections
+4.9 and 4.10).  Of k + 1 rows and k columns the minors that leave out one row are, with alternating
+signs, a w of these columns; it is one of J where the rank is k.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.minors import determinant, minors
+from dynsolve.algebra.trig_factor import trig_factors
+from dynsolve.derivation.singular.conditions import Condition
+
+Direction = tuple[Expr, ...]
+"""w, a component for each row of J."""
+
+LONGEST = 40
+"""A direction with more terms is not shown."""
+
+MOST_ROWS = 4
+"""Of a Jacobian with more rows the rank alone is found."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """The rank where some conditions hold, and the directions that are lost; none where they are long.
+
+    `jacobian` is the matrix there, up to a factor that is never 0.
+    """
+
+    rank: int
+    directions: tuple[Direction, ...]
+    jacobian: Matrix
+
+
+def loss(jacobian: Matrix, conditions: Sequence[Condition], greatest: int) -> Loss:
+    """What a Jacobian of greatest rank `greatest` loses where all conditions hold."""
+    flat = _reduced(jacobian.entries, conditions)
+    columns = jacobian.shape[1]
+    held = Matrix.of(jacobian.ring, (flat[i : i + columns] for i in range(0, len(flat), columns)))
+    rank = next(k for k in range(greatest - 1, -1, -1) if k == 0 or _has_rank(held, k, conditions))
+    directions = tuple(_directions(held, rank, conditions)) if len(held.rows) <= MOST_ROWS else ()
+    is_short = all(sum(map(len, direction)) <= LONGEST for direction in directions)
+    return Loss(rank, directions if is_short else (), held)
+
+
+def _has_rank(matrix: Matrix, k: int, conditions: Sequence[Condition]) -> bool:
+    return any(not _reduced((minor,), conditions)[0].is_zero for minor in minors(matrix, k))
+
+
+def _directions(matrix: Matrix, rank: int, conditions: Sequence[Condition]) -> Iterator[Direction]:
+    """Directions that together are all that is lost: one for each row beyond the rank."""
+    size = len(matrix.rows)
+    for base in combinations(range(size), rank):
+        found = [_direction(matrix, base, i, conditions) for i in range(size) if i not in base]
+        if all(found):
+            yield from (direction for direction in found if direction is not None)
+            return
+
+
+def _direction(
+    matrix: Matrix, base: Sequence[int], row: int, conditions: Sequence[Condition]
+) -> Direction | None:
+    """The shortest w in which the rows of a base and one more stand, that one with a factor that is not 0."""
+    rows = sorted((*base, row))
+    found: list[Direction] = []
+    for columns in combinations(range(matrix.shape[1]), len(base)):
+        cofactors = []
+        for k, left_out in enumerate(rows):
+            part = Matrix.of(matrix.ring, ([matrix[i, j] for j in columns] for i in rows if i != left_out))
+            minor = determinant(part)
+            cofactors.append(minor if k % 2 == 0 else -minor)
+        values = dict(zip(rows, _reduced(cofactors, conditions), strict=True))
+        if not values[row].is_zero:
+            zero = matrix.ring.zero
+            found.append(_without_shared(tuple(values.get(i, zero) for i in range(len(matrix.rows)))))
+    return min(found, key=lambda direction: sum(map(len, direction)), default=None)
+
+
+def _reduced(values: Sequence[Expr], conditions: Sequence[Condition]) -> tuple[Expr, ...]:
+    """Expressions where the conditions hold, up to a factor that they share."""
+    for condition in conditions:
+        values = condition.reduced_together(values)
+    return tuple(values)
+
+
+def _without_shared(direction: Direction) -> Direction:
+    """w without the factors that all of its components have, and with few minus signs."""
+    values = [value for value in direction if not value.is_zero]
+    for factor, times in trig_factors(min(values, key=len)):
+        for _ in range(times):
+            divided = [_divided(value, factor) for value in direction]
+            if any(value is None for value in divided):
+                break
+            direction = tuple(value for value in divided if value is not None)
+    leading = next(value for value in direction if not value.is_zero).poly.leading_coefficient()
+    sign = -1 if all(f < 0 for value in direction for f in value.poly.coeffs()) else 1
+    shared = Fraction(abs(int(leading.p)), int(leading.q)) * sign
+    return tuple(value * (1 / shared) for value in direction)
+
+
+def _divided(value: Expr, factor: Expr) -> Expr | None:
+    """value / factor where it is one of its factors, and None where it is none."""
+    if value.is_zero:
+        return value
+    product, number, is_found = value.ring.one, value.poly.leading_coefficient(), False
+    for other, times in trig_factors(value):
+        product = product * other**times
+        is_found = is_found or other == factor
+    if not is_found:
+        return None
+    number = number / product.poly.leading_coefficient()
+    result = value.ring.one
+    for other, times in trig_factors(value):
+        result = result * other ** (times - (other == factor))
+    return Expr(value.ring, result.poly * number)
