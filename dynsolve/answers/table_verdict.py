@@ -132,7 +132,7 @@ def _wrong(
 ) -> JudgedAnswer:
     """A wrong table; `blamed` are the cells (from 0) that are, none where the whole of it is."""
     entries = tuple(_entries(rows, blamed)) if blamed else ()
-    told = tuple(dict.fromkeys(blamed.values())) or ((whole,) if whole else ())
+    told = tuple(dict.fromkeys(blamed[cell] for cell in sorted(blamed))) or ((whole,) if whole else ())
     return replace(base, verdict=Verdict.WRONG, entries=entries, diagnosis=told)
 
 

@@ -58,16 +58,17 @@ class Match:
 class Mismatch:
     """The first joint (from 0, the number of joints for the hand) that cannot be laid on the key's, and why.
 
-    `reason` is "direction" or "place".
+    `reason` is "direction"; "side" where the axes of a link are parallel and the next one is too far off or
+    too near; "place" where all point as the key's do and some lie elsewhere.
     """
 
     joint: int
     reason: str
 
     @property
-    def depth(self) -> tuple[int, bool]:
-        """How far the chains agree: joint by joint, of each the direction before the place."""
-        return self.joint, self.reason == "place"
+    def depth(self) -> tuple[bool, int, bool]:
+        """How far the chains agree: first they are turned, joint by joint, then moved."""
+        return self.reason == "place", self.joint, self.reason == "side"
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +132,7 @@ class Matching:
             turned = replace(turned, senses=(*turned.senses, sense))
             placed = self._sided(turned, joint) if keys.turns else turned
             if placed is None:
-                self._fails(joint, "place")
+                self._fails(joint, "side")
                 continue
             yield from self._turnings(joint + 1, self._joint_freed(placed, joint, keys))
 
@@ -153,7 +154,7 @@ class Matching:
             if placed is not None:
                 yield replace(placed, rotations=(*placed.rotations, placed.R))
             elif turned is not None:
-                self._fails(last, "place")
+                self._fails(last, "side")
 
     def _pointed(self, before: _Turned | None, direction: Vector, target: Vector) -> _Turned | None:
         """A direction of the student's turned to point as the key's; None where it cannot."""
