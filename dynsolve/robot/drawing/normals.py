@@ -44,9 +44,10 @@ class Relation(Enum):
 
 
 class NoAngle(AlgebraError):
-    """An angle of the drawing is no number of degrees and made of none of its letters.
+    """An angle of the drawing, or a length, is none that can be written.
 
-    `axis` is the place (from 0) of the joint axis that shows it, None for the hand.
+    An angle is a number of degrees, or made of the angles of the drawing.  `axis` is the place
+    (from 0) of the joint axis that shows it, None for the hand.
     """
 
     axis: int | None = None
@@ -153,6 +154,12 @@ def root(ring: Ring, square: Expr) -> Expr:
     for index, radicand in ring.radicands.items():
         if radicand == square.poly:
             return ring.generator(index)
+    degrees = square.poly.degrees()
+    if any(degrees[place] > 0 for pair in ring.pairs for place in (pair.sine, pair.cosine)):
+        raise NoAngle(
+            "a length of this drawing is the root of an expression with sines and cosines",
+            "give the points along the directions of the axes, with letters for the lengths between them",
+        )
     raise NeedsMore(square)
 
 

@@ -169,6 +169,11 @@ FAULTS = {
         "at the joint of q1",
         "zero: table",
     ),
+    "a length that is the root of sines": (
+        f"axes: [{ONE}, {{turn: q2, about: [cos(b), 0, sin(b)], through: [0, 0, 0]}}]\ntip: «[A, B, 0]»",
+        "the root of an expression with sines and cosines",
+        "with letters for the lengths",
+    ),
     "x of the hand not across": (
         f"axes: [{ONE}]\ntip: {{at: [l, 0, 0], z: [0, 0, 1], x: [«0, 1, 1»]}}",
         "not perpendicular",
