@@ -243,6 +243,28 @@ def _bodies(reading: Reading) -> Iterator[tuple[Body, Span]]:
         yield body, parsed.span
 
 
+_SPACES = ("nullspace", "rangespace", "lost")
+_USED_BY = {
+    "velocity": ("qd",),
+    "acceleration": ("qdd",),
+    "forces": ("Q", "tau_static"),
+    "state": ("qd", "qdd", "Q", "tau_static", *_SPACES),
+    "task": ("r", "Jr", "Jr_dot", "det", "qd", "qdd", "singular", "inverse", *_SPACES),
+    "reach": ("inverse",),
+}
+"""Which answers a key is given for."""
+
+
+def unasked(reading: Reading) -> Iterator[Finding]:
+    """A key that no answer is asked for which it is given for."""
+    asked = reading.problem.robot.questions.asked
+    for key, answers in _USED_BY.items():
+        if key in reading.fields and asked.isdisjoint(answers):
+            message = f"{key} is given, and nothing that it is for is asked for"
+            help = f"ask for it in find: {', '.join(answers[:3])}"
+            yield _finding(reading, reading.fields.key_span(key), message, help, "unasked")
+
+
 CHECKS: tuple[Callable[[Reading], Iterator[Finding]], ...] = (
     unused_value,
     ambiguous_name,
@@ -254,5 +276,6 @@ CHECKS: tuple[Callable[[Reading], Iterator[Finding]], ...] = (
     ground_body,
     no_effect,
     unphysical,
+    unasked,
 )
 """Every check, in no particular order."""
