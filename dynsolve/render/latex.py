@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, groupby
+from math import ceil
 
 from dynsolve.document import (
     Block,
@@ -37,9 +38,9 @@ FRAGMENT_PAGE = 32.8
 
 _NUMBER = 3.4
 _MOST_ROWS = 18
-_PROSE_COLUMN = r"p{0.5\linewidth}"
 _COLUMN_SPACE = 1.3  # around a column of a table, in em
 _NARROWEST = 12.0
+_MARGIN = 0.8
 _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 _TALL = (r"\frac", r"\sum", r"\begin")
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
@@ -232,20 +233,32 @@ class _Page(TypesetPage):
         yield f"\\begin{{quote}}\\small\\textbf{{Note.}} {self.prose(parts)}\\end{{quote}}"
 
     def table(self, table: Table) -> Iterator[str]:
-        columns = self.column_kinds(table)
-        begin, end = rf"\begin{{center}}\begin{{tabular}}{{{columns}}}", r"\end{tabular}\end{center}"
+        """A tabular, which stays on one page; a long one in several, the first with the header."""
         head, *body = [" & ".join(map(self.part, row)) + r" \\" for row in (table.header, *table.rows)]
-        for start in range(0, len(body), _MOST_ROWS):  # a tabular stays on one page
-            rows = "\n".join(body[start : start + _MOST_ROWS])
-            yield f"{begin}\n{head} \\hline\\rule{{0pt}}{{2.6ex}}\n{rows}\n{end}"
+        parts = ceil(len(body) / _MOST_ROWS) or 1
+        columns = self.column_kinds(table, parts > 1)
+        size = ceil(len(body) / parts)
+        yield "\\par\\medskip"
+        for start in range(0, len(body) or 1, size or 1):
+            rows = "\n".join(body[start : start + size])
+            above = "" if start else f"{head} \\hline\\rule{{0pt}}{{2.6ex}}%\n"
+            yield f"{{\\centering\\begin{{tabular}}{{{columns}}}\n{above}{rows}\n\\end{{tabular}}\\par}}"
+        yield "\\medskip"
 
-    def column_kinds(self, table: Table) -> str:
-        """The columns of a tabular; of a table that is wider than the page the widest has broken lines."""
-        if prose := prose_columns(table):
-            return "".join(_PROSE_COLUMN if k in prose else "l" for k in range(len(table.header)))
-        kinds = ["c"] * len(table.header)
+    def column_kinds(self, table: Table, fixed: bool) -> str:
+        """The columns of a tabular, of `fixed` widths or as wide as they are.
+
+        Of a table that is wider than the page the widest column has broken lines.
+        """
         columns = zip(*(table.header, *table.rows), strict=True)
         widths = [max(map(self.cell_width, column)) + _COLUMN_SPACE for column in columns]
+        if prose := prose_columns(table):
+            widths = [width + _MARGIN for width in widths]
+            others = sum(width for k, width in enumerate(widths) if k not in prose)
+            room = min((self.width - others) / len(prose) - _COLUMN_SPACE, self.width / 2)
+            own = [f"p{{{width - _COLUMN_SPACE:.1f}em}}" if fixed else "l" for width in widths]
+            return "".join(f"p{{{room:.1f}em}}" if k in prose else kind for k, kind in enumerate(own))
+        kinds = ["c"] * len(widths)
         if sum(widths) > self.width:
             widest = widths.index(max(widths))
             room = self.width - sum(widths) + widths[widest] - _COLUMN_SPACE
