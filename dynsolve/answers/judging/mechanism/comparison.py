@@ -23,6 +23,9 @@ from dynsolve.robot.model import Convention, JointType
 TOLERANCE = 1e-9
 ROUNDED = 2e-3
 """How far a table may be off that holds decimals."""
+NO_VALUE = (ArithmeticError, ValueError, KeyError, TypeError)
+"""What a cell raises that has no value: a root of -1, a name that the problem does not have."""
+
 _SEED = 20_060_302
 _DRAWS = 3
 _TRIES = 200
@@ -88,7 +91,7 @@ class TableComparer:
         for letters, key in zip(self.letters, self._keys, strict=True):
             try:
                 student = self.chain(table, letters)
-            except (ArithmeticError, ValueError, KeyError):
+            except NO_VALUE:
                 return Mismatch(0, "place")
             found = Matching(key, student, self.base_is_free, tolerance).found()
             if isinstance(found, Mismatch):
@@ -115,10 +118,11 @@ class TableComparer:
     def _is_same(self, table: Table, other: Table) -> bool:
         if [(row.variable, row.rates) for row in table] != [(row.variable, row.rates) for row in other]:
             return False
-        pairs = [
-            (a.numbers(v), b.numbers(v)) for v in self.letters for a, b in zip(table, other, strict=True)
-        ]
-        return all(_near(mine, theirs) for mine, theirs in pairs)
+        rows = list(zip(table, other, strict=True))
+        try:
+            return all(_near(a.numbers(v), b.numbers(v)) for v in self.letters for a, b in rows)
+        except NO_VALUE:
+            return False
 
     def _is_exact(self, table: Table) -> bool:
         student = self.chain(table, self.letters[0])

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from math import degrees
 
-from dynsolve.answers.judging.mechanism.comparison import OwnCoordinate, TableComparer
+from dynsolve.answers.judging.mechanism.comparison import NO_VALUE, OwnCoordinate, TableComparer
 from dynsolve.answers.judging.mechanism.matching import Mismatch
 from dynsolve.answers.judging.mechanism.repairs import Repair
 from dynsolve.answers.judging.mechanism.tables import Table
 from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
 
 THETA, D, A, ALPHA = range(4)
@@ -74,11 +75,15 @@ def _joints(comparer: TableComparer, table: Table, row: int) -> tuple[str, str]:
 
 
 def _acute(comparer: TableComparer, node: Node) -> float | None:
-    """An angle between lines in degrees, 0 to 180, without its sign."""
-    from dynsolve.notation.tree_values import evaluate
-
-    return round(abs((degrees(float(evaluate(node, comparer.letters[0]))) + 180) % 360 - 180), 6)
+    """An angle between lines in degrees, 0 to 180, without its sign; None where it has no value."""
+    try:
+        value = degrees(float(evaluate(node, comparer.letters[0])))
+    except NO_VALUE:
+        return None
+    return round(abs((value + 180) % 360 - 180), 6)
 
 
 def _lie(angle: float | None) -> str:
-    return {0.0: "parallel", 90.0: "perpendicular", 180.0: "opposite"}.get(angle or 0.0, f"at {angle:g}°")
+    if angle is None:
+        return "at an angle that is not known"
+    return {0.0: "parallel", 90.0: "perpendicular", 180.0: "opposite"}.get(angle, f"at {angle:g}°")

@@ -145,6 +145,21 @@ def test_joint_variables_that_are_not_the_robots(rows: Rows, message: str) -> No
     assert message in answer.diagnosis[0].message
 
 
+NO_VALUES = [
+    [["q1", "0", "l1", "zeta"], ["q2", "0", "l2", "0"]],
+    [["q1", "sqrt(-1)", "l1", "0"], ["q2", "0", "l2", "0"]],
+    [["q1", "1/0", "l1", "0"], ["q2", "0", "l2", "0"]],
+    [["q1", "0", "l1^999999", "0"], ["q2", "0", "l2", "0"]],
+]
+
+
+@pytest.mark.parametrize("rows", NO_VALUES)
+def test_a_cell_without_a_value_is_wrong_and_stops_nothing(rows: Rows) -> None:
+    answer = judged(TWO_LINKS + "also: [[[q1*, l1, 0, 0], [q2*, 0, l2, 0]]]\n", "DH", rows)
+    assert answer.verdict == "wrong"
+    assert len(answer.diagnosis) == 1
+
+
 def test_the_table_of_a_file_with_a_table_is_judged_too() -> None:
     assert (
         judged("planar-2r", "DH", [["q1", "0", "l1", "180deg"], ["-q2", "0", "l2", "0"]]).verdict == "correct"
