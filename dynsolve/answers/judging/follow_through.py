@@ -18,7 +18,8 @@ from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.graph import AnswerGraph, Route
+from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.route import Route
 from dynsolve.errors import AlgebraError
 
 MOST_CANDIDATES = 64

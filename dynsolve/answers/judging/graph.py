@@ -11,14 +11,15 @@ vector is what the Coriolis term is compared by.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
+from dynsolve.answers.judging.route import Route
+from dynsolve.answers.judging.task_routes import task_routes
 from dynsolve.derivation import vectorized
 from dynsolve.derivation.energy import velocities
 from dynsolve.quantities import families
@@ -37,18 +38,6 @@ _LINEAR = (
 
 MODEL = ("D", "Cqd", "g")
 """What τ is assembled from."""
-
-
-@dataclass(frozen=True, slots=True)
-class Route:
-    """value = compute(*inputs); compute gives None where these inputs lead nowhere.
-
-    `linear`: sums and derivatives alone, whose work grows with the inputs and not with their products.
-    """
-
-    inputs: tuple[str, ...]
-    compute: Callable[..., Any]
-    linear: bool = True
 
 
 class AnswerGraph:
@@ -127,10 +116,19 @@ class AnswerGraph:
             lift = self.zero_potential * body.mass
             return (Route(rule.inputs, lambda rc: rule.compute(rc) + lift, linear=False),)
         lagrange = (Route(rule.inputs, rule.compute, quantity.family in _LINEAR),) if rule.inputs else ()
+        if node in self._of_the_task:
+            return (*lagrange, *self._of_the_task[node])
         if assembled and quantity.family is families.FORCE:
             together = partial(vectorized.torque, self.robot, k=quantity.index[0] - 1)
             return (*lagrange, Route(MODEL, together))
         return lagrange
+
+    @cached_property
+    def _of_the_task(self) -> dict[str, tuple[Route, ...]]:
+        """Further routes to results about the task, by their nodes."""
+        rules = self.answer_ring.rules
+        known = (quantity for quantity in self.quantities.values() if quantity.rule in rules)
+        return {quantity.rule: found for quantity in known if (found := tuple(task_routes(self, quantity)))}
 
     def _routes_of_model(self, node: str) -> tuple[Route, ...]:
         """The routes to D, C q̇ and g."""

@@ -45,3 +45,23 @@ def test_the_torque_of_a_robot_without_masses_is_the_one_that_holds_it() -> None
     text = b"$$\\tau = [F l_2 s_2, F l_2 s_2]$$\n"
     report = check(problem, FileReader(problem)(text, "report.md"))
     assert verdicts(report)["tau_static"] == "correct"
+
+
+PLANAR = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+task: [tip.x, tip.y, q1 + q2]
+forces: [{link: 2, force: [0, F, 0], moment: [0, 0, M]}]
+find: [Jv, Jr, Q]
+"""
+
+
+def test_forces_may_go_to_the_joints_by_the_jacobian_of_the_task() -> None:
+    J = [["-l1*sin(q1)", "-l2*sin(q2)"], ["l1*cos(q1)", "l2*cos(q2)"], ["1", "1"]]
+    found = verdicts(judge(PLANAR, {"Jr": J, "Q": [["F*l1*cos(q1) + M"], ["F*l2*cos(q2) + M"]]}))
+    assert (found["Jr"], found["Q"]) == ("wrong", "follows")
+
+
+def test_the_jacobian_of_the_task_may_be_made_of_rows_of_that_of_the_arm() -> None:
+    J = [["-l1*sin(q1)", "-l2*sin(q2)"], ["l1*cos(q1)", "l2*cos(q2)"], ["0", "0"]]
+    found = verdicts(judge(PLANAR.replace(", q1 + q2]", "]"), {"Jv": J, "Jr": J[:2]}))
+    assert (found["Jv"], found["Jr"]) == ("wrong", "follows")
