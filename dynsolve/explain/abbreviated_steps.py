@@ -51,6 +51,9 @@ _DIRECT = "D_direct"
 LONGEST = 80
 """The operations up to which a result on the way to D, c_ijk and g is written out."""
 
+_CHRISTOFFEL = Letter("c", Row(tuple(map(Symbol, "ijk"))))
+_GRAVITY_TERM = Letter("g", Symbol("k"))
+
 _QUADRATIC = Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))
 
 
@@ -275,8 +278,9 @@ class _LongModel:
 
     def coriolis_forces(self, step: Step) -> Step:
         """C q̇ is part of the forces above, and is not written again."""
-        why = " In the forces above they are the terms with c and g."
-        return replace(step, result=(), why=(*step.why, why))
+        why: Prose = (" In the forces above they are the terms with ", _CHRISTOFFEL)
+        why += (" and ", _GRAVITY_TERM, ".")
+        return replace(step, result=(), why=(*step.why, *why))
 
     def inertia(self, step: Step) -> Step:
         """D from the Jacobians: the forces above are written in its entries, and give nothing new."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.agreement import agreement
+from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.derivatives import inertia_rate
-from dynsolve.explain.writing import and_joined, is_small, spong
+from dynsolve.explain.writing import is_small, listed, spong
 from dynsolve.notation.tree import (
     Negative,
     Node,
@@ -28,20 +29,22 @@ SKEW = Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C)))
 def agreement_step(context: Context) -> Step:
     """Whether D, C q̇ and g, read off from the forces, are those assembled directly."""
     agreed = context.agreement or agreement(context.robot, context.values)
-    verdicts = {"D": agreed.inertia, "C q̇": agreed.coriolis, "g": agreed.gravity}
-    same = [name for name, holds in verdicts.items() if holds]
-    wrong = [name for name, holds in verdicts.items() if not holds]
-    why = ""
+    coriolis = Product((letters.C, letters.QD))
+    verdicts = ((letters.D, agreed.inertia), (coriolis, agreed.coriolis), (letters.G, agreed.gravity))
+    same = [name for name, holds in verdicts if holds]
+    wrong = [name for name, holds in verdicts if not holds]
+    why: Prose = ()
     if same:
         verb = "is" if len(same) == 1 else "are"
-        why = f"{and_joined(same)}, read off from the forces and assembled directly, {verb} exactly equal."
+        how = f", read off from the forces and assembled directly, {verb} exactly equal."
+        why += (*listed(same), how)
     if wrong:
-        why += f" The two ways differ in {and_joined(wrong)}."
+        why += (" The two ways differ in " if same else "The two ways differ in ", *listed(wrong), ".")
     return Step(
         id="agreement",
         stage=STAGE,
         title="Both ways agree" if not wrong else "The two ways differ",
-        why=(why.strip(),),
+        why=why,
         source=spong("7.3"),
         is_task=False,
     )

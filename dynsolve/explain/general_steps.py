@@ -185,13 +185,13 @@ def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
 
 def _potential(context: Context) -> Step:
     center = Letter("r", Row((Words("c"), _I)), style="bold")
-    down = Transpose(letters.bold("g"))
+    down = Transpose(letters.GRAVITY)
     bodies = context.robot.bodies
     return Step(
         id="potentials",
         stage=Stage.ENERGY,
         title="Potential energy of each body",
-        why=("Minus the mass times ", Product((down, center)), "; ", letters.bold("g"), " points down."),
+        why=("Minus the mass times ", Product((down, center)), "; ", letters.GRAVITY, " points down."),
         formula=equation(Letter("P", _I), Negative(Product((Letter("m", _I), down, center)))),
         source=spong("7.2.3"),
         result=tuple(equation(letters.of_body("P", body), context.form(f"P{body.name}")) for body in bodies),

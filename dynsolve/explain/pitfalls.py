@@ -176,7 +176,8 @@ def _vectorized(robot: Robot) -> Iterator[Prose]:
     yield ("Do not forget the ½ of the Christoffel symbols.",)
     if not robot.gravity.is_zero:
         yield (
-            "g holds no rates and no accelerations, and its sign is that of the derivatives of ",
+            letters.G,
+            " holds no rates and no accelerations, and its sign is that of the derivatives of ",
             letters.P,
             ".",
         )

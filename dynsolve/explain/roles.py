@@ -20,7 +20,8 @@ class Role(Enum):
     ANGLE = "constant angles in the table", "constant angle in the table"
     BASE = "place of frame 0 in the world", "place of frame 0 in the world"
     MASS = "masses of the bodies", "mass of a body"
-    INERTIA = "given moments and products of inertia", "given moment of inertia"
+    INERTIA = "given moments of inertia", "given moment of inertia"
+    PRODUCT = "given products of inertia", "given product of inertia"
     SHAPE = "dimensions of the bodies", "dimension of a body"
     CENTER = "place of the mass centres in their links", "place of a mass centre in its link"
     OTHER = "parameters of the problem", "parameter of the problem"
@@ -69,9 +70,10 @@ def _places(robot: Robot) -> Iterator[tuple[Role, Iterable[str]]]:
     for body in robot.bodies:
         yield Role.MASS, _names(body.mass)
     for body in robot.bodies:
-        role = Role.INERTIA if body.shape is None else Role.SHAPE
-        for entry in body.inertia.entries if body.inertia is not None else ():
-            yield role, _names(entry)
+        given = body.inertia.rows if body.inertia is not None else ()
+        for i, j in ((i, j) for i, row in enumerate(given) for j in range(len(row))):
+            own = Role.INERTIA if i == j else Role.PRODUCT
+            yield own if body.shape is None else Role.SHAPE, _names(given[i][j])
     for body in robot.bodies:
         for entry in body.center.entries:
             yield Role.CENTER, _names(entry)

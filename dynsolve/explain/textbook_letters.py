@@ -78,7 +78,7 @@ def textbook(robot: Robot) -> Iterator[Line]:
     ground = "the world w" if letters.has_base(robot) else "frame 0"
     yield from _kinematics(ground, letters.H(robot, 0).sup)
     yield from _questions(robot)
-    yield from _bodies(ground, letters.H(robot, 0).sup)
+    yield from _bodies(robot, ground)
     yield from _dynamics()
 
 
@@ -104,13 +104,13 @@ def _kinematics(ground: str, above: Node | None) -> Iterator[Line]:
     yield _line(
         [Letter(name, style="upright") for name in MOTIONS], "rotation about, translation along an axis"
     )
-    yield _line([Symbol("A"), Symbol("B")], "any two angles, in an identity")
+    yield _line([Symbol("X"), Symbol("Y")], "any two expressions, in an identity")
     yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
     yield _each([(frame, "frame i"), (turned, "its orientation")], f", seen from {ground}")
     yield _each([(_numbered("x"), "axis x"), (_numbered("z"), "axis z")], " of frame i")
     yield _line(_numbered("o"), "origin of frame i", "m")
-    yield _line(letters.bold("0"), "zero vector")
+    yield _line(letters.bold("0"), "zero vector or matrix")
     yield _each([(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")])
     yield _each([
         (letters.J, "Jacobian of the last frame"), (letters.JV, "linear part of J"),
@@ -140,7 +140,7 @@ def _questions(robot: Robot) -> Iterator[Line]:
     yield _line(letters.TAU_STATIC, "forces and torques that hold the arm at rest")
 
 
-def _bodies(ground: str, above: Node | None) -> Iterator[Line]:
+def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     center = Row((Words("c"), _I))
     yield _line(_body("m"), "mass of body i", "kg")
     centers = [
@@ -148,7 +148,7 @@ def _bodies(ground: str, above: Node | None) -> Iterator[Line]:
         (Letter("r", center, _I, "bold"), "the same in its link's frame"),
     ]
     yield _each(centers, "", "m")
-    yield _line(_numbered("I"), "inertia tensor of body i, along its own axes", "kg m^2")
+    yield _line(_own_tensors(robot), "inertia tensor of body i, along its own axes", "kg m^2")
     yield _line(_body("I", "script"), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
     yield _line(_numbered("R"), f"axes of body i, seen from {ground}")
     yield _line([Letter("I", Words(a)) for a in ("xx", "yy", "zz")], "moments of a uniform shape", "kg m^2")
@@ -158,14 +158,24 @@ def _bodies(ground: str, above: Node | None) -> Iterator[Line]:
     yield _line(_body("h"), "height of the mass centre of body i", "m")
 
 
+def _own_tensors(robot: Robot) -> list[Node]:
+    """I_i, and I_i^b where the problem calls something else I_1."""
+    tensors = (letters.tensor(robot, body) for body in robot.bodies)
+    raised = dict.fromkeys(tensor.sup for tensor in tensors)
+    return [Letter("I", _I, sup, "bold") for sup in raised] or [_numbered("I")]
+
+
 def _dynamics() -> Iterator[Line]:
     yield _line([_sub("J", "v"), _sub("J", "omega")], "Jacobians of the mass centre of body i")
-    yield _each([(_numbered("v"), "velocity of its mass centre"), (_numbered("omega"), "angular velocity")])
-    energies = [
-        (_sub("K", "v"), "kinetic energy of translation"), (_sub("K", "omega"), "of rotation"),
-        (_body("K"), "of both"), (_body("P"), "potential energy"),
+    velocities = [
+        (_numbered("v"), "velocity of the mass centre"), (_numbered("omega"), "angular velocity"),
     ]  # fmt: skip
-    yield _each(energies, ", of body i", "J")
+    yield _each(velocities, " of body i")
+    energies = [
+        (_body("K"), "kinetic energy"), (_sub("K", "v"), "its part of translation"),
+        (_sub("K", "omega"), "its part of rotation"), (_body("P"), "potential energy"),
+    ]  # fmt: skip
+    yield _each(energies, " of body i", "J")
     of_arm = [(letters.K, "kinetic energy"), (letters.P, "potential energy"), (letters.L, "Lagrangian")]
     yield _each(of_arm, " of the arm", "J")
     yield _line(_body("tau"), "generalized force i, a torque: coordinate i is an angle", "N m")

@@ -98,7 +98,7 @@ def _rest(context: Context) -> Step:
     return Step(
         id="Cqd",
         stage=STAGE,
-        title="C q̇ and g, read off from the forces",
+        title="C q̇ and the gravity terms, read off from the forces",
         why=why,
         formula=equation(
             Sum((Cqd, letters.G)), Sum((letters.TAU, Negative(Product((letters.D, letters.QDD)))))
@@ -108,7 +108,9 @@ def _rest(context: Context) -> Step:
         uses=(*_forces(context), "D"),
         hint=(
             "What is left of the forces without the accelerations: the terms with rates belong to C, the "
-            "others, which remain when the arm is at rest, are g.",
+            "others, which remain when the arm is at rest, are ",
+            letters.G,
+            ".",
         ),
     )
 
@@ -226,11 +228,11 @@ def _gravity(context: Context) -> Step:
     still = context.values["g"].is_zero
     why: Prose = ("Directly, without τ: the partial derivatives of the potential energy.",)
     if still:
-        why += (" It does not depend on any coordinate, so g is zero.",)
+        why += (" It does not depend on any coordinate, so ", letters.G, " is zero.")
     return Step(
         id="g",
         stage=STAGE,
-        title="g, from the potential energy",
+        title="The gravity terms, from the potential energy",
         why=why,
         formula=equation(Letter("g", _K), letters.partial_derivative(letters.P, Letter("q", _K))),
         source=spong("7.3"),

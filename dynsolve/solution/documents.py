@@ -25,6 +25,7 @@ from dynsolve.explain.notation_list import notation
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import Relation, equation
+from dynsolve.quantities import letters
 from dynsolve.quantities.index import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
@@ -158,7 +159,9 @@ def _constant_blocks(short: Abbreviated) -> Iterator[Block]:
     own: Prose = (", and ", *listed(short.kept)) if short.kept else ()
     yield Text((
         f"The arm has {count} base parameter{'s' if count > 1 else ''}: the fewest combinations of masses, "
-        "mass centres, moments of inertia and lengths of which D and g are made (",
+        "mass centres, moments of inertia and lengths of which ",
+        *listed([letters.D, letters.G]),
+        " are made (",
         KHALIL_DOMBRE.section("9.4"),
         "). They are the constants below",
         *own,

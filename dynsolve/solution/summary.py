@@ -11,6 +11,8 @@ from dynsolve.document import Block, Formula, Heading, Text
 from dynsolve.explain import closing
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.explain.writing import listed
+from dynsolve.quantities import letters
 from dynsolve.quantities.index import stages_of
 from dynsolve.robot.model import Robot
 
@@ -34,7 +36,7 @@ def summary_blocks(robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
     yield Formula(model.formula)
     if robot.n > MOST_JOINTS:
         number = list(stages_of(robot)).index(model.stage) + 1
-        yield Text((f"D, C and g are those of section {number}.",))
+        yield Text((*listed([letters.D, letters.C, letters.G]), f" are those of section {number}."))
         return
     if model.result:
         yield Text(("With the matrices of this robot:",))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
 import pytest
 
 import dynsolve
-from dynsolve.document import Document, Fold, Heading, Table
+from dynsolve.document import Block, Document, Fold, Heading, Note, Table, Text
 from dynsolve.explain.notation_list import COUNTING, notation
 from dynsolve.explain.sign_kinds import Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.step import Detail
@@ -152,6 +153,10 @@ MEANINGS = [
     ("in3140-rp", "L₁", "length in the table", "m"),
     ("in3140-rp", "m₁, m₂", "masses of the bodies", "kg"),
     ("in3140-rp", "I_1zz", "given moment of inertia", "kg m²"),
+    ("planar-2r", "I₁, I₂", "given moments of inertia", "kg m²"),
+    ("planar-2r", "Iᵢ^b", "inertia tensor of body i, along its own axes", "kg m²"),
+    ("elbow-3r", "Iᵢ", "inertia tensor of body i, along its own axes", "kg m²"),
+    ("elbow-3r", "X, Y", "any two expressions, in an identity", ""),
     ("in3140-rp", "s₁, c₁", "s₁ = sin θ₁, c₁ = cos θ₁", ""),
     ("in3140-rp", "fᵢ", "generalized force i, a force: coordinate i is a length", "N"),
     ("in3140-rp", "cₖⱼ", "entry (k, j) of C", ""),
@@ -179,6 +184,26 @@ def test_a_letter_that_is_taken_gives_way() -> None:
     clashing = solved(CLASHING).style
     assert {base for base, _, _ in clashing.letters} == {"c", "d", "g", "P", "K", "f"}
     assert {"g", "z", "J", "C"} <= clashing.bold
+
+
+@pytest.mark.parametrize("problem", [*PROBLEMS, CLASHING])
+def test_g_in_a_sentence_is_set_as_a_formula(problem: str) -> None:
+    """g is a number and 𝐠 a column: a sentence or a heading that just says g does not tell which."""
+    said = [block.text for block in document(problem).blocks if isinstance(block, Heading)]
+    for block in unfolded(document(problem).blocks):
+        if isinstance(block, (Text, Note)):
+            said += [part for part in block.parts if isinstance(part, str)]
+    assert [text for text in said if re.search(r"(?<![\w'])g(?!\w)", text)] == []
+
+
+def unfolded(blocks: Iterable[Block]) -> Iterator[Block]:
+    """Every block, and in place of a fold its heading and what is in it."""
+    for block in blocks:
+        if isinstance(block, Fold):
+            yield Text((block.title,))
+            yield from unfolded(block.blocks)
+        else:
+            yield block
 
 
 @pytest.mark.slow

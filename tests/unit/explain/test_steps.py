@@ -355,7 +355,7 @@ def test_a_long_list_of_zeros_is_not_printed() -> None:
 
 def test_what_agrees_is_said_in_a_sentence() -> None:
     assert said(step("planar-2r", "agreement").why, "planar-2r") == (
-        "D, C q̇ and g, read off from the forces and assembled directly, are exactly equal."
+        "D, C q̇ and 𝐠, read off from the forces and assembled directly, are exactly equal."
     )
 
 

@@ -37,7 +37,7 @@ USED = [
     ("Rotational kinetic energy of body 2", ("w2", "I2")),
     ("Coordinate 1: the torque", ("ddt1", "dLdq1")),
     ("Christoffel symbols", ("D",)),
-    ("g, from the potential energy", ("P",)),
+    ("The gravity terms, from the potential energy", ("P",)),
 ]
 
 
