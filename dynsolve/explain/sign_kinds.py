@@ -21,12 +21,14 @@ _SAME: dict[Kind, Kind] = {
     ("x", "bold", ""): ("x", "bold", "#"),
     ("z", "bold", ""): ("z", "bold", "#"),
     ("o", "bold", ""): ("o", "bold", "#"),
+    ("A", "bold", ""): ("A", "bold", "#"),
+    ("H", "bold", ""): ("H", "bold", "#^"),
     ("r", "bold", "c"): ("r", "bold", "c#"),
     ("I", "bold", "#^"): ("I", "bold", "#"),
     ("I", "bold", "#given"): ("I", "bold", "#"),
     ("h", "italic", "c#"): ("h", "italic", "#"),
 }
-"""Kinds that mean the same as another: an axis without its number, the height h_c1 where h_1 is a length."""
+"""Kinds that mean the same as another: an axis or a matrix without its number, the height h_c1 where h_1 is a length."""
 
 MOTIONS = ("Rot", "Trans")
 """The names of the motions of a row of the table."""

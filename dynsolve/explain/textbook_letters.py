@@ -104,7 +104,7 @@ def _kinematics(ground: str, above: Node | None) -> Iterator[Line]:
     yield _line(
         [Letter(name, style="upright") for name in MOTIONS], "rotation about, translation along an axis"
     )
-    yield _line([Symbol("X"), Symbol("Y")], "any two expressions, in an identity")
+    yield _line([Symbol("U"), Symbol("V")], "any two expressions, in an identity")
     yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
     yield _each([(frame, "frame i"), (turned, "its orientation")], f", seen from {ground}")
@@ -133,7 +133,8 @@ def _questions(robot: Robot) -> Iterator[Line]:
     else:
         yield _line(letters.bold("r"), "from the point of a given tensor to its mass centre", "m")
     yield _line(letters.J_TASK, "Jacobian of the task; with + its pseudoinverse", "", ("J", "bold", "r^"))
-    yield _line([Letter(name) for name in "ABD"], "constants of a solution, given where they stand")
+    yield _line([Letter(name) for name in "ABDXY"], "constants of a solution, given where they stand")
+    yield _line(Symbol("psi"), "angle that is sought", "rad", ("", "name", "psi"))
     yield _line(_numbered("F"), "force from outside", "N")
     yield _line([_numbered("M"), _body("M")], "moment from outside, its size", "N m")
     yield _line(letters.Q_FORCES, "generalized forces of these", "", ("Q", "bold", "F#"))

@@ -120,10 +120,10 @@ def _turn(context: Context, found: squares.Turned) -> Prose:
     s, c = Function("sin", angle), Function("cos", angle)
     if any(part.is_zero for part in found.parts):
         return "By ", equation(Sum((Power(s, Number(2)), Power(c, Number(2)))), Number(1)), ":"
-    X, Y = Symbol("X"), Symbol("Y")
-    first, second = Sum((Product((X, s)), Product((Y, c)))), Sum((Product((X, c)), Negative(Product((Y, s)))))
+    U, V = Symbol("U"), Symbol("V")
+    first, second = Sum((Product((U, s)), Product((V, c)))), Sum((Product((U, c)), Negative(Product((V, s)))))
     left = Sum(tuple(Power(Parenthesized(x), Number(2)) for x in (first, second)))
-    return "By ", equation(left, Sum((Power(X, Number(2)), Power(Y, Number(2))))), ":"
+    return "By ", equation(left, Sum((Power(U, Number(2)), Power(V, Number(2))))), ":"
 
 
 def _sum_of_squares(context: Context, components: Sequence[Expr]) -> Node:

@@ -1,7 +1,7 @@
 """vᵀ v on paper: how the squares of the components of a velocity become the square of the speed.
 
 1. Two components that are one vector, turned by an angle, are exchanged for that vector:
-   (X s + Y c)² + (X c - Y s)² = X² + Y².
+   (U s + V c)² + (U c - V s)² = U² + V².
 2. What is left is multiplied out and sorted by lengths and rates, the sines and cosines in
    brackets: l₁ l_c2 (s₁ s₁₂ + c₁ c₁₂) q̇₁ (q̇₁ + q̇₂).  A square that shares no product of
    rates with others stays as it is.

@@ -156,7 +156,7 @@ MEANINGS = [
     ("planar-2r", "I₁, I₂", "given moments of inertia", "kg m²"),
     ("planar-2r", "Iᵢ^b", "inertia tensor of body i, along its own axes", "kg m²"),
     ("elbow-3r", "Iᵢ", "inertia tensor of body i, along its own axes", "kg m²"),
-    ("elbow-3r", "X, Y", "any two expressions, in an identity", ""),
+    ("elbow-3r", "U, V", "any two expressions, in an identity", ""),
     ("in3140-rp", "s₁, c₁", "s₁ = sin θ₁, c₁ = cos θ₁", ""),
     ("in3140-rp", "fᵢ", "generalized force i, a force: coordinate i is a length", "N"),
     ("in3140-rp", "cₖⱼ", "entry (k, j) of C", ""),
