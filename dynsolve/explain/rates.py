@@ -227,9 +227,7 @@ def _space(context: Context, name: str) -> Step:
     at = AtState(context.robot.ring, context.robot.questions.state.by_symbol)
     J = at.matrix(context.values["Jr"])
     vectors = [Tree(tuple((row[k],) for row in form.rows)) for k in range(len(form.rows[0]))]
-    spanned: Node = Row((Words("span "), Row((Words("{"), side_by_side(vectors), Words("}")))))
-    if not vectors:
-        spanned = Row((Words("{"), Number(0), Words("}")))
+    spanned = Row((Words("span "), Parenthesized(side_by_side(vectors)))) if vectors else Words("{0}")
     rank, count = rank_parts(J).rank, len(vectors)
     dimension = f"The rank is {rank}, and the dimension of this space {count}."
     return Step(

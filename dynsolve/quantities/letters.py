@@ -7,6 +7,7 @@ from dynsolve.notation.tree import (
     Letter,
     Node,
     Number,
+    Parenthesized,
     Product,
     Quotient,
     Row,
@@ -82,10 +83,9 @@ TAU = bold("tau")
 Q_FORCES = bold("Q")
 TAU_STATIC = bold("tau", Words("static"))
 DET = Row((Words("det "), bold("J", Symbol("r"))))
-_OF_J = Row((Words("("), bold("J", Symbol("r")), Words(")")))
-NULLSPACE = Row((Letter("N", style="script"), _OF_J))
-RANGESPACE = Row((Letter("R", style="script"), _OF_J))
-LOST = Row((Letter("R", style="script"), _OF_J, Words("⊥")))
+NULLSPACE = Row((Letter("N", style="script"), Parenthesized(bold("J", Symbol("r")))))
+RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r")))))
+LOST = Row((Letter("N", style="script"), Parenthesized(Transpose(bold("J", Symbol("r"))))))
 TASK = bold("r")
 J_TASK = bold("J", Symbol("r"))
 K = Letter("K", style="script")

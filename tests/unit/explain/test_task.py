@@ -80,3 +80,11 @@ def test_every_quantity_has_its_letter() -> None:
     robot = dynsolve.solve(ARM + TASK).robot
     letters = [to_unicode(q.letter(robot), PLAIN) for q in quantities(robot).answers()]
     assert {"p_P", "v_P", "J_vP", "J_ωE", "J̇_v", "J̇", "r", "J_r", "J̇_r"} <= set(letters)
+
+
+def test_latex_is_set_in_letters_that_latex_knows() -> None:
+    everything = "velocity: [0, v, 0]\nacceleration: [0, 0, 0]\nforces: [{link: 3, force: [F, 0, 0]}]\n"
+    asked = "find: [det, qd, qdd, nullspace, rangespace, lost, Q, tau_static, vP, Jr_dot]"
+    steps = dynsolve.solve(ARM + TASK + everything + "state: {q1: 0, q2: 0}\n" + asked).to_json()["steps"]
+    assert {"qdd", "lost", "tau_static"} <= {step["id"] for step in steps}
+    assert all(step["latex"].isascii() for step in steps)
