@@ -235,3 +235,8 @@ def _closing(solution: Dynamics) -> Iterator[Block]:
         f"Verified: {how} at {verification.states} random states, "
         f"relative error {verification.max_relative_error:.1e}.",
     ))  # fmt: skip
+    if solution.robot.questions.asked:
+        words = (
+            "What only this exercise asks agrees with computations on numbers that share no formula with it."
+        )
+        yield Text((words,))
