@@ -20,7 +20,10 @@ import numpy as np
 import dynsolve
 
 ROOT = Path(__file__).parent.parent
-LIBRARY = sorted((ROOT / "problems").glob("*.yaml"))
+ALL_PROBLEMS = sorted((ROOT / "problems").glob("*.yaml"))
+LIBRARY = [path for path in ALL_PROBLEMS if "\nmasses:" in path.read_text(encoding="utf-8")]
+"""The problems of the library that have dynamics; the others ask for kinematics alone."""
+
 COURSE_DOCUMENT = ROOT / "tests" / "golden" / "answers" / "dynamics-overview.md"
 TEXTBOOKS = sorted((ROOT / "tests" / "golden" / "textbooks").glob("*.yaml"))
 

@@ -110,7 +110,7 @@ class _Explainer:
         way = InverseWay(self.formulas, step, before)
         results = self.formulas.results(unknown, step)
         lines = tuple(way.lines)
-        shown = names_in(*results, *way.working, *(f for line in lines for f in line.formulas))
+        shown = names_in(*results, *(lines[-1].formulas if lines else way.working))
         return Step(
             id=f"inverse_{step.coordinate}",
             stage=STAGE,

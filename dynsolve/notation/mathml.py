@@ -44,6 +44,7 @@ class MathMLPrinter(FormulaPrinter):
     between = ""
     after_operator = ""
     minus = MINUS
+    argument_separator = "<mo>,</mo>"
     signs = ("<mo>+</mo>", "<mo>\u2212</mo>")
     star = "<mo>\u22c6</mo>"
     dot = "<mo>\u22c5</mo>"

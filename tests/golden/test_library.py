@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.oracle.reading import load
-from tests.support import LIBRARY, solve_json
+from tests.support import ALL_PROBLEMS, LIBRARY, solve_json
 
 STEMS = {
     "box-cylinder-rod-sphere",
@@ -15,6 +15,9 @@ STEMS = {
     "crustcrawler-2r",
     "cylindrical-rpp",
     "elbow-3r",
+    "inf3480-ppr",
+    "inf3480-rpr",
+    "inf3480-rrp",
     "in3140-rp",
     "numeric-2r",
     "panda-7r",
@@ -30,15 +33,26 @@ STEMS = {
 
 
 def test_the_library_is_whole() -> None:
-    assert {path.stem for path in LIBRARY} == STEMS
+    assert {path.stem for path in ALL_PROBLEMS} == STEMS
 
 
-@pytest.mark.parametrize("path", LIBRARY, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", ALL_PROBLEMS, ids=lambda path: path.stem)
 def test_a_problem_says_what_it_is_and_where_it_comes_from(path: Path) -> None:
     problem = load(path)
     assert problem["title"]
     assert len(problem["source"]) > 20
-    assert {"D", "C", "g"} <= set(problem["find"])
+    assert problem["find"]
+
+
+@pytest.mark.parametrize("path", LIBRARY, ids=lambda path: path.stem)
+def test_a_problem_of_dynamics_asks_for_the_matrices(path: Path) -> None:
+    assert {"D", "C", "g"} <= set(load(path)["find"])
+
+
+@pytest.mark.parametrize("path", [p for p in ALL_PROBLEMS if p not in LIBRARY], ids=lambda path: path.stem)
+def test_a_problem_of_kinematics_has_what_it_asks_for(path: Path) -> None:
+    results = solve_json(path)["results"]
+    assert all(results[name] for name in load(path)["find"])
 
 
 @pytest.mark.parametrize("path", LIBRARY, ids=lambda path: path.stem)
