@@ -22,7 +22,7 @@ from dynsolve.document import (
 )
 from dynsolve.notation.latex import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Node, Words
+from dynsolve.notation.tree import Node, Row, Words
 from dynsolve.render.columns import Cell, Columns
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
@@ -41,6 +41,7 @@ _MOST_ROWS = 18
 _COLUMN_SPACE = 1.3  # around a column of a table, in em
 _NARROWEST = 12.0
 _MARGIN = 0.8
+_QUAD = 0.9  # what a comma between formulas takes more in LaTeX
 _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 _TALL = (r"\frac", r"\sum", r"\begin")
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
@@ -267,7 +268,10 @@ class _Page(TypesetPage):
 
     def cell_width(self, cell: Inline) -> float:
         """The width of a cell of a table, in em."""
-        return self.ruler.width(cell) if isinstance(cell, Node) else 0.5 * len(str(cell))
+        if not isinstance(cell, Node):
+            return 0.5 * len(str(cell))
+        commas = sum(part == Words(", ") for part in cell.parts) if isinstance(cell, Row) else 0
+        return self.ruler.width(cell) + _QUAD * commas
 
     def picture(self, picture: Picture) -> Iterator[str]:
         if picture.latex:
