@@ -104,7 +104,16 @@ def _weight(context: Context, body: Body, general: Node) -> tuple[Prose, Node, t
     where = f" above the origin of the {context.ground}. The same with vectors: minus the mass times "
     why: Prose = ("The mass times ", g, " times the height ", h, where, *product)
     formula = side_by_side([equation(P, Product((context.mass(body), g, h))), general])
-    return why, formula, (equation(h, height), *working)
+    return why, formula, (*_numbers(context, body, g), equation(h, height), *working)
+
+
+def _numbers(context: Context, body: Body, g: Node) -> tuple[Node, ...]:
+    """What the mass and g are where they are numbers: m_2 = 1.2, g = 9.81."""
+    (entry,) = (entry for entry in context.robot.gravity.entries if not entry.is_zero)
+    size = context.show(-entry if _leads_with_minus(entry) else entry)
+    named = ((context.mass(body), context.show(body.mass)), (g, size))
+    given = [equation(letter, value) for letter, value in named if letter != value]
+    return (side_by_side(given),) if given else ()
 
 
 def _rows(node: Node) -> tuple[tuple[Node, ...], ...]:

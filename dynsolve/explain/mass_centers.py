@@ -14,10 +14,13 @@ from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     Letter,
     Matrix,
+    Negative,
     Node,
     Number,
+    Parenthesized,
     Product,
     Sum,
+    Transpose,
     equation,
 )
 from dynsolve.quantities import letters
@@ -116,7 +119,7 @@ def _part_of_the_way(body: Body) -> Node | None:
 
 
 def _measured(context: Context, body: Body) -> tuple[Node, ...]:
-    """A centre in its frame, from the ends of the link between which the problem gives it."""
+    """A centre in its frame, from the ends of the link where it is given so: in letters, then in values."""
     robot, link = context.robot, body.link
     if not (context.standard or link < len(robot.joints)):
         return ()
@@ -125,10 +128,15 @@ def _measured(context: Context, body: Body) -> tuple[Node, ...]:
     sine, cosine = ring.sin(row.alpha), ring.cos(row.alpha)
     across = row.d * sine if context.standard else -(row.d * sine)
     length = algebra.Matrix.column(ring, (row.a, across, row.d * cosine))  # from the near to the far end
+    other_end = link - 1 if context.standard else link + 1
+    between = Parenthesized(Sum((letters.o(other_end), Negative(letters.o(link)))))
+    way = Product((Transpose(letters.R(robot, link)), between))
     if is_given_by(body, "near") and context.standard and not length.is_zero:
-        return (Sum((context.show(-length), context.show(body.center + length))),)
+        given = context.show(body.center + length)
+        return Sum((way, given)), Sum((context.show(-length), given))
     if body.center_written == "midpoint":
-        return (Product((letters.HALF, context.show(-length if context.standard else length))),)
+        shown = context.show(-length if context.standard else length)
+        return Product((letters.HALF, *way.factors)), Product((letters.HALF, shown))
     return ()
 
 

@@ -13,7 +13,7 @@ from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_sums
-from dynsolve.explain.writing import spong
+from dynsolve.explain.writing import and_joined, spong
 from dynsolve.notation.tree import (
     BigSum,
     Letter,
@@ -30,7 +30,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Body
+from dynsolve.robot.model import Body, Robot
 
 STAGE = Stage.VECTORIZED
 
@@ -142,7 +142,7 @@ def _inertia_direct(context: Context) -> Step:
         why=(
             "Without the Lagrangian: ",
             equation(letters.K, Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))),
-            ", so D is a sum over the bodies.",
+            f", so D is a sum over the bodies{_named_otherwise(robot)}.",
             " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
             " It gives the same D, entry by entry." if same else " It does not give the same D.",
         ),
@@ -154,6 +154,13 @@ def _inertia_direct(context: Context) -> Step:
             "read off from the forces.",
         ),
     )
+
+
+def _named_otherwise(robot: Robot) -> str:
+    """Which bodies there are, where they are not called 1, 2, ..., as a sum counts them."""
+    names = [body.name for body in robot.bodies]
+    counted = names == [str(place) for place in range(1, len(names) + 1)]
+    return "" if counted else f" {and_joined(names)}, counted in this order"
 
 
 def _is_short(context: Context) -> bool:

@@ -260,9 +260,20 @@ def test_a_mass_without_a_symbol_is_called_after_its_body() -> None:
 def test_where_a_centre_comes_from() -> None:
     assert "from the near end of link 1, o₀" in said(step("planar-2r", "rc1").why, "planar-2r")
     assert shown_working("planar-2r", "rc1")[0] == (
-        "r_c1¹ = [[-l₁], [0], [0]] + [[l_c1], [0], [0]] = [[l_c1 - l₁], [0], [0]]"
+        "r_c1¹ = (R₁⁰)ᵀ (o₀ - o₁) + [[l_c1], [0], [0]] = [[-l₁], [0], [0]] + [[l_c1], [0], [0]]"
+        " = [[l_c1 - l₁], [0], [0]]"
     )
-    assert shown_working("in3140-rp", "rc1")[0] == "r_c1¹ = ½ [[0], [-L₁], [0]] = [[0], [-L₁/2], [0]]"
+    assert shown_working("in3140-rp", "rc1")[0] == (
+        "r_c1¹ = ½ (R₁⁰)ᵀ (o₀ - o₁) = ½ [[0], [-L₁], [0]] = [[0], [-L₁/2], [0]]"
+    )
+
+
+def test_numbers_that_go_in_are_named() -> None:
+    assert shown_working("numeric-2r", "P2")[0] == "m₂ = 1.2, g = 9.81"
+    assert shown_working("planar-2r", "P2")[0].startswith("h₂ = ")
+    assert "the bodies 1, 2 and p, counted in this order" in said(
+        step("numeric-2r", "D_direct").why, "numeric-2r"
+    )
     assert "is ⅓ of the way along link 2, from o₁ to o₂." in said(step(NAMED, "rc2").why, NAMED)
     assert "given by its coordinates in frame 1" in said(step("rp-vertical", "rc1").why, "rp-vertical")
 
