@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation.graph import Rule
+from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.rates import whole_or_task
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
@@ -40,23 +40,24 @@ def configuration_rules(robot: Robot) -> Iterator[Rule]:
         yield Rule("inverse", ("r",), lambda r: inverse(robot, r))
 
 
-def where_singular(jacobian: Matrix) -> SingularSet | None:
-    """Where a Jacobian has less than its greatest rank (Spong, section 4.9); None where it is too long."""
+def where_singular(jacobian: Matrix) -> SingularSet | Skipped:
+    """Where a Jacobian has less than its greatest rank (Spong, section 4.9)."""
     from dynsolve.algebra.transfer import Transfer
     from dynsolve.derivation.inverse.unknowns import search_ring
     from dynsolve.derivation.singular.sets import singular_set
 
     ring = search_ring(jacobian.ring, (), {})
-    return singular_set(jacobian.map(Transfer(jacobian.ring, ring)))
+    found = singular_set(jacobian.map(Transfer(jacobian.ring, ring)))
+    return found or Skipped("the Jacobian and its minors are too long to be taken apart into factors")
 
 
-def inverse(robot: Robot, r: Matrix) -> Inverse | None:
-    """q from r(q) = r; None where no closed form is found (Spong, section 3.3)."""
+def inverse(robot: Robot, r: Matrix) -> Inverse | Skipped:
+    """q from r(q) = r, where a closed form is found (Spong, section 3.3)."""
     from dynsolve.derivation.inverse.branches import branches
     from dynsolve.derivation.inverse.search import solve_task
 
     solving = solve_task(r, robot.questions.reached)
-    if solving is None:
-        return None
-    found = branches(solving)
-    return None if found is None else Inverse(solving, found)
+    found = None if solving is None else branches(solving)
+    if solving is None or found is None:
+        return Skipped("no closed form was found")
+    return Inverse(solving, found)

@@ -36,8 +36,7 @@ class ConfigurationForms:
     def singular_set(self) -> SingularSet | None:
         """Where the Jacobian of the task loses rank; None where it is too long."""
         found = self.values["singular"]
-        assert found is None or isinstance(found, SingularSet)
-        return found
+        return found if isinstance(found, SingularSet) else None
 
     @cached_property
     def singular(self) -> tuple[tuple[Node, ...], ...]:
@@ -94,8 +93,7 @@ class ConfigurationForms:
     def solved(self) -> Inverse | None:
         """The solution of the task; None where no closed form was found."""
         found = self.values["inverse"]
-        assert found is None or isinstance(found, Inverse)
-        return found
+        return found if isinstance(found, Inverse) else None
 
     @cached_property
     def inverse(self) -> tuple[dict[str, Node], ...]:

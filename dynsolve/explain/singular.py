@@ -101,7 +101,7 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
     several = len(found.losses) > 1
     what = "What is lost" if lost else "The rank"
     where: Prose = ("Where ", *_equations(forms.singular[case]), ", the rank is ",
-                    f"{loss.rank} instead of {found.rank}. ")  # fmt: skip
+                    f"{loss.rank} instead of {found.rank}.")  # fmt: skip
     w = Letter("w", style="bold")
     names = [w] if len(lost) == 1 else [Letter("w", Number(k), style="bold") for k in range(1, len(lost) + 1)]
     exact = all(condition.keeps_values for condition in found.alternatives[case])
@@ -131,8 +131,8 @@ def _lost_words(context: Context) -> Prose:
     w = Letter("w", style="bold")
     task = context.robot.questions.task
     what = "A force" if task is None or task.is_default else "A force or moment"
-    return ("Every velocity that the joints can give is orthogonal to ", w, ": motion along ", w,
-            f" is lost. {what} along ", w, " needs no torque of the joints. ")  # fmt: skip
+    return (" Every velocity that the joints can give is orthogonal to ", w, ": motion along ", w,
+            f" is lost. {what} along ", w, " needs no torque of the joints.")  # fmt: skip
 
 
 def _together(conditions: tuple[Node, ...]) -> Node:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Inline, Prose, Verbatim
 from dynsolve.explain.citations import by_itself
 from dynsolve.explain.notation_list import problem_names
@@ -121,12 +122,10 @@ class _Exporter:
     def value(self, quantity: Quantity) -> Any:
         """A scalar as text, a matrix as its rows, a vector as its entries; sets and spans as lists."""
         match quantity.family.kind:
-            case Kind.EQUATIONS if self.configurations.singular_set is None:
-                return {"skipped": "the Jacobian and its minors are too long"}
+            case Kind.EQUATIONS | Kind.BRANCHES if isinstance(self.solution.values[quantity.rule], Skipped):
+                return {"skipped": self.solution.values[quantity.rule].why}
             case Kind.EQUATIONS:
                 return [[f"{self.python.text(e)} = 0" for e in one] for one in self.configurations.singular]
-            case Kind.BRANCHES if self.configurations.solved is None:
-                return {"skipped": "no closed form was found"}
             case Kind.BRANCHES:
                 return [
                     {name: self.python.text(value) for name, value in branch.items()}

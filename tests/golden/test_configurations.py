@@ -16,6 +16,7 @@ from typing import Any
 
 import pytest
 
+import dynsolve
 from tests.support import FUNCTIONS, solve_json
 
 HERE = Path(__file__).parent
@@ -107,3 +108,24 @@ def test_the_published_inverse(case: dict[str, Any]) -> None:
         assert len(mine) == len(theirs)
         for one in theirs:
             assert min(distance(q, one, angles) for q in mine) < 1e-6
+
+
+def test_what_is_lost_where_an_elbow_is_stretched_or_its_hand_is_above_its_base() -> None:
+    """Spong, Hutchinson, Vidyasagar (2006), section 4.9.2: forces across the arm, and along it."""
+    text = """
+dh: [{theta: q1*, d: L1, alpha: 90deg}, {theta: q2*, a: L2}, {theta: q3*, a: L3}]
+gravity: none
+find: [singular]
+"""
+    steps = {step["id"]: step for step in solve_json(text)["steps"]}
+    assert all("the rank is 2 instead of 3" in steps[name]["why"] for name in ("singular_1", "singular_2"))
+    assert steps["singular_1"]["text"].endswith("w = [[s₁], [-c₁], [0]]")
+    assert steps["singular_2"]["text"].endswith("w = [[c₁ c₂], [s₁ c₂], [s₂]]")
+
+
+def test_a_jacobian_that_nobody_could_take_apart_is_left_out_with_its_reason() -> None:
+    text = (HERE.parent.parent / "problems" / "panda-7r.yaml").read_text(encoding="utf-8")
+    text = re.sub(r"masses:\n(  .*\n)+", "", re.sub(r"find: .*", "find: [singular]", text))
+    solution = dynsolve.solve(text)
+    assert "too long" in solution.to_json()["results"]["singular"]["skipped"]
+    assert [warning.message.split()[0] for warning in solution.warnings] == ["singular"]
