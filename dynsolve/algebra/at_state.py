@@ -43,7 +43,8 @@ class AtState:
     >>> from dynsolve.algebra.build import build_ring
     >>> from dynsolve.notation.text import read
     >>> both = Angle.of("q1") + Angle.of("q2")
-    >>> ring = build_ring([("q1", "revolute"), ("q2", "revolute")], [], [Angle.of("q1"), both])
+    >>> coordinates = [("q1", "revolute"), ("q2", "revolute")]
+    >>> ring = build_ring(coordinates, [read("pi").tree], [Angle.of("q1"), both])
     >>> AtState(ring, {("q2", 0): read("90deg").tree})(ring.sin(both)) == ring.cos(Angle.of("q1"))
     True
     """

@@ -45,7 +45,7 @@ def in_columns(equations: Sequence[Sequence[Line]], room: float) -> Columns:
     >>> short, long = [Line("a", "= b", width=3)], [Line("c", "= d + e", width=11)]
     >>> table = in_columns([short, short, short, long, short], 18)
     >>> table.count, [[cell.span for cell in row] for row in table.rows]
-    (3, [[1, 1, 1], [3, 1]])
+    (3, [[1, 1, 1], [3], [1]])
     """
     name = min(max((lines[0].name for lines in equations), default=0.0), _WIDEST_NAME)
     tables = [_table(equations, count, name, room) for count in range(1, MOST_COLUMNS + 1)]

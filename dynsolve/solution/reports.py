@@ -39,7 +39,7 @@ def report(
     >>> import dynsolve
     >>> page = report(dynsolve.solve("planar-2r"), Format.LATEX)
     >>> page.decode().splitlines()[0]
-    '\\documentclass[a4paper,11pt]{article}'
+    '\\documentclass[a4paper]{article}'
     """
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail

@@ -132,7 +132,7 @@ def failing(kind: str, *words: str) -> subprocess.CompletedProcess[str]:
 def test_a_choice_that_is_none_is_told_in_plain_words() -> None:
     ran = dynsolve("solve", "in3140-rp", "--stage", "torqe")
     assert ran.code == 2
-    assert "Invalid value for '--stage': 'torqe' is not one of 'kinematics'" in ran.err
+    assert "Invalid value for '--stage': 'torqe' is not one of 'frames', 'kinematics'" in ran.err
     assert ran.err.rstrip().endswith("did you mean `torque`?")
 
 

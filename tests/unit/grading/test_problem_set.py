@@ -49,7 +49,7 @@ def test_a_folder_without_one_is_all_its_problems(tmp_path: Path) -> None:
         ("problems: [rp.yaml]", (1, 12), "there is no problem file `rp.yaml`"),
         ("problems: [../x.yaml]", (1, 12), "there is no problem file"),
         ("marks: {rp: {P: 2}}", (1, 9), "unknown key `rp` in marks"),
-        ("marks:\n  in3140-rp: {Q: 2}", (2, 15), "`Q` is no answer of in3140-rp"),
+        ("marks:\n  in3140-rp: {Z: 2}", (2, 15), "`Z` is no answer of in3140-rp"),
         ("marks:\n  in3140-rp: {P: x}", (2, 18), "`x` is not a number"),
         ("policy: {follow: 2}", (1, 18), "is a share, at most 1"),
         ("policy: {late: -1}", (1, 16), "late cannot be negative"),
@@ -93,7 +93,7 @@ def test_a_fault_says_what_to_write(tmp_path: Path, text: str, help: str) -> Non
 
 
 def test_faults_are_told_in_the_order_of_the_file(tmp_path: Path) -> None:
-    text = "policy: {hints: 4}\nmarks:\n  in3140-rp: {Q: 2}\nproblems: [in3140-rp.yaml, rp.yaml]\ntitel: x\n"
+    text = "policy: {hints: 4}\nmarks:\n  in3140-rp: {Z: 2}\nproblems: [in3140-rp.yaml, rp.yaml]\ntitel: x\n"
     with pytest.raises(ProblemError) as caught:
         load_set(_folder(tmp_path, text))
     assert [finding.line for finding in caught.value.findings] == [1, 3, 4, 5]

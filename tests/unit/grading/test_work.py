@@ -98,8 +98,8 @@ def test_of_one_file_a_line_is_enough() -> None:
 def test_following_from_nothing_earns_nothing_and_waits_for_a_human() -> None:
     found = _answers(grade_one(payload("answers:\n  K: 0\n  P: 0\n  L: 0\n  tau: [0, 0]\n")))
     tau = found["tau"]
-    assert tau["loss"] == "body 2 is lost on the way"
-    assert (tau["verdict"], tau["marks"]) == ("follows", "0")
+    assert tau["loss"] == "it is what follows from L, where next to nothing is right"
+    assert (tau["verdict"], tau["marks"]) == ("wrong", "0")
 
 
 D = [["m1*lc1^2 + m2*(l1^2 + lc2^2 + 2*l1*lc2*cos(q2)) + I1 + I2", "m2*(lc2^2 + l1*lc2*cos(q2)) + I2"]]
@@ -145,9 +145,10 @@ def test_an_entry_of_a_matrix_that_follows_has_lost_what_the_matrix_has() -> Non
     text = "answers:\n  K: 0\n  P: 0\n  L: 0\n  tau: [0, 0]\n"
     found = _answers(grade_one(payload(text, marks={"tau1": "4", "f2": "2"})))
     assert (found["f2"]["verdict"], found["f2"]["marks"], found["f2"]["note"]) == (
-        "follows", "0", "an entry of tau",
+        "wrong", "0", "an entry of tau",
     )  # fmt: skip
-    assert found["f2"]["loss"] == found["tau"]["loss"] == "body 2 is lost on the way"
+    assert found["f2"]["loss"] == found["tau"]["loss"]
+    assert found["tau"]["loss"].startswith("it is what follows from L")
 
 
 def test_the_same_wrong_value_has_one_form_however_it_is_written() -> None:

@@ -47,7 +47,7 @@ def test_what_cannot_be_seen_is_left_out(text: str, seen: str) -> None:
         ("<script>", r"\textless{}script\textgreater{}"),
         ("a---b", "a-{}-{}-b"),
         ("é ñ Č ø", r"\'{e} \~{n} \v{C} \o{}"),
-        ("θ ≤ 90°", r"$\theta$ $\leq$ 90\textdegree{}"),
+        ("θ ≤ 90°", r"$\theta$ $\leq$ 90$^\circ$"),
         ("中", "{[}U+4E2D{]}"),
     ],
 )
