@@ -181,8 +181,8 @@ class Collector:
             if price < least:
                 best, least = node, price
         completed = self._completed(poly)
-        # A book writes the distance, (d - l/2)² + l²/12, though it may cost one operation more.
-        return best if completed is None or self.cost(completed) - 1 > least else completed
+        # A book writes the distance, (d - l/2)² + l²/12, with either sign, at two operations more.
+        return best if completed is None or self.cost(completed) - 2 > least else completed
 
     def _completed(self, poly: Polynomial) -> Node | None:
         """a x² + b x y + c y², x being a coordinate, as a (x + b y / 2a)² + (c - b² / 4a) y²."""

@@ -412,3 +412,12 @@ def test_a_coordinate_that_joints_share_has_a_force_of_several_joints() -> None:
     assert (
         said(step("planar-2r", "tau1").why, "planar-2r") == "q₁ is an angle, so what drives it is a torque."
     )
+
+
+def test_one_polynomial_has_one_spelling_with_either_sign() -> None:
+    """c₁₂₁ = -c₁₁₂ of a rod on a sliding joint: the square of the distance is completed in both."""
+    shown_symbols = shown("box-cylinder-rod-sphere", "christoffel")
+    with_square = [
+        text for text in shown_symbols if "(m₂ (4l₂² - b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12)" in text
+    ]
+    assert [text.split(" ")[0] for text in with_square] == ["c₁₂₁", "c₁₁₂"]
