@@ -24,6 +24,8 @@ ALL_PROBLEMS = sorted((ROOT / "problems").glob("*.yaml"))
 LIBRARY = [path for path in ALL_PROBLEMS if "\nmasses:" in path.read_text(encoding="utf-8")]
 """The problems of the library that have dynamics; the others ask for kinematics alone."""
 
+STEMS = frozenset(path.stem for path in LIBRARY)
+
 COURSE_DOCUMENT = ROOT / "tests" / "golden" / "answers" / "dynamics-overview.md"
 TEXTBOOKS = sorted((ROOT / "tests" / "golden" / "textbooks").glob("*.yaml"))
 

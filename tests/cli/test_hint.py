@@ -10,12 +10,12 @@ import pytest
 
 import dynsolve as package
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.problem.library import bundled
 from dynsolve.quantities.stages import COURSE
 from dynsolve.render.terminal import render
 from tests.cli.running import dynsolve
+from tests.support import STEMS
 
-SMALL = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+SMALL = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
 
 
 @lru_cache

@@ -19,14 +19,13 @@ from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.marking.marks import mark
 from dynsolve.answers.marking.policy import Policy
 from dynsolve.problem import load
-from dynsolve.problem.library import bundled
 from tests.conftest import LARGE
-from tests.support import TEXTBOOKS, problem_file
+from tests.support import STEMS, TEXTBOOKS, problem_file
 
 ROUNDINGS = tuple(map(Fraction, ("1", "1/2", "1/100")))
 OF = Fraction(4)
 BOOKS = [path.stem for path in TEXTBOOKS]
-ROBOTS = sorted(set(bundled()) - LARGE)  # the answers of large arms go over the bounds of size
+ROBOTS = sorted(STEMS - LARGE)  # the answers of large arms go over the bounds of size
 
 
 @cache

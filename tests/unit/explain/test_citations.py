@@ -15,12 +15,12 @@ import dynsolve
 from dynsolve.document import Document, Formula, Text
 from dynsolve.explain.citations import BOOKS, CRAIG, LYNCH_PARK, SPONG, spong
 from dynsolve.explain.step import Detail, Step
-from dynsolve.problem.library import bundled
 from dynsolve.render.references import formulas
 from dynsolve.solution.documents import solution_document
+from tests.support import STEMS
 
 LONG = {"puma560", "panda-7r", "stanford-6"}
-SHORT = sorted(set(bundled()) - LONG)
+SHORT = sorted(STEMS - LONG)
 
 # Spong, Hutchinson, Vidyasagar, Robot Modeling and Control, 2006: what stands in which section
 CONTENTS = [

@@ -20,12 +20,12 @@ from dynsolve.notation.tree import Letter, Node, Symbol
 from dynsolve.notation.typst import TypstPrinter
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.notation.walk import children
-from dynsolve.problem.library import bundled
 from dynsolve.render import latex, markdown
 from dynsolve.solution.documents import solution_document
+from tests.support import STEMS
 
 LONG = ["puma560", "stanford-6"]
-SHORT = sorted(set(bundled()) - {*LONG, "panda-7r"})
+SHORT = sorted(STEMS - {*LONG, "panda-7r"})
 PROBLEMS = [*SHORT, *(pytest.param(name, marks=pytest.mark.slow) for name in LONG)]
 
 # Names that look like the textbook's letters: entries of D and g, energies, a force, an axis, the Jacobian

@@ -10,10 +10,10 @@ import dynsolve
 from dynsolve.document import Prose
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.problem.library import bundled
 from dynsolve.quantities.stages import COURSE
+from tests.support import STEMS
 
-SMALL = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+SMALL = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
 
 
 @lru_cache

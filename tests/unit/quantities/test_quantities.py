@@ -12,15 +12,15 @@ from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import course_rules, derive
 from dynsolve.notation.printing import PLAIN
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.problem.library import bundled
 from dynsolve.quantities import families
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.index import Owners, Quantities, quantities
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Coordinate, JointType, Robot
+from tests.support import STEMS
 
-SMALL = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+SMALL = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
 
 
 @lru_cache
@@ -33,7 +33,7 @@ def values(stem: str) -> Derivation:
     return derive(robot(stem))
 
 
-@pytest.mark.parametrize("stem", sorted(bundled()))
+@pytest.mark.parametrize("stem", sorted(STEMS))
 def test_every_rule_gives_a_quantity_and_in_this_order(stem: str) -> None:
     rules = [rule.name for rule in course_rules(robot(stem))]
     found = [q.rule for q in quantities(robot(stem)).values() if not q.is_read_off]
@@ -68,7 +68,7 @@ def test_dimensions_are_those_of_the_derivation(stem: str) -> None:
                 assert wanted is not None and dimensions.fits(entry, wanted), (quantity.name, i, j)
 
 
-@pytest.mark.parametrize("stem", sorted(bundled()))
+@pytest.mark.parametrize("stem", sorted(STEMS))
 def test_names_are_their_own_canonical_form(stem: str) -> None:
     known = quantities(robot(stem))
     for name, quantity in known.items():
@@ -92,7 +92,7 @@ SHARED = [
 """Families with spellings that students use for both."""
 
 
-@pytest.mark.parametrize("stem", sorted(bundled()))
+@pytest.mark.parametrize("stem", sorted(STEMS))
 def test_spellings_are_shared_knowingly(stem: str) -> None:
     known = quantities(robot(stem))
     for spelling, names in known.spellings.items():
@@ -103,7 +103,7 @@ def test_spellings_are_shared_knowingly(stem: str) -> None:
         assert len({known[name].index for name in names}) == 1 or names[0][0] == "H"
 
 
-@pytest.mark.parametrize("stem", sorted(bundled()))
+@pytest.mark.parametrize("stem", sorted(STEMS))
 def test_parts_and_wholes(stem: str) -> None:
     known, n = quantities(robot(stem)), robot(stem).n
     points = {body.name for body in robot(stem).bodies if body.is_point}

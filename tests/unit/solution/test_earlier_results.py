@@ -9,12 +9,12 @@ import pytest
 
 import dynsolve
 from dynsolve.document import Block, Fold, Formula, Uses
-from dynsolve.problem.library import bundled
 from dynsolve.render import markdown
 from dynsolve.render.references import numbered
 from dynsolve.solution.documents import solution_document
+from tests.support import STEMS
 
-SHORT = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+SHORT = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
 
 
 @lru_cache

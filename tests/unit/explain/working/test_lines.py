@@ -12,11 +12,11 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.step import Step
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.problem.library import bundled
 from tests.robots import robots
+from tests.support import STEMS
 from tests.unit.explain.working.evaluated import members
 
-FAMILIAR = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+FAMILIAR = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
 
 
 @lru_cache

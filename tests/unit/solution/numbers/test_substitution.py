@@ -14,11 +14,11 @@ from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError, UsageError
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Degrees, Node, Number
-from dynsolve.problem.library import bundled
 from dynsolve.solution.numbers.rounding import rounded, significant, without_constants
 from dynsolve.solution.numbers.substitution import Substitution
+from tests.support import STEMS
 
-SMALL = sorted(set(bundled()) - {"puma560", "panda-7r", "stanford-6"})
+SMALL = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
 
 
 def tree(text: str) -> Node:
