@@ -18,7 +18,6 @@ from pathlib import Path, PurePath
 from typing import Any, Protocol
 
 from dynsolve.answers.marking.policy import to_data
-from dynsolve.answers.reading.documents import FORMATS
 from dynsolve.errors import Finding, InputError
 from dynsolve.grading.fingerprints import (
     causes,
@@ -34,7 +33,7 @@ from dynsolve.grading.record import Record
 from dynsolve.grading.rows import row_of_result, rows_of_absent
 from dynsolve.grading.sections import without
 from dynsolve.grading.uploads import Uploads, digest
-from dynsolve.grading.which_problem import as_text
+from dynsolve.grading.which_problem import CONVERTED, as_text
 from dynsolve.quantities.index import quantities
 
 Data = dict[str, Any]
@@ -170,7 +169,7 @@ def _own_part(file: File, content: bytes) -> tuple[str, bytes]:
         return file.name, content
     ending = PurePath(file.name).suffix.lower()
     text = without(as_text(content, ending), file.others)
-    return f"{file.name}.md" if ending in FORMATS else file.name, text.encode()
+    return f"{file.name}.md" if ending in CONVERTED else file.name, text.encode()
 
 
 def _same(uploads: Uploads, file: File) -> bytes:

@@ -21,7 +21,10 @@ from dynsolve.grading.sections import Span, parts, titles
 from dynsolve.grading.uploads import printable
 
 _HEAD = 20_000
-_IN_PARTS = (".md", ".markdown", ".tex", ".txt", ".html", ".htm", *FORMATS)
+CONVERTED = (".ipynb", *FORMATS)
+"""The endings of files of which a report in Markdown is made before their parts are told apart."""
+
+_IN_PARTS = (".md", ".markdown", ".tex", ".txt", ".html", ".htm", *CONVERTED)
 _ANSWER_FILES = (".yaml", ".yml", ".json")
 _FIELD = r"(?m)^[ \t]{{0,3}}[\"']?{}[\"']?[ \t]{{0,9}}:[ \t]{{0,99}}(\S.{{0,300}}?)[ \t]*(?:#.*)?$"
 _STUDENT, _PROBLEM = (re.compile(_FIELD.format(key)) for key in ("student", "problem"))
@@ -113,6 +116,10 @@ def parts_of(problems: ProblemSet, content: bytes, name: str, text: str) -> dict
 
 def as_text(content: bytes, ending: str) -> str:
     """The text of a report whose parts are told apart; raises ReadError."""
+    if ending == ".ipynb":
+        from dynsolve.answers.reading.notebooks import markdown
+
+        return markdown(decoded(content))
     return as_report(content, ending)[0] if ending in FORMATS else decoded(content)
 
 

@@ -44,6 +44,14 @@ def read_notebook(reader: EquationReader, source: Source) -> list[Finding]:
     return []
 
 
+def markdown(text: str) -> str:
+    """The Markdown cells of a notebook as one text; nothing of what is no notebook."""
+    try:
+        return "".join(_lines(json.loads(text)))
+    except (ValueError, RecursionError):
+        return ""
+
+
 def _lines(content: Any) -> list[str]:
     """The lines of all Markdown cells, a blank one between cells."""
     cells = content.get("cells") if isinstance(content, dict) else None

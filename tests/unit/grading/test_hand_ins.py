@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import os
 import time
 import zipfile
@@ -356,6 +357,19 @@ def test_a_report_on_two_problems_is_in_parts(problems: ProblemSet, tmp_path: Pa
     intake = _intake(problems, tmp_path, {"s1.md": text, "in3140-rp_s2.md": text})
     assert [(h.student, h.problem, len(h.files[0].others)) for h in intake.hand_ins] == [
         ("in3140-rp_s2", "in3140-rp", 0), ("s1", "in3140-rp", 1), ("s1", "planar-2r", 2),
+    ]  # fmt: skip
+    assert not intake.waiting
+
+
+def test_a_notebook_on_two_problems_is_in_parts(problems: ProblemSet, tmp_path: Path) -> None:
+    cells = [
+        {"cell_type": "markdown", "source": ["# Problem 1\n", "\n", "$$K = 0$$\n"]},
+        {"cell_type": "code", "source": ["# Problem 9\n"]},
+        {"cell_type": "markdown", "source": "# Problem 2\n\n$$P = 0$$"},
+    ]
+    intake = _intake(problems, tmp_path, {"s1.ipynb": json.dumps({"cells": cells})})
+    assert [(h.student, h.problem) for h in intake.hand_ins] == [
+        ("s1", stem) for stem in problems.stems[:2]
     ]  # fmt: skip
     assert not intake.waiting
 
