@@ -219,8 +219,10 @@ def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
         return (
             " turns everything after it about the axis ",
             letters.z(joint_frame(robot, joint)),
-            f". At unit rate {context.end} has as its velocity the cross product of the axis and the "
-            f"vector from there to it, and as its angular velocity the axis.",
+            f". At unit rate the velocity of {context.end} is the cross product of the axis "
+            "and the vector from ",
+            letters.o(joint_frame(robot, joint)),
+            ", a point of the axis, to it; the angular velocity is the axis.",
         )
     z = letters.z(joint_frame(robot, joint))
     return (

@@ -51,7 +51,7 @@ def _hanging_and_upright(context: Context) -> Prose:
         why += (*_zero_at(hanging), "minimum: the arm hangs; the equilibrium is stable. ")
     if upright is not None:
         why += (*_zero_at(upright), "maximum: the arm stands upright; the equilibrium is unstable. ")
-    assumed = ("With positive lengths. ",) if context.robot.parameters else ()
+    assumed = ("Let all lengths be positive. ",) if context.robot.parameters else ()
     return (*assumed, *why) if why else ()
 
 
