@@ -45,6 +45,11 @@ class Condition:
         )
 
     @property
+    def fixes_coordinate(self) -> bool:
+        """Whether an angle has few values, or a length one, where this holds."""
+        return bool(self._turn or self._length)
+
+    @property
     def keeps_values(self) -> bool:
         """Whether expressions that are reduced keep their values, and get no factor."""
         return not self._length or self._length[0][1] == self.expr.ring.one

@@ -79,10 +79,15 @@ def _alternatives(values: tuple[Expr, ...], held: Alternative) -> Iterator[Alter
         yield held
         return
     choices = [[factor for factor, _ in trig_factors(value) if _may_vanish(factor, held)] for value in left]
-    for factor in min(choices, key=len):
+    for factor in min(choices, key=_effort):
         condition = Condition(factor)
         rest = tuple(condition.reduced(value) for value in left)
         yield from _alternatives(rest, (*held, condition))
+
+
+def _effort(factors: Sequence[Expr]) -> tuple[int, int]:
+    """The fewest cases first; of these what fixes a coordinate, which can be put into the others."""
+    return len(factors), sum(not Condition(factor).fixes_coordinate for factor in factors)
 
 
 def _may_vanish(factor: Expr, held: Alternative) -> bool:

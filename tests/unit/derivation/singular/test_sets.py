@@ -16,6 +16,7 @@ from dynsolve.problem import read_problem
 # Robotics 1, 2022 and 2023 (Sapienza), and of Spong, Hutchinson, Vidyasagar, section 4.9)
 ARMS = [
     ("dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]", "", 2, [["sin(q2)"]]),
+    ("dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]", "", 2, [["sin(q2)", "sin(q3)"]]),
     ("dh: [{theta: q1* + 180deg, d: L1, alpha: 90deg}, {theta: -90deg, d: d2* + L2, alpha: 90deg}, "
      "{theta: q3* + 90deg, a: L3}]", "", 3, [["cos(q3)"], ["L2 + d2 + L3*cos(q3)"]]),
     ("dh: [{d: d1*, alpha: -90deg}, {d: d2*, a: l1, alpha: 60deg}, {theta: q3*, a: l2}]", "", 3,
