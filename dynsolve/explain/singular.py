@@ -58,7 +58,8 @@ def _rank(context: Context, forms: ConfigurationForms, found: SingularSet) -> St
         why = (J, f" is {rows}×{columns}, and its rank is {found.rank} almost everywhere. It is less where "
                f"the determinants of all its parts of {found.rank} rows and columns are 0.")  # fmt: skip
         results = tuple(
-            equation(Letter("M", Number(k)), forms.product(m)) for k, m in enumerate(found.minors, 1)
+            equation(Row((Words("minor "), Number(k))), forms.product(m))
+            for k, m in enumerate(found.minors, 1)
         )
     return Step(
         id="singular_minors",
