@@ -194,6 +194,7 @@ def _rotation(context: Context, body: Body, tells: bool) -> Step:
         why=why,
         formula=None if formula is None else equation(rotation, formula),
         source=spong("7.2.1"),
+        working=_turned_back(context, body, rotation),
         result=(equation(rotation, context.form(f"R{body.name}")),),
         notes=notes,
         uses=(),
@@ -229,6 +230,16 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
                 "the same as with the frame that turns (compared exactly)."
             )
             return (why,), product, ((note,),) if fixed else ()
+
+
+def _turned_back(context: Context, body: Body, name: Letter) -> tuple[Node, ...]:
+    """R R(0)ᵀ with the link's rotation put in, for axes that are those of frame 0 at q = 0."""
+    if body.axes.kind is not AxesKind.REST or letters.has_base(context.robot):
+        return ()
+    turned = context.values[f"H{body.link}"].block(0, 3, 0, 3)
+    rest = context.show(turned.map(context.robot.ring.at_rest))
+    shown = context.show(turned)
+    return (equation(name, Product((shown, Transpose(rest)))),) if is_small(shown, rest) else ()
 
 
 def _ends_after(context: Context, body: Body) -> bool:

@@ -50,6 +50,7 @@ def definite_step(context: Context) -> Step | None:
         f" {verb} of masses and moments times squares, which never all vanish",
     )
     if determinants:
+        why += ("; entries between coordinates that are not coupled are zero",) if len(squares) > 1 else ()
         why += ("; and the determinant" + "s" * (len(determinants) > 1), " below ")
         why += ("are" if len(determinants) > 1 else "is", " positive, too (Sylvester's criterion):")
     else:

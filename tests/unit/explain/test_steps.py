@@ -421,3 +421,9 @@ def test_one_polynomial_has_one_spelling_with_either_sign() -> None:
         text for text in shown_symbols if "(m₂ (4l₂² - b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12)" in text
     ]
     assert [text.split(" ")[0] for text in with_square] == ["c₁₂₁", "c₁₁₂"]
+
+
+def test_axes_of_frame_0_at_rest_are_worked_out() -> None:
+    assert shown_working("spherical-rrp", "R1") == [
+        "R₁ = [[c₁, 0, s₁], [s₁, 0, -c₁], [0, 1, 0]] [[1, 0, 0], [0, 0, -1], [0, 1, 0]]ᵀ"
+    ]
