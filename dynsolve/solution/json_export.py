@@ -15,12 +15,10 @@ from typing import TYPE_CHECKING, Any
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Inline, Prose, Verbatim
 from dynsolve.explain.citations import by_itself
-from dynsolve.explain.notation_list import problem_names
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.textbook_letters import Line as NotationLine
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.python import PythonPrinter
-from dynsolve.notation.tree import Matrix, Node, Symbol, Words
+from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Kind, Owner
@@ -69,7 +67,6 @@ def to_json(solution: Dynamics, abbreviate: Abbreviate | str = "never") -> dict[
             }
             for q in solution.robot.coordinates
         ],
-        "notation": [_told(line) for line in problem_names(solution.robot)],
         "results": exporter.results(),
         "steps": [exporter.step(step) for step in solution.steps],
         "verified": {
@@ -80,12 +77,6 @@ def to_json(solution: Dynamics, abbreviate: Abbreviate | str = "never") -> dict[
         **({} if short is None else {"abbreviated": exporter.abbreviated(short)}),
         **({} if solution.numbers is None else _number_sections(solution, solution.numbers)),
     }
-
-
-def _told(line: NotationLine) -> dict[str, Any]:
-    """Names of one meaning, with their unit."""
-    names = [sign.name for sign in line.signs if isinstance(sign, Symbol)]
-    return {"names": names, "meaning": line.meaning, "unit": line.unit}
 
 
 class _Exporter:
