@@ -37,6 +37,7 @@ MOTIONS = ("Rot", "Trans")
 def index_shape(node: Node | None) -> str:
     """The shape of indices: `#` for what counts, `v` and `omega` for what says which.
 
+    >>> from dynsolve.notation.tree import Number
     >>> index_shape(Row((Words("c"), Number(1)))), index_shape(Letter("v", Symbol("i")))
     ('c#', 'v#')
     """

@@ -46,7 +46,8 @@ def examples(text: str) -> list[tuple[str, str]]:
 def run(commands: list[tuple[str, str]], folder: Path) -> None:
     """Run commands one after the other in one folder, and compare what they print."""
     here = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    environment = {**os.environ, "PATH": here, "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"}
+    inherited = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
+    environment = {**inherited, "PATH": here, "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"}
     for command, expected in commands:
         done = subprocess.run(
             ["bash", "-c", command],

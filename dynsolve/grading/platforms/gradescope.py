@@ -136,18 +136,20 @@ def _scalar(found: dict[str, list[dict[str, str]]], open_: list[_OpenCollection]
 
 def write(folder: Path, problems: ProblemSet, record: Record, roster: Roster) -> Iterator[str]:
     """Write `gradescope/<submission>/results.json`; a group's members share theirs."""
-    told: dict[Path, tuple[str, bytes]] = {}
+    told: dict[Path, tuple[str, list[float]]] = {}
     all_of = list(standings(record))
     for standing in all_of:
         if len(standing.unjudged) == len(problems.items):
             continue  # nothing of it was judged, and nothing is no zero
         path = folder / "gradescope" / folder_name(standing.id or standing.student) / "results.json"
-        text = json.dumps(_results(folder, standing, record, problems), indent=1, ensure_ascii=False) + "\n"
-        data = text.encode("utf-8", errors="replace")
-        first, before = told.setdefault(path, (standing.student, data))
-        if before != data:
+        results = _results(folder, standing, record, problems)
+        scores = [test["score"] for test in results["tests"]]
+        first, before = told.setdefault(path, (standing.student, scores))
+        if before != scores:
             yield f"{standing.student} and {first} share {path.parent.name}, and their marks differ"
-        write_changed(path, told[path][1], durable=False)
+        if first == standing.student:
+            text = json.dumps(results, indent=1, ensure_ascii=False) + "\n"
+            write_changed(path, text.encode("utf-8", errors="replace"), durable=False)
     remove_others(folder / "gradescope", set(told), (".json",))
     yield from not_judged(all_of)
 
