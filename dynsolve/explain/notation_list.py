@@ -23,6 +23,7 @@ from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Wor
 from dynsolve.quantities import letters
 from dynsolve.quantities.letters import index_of
 from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.shapes import MASS
 from dynsolve.robot.units import node as unit_node
 
 COUNTING = ("i", "j", "k", "n", "t")
@@ -125,7 +126,12 @@ def notation(
     occurring = kinds_in(formulas_in(blocks), style)
     own = {("", "name", name) for name in (*robot.parameters, *(q.name for q in robot.coordinates))}
     general = [replace(line, kinds=line.kinds - own) for line in textbook(robot)]
-    lines = [*of_problem(robot, style), *_of_abbreviations(short), *general, *_of_shapes(occurring - own)]
+    lines = [
+        *of_problem(robot, style),
+        *_of_abbreviations(short),
+        *general,
+        *_of_shapes(robot, occurring - own),
+    ]
     shown = tuple(
         _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
     )
@@ -152,9 +158,11 @@ def _of_abbreviations(short: Abbreviated | None) -> Iterator[Line]:
         yield _named([d.name.name for d in short.sums], "recurring terms, see Abbreviations", "")
 
 
-def _of_shapes(occurring: set[Kind]) -> Iterator[Line]:
-    """The letters of the formulas of uniform shapes, which those formulas alone have."""
-    names = [name for name in SHAPES if ("", "name", name) in occurring]
+def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
+    """The letters of the formulas of this robot's uniform shapes, which those formulas alone have."""
+    shapes = [body.shape for body in robot.bodies if body.shape is not None]
+    used = {letter for shape in shapes for letter, _ in shape.letters} | ({MASS} if shapes else set())
+    names = [name for name in SHAPES if name in used and ("", "name", name) in occurring]
     if names:
         meaning = f"of a uniform shape: {', '.join(SHAPES[name] for name in names)}"
         yield _named(names, meaning, "")

@@ -253,3 +253,9 @@ def test_what_an_exercise_asks_for_besides_has_its_letters_too() -> None:
     }
     known |= {("", "name", name) for name in COUNTING}
     assert kinds_in(formulas_in(blocks), solved(ASKED).style) - known == set()
+
+
+def test_the_letters_of_shapes_are_told_where_there_are_shapes() -> None:
+    """The values of a task may be called x, y and z, as the sides of a box are."""
+    assert lines("inf3480-rpr")["x, y, z"] == ("values of the task that are to be reached", "")
+    assert "of a uniform shape" in lines("box-cylinder-rod-sphere")["m, l, r, x, y, z"][0]
