@@ -124,7 +124,7 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
         source=_LOST if lost else "",
         working=(equation(J, there),) if lost and exact else (),
         result=tuple(equation(name, value) for name, value in zip(names, lost, strict=True)),
-        uses=("singular",),
+        uses=(_matrix(context), f"singular#{case + 1}"),
     )
 
 

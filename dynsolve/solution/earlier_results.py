@@ -40,15 +40,19 @@ class EarlierResults:
         self._results[step.id] = list(labelled_results(step))
 
     def used(self, step: Step, names: Iterable[str]) -> tuple[str, ...]:
-        """The labels of the equations of the steps `names` that a step uses."""
+        """The labels of the equations of the steps `names` that a step uses; `x#2` is the second of x."""
         lines = [node for line in step.lines for node in line.formulas]
         formulas = [node for node in (step.formula, *step.working, *lines) if node is not None]
         parts = frozenset(walk(*formulas))
         labels: list[str] = []
-        for name in names:
+        for whole in names:
+            name, _, place = whole.partition("#")
             results = self._results.get(name)
             if results is None:  # a further result of an earlier step, by its own label
                 labels.append(name)
+                continue
+            if place:
+                labels.append(results[int(place) - 1][1])
                 continue
             cited = [label for node, label in results if not parts.isdisjoint(_left_sides(node))]
             labels += cited or [label for _, label in results]

@@ -69,3 +69,9 @@ def test_a_reference_is_to_an_equation_before_it(problem: str) -> None:
         int(n) for line in re.findall(r"^With .*", text, re.M) for n in re.findall(r"\((\d+)\)", line)
     }
     assert cited_numbers <= tags
+
+
+@pytest.mark.parametrize("case", [1, 2])
+def test_what_is_lost_refers_to_its_own_case(case: int) -> None:
+    own = {1: "singular", 2: "singular-2"}[case]
+    assert cited("inf3480-rpr", f"What is lost in case {case}") == ("Jr", own)
