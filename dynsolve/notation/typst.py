@@ -47,6 +47,7 @@ class TypstPrinter(FormulaPrinter):
     star = "star.op"
     dot = "dot.op "
     cross = " times "
+    argument_separator = r"\, "
     differentials = ("partial", "d")
     bare_bases = frozenset({Function, Parenthesized})
 

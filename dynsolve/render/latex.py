@@ -27,7 +27,7 @@ from dynsolve.render.columns import Cell, Columns
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import TypesetPage, leads_on, prose_columns
-from dynsolve.render.references import is_long, numbered, running_title, slug
+from dynsolve.render.references import is_long, last_display, numbered, running_title, slug
 from dynsolve.render.typesetting import Line
 
 PAGE = 46.9
@@ -72,12 +72,14 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \pagestyle{myheadings}
 """
 
-# The source of a formula; equations in columns: a row, a cell of a width with its name and the rest.
+# The source of a formula; equations in columns: a row, a cell of a width with its name and the rest;
+# no page ends after a display or before a heading from here on.
 _MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
 \providecommand{\equationrow}[1]{\par\noindent\strut#1}
 \providecommand{\equationcell}[4]{\makebox[#1\dimexpr\linewidth-3.4em\relax][l]{%
   \makebox[#2em][r]{$\displaystyle #3$}$\displaystyle {}#4$}}
 \providecommand{\equationnumber}[1]{\hfill\refstepcounter{equation}(\theequation)#1}
+\providecommand{\nopageends}{\postdisplaypenalty=10000 \csname @secpenalty\endcsname=10000 }
 """
 
 
@@ -155,16 +157,23 @@ class _Page(TypesetPage):
         super().__init__(printer, latex_notation(printer), numbered(document), width, _NUMBER)
         self.prefix = slug(document)
         self.has_contents = self.contents_are_due = contents
+        self.last_display = last_display(document)
 
     def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
-        """The blocks one after the other, formulas that follow each other in one display."""
+        """The blocks one after the other, formulas that follow each other in one display.
+
+        From the end of the last display on no page ends, so that no sentence stands alone on one.
+        """
         in_text = False
         for is_formula, run in groupby(blocks, lambda block: isinstance(block, Formula)):
+            group = list(run)
+            if any(block is self.last_display for block in group):
+                yield "\\nopageends"
             if is_formula:
-                yield from self.formulas(block for block in run if isinstance(block, Formula))
+                yield from self.formulas(block for block in group if isinstance(block, Formula))
                 in_text = True
                 continue
-            for block in run:
+            for block in group:
                 if in_text:
                     yield ""
                 yield from self.block(block)
@@ -244,7 +253,7 @@ class _Page(TypesetPage):
             rows = "\n".join(body[start : start + size])
             above = "" if start else f"{head} \\hline\\rule{{0pt}}{{2.6ex}}%\n"
             yield f"{{\\centering\\begin{{tabular}}{{{columns}}}\n{above}{rows}\n\\end{{tabular}}\\par}}"
-        yield "\\medskip"
+        yield "\\nopagebreak\\medskip" if table is self.last_display else "\\medskip"
 
     def column_kinds(self, table: Table, fixed: bool) -> str:
         """The columns of a tabular, of `fixed` widths or as wide as they are.

@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import zip_longest
 from textwrap import shorten
 
-from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Text, Uses
+from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Text, Uses
 
 
 def numbered(document: Document) -> dict[str, int]:
@@ -36,6 +36,13 @@ def running_title(title: str) -> str:
     return shorten(title, _LONGEST_HEADER, placeholder="…") if len(title) > _LONGEST_HEADER else title
 
 
+def last_display(document: Document) -> Block | None:
+    """The last block that is no sentence, where sentences follow: these are not left alone on a page."""
+    blocks = list(_unfolded(document.blocks))
+    displays = [block for block in blocks if not isinstance(block, Heading | Text | Note | Uses)]
+    return displays[-1] if displays and displays[-1] is not blocks[-1] else None
+
+
 def runs(labels: Iterable[str], numbers: Mapping[str, int]) -> list[list[str]]:
     """Labels in the order of their numbers, three or more that follow each other together.
 
@@ -53,11 +60,16 @@ def runs(labels: Iterable[str], numbers: Mapping[str, int]) -> list[list[str]]:
 
 def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:
     """The displayed formulas, those in folds too."""
+    return (block for block in _unfolded(blocks) if isinstance(block, Formula))
+
+
+def _unfolded(blocks: Iterable[Block]) -> Iterator[Block]:
+    """The blocks, in place of a fold those in it."""
     for block in blocks:
-        if isinstance(block, Formula):
+        if isinstance(block, Fold):
+            yield from _unfolded(block.blocks)
+        else:
             yield block
-        elif isinstance(block, Fold):
-            yield from formulas(block.blocks)
 
 
 def with_results(blocks: Sequence[Block]) -> list[Block]:

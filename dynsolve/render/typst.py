@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from dynsolve.document import (
+    Block,
     Document,
     Equations,
     Formula,
@@ -23,7 +24,7 @@ from dynsolve.render.columns import Columns
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import TypesetPage, leads_on, prose_columns
 from dynsolve.render.prose import visible
-from dynsolve.render.references import is_long, numbered, running_title
+from dynsolve.render.references import is_long, last_display, numbered, running_title
 from dynsolve.render.typesetting import Line
 
 PAGE = 45.0
@@ -84,7 +85,7 @@ def render(document: Document, style: Style = PLAIN) -> bytes:
 def to_typst_document(document: Document, style: Style = PLAIN) -> str:
     """The source of a complete Typst document."""
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
-    page = _Page(style, numbered(document), contents=is_long(document))
+    page = _Page(style, document)
     texts = {"{title}": quoted(title), "{header}": quoted(_known(running_title(title)))}
     preamble = re.sub("{title}|{header}", lambda found: texts[found[0]], _PREAMBLE)
     return preamble + "\n".join(page.blocks(document.blocks)) + "\n"
@@ -115,10 +116,20 @@ def typst_notation(printer: TypstPrinter) -> Notation:
 class _Page(TypesetPage):
     """Turns blocks into Typst."""
 
-    def __init__(self, style: Style, labels: dict[str, int], contents: bool) -> None:
+    def __init__(self, style: Style, document: Document) -> None:
         printer = TypstPrinter(style)
-        super().__init__(printer, typst_notation(printer), labels, PAGE, _NUMBER)
-        self.contents_are_due = contents
+        super().__init__(printer, typst_notation(printer), numbered(document), PAGE, _NUMBER)
+        self.contents_are_due = is_long(document)
+        self.last_display = last_display(document)
+
+    def block(self, block: Block) -> Iterator[str]:
+        """One block; the last display stays on the page of the sentences that follow it."""
+        if block is self.last_display:
+            yield "#block(sticky: true)["
+            yield from super().block(block)
+            yield "]"
+        else:
+            yield from super().block(block)
 
     def heading(self, heading: Heading) -> Iterator[str]:
         if heading.level == 2 and self.contents_are_due:

@@ -230,13 +230,9 @@ def _closing(solution: Dynamics) -> Iterator[Block]:
         if not any(stage.asked_for for stage in stages_of(solution.robot)):
             yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
         how = f"the last frame and the Jacobian by the outward half of {how}"
-    yield Heading("Verification", 2)
-    yield Text((
-        f"Verified: {how} at {verification.states} random states, "
-        f"relative error {verification.max_relative_error:.1e}.",
-    ))  # fmt: skip
+    told = f"Verified: {how} at {verification.states} random states, "
+    told += f"relative error {verification.max_relative_error:.1e}."
     if solution.robot.questions.asked:
-        words = (
-            "What only this exercise asks agrees with computations on numbers that share no formula with it."
-        )
-        yield Text((words,))
+        told += " What only this exercise asks agrees with computations on numbers that share no formula with it."
+    yield Heading("Verification", 2)
+    yield Text((told,))

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from dynsolve.solution.reports import Format
-from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, text_of, typeset
-from tests.support import LIBRARY, TEXTBOOKS
+from tests.reports.tools import FEWEST_LINES, HOSTILE_PROBLEM, SEEN, lines_of, made, text_of, typeset
+from tests.support import ALL_PROBLEMS, LIBRARY, TEXTBOOKS
 
 MOST_PAGES = {"puma560": 15, "stanford-6": 15, "panda-7r": 25, "planar-2r": 15, "in3140-rp": 15}
 """What somebody who wants the model still reads."""
@@ -18,12 +18,13 @@ RP = next(path for path in LIBRARY if path.stem == "in3140-rp")
 
 
 @pytest.mark.latex
-@pytest.mark.parametrize("problem", LIBRARY, ids=lambda path: path.stem)
+@pytest.mark.parametrize("problem", ALL_PROBLEMS, ids=lambda path: path.stem)
 def test_every_problem_of_the_library_compiles_without_complaint(problem: Path, tmp_path: Path) -> None:
     done = typeset(made(problem, Format.LATEX).decode(), tmp_path)
     assert done.complaints == []
     assert done.code == 0
     assert done.pages <= MOST_PAGES.get(problem.stem, 30)
+    assert min(map(len, lines_of(done.pdf))) >= FEWEST_LINES
 
 
 @pytest.mark.latex

@@ -12,32 +12,33 @@ import pytest
 
 from dynsolve.solution.reports import Format
 from tests.cli.running import dynsolve
-from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made, needed, text_of
-from tests.support import LIBRARY, ROOT
+from tests.reports.tools import FEWEST_LINES, HOSTILE_PROBLEM, SEEN, lines_of, made, text_of
+from tests.support import ALL_PROBLEMS, LIBRARY, ROOT
 
 pytestmark = pytest.mark.slow
 
-SMALL = [path for path in LIBRARY if path.stem not in ("puma560", "panda-7r")]
+SMALL = [path for path in ALL_PROBLEMS if path.stem not in ("puma560", "panda-7r")]
 
 
 @pytest.mark.parametrize("problem", SMALL, ids=lambda path: path.stem)
-def test_every_problem_gives_a_pdf(problem: Path, tmp_path: Path) -> None:
+def test_every_problem_gives_a_pdf_in_which_no_page_is_nearly_empty(problem: Path, tmp_path: Path) -> None:
     pdf = tmp_path / "report.pdf"
     pdf.write_bytes(made(problem, Format.PDF))
-    shown = text_of(pdf)
+    pages = lines_of(pdf)
+    shown = " ".join(line for page in pages for line in page)
     assert "Forward kinematics" in shown
     assert "(10)" in shown
+    assert min(map(len, pages)) >= FEWEST_LINES
 
 
 @pytest.mark.parametrize("name", ["planar-2r", "elbow-3r"])
-def test_every_equation_has_its_number_once_and_no_page_is_nearly_empty(name: str, tmp_path: Path) -> None:
+def test_every_equation_has_its_number_once(name: str, tmp_path: Path) -> None:
     pdf = tmp_path / "report.pdf"
     pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == name), Format.PDF))
     pages = lines_of(pdf)
     beside = [int(found[1]) for page in pages for line in page if (found := NUMBER.search(line))]
     assert beside == list(range(1, len(beside) + 1))
     assert len(beside) > 50
-    assert min(map(len, pages)) > 4
 
 
 def test_a_report_has_contents_and_page_numbers(tmp_path: Path) -> None:
@@ -54,13 +55,6 @@ def test_a_report_has_contents_and_page_numbers(tmp_path: Path) -> None:
 
 NUMBER = re.compile(r" {3,}\((\d+)\)$")
 """The number of an equation, at the right edge."""
-
-
-def lines_of(pdf: Path) -> list[list[str]]:
-    """The lines of each page, as they are laid out."""
-    done = subprocess.run([needed("pdftotext"), "-layout", str(pdf), "-"], capture_output=True, check=True)
-    pages = done.stdout.decode().split("\f")[:-1]
-    return [[line for line in page.splitlines() if line.strip()] for page in pages]
 
 
 def test_the_same_bytes_in_every_process_and_at_every_time(tmp_path: Path) -> None:

@@ -93,3 +93,14 @@ def text_of(pdf: Path) -> str:
     """What a PDF says, its white space evened."""
     done = subprocess.run([needed("pdftotext"), str(pdf), "-"], capture_output=True, check=True)
     return re.sub(r"\s+", " ", done.stdout.decode())
+
+
+def lines_of(pdf: Path) -> list[list[str]]:
+    """The lines of each page, as they are laid out."""
+    done = subprocess.run([needed("pdftotext"), "-layout", str(pdf), "-"], capture_output=True, check=True)
+    pages = done.stdout.decode().split("\f")[:-1]
+    return [[line for line in page.splitlines() if line.strip()] for page in pages]
+
+
+FEWEST_LINES = 5
+"""A page with fewer, the one above it with its title and number among them, is nearly empty."""

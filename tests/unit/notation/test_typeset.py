@@ -9,7 +9,18 @@ import pytest
 from dynsolve.notation.mathml import MathMLPrinter, to_mathml
 from dynsolve.notation.printing import Style
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Letter, Matrix, Node, Number, Power, Symbol, Transpose, Words
+from dynsolve.notation.tree import (
+    Arguments,
+    Function,
+    Letter,
+    Matrix,
+    Node,
+    Number,
+    Power,
+    Symbol,
+    Transpose,
+    Words,
+)
 from dynsolve.notation.typst import TypstPrinter, to_typst
 
 TREES: dict[str, Node] = {
@@ -70,6 +81,7 @@ def test_shorthands_and_stars() -> None:
         (Letter("H", Number(2), Number(0), "bold"), "upright(bold(H))_(2)^(0)"),
         (Words('a "b" \\c'), '"a \\"b\\" \\\\c"'),
         (Symbol("I1zz"), r"I_(1 \, z z)"),
+        (Function("atan2", Arguments((Symbol("x"), read("-y").tree))), r'op("atan2") \( x\, -y \)'),
     ],
 )
 def test_typst(node: Node, typst: str) -> None:
