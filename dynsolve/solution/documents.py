@@ -233,6 +233,8 @@ def _closing(solution: Dynamics) -> Iterator[Block]:
     told = f"Verified: {how} at {verification.states} random states, "
     told += f"relative error {verification.max_relative_error:.1e}."
     if solution.robot.questions.asked:
-        told += " What only this exercise asks agrees with computations on numbers that share no formula with it."
+        told += (
+            " What only this exercise asks agrees with computations on numbers that share no formula with it."
+        )
     yield Heading("Verification", 2)
     yield Text((told,))
