@@ -18,7 +18,7 @@ from dynsolve.robot.model import Robot
 
 if TYPE_CHECKING:
     from dynsolve.derivation.inverse.branches import Branch
-    from dynsolve.derivation.inverse.search import Solving
+    from dynsolve.derivation.inverse.solving import Solving
     from dynsolve.derivation.singular.sets import SingularSet
 
 
@@ -36,8 +36,8 @@ def configuration_rules(robot: Robot) -> Iterator[Rule]:
     if Stage.SINGULAR in stages:
         yield Rule("singular", (whole_or_task(robot),), where_singular)
     task = robot.questions.task
-    if Stage.INVERSE in stages and task is not None and not task.is_twist:
-        yield Rule("inverse", ("r",), lambda r: inverse(robot, r))
+    if Stage.INVERSE in stages and task is not None and task.reached:
+        yield Rule("inverse", ("pose" if task.is_pose else "r",), lambda r: inverse(robot, r))
 
 
 def where_singular(jacobian: Matrix) -> SingularSet | Skipped:
@@ -52,11 +52,17 @@ def where_singular(jacobian: Matrix) -> SingularSet | Skipped:
 
 
 def inverse(robot: Robot, r: Matrix) -> Inverse | Skipped:
-    """q from r(q) = r, where a closed form is found (Spong, section 3.3)."""
+    """q from r(q) = r, where a closed form is found (Spong, section 3.3).
+
+    `r` is r(q), m×1, or of a pose its position and the rows of its rotation, 12×1.
+    """
     from dynsolve.derivation.inverse.branches import branches
+    from dynsolve.derivation.inverse.pose import solve_pose
     from dynsolve.derivation.inverse.search import solve_task
 
-    solving = solve_task(r, robot.questions.reached)
+    task, names = robot.questions.task, robot.questions.reached
+    is_pose = task is not None and task.is_pose
+    solving = solve_pose(robot, r, names) if is_pose else solve_task(r, names)
     found = None if solving is None else branches(solving)
     if solving is None or found is None:
         return Skipped("no closed form was found")

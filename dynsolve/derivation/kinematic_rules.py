@@ -52,6 +52,8 @@ def _point(robot: Robot, point: NamedPoint) -> Iterator[Rule]:
 def _task(robot: Robot, asked: Task) -> Iterator[Rule]:
     if asked.is_twist:
         yield Rule("Jr", ("J",), lambda J: J)
+        if asked.is_pose:
+            yield Rule("pose", (f"H{len(robot.joints)}",), task.pose_entries)
     else:
         used = points_of(asked)
         inputs = tuple(_position_rule(robot, point) for point in used)

@@ -12,6 +12,7 @@ from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import Evaluator
+from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.notation.tree import Reference
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Task
@@ -21,6 +22,11 @@ def task_value(robot: Robot, task: Task, positions: Mapping[str, Matrix]) -> Mat
     """r(q), m×1; `positions` are those of the tip and of the named points, 3×1, by the names of a task."""
     evaluator = _TaskEvaluator(robot.ring, positions)
     return Matrix.column(robot.ring, [evaluator.value(entry).numerator for entry in task.entries])
+
+
+def pose_entries(H: Matrix) -> Matrix:
+    """The position of a frame and the rows of its rotation, 12×1, from H, 4×4."""
+    return Matrix.column(H.ring, (*origin(H).entries, *rotation(H).entries))
 
 
 class _TaskEvaluator(Evaluator):

@@ -35,6 +35,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     inverse_formulas
                 the solutions of inverse kinematics: atan2(y, x) - …, ± arccos(…)
     inverse_way the lines to each of them: components turned, squared and added, sorted
+    inverse_pose
+                of a full pose: the point that is left in place by the wrist, the rotation that is left for it
     terms       what each term of a force is: inertial, centrifugal, Coriolis, gravity
     sanity      checks that a person can do on the finished model
     closing     the step of D q̈ + C q̇ + g = τ

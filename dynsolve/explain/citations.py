@@ -41,6 +41,8 @@ SPONG = Book(
         "3.1": "Kinematic Chains",
         "3.2": "Forward Kinematics: The Denavit-Hartenberg Convention",
         "3.3": "Inverse Kinematics",
+        "3.3.1": "The General Inverse Kinematics Problem",
+        "3.3.2": "Kinematic Decoupling",
         "4.6": "Derivation of the Jacobian",
         "4.6.1": "Angular Velocity",
         "4.6.2": "Linear Velocity",

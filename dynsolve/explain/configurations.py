@@ -19,7 +19,8 @@ from dynsolve.explain.forms import is_numeric, parallel_coordinates
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.notation.build import cost, split_sign, times
 from dynsolve.notation.python import to_python
-from dynsolve.notation.tree import Matrix, Negative, Node, Sum, column
+from dynsolve.notation.tree import Matrix, Negative, Node, Sum, Symbol, column
+from dynsolve.notation.walk import mapped
 from dynsolve.robot.model import Robot
 
 
@@ -103,11 +104,31 @@ class ConfigurationForms:
         steps = self.solved.solving.solved
         return tuple(
             {
-                step.coordinate: self.solutions(step)[index]
+                step.coordinate: self._written_out(self.solutions(step)[index])
                 for step, index in zip(steps, branch.choice, strict=True)
             }
             for branch in self.solved.branches
         )
+
+    def _written_out(self, formula: Node) -> Node:
+        """A formula with what is put for the names that were given on the way."""
+        return mapped(formula, self._meant) if self._meanings else formula
+
+    def _meant(self, part: Node) -> Node:
+        return self._meanings.get(part.name, part) if isinstance(part, Symbol) else part
+
+    @cached_property
+    def _meanings(self) -> dict[str, Node]:
+        """What each name stands for, in the values of the task and in coordinates."""
+        found: dict[str, Node] = {}
+        assert self.solved is not None
+        for part in self.solved.solving.parts:
+            for definition in part.definitions:
+                value = self.inverse_formulas.form(definition.value)
+                found[definition.name] = mapped(
+                    value, lambda inner: found.get(inner.name, inner) if isinstance(inner, Symbol) else inner
+                )
+        return found
 
     def solutions(self, step: Solved) -> tuple[Node, ...]:
         """The solutions of a step, each as a formula."""
@@ -122,7 +143,8 @@ class ConfigurationForms:
 
     def compactor(self, ring: Ring) -> Compactor:
         """The compactor of a ring of the search: the values of the task lead its sums."""
-        leading = [name for name in self.robot.questions.reached if ring.has_symbol(name)]
+        named = (*self.robot.questions.reached, *ring.plan.signed)
+        leading = [name for name in dict.fromkeys(named) if ring.has_symbol(name)]
         return Compactor(ring, leading, parallel_coordinates(self.robot), decimal=is_numeric(self.robot))
 
 

@@ -6,14 +6,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.algebra.positivity import is_nonnegative, is_positive
-from dynsolve.derivation.inverse.equations import Given, Origin, Squared, Turned
-from dynsolve.derivation.inverse.search import Solving
+from dynsolve.derivation.inverse.equations import Given, OfPoint, OfTurn, Origin, Squared, Turned
+from dynsolve.derivation.inverse.solving import Part, Solving
 from dynsolve.derivation.inverse.subproblems import Length, OneLine, Remainder, RootLength, Solved, TwoLines
 from dynsolve.document import Prose, Table
 from dynsolve.explain.citations import spong
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import InverseFormulas
+from dynsolve.explain.inverse_pose import introduction, pose_task, wrist_notes
 from dynsolve.explain.inverse_way import InverseWay
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed, side_by_side
@@ -52,7 +53,9 @@ def steps(context: Context) -> Iterator[Step]:
     if "inverse" not in context.wanted:
         return
     forms = ConfigurationForms(context.robot, context.values)
-    yield _task(context)
+    task = context.robot.questions.task
+    assert task is not None
+    yield pose_task(context) if task.is_pose else _task(context)
     if forms.solved is None:
         yield _unsolved()
         return
@@ -99,12 +102,15 @@ class _Explainer:
 
     def steps(self) -> Iterator[Step]:
         """The unknowns, one after the other, and the branches."""
-        solved = self.solving.solved
-        for k, step in enumerate(solved):
-            yield self._step(step, solved[:k])
+        before: tuple[Solved, ...] = ()
+        for number, part in enumerate(self.solving.parts, 1):
+            yield from introduction(self.formulas, part, number, before)
+            for step in part.solved:
+                yield self._step(step, before, part)
+                before = (*before, step)
         yield self._branches()
 
-    def _step(self, step: Solved, before: tuple[Solved, ...]) -> Step:
+    def _step(self, step: Solved, before: tuple[Solved, ...], part: Part) -> Step:
         """How one unknown is found."""
         unknown = Symbol(step.coordinate)
         way = InverseWay(self.formulas, step, before)
@@ -122,7 +128,7 @@ class _Explainer:
             source=_SOURCE,
             concluding=("So:",) if lines else (),
             result=results,
-            notes=tuple(self._notes(step)),
+            notes=tuple(self._notes(step, part)),
             uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),
         )
 
@@ -137,8 +143,11 @@ class _Explainer:
             return ("The task gives the sum of the angles; the others are known now.",)
         return (*_origin([e.origin for e in step.equations]), *_form(step))
 
-    def _notes(self, step: Solved) -> Iterator[Prose]:
+    def _notes(self, step: Solved, part: Part) -> Iterator[Prose]:
         """When there is a solution, and when there are infinitely many."""
+        if part.turn is not None and part.turn.is_wrist:
+            yield from wrist_notes(part, step)
+            return
         form = self.formulas.form
         one = "; on the boundary, with =, the two solutions are one."
         match step:
@@ -231,6 +240,16 @@ def _origin(origins: Sequence[Origin]) -> Prose:
             numbers = listed([str(o.index + 1) for o in origins if isinstance(o, Given)])
             verb = " has" if len(origins) == 1 else " have"
             return (f"{which} ", *numbers, f" of the task{verb} no other unknown. ")
+        case OfPoint():
+            which = "Coordinate" if len(origins) == 1 else "Coordinates"
+            axes = listed(["xyz"[o.index] for o in origins if isinstance(o, OfPoint)])
+            verb = " has" if len(origins) == 1 else " have"
+            return (f"{which} ", *axes, f" of the point{verb} no other unknown. ")
+        case OfTurn():
+            which = "Entry" if len(origins) == 1 else "Entries"
+            places = listed([f"({o.row + 1}, {o.column + 1})" for o in origins if isinstance(o, OfTurn)])
+            verb = " has" if len(origins) == 1 else " have"
+            return (f"{which} ", *places, f" of the rotation{verb} no other unknown. ")
         case Squared():
             return ("Turning a vector does not change its length: in the sum of the squares the other angles "
                     "drop out. ",)  # fmt: skip

@@ -11,7 +11,7 @@ from math import lcm
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.fraction import RationalExpr, simplified
+from dynsolve.algebra.fraction import RationalExpr, cancelled
 from dynsolve.algebra.positivity import is_nonnegative
 from dynsolve.derivation.inverse.equations import Squared
 from dynsolve.derivation.inverse.subproblems import (
@@ -192,7 +192,7 @@ class InverseFormulas:
 
     def ratio(self, above: Expr, below: Expr) -> Node:
         """above / below, cancelled; the sign in front."""
-        value = simplified(RationalExpr(above, below))
+        value = cancelled(RationalExpr(above, below))
         if value.divisor is None:
             return self._form(value.numerator)
         whole = lcm(*(int(factor.q) for e in (value.numerator, value.divisor) for factor in e.poly.coeffs()))

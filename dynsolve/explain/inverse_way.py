@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.derivation.inverse.equations import Equation, Given, Squared, Turned, lineage
+from dynsolve.derivation.inverse.equations import Direct, Equation, Given, Squared, Turned, lineage
 from dynsolve.derivation.inverse.subproblems import OneLine, Solved, TwoLines
 from dynsolve.document import Prose
 from dynsolve.explain.inverse_formulas import InverseFormulas
@@ -85,7 +85,7 @@ class InverseWay:
         return tuple(e for e in self._needed if not self._is_first(e))
 
     def _is_first(self, e: Equation) -> bool:
-        return isinstance(e.origin, Given) or e.expr in self._shown
+        return isinstance(e.origin, Direct) or e.expr in self._shown
 
     def _turned(self, pair: tuple[Equation, Equation], name: str, made: Mapping[bool, Equation]) -> Line:
         """Two components turned back by an angle, as the sums that a hand writes."""

@@ -126,6 +126,8 @@ def _questions(robot: Robot) -> Iterator[Line]:
     if reached:
         kinds = (("", "name", name) for name in reached)
         yield _line(tuple(map(Symbol, reached)), "values of the task that are to be reached", "", *kinds)
+    if robot.questions.task is not None and robot.questions.task.is_pose:
+        yield from _pose(robot)
     tip = [Letter(axis, Words("tip")) for axis in "xyz"]
     yield _line(tip, "coordinates of the origin of the last frame", "m")
     if robot.questions.task is not None:
@@ -140,6 +142,19 @@ def _questions(robot: Robot) -> Iterator[Line]:
     yield _line([_numbered("M"), _body("M")], "moment from outside, its size", "N m")
     yield _line(letters.Q_FORCES, "generalized forces of these", "", ("Q", "bold", "F#"))
     yield _line(letters.TAU_STATIC, "forces and torques that hold the arm at rest")
+
+
+def _pose(robot: Robot) -> Iterator[Line]:
+    """The names that are given on the way to a pose."""
+    from dynsolve.derivation.inverse.names import Names
+
+    names = Names.beside({*robot.ring.names, *robot.ring.parameters, *robot.questions.reached})
+    for told, meaning, unit in (
+        (names.of_points, "coordinates of a point, given where they stand", "m"),
+        (names.of_turns, "entries of a rotation, given where they stand", ""),
+    ):
+        yield _line(tuple(map(Symbol, told)), meaning, unit, *(("", "name", name) for name in told))
+    yield _line(letters.bold("U"), "rotation that is left for some joints")
 
 
 def _bodies(robot: Robot, ground: str) -> Iterator[Line]:

@@ -30,7 +30,7 @@ POINT = Keyed(
     )
 )
 
-TWIST = Word(("twist",))
+WHOLE = Word(("twist", "pose"))
 ALL = Word(("all",))
 IN_LINK = Word(("link",))
 BY = Word(("world", "robot"))
@@ -82,19 +82,21 @@ KINEMATIC_KEYS = (
     ),
     Key(
         "task",
-        OneOf((ListOf(EXPRESSION, "a list of expressions", 1, MAX_TASK), TWIST)),
+        OneOf((ListOf(EXPRESSION, "a list of expressions", 1, MAX_TASK), WHOLE)),
         "What the arm is to do, r(q): coordinates of the tip or of a point (tip.x, P.y), and of the joints; "
-        "or twist, the six rates of the last frame. Default: the coordinates of the tip that move.",
+        "or twist, the six rates of the last frame; or pose, its position and rotation, with these rates. "
+        "Default: the coordinates of the tip that move.",
         "[tip.x, tip.y]",
         "the coordinates of the tip that move",
-        remedy="write task: [tip.x, tip.y, q1 + q2], or task: twist",
+        remedy="write task: [tip.x, tip.y, q1 + q2], task: pose, or task: twist",
     ),
     Key(
         "reach",
         ListOf(NAME, "a list of names", 1, MAX_TASK),
-        "What the values of r(q) are called in the inverse kinematics.",
+        "What the values of r(q) are called in the inverse kinematics; of a pose the position, and the rows "
+        "of the rotation behind it.",
         "[px, py]",
-        "r1, r2, ...",
+        "r1, r2, ...; of a pose x, y, z, r11, ..., r33",
         remedy="write reach: [px, py], a name for each component of the task",
     ),
     Key(

@@ -11,7 +11,7 @@ from dynsolve.notation.walk import mapped, names_in, walk
 from dynsolve.problem.cells import Cell, denominators, forbid, read_cell, read_expressions
 from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.fields import Fields, did_you_mean, items, word
-from dynsolve.problem.kinematic_keys import ALL, MAX_POINTS, MAX_TASK, POINT, TWIST
+from dynsolve.problem.kinematic_keys import ALL, MAX_POINTS, MAX_TASK, POINT, WHOLE
 from dynsolve.problem.loads import ParsedLoad, read_loads
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
 from dynsolve.problem.reach import NO_REACH, ParsedReach, read_reach
@@ -38,10 +38,11 @@ class ParsedPoint:
 
 @dataclass(frozen=True, slots=True)
 class ParsedTask:
-    """`task:`: its components, in which a `Reference` stands for a point's coordinate; none of a twist."""
+    """`task:`: its components, in which a `Reference` stands for a point's coordinate; of a pose none."""
 
     cells: tuple[Cell, ...]
     is_twist: bool = False
+    is_pose: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,8 +186,8 @@ def _read_point(faults: Faults, name: str, node: YamlNode, rows: int) -> ParsedP
 def _read_task(
     faults: Faults, node: YamlNode | None, points: Collection[str], coordinates: Collection[str]
 ) -> ParsedTask | None:
-    if isinstance(node, ScalarNode) and node.text in TWIST.choices:
-        return ParsedTask((), is_twist=True)
+    if isinstance(node, ScalarNode) and node.text in WHOLE.choices:
+        return ParsedTask((), is_twist=True, is_pose=node.text == "pose")
     listed = items(faults, node, "task", PROBLEM["task"].help)
     if len(listed) > MAX_TASK and node:
         faults.error(node.span, f"{len(listed)} components; at most {MAX_TASK} are read", "leave some out")

@@ -72,8 +72,8 @@ def with_questions(
     )
     if questions.task is None and (parsed.rates or Stage.TASK in asked_stages(questions)):
         questions = replace(questions, task=_default_task(robot))
-    if questions.task is not None and not questions.task.is_twist:
-        check_reach(values.faults, parsed.reach, questions.task.rows)
+    if questions.task is not None and questions.task.reached:
+        check_reach(values.faults, parsed.reach, len(questions.task.reached))
     if questions.task is not None:
         rows = questions.task.rows
         questions = replace(
@@ -100,7 +100,7 @@ def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix 
 def _task(parsed: ParsedTask | None) -> Task | None:
     if parsed is None:
         return None
-    return Task(tuple(cell.tree for cell in parsed.cells), is_twist=parsed.is_twist)
+    return Task(tuple(cell.tree for cell in parsed.cells), is_twist=parsed.is_twist, is_pose=parsed.is_pose)
 
 
 def _default_task(robot: Robot) -> Task:

@@ -33,17 +33,26 @@ class Task:
     """What the arm is to do: r(q), m×1, or its twist, the six rates J q̇ of the last frame.
 
     `entries` are the components of r, none of a twist.  `is_default` says that the file does
-    not give them: they are then the coordinates of the tip that move.
+    not give them: they are then the coordinates of the tip that move.  `is_pose` says that the
+    last frame is also to have a pose, position and rotation; its rates are the twist.
     """
 
     entries: tuple[Node, ...]
     is_twist: bool = False
     is_default: bool = False
+    is_pose: bool = False
 
     @property
     def rows(self) -> int:
         """m, the number of components."""
         return 6 if self.is_twist else len(self.entries)
+
+    @property
+    def reached(self) -> tuple[str, ...]:
+        """Names of what is to be reached: r1, r2, ...; of a pose x, y, z, r11 ... r33; none of a twist."""
+        if self.is_pose:
+            return (*"xyz", *(f"r{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3)))
+        return tuple(f"r{k}" for k in range(1, len(self.entries) + 1))
 
 
 def coordinate_of(point: str, axis: int) -> Reference:
@@ -117,7 +126,7 @@ class Questions:
 
     @property
     def reached(self) -> tuple[str, ...]:
-        """The names of the values of r(q) in the inverse kinematics: r1, r2, ... unless they are named."""
+        """The names of what is to be reached, those of the task unless the file names it."""
         if self.reach or self.task is None:
             return self.reach
-        return tuple(f"r{k}" for k in range(1, self.task.rows + 1))
+        return self.task.reached

@@ -43,7 +43,8 @@ def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wante
 
     shown = ConfigurationForms(robot, values)
     if "inverse" in wanted and shown.solved is not None:
-        verify_inverse(robot, forms("r"), shown.inverse)
+        (task,) = values.rules["inverse"].inputs
+        verify_inverse(robot, forms(task), shown.inverse)
     found = shown.singular_set if "singular" in wanted else None
     if found is not None:
         (jacobian,) = values.rules["singular"].inputs

@@ -117,7 +117,8 @@ class ConfigurationKey:
 
     @cached_property
     def _task(self) -> Program:
-        return compile_trees([self.forms("r")])
+        (task,) = self.values.rules["inverse"].inputs
+        return compile_trees([self.forms(task)])
 
     # -- equations ---------------------------------------------------------------------------------
 

@@ -9,9 +9,14 @@ counts as known from then on.
     equations     an equation left = right, and the ways in which others come from it
     terms         an expression as A cos ψ + B sin ψ + C in the unknowns
     subproblems   the forms that are solved, each with its solutions and when there are any
+    solving       how a task is solved, as data: the steps, and the names that are given on the way
     search        which unknown is solved for next, from which equations
+    chain         the arm as motions about its joint axes; points on several of them
+    names         names for what becomes known: a wrist's centre, the entries of its rotation
+    pose          a full pose, part by part: from such points, and from the rotation that is left
     branches      the sets of signs that solve the task, found by putting in
 
-Spong, Hutchinson, Vidyasagar, section 3.3 (2006); Craig, chapter 4; Paul, Robot Manipulators (1981).
+Spong, Hutchinson, Vidyasagar, section 3.3 (2006); Craig, chapter 4; Paul, Robot Manipulators (1981);
+Pieper, The Kinematics of Manipulators under Computer Control (1968).
 To add a form, add its class in `subproblems` and its recognition in `subproblems.recognized`.
 """

@@ -15,7 +15,7 @@ from random import Random
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
-from dynsolve.derivation.inverse.search import Solving
+from dynsolve.derivation.inverse.solving import Solving
 
 POINTS = 12
 """So many random configurations are tried."""
@@ -68,11 +68,15 @@ def configuration(solving: Solving, branch: Branch, given: Mapping[str, float]) 
     def at(expr: Expr) -> float:
         return evaluate(expr, values)
 
-    for step, index in zip(solving.solved, branch.choice, strict=True):
-        found = step.values(at)
-        if not found:
-            return None
-        values[step.coordinate] = found[index]
+    choice = iter(branch.choice)
+    for part in solving.parts:
+        for definition in part.definitions:
+            values[definition.name] = at(definition.value)
+        for step, index in zip(part.solved, choice, strict=False):
+            found = step.values(at)
+            if not found:
+                return None
+            values[step.coordinate] = found[index]
     return values
 
 

@@ -28,6 +28,25 @@ class Given:
 
 
 @dataclass(frozen=True, slots=True)
+class OfPoint:
+    """Coordinate `index` (from 0) of a point that some joints do not move."""
+
+    index: int
+
+
+@dataclass(frozen=True, slots=True)
+class OfTurn:
+    """Entry (`row`, `column`) (from 0) of the rotation that some joints make together."""
+
+    row: int
+    column: int
+
+
+Direct = Given | OfPoint | OfTurn
+"""What is read off, and not made from other equations."""
+
+
+@dataclass(frozen=True, slots=True)
 class Turned:
     """The first (cos, sin) or second (-sin, cos) component of two equations turned by a coordinate."""
 
@@ -49,14 +68,14 @@ class Squared:
         return _squares([part.left for part in self.parts])
 
 
-Origin = Given | Turned | Squared
+Origin = Direct | Turned | Squared
 """Where an equation comes from."""
 
 
 def turns(origin: Origin) -> int:
     """How often something was turned on the way to an equation."""
     match origin:
-        case Given():
+        case Given() | OfPoint() | OfTurn():
             return 0
         case Turned(first, second):
             return 1 + max(turns(first.origin), turns(second.origin))

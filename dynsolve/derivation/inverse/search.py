@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.transfer import Transfer
 from dynsolve.derivation.inverse.equations import (
     Equation,
@@ -20,6 +18,7 @@ from dynsolve.derivation.inverse.equations import (
     turned_systems,
     turns,
 )
+from dynsolve.derivation.inverse.solving import Part, Solving
 from dynsolve.derivation.inverse.subproblems import Remainder, Solved, recognized
 from dynsolve.derivation.inverse.unknowns import Unknowns, search_ring
 
@@ -28,23 +27,6 @@ MOST_SYSTEMS = 40
 
 MOST_TERMS = 400
 """Equations with more terms are not looked at."""
-
-
-@dataclass(frozen=True, slots=True)
-class Solving:
-    """The unknowns in the order in which they are solved for.
-
-    `ring` is that of the steps; `task` is r(q) as it was given, `values` are the names of its
-    components, `angles` those of them that are sums of angles.  `free` coordinates do not
-    occur in it.
-    """
-
-    ring: Ring
-    task: Matrix
-    values: tuple[str, ...]
-    angles: frozenset[str]
-    solved: tuple[Solved, ...]
-    free: tuple[str, ...]
 
 
 def solve_task(task: Matrix, values: Sequence[str]) -> Solving | None:
@@ -68,12 +50,12 @@ def solve_task(task: Matrix, values: Sequence[str]) -> Solving | None:
         for k, (entry, value) in enumerate(zip(r, values, strict=True))
         if k not in sums
     )
-    steps = _search(rest, unknowns)
-    if steps is None:
+    steps = search([rest], unknowns)
+    if {step.coordinate for step in steps} != set(unknowns.names):
         return None
     last = [_in_ring(remainder, carry) for remainder in sums.values()]
     angles = frozenset(given.values())
-    return Solving(ring, task, tuple(values), angles, (*steps, *last), free)
+    return Solving(ring, task, tuple(values), angles, (Part((*steps, *last)),), free)
 
 
 def _in_ring(remainder: Remainder, carry: Transfer) -> Remainder:
@@ -82,15 +64,20 @@ def _in_ring(remainder: Remainder, carry: Transfer) -> Remainder:
     )
 
 
-def _search(system: System, unknowns: Unknowns) -> tuple[Solved, ...] | None:
-    """The steps to every unknown, each the simplest there is; None where none is left and unknowns are."""
-    systems: list[System] = [system]
+def search(given: Sequence[System], unknowns: Unknowns, *, turning: bool = True) -> tuple[Solved, ...]:
+    """The steps from some systems to the unknowns, each the simplest there is, as far as they lead.
+
+    Systems are only turned where `turning`.
+    """
+    systems = list(given)
     steps: list[Solved] = []
     while unknowns.names:
-        systems = _grown([tuple(arranged(e, unknowns) for e in s) for s in systems], unknowns)
+        systems = [tuple(arranged(e, unknowns) for e in s) for s in systems]
+        if turning:
+            systems = _grown(systems, unknowns)
         best = min(_solvable(systems, unknowns), key=_effort, default=None)
         if best is None:
-            return None
+            break
         steps.append(best)
         unknowns = unknowns.without(best.coordinate)
     return tuple(steps)

@@ -7,7 +7,8 @@ from random import Random
 import pytest
 
 from dynsolve.derivation.inverse.branches import branches, configuration, random_state, reach_of, solves_task
-from dynsolve.derivation.inverse.search import Solving, solve_task
+from dynsolve.derivation.inverse.search import solve_task
+from dynsolve.derivation.inverse.solving import Solving
 from dynsolve.derivation.rules import derive
 from dynsolve.problem import read_problem
 

@@ -1,0 +1,89 @@
+"""How a task is solved, as data: the steps in their order, and the names that are given on the way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.ring import Ring
+from dynsolve.derivation.inverse.subproblems import Solved
+
+
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """A name for what is known before the steps of its part: x_c = x - d6 r13."""
+
+    name: str
+    value: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """The pose that is left for joints `first`..`last` (from 1) when the others are taken off.
+
+    `known` (4×4) are its entries as the steps have them, `made` (4×4) the product of the motions
+    of these joints.  `definitions` are those of the entries that are needed; `is_wrist` says that
+    these are three joints that turn about axes through one point.
+    """
+
+    first: int
+    last: int
+    known: Matrix
+    made: Matrix
+    is_wrist: bool
+    definitions: tuple[Definition, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FixedPoint:
+    """A point on the axes of joints `first`..`last`, which these do not move.
+
+    `known` (3×1) are its coordinates as the steps have them, `made` (3×1) what the other joints
+    make of them.  `from_hand` says that it is fixed in the base and seen from the hand; else it is
+    fixed in the hand and seen from the base.  Without such joints (`last` before `first`) it is
+    the origin of the last frame.
+    """
+
+    first: int
+    last: int
+    known: Matrix
+    made: Matrix
+    definitions: tuple[Definition, ...]
+    from_hand: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Steps that are taken from the same equations, with what is known for them by name."""
+
+    solved: tuple[Solved, ...]
+    turn: Turn | None = None
+    point: FixedPoint | None = None
+
+    @property
+    def definitions(self) -> tuple[Definition, ...]:
+        """The names, each behind those that stand in its value."""
+        return tuple(d for told in (self.turn, self.point) if told for d in told.definitions)
+
+
+@dataclass(frozen=True, slots=True)
+class Solving:
+    """The unknowns in the order in which they are solved for.
+
+    `ring` is that of the steps; `task` is r(q) as it was given, `values` are the names of its
+    components, `angles` those of them that are sums of angles.  `free` coordinates do not
+    occur in it.
+    """
+
+    ring: Ring
+    task: Matrix
+    values: tuple[str, ...]
+    angles: frozenset[str]
+    parts: tuple[Part, ...]
+    free: tuple[str, ...]
+
+    @property
+    def solved(self) -> tuple[Solved, ...]:
+        """The steps of all parts."""
+        return tuple(step for part in self.parts for step in part.solved)

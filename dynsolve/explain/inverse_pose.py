@@ -1,0 +1,159 @@
+"""Steps of the inverse kinematics of a pose: what is to be reached, the wrist's centre, its rotation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from dynsolve.algebra.matrix import Matrix as Values
+from dynsolve.derivation.inverse.solving import FixedPoint, Part, Turn
+from dynsolve.derivation.inverse.subproblems import OneLine, Solved
+from dynsolve.document import Prose
+from dynsolve.explain.citations import spong
+from dynsolve.explain.context import Context
+from dynsolve.explain.inverse_formulas import InverseFormulas
+from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import and_joined, listed
+from dynsolve.notation.tree import Function, Matrix, Node, Number, Symbol, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+
+STAGE = Stage.INVERSE
+
+_U = letters.bold("U")
+"""The rotation that is left for some joints."""
+
+
+def pose_task(context: Context) -> Step:
+    """The pose that is to be reached."""
+    x, y, z, *entries = map(Symbol, context.robot.questions.reached)
+    rows = [(*entries[3 * k : 3 * k + 3], p) for k, p in enumerate((x, y, z))]
+    last = (Number(0), Number(0), Number(0), Number(1))
+    frame = letters.H(context.robot, len(context.robot.joints))
+    return Step(
+        id="inverse_task",
+        stage=STAGE,
+        title="What is to be solved",
+        why=("The position and the rotation of the last frame are given, and the joint variables that give "
+             "them are looked for.",),
+        formula=equation(frame, Matrix((*rows, last))),
+        source=spong("3.3.1"),
+        uses=(f"H{len(context.robot.joints)}",),
+        is_task=False,
+    )  # fmt: skip
+
+
+def introduction(
+    formulas: InverseFormulas, part: Part, number: int, before: Sequence[Solved]
+) -> Iterator[Step]:
+    """What the steps of a part of the solution start from: a rotation that is left, a point."""
+    if part.turn is not None:
+        yield _turn(formulas, part.turn, number, before)
+    if part.point is not None:
+        yield _point(formulas, part, part.point, number)
+
+
+# -- a point ---------------------------------------------------------------------------------------
+
+
+def _point(formulas: InverseFormulas, part: Part, point: FixedPoint, number: int) -> Step:
+    known, values = (_column(formulas, point, named=named) for named in (True, False))
+    made = _form(formulas, point.made)
+    what = _called(point)
+    return Step(
+        id=f"inverse_point_{number}",
+        stage=STAGE,
+        title=what[0].upper() + what[1:],
+        why=_why_point(point, what),
+        result=(*((equation(known, values),) if point.definitions else ()), equation(known, made)),
+        source=spong("3.3.2"),
+        detail=Detail.NORMAL,
+        uses=("inverse_task", *((f"inverse_turn_{number}",) if part.turn else ())),
+        is_task=False,
+    )
+
+
+def _called(point: FixedPoint) -> str:
+    """What a point is called."""
+    count = point.last - point.first + 1
+    if count == 0:
+        return "the origin of the last frame"
+    if count == 1:
+        return f"a point on the axis of joint {point.first}"
+    if count == 3 and not point.from_hand:
+        return "the wrist centre"
+    return f"the point where the axes of joints {_numbers(point)} meet"
+
+
+def _why_point(point: FixedPoint, what: str) -> Prose:
+    seen = "Fixed in the base, it is seen from the hand by the pose" if point.from_hand else (
+        "Fixed in the hand, it is given by the pose"
+    )  # fmt: skip
+    alone = ", and only the other joints move it."
+    match point.last - point.first + 1:
+        case 0:
+            return ("Every joint moves it.",)
+        case 1:
+            return (f"Joint {point.first} turns about its axis and does not move this point. {seen}{alone}",)
+        case _:
+            return (
+                f"The axes of joints {_numbers(point)} meet in one point, which these joints do not move. "
+                f"{seen}{alone}",
+            )
+
+
+def _numbers(told: FixedPoint | Turn) -> str:
+    return and_joined([str(k) for k in range(told.first, told.last + 1)])
+
+
+def _column(formulas: InverseFormulas, point: FixedPoint, *, named: bool) -> Node:
+    """The coordinates of a point, by name or in what is known."""
+    meant = {} if named else {d.name: formulas.form(d.value) for d in point.definitions}
+    return Matrix(tuple((_meaning(meant, formulas.form(e)),) for e in point.known.entries))
+
+
+def _meaning(meant: dict[str, Node], node: Node) -> Node:
+    return meant.get(node.name, node) if isinstance(node, Symbol) else node
+
+
+def _form(formulas: InverseFormulas, values: Values) -> Matrix:
+    return Matrix(tuple(tuple(map(formulas.form, row)) for row in values.rows))
+
+
+# -- a rotation ------------------------------------------------------------------------------------
+
+
+def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[Solved]) -> Step:
+    """The rotation that is left for some joints."""
+    made, known = (_form(formulas, m.block(0, 3, 0, 3)) for m in (turn.made, turn.known))
+    count = turn.last - turn.first + 1
+    joints = f"joint {turn.first}" if count == 1 else f"joints {_numbers(turn)}"
+    values = [equation(Symbol(d.name), formulas.form(d.value)) for d in turn.definitions]
+    return Step(
+        id=f"inverse_turn_{number}",
+        stage=STAGE,
+        title="The rotation of the wrist" if turn.is_wrist else f"What is left for {joints}",
+        why=(
+            f"The other joints are known now. Taken off the given pose, they leave to {joints} the rotation ",
+            _U,
+            ", which is also the product of the rotations of these joints.",
+        ),
+        working=(equation(_U, known, made),),
+        source=spong("3.3.2"),
+        concluding=("From the given pose and the joints that are known:",) if values else (),
+        result=tuple(values) or (equation(_U, known, made),),
+        listed=True,
+        uses=("inverse_task", *(f"inverse_{step.coordinate}" for step in before)),
+        is_task=False,
+    )
+
+
+def wrist_notes(part: Part, step: Solved) -> Iterator[Prose]:
+    """Where a spherical wrist is singular; said with its middle joint."""
+    if isinstance(step, OneLine):
+        others = [Symbol(s.coordinate) for s in part.solved if s is not step]
+        zero = equation(Function("sin", Symbol(step.coordinate)), Number(0))
+        yield (
+            "Where ", zero, " the first and the last axis of the wrist are one line: only the sum of ",
+            *listed(others), ", or their difference, is given then, and one of them is free: infinitely many "
+            "solutions.",
+        )  # fmt: skip
