@@ -6,7 +6,8 @@ what comes later, or would mean something else in the problem, takes the next le
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
@@ -30,7 +31,7 @@ class Names:
     turns: tuple[str, ...]
 
     @staticmethod
-    def beside(taken: Collection[str]) -> Names:
+    def beside(taken: AbstractSet[str]) -> Names:
         """Names that do not mean something already; fewer where the problem has most of them."""
         points = (s for s in POINTS if taken.isdisjoint(_coordinates(s)))
         turns = (letter for letter in TURNS if taken.isdisjoint(_entries(letter)))
