@@ -19,10 +19,11 @@ it keeps the shorter result.
    form (`algebra.fourier`) has the one term cos(α₂ - α₁).  `constant_forms` does the
    same for polynomials in the cosine of a constant angle (4 cos³10° - 3 cos 10° = √3/2).
 
-3. Collect (`collect`): velocities that share a coefficient are merged, (q̇₂ + q̇₃); then
-   sines and cosines; the polynomials in the parameters last, common factors out, masses
-   first, squares completed, (a₃ + x₃)²; beside a mass also those of sums of sines and
-   cosines (`squares`), (L₂ c₂ + l_c3 c₂₃)².  What is printed as one factor is an atom
+3. Collect (`collect`): velocities that share a coefficient are merged, (q̇₂ + q̇₃), and a
+   few products of them with other coefficients stand apart; then sines and cosines; the
+   polynomials in the parameters last, common factors out, masses first, squares
+   completed, (a₃ + x₃)²; beside a mass also those of sums of sines and cosines
+   (`squares`), (L₂ c₂ + l_c3 c₂₃)².  What is printed as one factor is an atom
    (`atoms`; `ring_atoms` makes those of a ring); `monomials` has the arithmetic.
 
 Add a form of sines and cosines in `trig_forms.trig_forms`: the choice takes it where it

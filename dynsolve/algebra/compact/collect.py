@@ -36,6 +36,9 @@ SEARCHED = 14
 JOINED = 60
 """Up to this number of terms sums that recur as a whole are looked for."""
 
+APART = 6
+"""Up to this number of products of rates, those of three coordinates, they stand apart."""
+
 SMALL_WHOLE = 9
 """Decimals are drawn out of a sum where that leaves whole numbers up to this one."""
 
@@ -81,7 +84,7 @@ class Collector:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
         factor = self.content(poly.values())
         mono = self._worth_drawing(poly, common(poly))
-        if (factor != 1 or mono) and self._mostly_negative(poly):
+        if (factor != 1 or mono) and self.mostly_negative(poly):
             factor = -factor
         return factor, mono, self._divided(poly, mono, factor)
 
@@ -92,12 +95,50 @@ class Collector:
         sizes: set[Rational] = {f if f > 0 else -f for f in factors}
         return sizes.pop() if len(sizes) == 1 else 1
 
-    def _mostly_negative(self, poly: Polynomial) -> bool:
-        """Whether a sum reads better with its sign turned: more minus than plus, or as many and one first."""
+    def mostly_negative(self, poly: Polynomial) -> bool:
+        """Whether a sum reads better with its sign turned: more minus than plus, or as many and one first.
+
+        Of as many a coordinate counts as first: d - l/2 and not l/2 - d.
+        """
         negative = sum(f < 0 for f in poly.values())
         if 2 * negative != len(poly):
             return 2 * negative > len(poly)
-        return poly[min(poly, key=self.order)] < 0
+        moving = [mono for mono in poly if self._is_moving(mono)]
+        return poly[min(moving or poly, key=self.order)] < 0
+
+    def _is_moving(self, mono: Monomial) -> bool:
+        """Whether a coordinate stands in a term, and neither an angle nor a rate."""
+        ranks = {self.atoms.ranks[atom][0] for atom, _ in mono}
+        return Rank.COORDINATE in ranks and max(ranks) < Rank.TRIG
+
+    def _oriented(self, node: Sum) -> tuple[int, Node]:
+        """(±1, the sum with that sign): as a factor one sum has one orientation, wherever it stands.
+
+        One with angles stays as it is where as many terms are minus as plus: a₂ c₂ - z₃ s₂₃.
+        """
+        terms = {mono: factor for factor, mono in map(self.decompose, node.terms)}
+        even = 2 * sum(f < 0 for f in terms.values()) == len(terms)
+        angles = any(self.atoms.ranks[atom][0] >= Rank.TRIG for mono in terms for atom, _ in mono)
+        if (even and angles) or not self.mostly_negative(terms):
+            return 1, node
+        return -1, total([self.product(-f, m, ()) for m, f in self.ordered(terms)])
+
+    def apart(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
+        """Σ factor · monomial · tree of different rates: a few stand apart where sums multiply them.
+
+        A book writes 2(m₂ l² + m₃ d²) s₂ c₂ θ̇₁ θ̇₂ - 2m₃ d c₂² θ̇₁ ḋ, and draws no angle or rate out of it.
+        """
+        poly = self._added(products)
+        sums = Counter(
+            a for mono in poly for a, _ in mono if self.atoms.ranks[a][0] in (Rank.SUM, Rank.TRIG_SUM)
+        )
+        if not (1 < len(poly) <= APART and sums) or max(sums.values()) > 1:
+            return self.form(poly)
+        number = self.content(poly.values())
+        number = 1 if number.denominator == 1 else number
+        shared = tuple((a, e) for a, e in common(poly) if self.atoms.ranks[a][0] < Rank.TRIG)
+        terms = [self.product(f, m, ()) for m, f in self.ordered(self._divided(poly, shared, number))]
+        return self.product(number, shared, (total(terms),)) if shared or number != 1 else total(terms)
 
     @staticmethod
     def _divided(poly: Polynomial, mono: Monomial, factor: Rational) -> Polynomial:
@@ -154,14 +195,23 @@ class Collector:
 
     def sum_of(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree, with what the products share drawn out."""
+        return self.form(self._added(products))
+
+    def _added(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Polynomial:
+        """The same as a polynomial in atoms."""
         poly: Polynomial = {}
         for factor, mono, node in products:
             sign, inner = split_sign(node)
-            spread = isinstance(inner, Sum) and not mono
-            for term in inner.terms if isinstance(inner, Sum) and spread else (inner,):
+            terms: tuple[Node, ...] = (inner,)
+            if isinstance(inner, Sum) and not mono:
+                terms = inner.terms
+            elif isinstance(inner, Sum):
+                turned, inner = self._oriented(inner)
+                terms, sign = (inner,), sign * turned
+            for term in terms:
                 own, rest = self.decompose(term)
                 add_term(poly, multiply(mono, rest) if mono else rest, factor * own * sign)
-        return self.form(poly)
+        return poly
 
     def _sum(self, poly: Polynomial) -> Node:
         key = frozenset(poly.items())

@@ -8,7 +8,8 @@ inside, masses outside or inside), the result with fewer operations is taken.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 
 from dynsolve.algebra.compact.collect import Collector
@@ -117,34 +118,53 @@ class Compactor:
 
     def _one_kind(self, layout: TermLayout, terms: Terms, kind: tuple[int, int]) -> Node:
         """Velocities outside; or angles outside and velocities inside, where that is much cheaper."""
-        if (
-            kind == (0, 2)
-            and any(f.denominator % 2 == 0 for f in terms.values())
-            and not self.collector.decimal
-        ):
+        if kind == (0, 2) and not self.collector.decimal and self._is_energy(layout, terms):
             half = Fraction(1, 2)  # an energy: its ½ in front
             terms = {e: exact(f, half) for e, f in terms.items()}
             return times(half, [(self._outside_or_inside(layout, terms, kind), 1)])
         return self._outside_or_inside(layout, terms, kind)
 
+    @staticmethod
+    def _is_energy(layout: TermLayout, terms: Terms) -> bool:
+        """Whether a square has a factor ½, m (l q̇)²/2: in a force only what is no square has one."""
+        start = sum(width for _, width in layout.groups)
+        stop = start + len(layout.leading)
+        return any(
+            f.denominator % 2 == 0 and not any(x % 2 for x in (*e[:start], *e[stop:]))
+            for e, f in terms.items()
+        )
+
     def _outside_or_inside(self, layout: TermLayout, terms: Terms, kind: tuple[int, int]) -> Node:
         split = split_tail(terms, len(layout.rates))
         inner = layout.without_rates()
-        outside = self._merged(split, layout.rates, lambda part: self._coefficient(inner, part))
-        if len(split) == 1 or len(terms) > LARGE:
+        parts = self._grouped(
+            self._monomials(split, layout.rates), lambda part: self._coefficient(inner, part)
+        )
+        outside = self.collector.sum_of(parts)
+        if len(split) == 1:
             return outside
-        inside = self._by_angles(layout, terms)
-        cost = self.collector.cost
-        return inside if cost(inside) < cost(outside) * (1 if kind == (0, 1) else MUCH_CHEAPER) else outside
+        if len(terms) <= LARGE:
+            inside = self._by_angles(layout, terms)
+            cost = self.collector.cost
+            if cost(inside) < cost(outside) * (1 if kind == (0, 1) else MUCH_CHEAPER):
+                return inside
+        return self.collector.apart(parts)
 
     def _merged(
         self, split: Mapping[Exponents, Terms], places: Sequence[int], form: Callable[[Terms], Node]
     ) -> Node:
         """Σ part · monomial, where monomials whose parts differ by a rational factor are summed first."""
-        return self._paired(((self._atoms.monomial(places, key), part) for key, part in split.items()), form)
+        return self.collector.sum_of(self._grouped(self._monomials(split, places), form))
 
-    def _paired(self, parts: Iterable[tuple[Monomial, Terms]], form: Callable[[Terms], Node]) -> Node:
-        """The same of (monomial, part); a part that is a number goes into the monomial's coefficient."""
+    def _monomials(
+        self, split: Mapping[Exponents, Terms], places: Sequence[int]
+    ) -> Iterator[tuple[Monomial, Terms]]:
+        return ((self._atoms.monomial(places, key), part) for key, part in split.items())
+
+    def _grouped(
+        self, parts: Iterable[tuple[Monomial, Terms]], form: Callable[[Terms], Node]
+    ) -> list[tuple[Rational, Monomial, Node]]:
+        """(factor, monomial, form of a part): a part that is a number goes into the monomial's coefficient."""
         numbers: list[tuple[Rational, Monomial, Node]] = []
         shared: dict[object, tuple[Terms, Rational, Polynomial]] = {}
         for mono, part in parts:
@@ -157,7 +177,7 @@ class Compactor:
             _, own, factors = shared.setdefault(key, (part, scale, {}))
             factors[mono] = exact(scale, own)
         sums = ((*self.collector.whole(factors), form(part)) for part, _, factors in shared.values())
-        return self.collector.sum_of((*numbers, *sums))
+        return [*numbers, *sums]
 
     # -- coefficients: no velocities ---------------------------------------------------------------
 
@@ -174,11 +194,29 @@ class Compactor:
         found = self._coefficients.get(key)
         if found is None:
             shared, rest = self._without_common(layout, dict(key[1]))
+            size, rest = self._usual(layout, rest)
             found = self._by_angles(layout, rest)
             if layout.leading and len(terms) <= LARGE:
                 found = min(self._by_masses(layout, rest), found, key=self.collector.cost)
+            if size != 1:
+                found = self.collector.sum_of([(size, (), found)])
             found = self._coefficients[key] = self.collector.sum_of([(*shared, found)])
         return found if scale == 1 else times(scale, [(found, 1)])
+
+    def _usual(self, layout: TermLayout, terms: Terms) -> tuple[Rational, Terms]:
+        """(size, terms / size): a polynomial and twice it are spelled alike.
+
+        The size is the largest factor of a square of lengths; where there is none, that of most terms.
+        """
+        if self.collector.decimal or len(terms) > LARGE:
+            return 1, terms
+        lengths = sum(width for _, width in layout.groups) + len(layout.leading)
+        squares = [
+            abs(f) for e, f in terms.items() if any(e[lengths:]) and not any(x % 2 for x in e[lengths:])
+        ]
+        counts = Counter(abs(f) for f in terms.values())
+        size = max(squares) if squares else max(counts, key=lambda f: (counts[f], f))
+        return size, terms if size == 1 else {e: exact(f, size) for e, f in terms.items()}
 
     def _without_common(self, layout: TermLayout, terms: Terms) -> tuple[tuple[Rational, Monomial], Terms]:
         """(the parameters and numbers that all terms share, the rest)"""
@@ -227,7 +265,7 @@ class Compactor:
             sign, trig = self._atoms.basic_trig_monomial(exponents[:width], g)
             symbols = self._atoms.monomial(layout.symbols, exponents[width + inner :])
             root[multiply(trig, symbols)] = sign * factor
-        if root[min(root, key=self.collector.order)] < 0:
+        if self.collector.mostly_negative(root):
             root = {mono: -factor for mono, factor in root.items()}
         number, mono = self.collector.decompose(tree.Power(self.collector.form(root), tree.Number(2)))
         rest = self._by_angles(layout, found.rest) if found.rest else ZERO
@@ -259,7 +297,7 @@ class Compactor:
         for mono, part in collected.items():
             sign, trig = self._atoms.trig_monomial(mono, g)
             parts.append((trig, part if sign > 0 else {e: -f for e, f in part.items()}))
-        return self._paired(parts, lambda part: self._by_angles(inner, part))
+        return self.collector.sum_of(self._grouped(parts, lambda part: self._by_angles(inner, part)))
 
     def _without_angles(self, layout: TermLayout, terms: Terms) -> Node:
         """The terms without angles: parameters, and velocities if these were not split off before."""

@@ -59,6 +59,56 @@ def test_it_reads_as_a_textbook_prints_it(written: str, printed: str) -> None:
     assert compact(written) == printed
 
 
+@pytest.mark.parametrize(
+    ("written", "printed"),
+    [
+        ("m1*(d^2 - d*l + l^2/3) + m2*d^2", "m1*((d - l/2)**2 + l**2/12) + m2*d**2"),
+        ("2*m1*(d^2 - d*l + l^2/3) + 2*m2*d^2", "2*(m1*((d - l/2)**2 + l**2/12) + m2*d**2)"),
+        (
+            "m1*(a^2/3 - b^2/12) + m2*(d^2 - d*l + l^2/3)",
+            "m1*(4*a**2 - b**2)/12 + m2*((d - l/2)**2 + l**2/12)",
+        ),
+        (
+            "m1*(2*a^2/3 - b^2/6) + m2*(2*d^2 - 2*d*l + 2*l^2/3)",
+            "m1*(4*a**2 - b**2)/6 + 2*m2*((d - l/2)**2 + l**2/12)",
+        ),
+        ("m1*(d - l/2) + m2*d", "m1*(d - l/2) + m2*d"),
+        ("m1*(2*d - l) + 2*m2*d", "2*(m1*(d - l/2) + m2*d)"),
+    ],
+)
+def test_a_polynomial_and_a_multiple_of_it_are_spelled_alike(written: str, printed: str) -> None:
+    assert compact(written) == printed
+
+
+@pytest.mark.parametrize(
+    ("written", "printed"),
+    [
+        ("(l/2 - d)*sin(q1)", "-(d - l/2)*sin(q1)"),
+        ("(d - l/2)*sin(q1)", "(d - l/2)*sin(q1)"),
+        ("(I1 - m1*a^2 - I2)*cos(q1)", "-(m1*a**2 - I1 + I2)*cos(q1)"),
+        ("m1*(l/2 - d)^2*sin(q1)^2", "m1*(d - l/2)**2*sin(q1)**2"),
+        ("l/2 - d", "l/2 - d"),
+    ],
+)
+def test_a_sum_that_is_a_factor_has_one_orientation(written: str, printed: str) -> None:
+    assert compact(written) == printed
+
+
+@pytest.mark.parametrize(
+    ("written", "printed"),
+    [
+        (
+            "2*m1*d*cos(q2)^2*q1_dot*d_dot - 2*(m1*d^2 + I1)*sin(q2)*cos(q2)*q1_dot*q2_dot",
+            "2*m1*d*cos(q2)**2*q1_dot*d_dot - 2*(m1*d**2 + I1)*sin(q2)*cos(q2)*q1_dot*q2_dot",
+        ),
+        ("m1*(d - l/2)*q1_dot^2 + m2*d*q1_dot^2", "(m1*(d - l/2) + m2*d)*q1_dot**2"),
+        ("(m1*a^2 + I1)*q1_dot^2/2 + I2*q2_dot^2/2", "((m1*a**2 + I1)*q1_dot**2 + I2*q2_dot**2)/2"),
+    ],
+)
+def test_products_of_rates_stand_apart(written: str, printed: str) -> None:
+    assert compact(written) == printed
+
+
 QUANTITIES = ["D", "C", "g", "tau", "K", "P", "L", "ddt1", "dLdq1", "H1"]
 
 
