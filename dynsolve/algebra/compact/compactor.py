@@ -164,7 +164,7 @@ class Compactor:
     def _grouped(
         self, parts: Iterable[tuple[Monomial, Terms]], form: Callable[[Terms], Node]
     ) -> list[tuple[Rational, Monomial, Node]]:
-        """(factor, monomial, form of a part): a part that is a number goes into the monomial's coefficient."""
+        """(factor, monomial, form of a part); a part that is a number goes into the coefficient."""
         numbers: list[tuple[Rational, Monomial, Node]] = []
         shared: dict[object, tuple[Terms, Rational, Polynomial]] = {}
         for mono, part in parts:
