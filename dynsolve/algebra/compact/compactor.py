@@ -211,10 +211,9 @@ class Compactor:
         if self.collector.decimal or len(terms) > LARGE:
             return 1, terms
         lengths = sum(width for _, width in layout.groups) + len(layout.leading)
-        squares = [
-            abs(f) for e, f in terms.items() if any(e[lengths:]) and not any(x % 2 for x in e[lengths:])
-        ]
-        counts = Counter(abs(f) for f in terms.values())
+        sizes: dict[Exponents, Rational] = {e: f if f > 0 else -f for e, f in terms.items()}
+        squares = [f for e, f in sizes.items() if any(e[lengths:]) and not any(x % 2 for x in e[lengths:])]
+        counts = Counter(sizes.values())
         size = max(squares) if squares else max(counts, key=lambda f: (counts[f], f))
         return size, terms if size == 1 else {e: exact(f, size) for e, f in terms.items()}
 
