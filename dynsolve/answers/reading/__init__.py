@@ -28,7 +28,8 @@ Every equation ends as an answer, in `not_recognized`, which the student is show
 `definitions` reads the names that an answer file declares under `symbols:` and `let:`;
 `own_coordinates` are those that count a coordinate the other way, `own_names` keeps what follows
 from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row,
-`matrix_parts` one row or column of a matrix, `dh_tables` tables of Denavit-Hartenberg parameters,
+`matrix_parts` one row or column of a matrix, `dh_tables` tables of Denavit-Hartenberg parameters with
+their `dh_heads` and `dh_cells`,
 `by_content` names that mean an answer only where their value says so, `index_order` what the indices
 of a Christoffel symbol mean.  The values of an answer file are read by `given_values`; they come from
 `yaml_values` (what YAML says) and `yaml_scalars` (what stands between quotes), or, where YAML refuses

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from dynsolve.answers.reading import answer_lines, yaml_values
+from dynsolve.answers.reading import answer_lines, dh_tables, yaml_values
 from dynsolve.answers.reading.configurations import read_configurations
 from dynsolve.answers.reading.definitions import own_symbols
 from dynsolve.answers.reading.equation_reader import EquationReader
@@ -68,8 +68,17 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
                 text = source.text if entry.node is not None else entry.value.text
                 read_configurations(reader, configurations, place, text, entry.node)
                 continue
-            read_value(reader, entry.key, place, entry.value.display(source))
+            read_value(reader, entry.key, place, _as_rows(reader, entry, entry.value).display(source))
     return (file.problem, file.student), faults
+
+
+def _as_rows(reader: EquationReader, entry: Entry, value: PlacedText) -> PlacedText:
+    """The text of a value; of a table that is drawn in a block of text its rows."""
+    if entry.key != dh_tables.NAME or "\n" not in value.text:
+        return value
+    names = [q.name for q in reader.vocabulary.coordinates]
+    tables = dh_tables.tables_of(value.text, names)
+    return tables[0].value.within(value) if tables else value
 
 
 def parsed(text: str) -> AnswerFile:

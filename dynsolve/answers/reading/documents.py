@@ -20,6 +20,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from dynsolve.answers.reading.dh_heads import order_of
+from dynsolve.answers.reading.dh_tables import MOST_ROWS
 from dynsolve.answers.reading.limits import MAX_BYTES
 from dynsolve.errors import ReadError
 
@@ -121,9 +123,22 @@ class _Walker:
                 yield f"```\n{content[1]}\n```"
             elif kind == "RawBlock":
                 yield str(content[1])
+            elif kind == "Table" and (table := self._drawn(content, depth)):
+                yield table
             else:
                 for inside in _blocks_inside(content, 0):
                     yield from self.blocks(inside, depth + 1)
+
+    def _drawn(self, content: Any, depth: int) -> str:
+        """A table of Denavit-Hartenberg parameters as one of Markdown; empty of another."""
+        rows = [[self._cell(cell, depth) for cell in row] for row in _rows_of(content)]
+        if not any(order_of(line) for line in (*rows[:2], [row[0] for row in rows if row])):
+            return ""
+        return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+    def _cell(self, cell: list[Any], depth: int) -> str:
+        text = " ".join(self.blocks(cell, depth + 1))
+        return text.replace("\n", " ").replace("|", "\\|")
 
     def inlines(self, inlines: list[Any], depth: int) -> str:
         """The text of one paragraph."""
@@ -175,6 +190,14 @@ def _blocks_inside(content: Any, depth: int) -> Iterator[list[Any]]:
         return
     for part in content:
         yield from _blocks_inside(part, depth + 1)
+
+
+def _rows_of(table: list[Any]) -> Iterator[list[list[Any]]]:
+    """The rows of a table of pandoc's tree, each a list of the blocks of its cells."""
+    head, bodies, foot = table[3:6]
+    rows = [*head[1], *(row for body in bodies for part in body[2:4] for row in part), *foot[1]]
+    for row in rows[:MOST_ROWS]:
+        yield [cell[4] for cell in row[1]]
 
 
 _BLOCKS = frozenset(

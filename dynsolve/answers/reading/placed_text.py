@@ -35,6 +35,10 @@ class PlacedText:
         )
         return PlacedText(self.text[start:end], starts, origins)
 
+    def within(self, outer: PlacedText) -> PlacedText:
+        """This text, whose origins are offsets in another, with those of the other."""
+        return PlacedText(self.text, self.starts, tuple(map(outer.origin, self.origins)))
+
     def display(self, source: Source) -> Display:
         """The text as the value of an answer."""
 

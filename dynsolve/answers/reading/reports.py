@@ -77,7 +77,7 @@ class MacroDefinition:
 def read_report(reader: EquationReader, source: Source, latex: bool = False) -> None:
     """Read the displayed equations of a report, in order, with the macros that hold for each."""
     text, macros = _macros(visible(source.text, latex))
-    tables = list(tables_of(text)) if NAME in reader.vocabulary.quantities else []
+    tables = tables_of(text, _names(reader)) if NAME in reader.vocabulary.quantities else []
     text = without(text, tables)
     names_answer = _answer_names(reader)
     text = text if latex else with_equations(text, names_answer)
@@ -107,6 +107,10 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         place = display.locate(0, 1)
         why = f"only the first {MAX_EQUATIONS} equations of a file are read"
         reader.found.not_recognized.append(NotRecognized(shown(display.text), display.label, place, why))
+
+
+def _names(reader: EquationReader) -> list[str]:
+    return [q.name for q in reader.vocabulary.coordinates]
 
 
 def _macros(text: str) -> tuple[str, list[MacroDefinition]]:

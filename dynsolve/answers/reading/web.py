@@ -17,6 +17,9 @@ _BLOCKS = frozenset("p div br li h1 h2 h3 h4 h5 h6 pre table ul ol section artic
 _TABLE = {"tr": "\n", "td": " | ", "th": " | "}
 """The tags of a table, as Markdown sets rows and cells apart."""
 
+_BETWEEN_ROWS = frozenset({"table", "thead", "tbody", "tfoot"})
+"""Inside which, outside a row, a line's end is none of the text."""
+
 _VOID = frozenset("area base br col embed hr img input link meta source track wbr".split())
 _PICTURES = {"equation_image": ("data-equation-content", "alt"), "texrender": ("alt",)}
 """The classes of pictures that Canvas and Moodle make of formulas, and where their LaTeX stands."""
@@ -83,7 +86,7 @@ class _WebPage(HTMLParser):
         if tag not in _VOID and len(self.open) < _LONGEST_TAG_STACK:
             self.open.append((tag, kind))
         if tag in _BLOCKS:
-            self._add("\n")
+            self._add(" " if self._in_row else "\n")
         if tag in _TABLE:
             self._add(_TABLE[tag])
         if kind == "display":
@@ -113,9 +116,9 @@ class _WebPage(HTMLParser):
             if name == tag:
                 break
         if tag in _BLOCKS:
-            self._add("\n")
+            self._add(" " if self._in_row else "\n")
         elif tag == "tr":
-            self._add(" |\n")
+            self._add(" |")
 
     @property
     def _hidden(self) -> bool:
@@ -123,10 +126,18 @@ class _WebPage(HTMLParser):
         kinds = [kind for _, kind in self.open if kind]
         return bool(kinds) and kinds[-1] in ("silent", "inline")
 
+    @property
+    def _in_row(self) -> bool:
+        return any(name == "tr" for name, _ in self.open[-20:])
+
+    @property
+    def _in_table(self) -> bool:
+        """Whether text here is in a row, or between the rows of a table."""
+        return self._in_row or (bool(self.open) and self.open[-1][0] in _BETWEEN_ROWS)
+
     def handle_data(self, data: str) -> None:
         if not self._hidden:
-            in_row = any(name == "tr" for name, _ in self.open[-20:])
-            self._add(data.replace("\n", " ") if in_row else data)
+            self._add(data.replace("\n", " ") if self._in_table else data)
 
     def _add(self, text: str) -> None:
         line, column = self.getpos()

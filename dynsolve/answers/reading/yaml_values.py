@@ -17,7 +17,7 @@ from itertools import islice
 from typing import Any
 
 from dynsolve.answers.reading import yaml_scalars
-from dynsolve.answers.reading.dh_tables import column_of, order_of
+from dynsolve.answers.reading.dh_heads import column_of, order_of
 from dynsolve.answers.reading.placed_text import Piece, PlacedText, placed
 
 MAX_EVENTS = 100_000
@@ -117,7 +117,9 @@ def value(text: str, node: YamlNode) -> PlacedText | None:
 
 
 def _pieces(text: str, node: YamlNode) -> Iterator[Piece]:
-    if node.as_it_stands or node.style == "mapping":
+    if node.style == "mapping" and not node.as_it_stands and (table := _table_by_columns(text, node)):
+        yield from table
+    elif node.as_it_stands or node.style == "mapping":
         yield text[node.start : node.end].rstrip(), node.start
     elif node.style == "list":
         yield from _list(text, node)
@@ -173,6 +175,23 @@ def _row_of_table(text: str, node: YamlNode) -> list[Piece] | None:
     for column in range(4):
         pieces += [(", ", node.start)] * bool(column)
         pieces += _item(text, columns[column]) if column in columns else [("0", node.start)]
+    return [*pieces, ("]", max(node.end - 1, node.start))]
+
+
+def _table_by_columns(text: str, node: YamlNode) -> list[Piece]:
+    """A table {theta: [...], d: [...], a: [...], alpha: [...]} as its rows; empty of another mapping."""
+    columns = {column_of(word(text, key)): cells for key, cells in node.entries()}
+    heights = {len(cells.inside) for cells in columns.values() if cells.style == "list"}
+    if None in columns or len(columns) != 4 or len(node.inside) != 8 or len(heights) != 1:
+        return []
+    pieces: list[Piece] = [("[", node.start)]
+    for row in range(heights.pop()):
+        pieces.append((", [" if row else "[", node.start))
+        for column in range(4):
+            cells = columns[column]
+            pieces += [(", ", node.start)] * bool(column)
+            pieces += _item(text, cells.inside[row] if cells.style == "list" else cells)
+        pieces.append(("]", node.start))
     return [*pieces, ("]", max(node.end - 1, node.start))]
 
 
