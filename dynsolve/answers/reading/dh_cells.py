@@ -27,7 +27,9 @@ _SIGNS = re.compile(r"\$|\\[()]|(?<!\\)~|\\[,;:!]|\\(?:centering|displaystyle|ru
 _DEGREES = re.compile(r"\\(?:SI|qty|ang)\s*\{\s*([-+−]?[0-9.]+)\s*\}(?:\s*\{\s*\\(?:degree|deg)\s*\})?")
 _DEGREE = re.compile(r"\\(?:degree|textdegree)(?![A-Za-z])(?:\s*\{\})?")
 _RAISED = re.compile(r"\\textsuperscript\s*\{")
-_VARIABLE = re.compile(r"\(\s*(?:variable|variabel|var\.?)\s*\)|(?<![\w\\])(?:variable|variabel|var\.?)(?!\w)")
+_VARIABLE = re.compile(
+    r"\(\s*(?:variable|variabel|var\.?)\s*\)|(?<![\w\\])(?:variable|variabel|var\.?)(?!\w)"
+)
 _DASHES = frozenset({"", "-", "--", "---", "–", "—", "−"})
 _BLANK = re.compile(r"[^\n]")
 
