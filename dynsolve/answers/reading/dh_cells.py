@@ -68,7 +68,7 @@ def bare(text: str, cell: Cell, variable: Variables) -> Piece:
     start = len(content) - len(content.lstrip())
     content = content.strip()
     if content in _DASHES:
-        content = says_variable and variable() or "0"
+        content = (variable() if says_variable else "") or "0"
     return content, cell[0] + start
 
 

@@ -74,9 +74,13 @@ i | a | alpha | d | theta
 | 2 | θ2* - 90° | Loff | L2 | -90° |
 | 3 | 0 | L3* | 0 | 0 |
 """),
-"a page": ("a.html", """<html><body><table><tr><th>i</th><th>θ<sub>i</sub></th><th>d<sub>i</sub></th><th>a<sub>i</sub></th><th>α<sub>i</sub></th></tr>
+"a page": ("a.html", """<html><body><table><tr><th>i</th><th>θ<sub>i</sub></th>
+<th>d<sub>i</sub></th><th>a<sub>i</sub></th>
+<th>α<sub>i</sub></th></tr>
 <tr><td>1</td><td>θ<sub>1</sub>*</td><td>L<sub>1</sub></td><td>0</td><td>&minus;90°</td></tr>
-<tr><td>2</td><td>θ<sub>2</sub>* &minus; 90°</td><td>L<sub>off</sub></td><td>L<sub>2</sub></td><td>-90&deg;</td></tr>
+<tr><td>2</td><td>θ<sub>2</sub>* &minus; 90°</td>
+<td>L<sub>off</sub></td><td>L<sub>2</sub></td>
+<td>-90&deg;</td></tr>
 <tr><td>3</td><td>0</td><td>L<sub>3</sub>*</td><td>0</td><td>0</td></tr></table></body></html>"""),
 "a page with paragraphs in its cells": ("a.html", """<table>
 <caption>DH table</caption>
@@ -96,16 +100,29 @@ i | a | alpha | d | theta
 <tr><td>2</td><td>L2</td><td>-90</td><td>Loff</td><td>theta2<sup>*</sup> - 90</td></tr>
 <tr><td>3</td><td></td><td></td><td>L3<sup>*</sup></td><td></td></tr>
 </tbody></table>"""),
-"a page with formulas": ("a.html", r"""<table><tr><td>Link</td><td>\(a_i\)</td><td>\(\alpha_i\)</td><td>\(d_i\)</td><td>\(\theta_i\)</td></tr>
+"a page with formulas": ("a.html", r"""<table><tr><td>Link</td><td>\(a_i\)</td>
+<td>\(\alpha_i\)</td><td>\(d_i\)</td>
+<td>\(\theta_i\)</td></tr>
 <tr><td>1</td><td>\(0\)</td><td>\(-90^\circ\)</td><td>\(L_1\)</td><td>\(\theta_1^*\)</td></tr>
-<tr><td>2</td><td>\(L_2\)</td><td>\(-90^{\circ}\)</td><td>\(L_{off}\)</td><td>\(\theta_2^*-90^\circ\)</td></tr>
+<tr><td>2</td><td>\(L_2\)</td>
+<td>\(-90^{\circ}\)</td><td>\(L_{off}\)</td>
+<td>\(\theta_2^*-90^\circ\)</td></tr>
 <tr><td>3</td><td>0</td><td>0</td><td>\(L_3^*\)</td><td>0</td></tr></table>"""),
-"a page whose tags are not closed": ("a.html", """<table><tr><th>i<th>a<th>alpha<th>d<th>theta<tr><td>1<td>0<td>-90<td>L1<td>theta1*<tr><td>2<td>L2<td>-90<td>Loff<td>theta2* - 90<tr><td>3<td>0<td>0<td>L3*<td>0</table>"""),
+"a page whose tags are not closed": ("a.html", """<table>
+<tr><th>i<th>a<th>alpha<th>d<th>theta
+<tr><td>1<td>0<td>-90<td>L1<td>theta1*
+<tr><td>2<td>L2<td>-90<td>Loff<td>theta2* - 90
+<tr><td>3<td>0<td>0<td>L3*<td>0</table>"""),
 "a matrix with a head": ("a.tex", r"""
-\[ \begin{pmatrix} \theta & d & a & \alpha \\ \theta_1 & L_1 & 0 & -90^\circ \\ \theta_2 - 90^\circ & L_{off} & L_2 & -90^\circ \\ 0 & L_3 & 0 & 0 \end{pmatrix} \]
+\[ \begin{pmatrix} \theta & d & a & \alpha \\
+\theta_1 & L_1 & 0 & -90^\circ \\
+\theta_2 - 90^\circ & L_{off} & L_2 & -90^\circ \\
+0 & L_3 & 0 & 0 \end{pmatrix} \]
 """),
 "a matrix": ("a.tex", r"""
-\[ DH = \begin{pmatrix} \theta_1^* & L_1 & 0 & -\pi/2 \\ \theta_2^* - \frac{\pi}{2} & L_{off} & L_2 & -\frac{\pi}{2} \\ 0 & L_3^* & 0 & 0 \end{pmatrix} \]
+\[ DH = \begin{pmatrix} \theta_1^* & L_1 & 0 & -\pi/2 \\
+\theta_2^* - \frac{\pi}{2} & L_{off} & L_2 & -\frac{\pi}{2} \\
+0 & L_3^* & 0 & 0 \end{pmatrix} \]
 """),
 "a title over all columns": ("a.tex", r"""
 \begin{tabular}{|l|l|l|l|l|}
@@ -119,7 +136,8 @@ Link & $a_i$ & $\alpha_i$ & $d_i$ & $\theta_i$ \\ \hline
 """),
 "degrees of siunitx": ("a.tex", r"""
 \begin{tabular}{ccccc}
-\textbf{Link} & $\boldsymbol{a_i}$ & $\boldsymbol{\alpha_i}$ & $\boldsymbol{d_i}$ & $\boldsymbol{\theta_i}$ \\ \midrule
+\textbf{Link} & $\boldsymbol{a_i}$ & $\boldsymbol{\alpha_i}$
+& $\boldsymbol{d_i}$ & $\boldsymbol{\theta_i}$ \\ \midrule
 1 & 0 & \ang{-90} & $L_1$ & $\theta_1^\ast$ \\
 2 & $L_2$ & \SI{-90}{\degree} & $L_\mathrm{off}$ & $\theta_2^\ast - \SI{90}{\degree}$ \\
 3 & 0 & 0 & $L_3^\ast$ & 0
@@ -133,7 +151,8 @@ i   theta         d     a    alpha
 2   theta2* - 90  Loff  L2   -90
 3   0             L3*   0    0
 """),
-"columns between tabs": ("a.txt", "i\ttheta\td\ta\talpha\n1\ttheta1*\tL1\t0\t-90\n2\ttheta2* - 90\tLoff\tL2\t-90\n3\t0\tL3*\t0\t0\n"),
+"columns between tabs": ("a.txt", "i\ttheta\td\ta\talpha\n"
+    "1\ttheta1*\tL1\t0\t-90\n2\ttheta2* - 90\tLoff\tL2\t-90\n3\t0\tL3*\t0\t0\n"),
 "text as it was typed": ("a.md", """
 ```
 i | a | alpha | d | theta
@@ -215,7 +234,8 @@ def test_a_table_of_a_document_is_read(name: str, ending: str) -> None:
 
 NONE_OF_THESE = {
     "two lengths and a mass": "| mass | d | a |\n|---|---|---|\n| 1 | 2 | 3 |\n",
-    "a sentence with its letters": "theta is the angle, d the offset, a a length, alpha the twist\nof link i\n",
+    "a sentence with its letters":
+        "theta is the angle, d the offset, a a length, alpha the twist\nof link i\n",
     "a head and nothing below": "i  theta  d  a  alpha\n\nas above\n",
 }
 
