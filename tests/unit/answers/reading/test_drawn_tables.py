@@ -234,8 +234,7 @@ def test_a_table_of_a_document_is_read(name: str, ending: str) -> None:
 
 NONE_OF_THESE = {
     "two lengths and a mass": "| mass | d | a |\n|---|---|---|\n| 1 | 2 | 3 |\n",
-    "a sentence with its letters":
-        "theta is the angle, d the offset, a a length, alpha the twist\nof link i\n",
+    "a sentence with its letters": "theta is the angle, d the offset, a a length, alpha a twist\nof i\n",
     "a head and nothing below": "i  theta  d  a  alpha\n\nas above\n",
 }
 
