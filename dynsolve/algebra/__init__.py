@@ -14,6 +14,8 @@ Arrows run one way, from the first of these files to the last:
   equations, spaces;
 - `minors`, `trig_factor`, `positivity`: determinants, factors in sines and cosines, what
   is positive by its form;
+- `surds`, `surd_angles`, `surd_values`: sums of square roots, angles with such sines and cosines,
+  the exact value of a formula of numbers;
 - `fourier`, `compact`: the Fourier form, and what a textbook would print.
 
 To add a kind of generator (a variable of the polynomials), name it in `generators.Generator`

@@ -10,10 +10,6 @@ from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.submission import ConfigurationAnswer
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 
-INCOMPLETE = "incomplete"
-"""The note of an answer that has some of the branches, all right."""
-
-
 def judged_set(key: ConfigurationKey, answer: ConfigurationAnswer, of: Fraction) -> JudgedAnswer:
     """What is said of a set; `of` are its marks."""
     base = JudgedAnswer(answer.name, Verdict.UNREADABLE, place=answer.place, read_as=answer.text, of=of)
@@ -27,5 +23,4 @@ def judged_set(key: ConfigurationKey, answer: ConfigurationAnswer, of: Fraction)
     if not found.is_right:
         slip = SET_SLIPS[found.code].told(number=str(found.number))
         return replace(base, verdict=Verdict.WRONG, diagnosis=(slip,))
-    notes = (INCOMPLETE,) if found.is_incomplete else ()
-    return replace(base, verdict=Verdict.CORRECT, notes=notes)
+    return replace(base, verdict=Verdict.CORRECT, notes=found.notes)

@@ -75,8 +75,7 @@ class Checker:
     @cached_property
     def configurations(self) -> ConfigurationKey:
         """The sets of configurations that are right."""
-        values = {name: float(value) for name, value in self.problem.values.items()}
-        return ConfigurationKey(self.problem.robot, self.key, values)
+        return ConfigurationKey(self.problem.robot, self.key, self.problem.values, self.problem.decimals)
 
     def __call__(self, submission: Submission) -> Report:
         """Judge a hand-in; what follows a table in other frames is judged in these, too."""

@@ -31,6 +31,7 @@ And the independent check, which shares no formula with any of these:
     verification    what is printed, evaluated at random states, against that
     drawn_motion    a table that was made from a drawing, against the drawn joint axes
     kinematic_check points, the task and Jacobians, against the motion of the arm
+    reached         configurations in numbers: what they give the task, whether two are the same
     configuration_check
                     singular configurations and branches of the inverse, put in
     rate_check      determinants, rates and accelerations, against elimination on numbers

@@ -10,20 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import cos, pi
 from operator import mul
 from random import Random
 from typing import Any
 
 from dynsolve.derivation.arm_values import draw
+from dynsolve.derivation.reached import CLOSE, near, same_configuration
 from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import Program, compile_trees, evaluate
-from dynsolve.robot.model import JointType, Robot
-
-CLOSE = 1e-6
-"""What floating point may leave of 0; lengths and angles are about 1."""
+from dynsolve.robot.model import Robot
 
 STATES = 8
 NEWTON_STEPS = 60
@@ -35,17 +32,40 @@ NO_VALUE = (KeyError, ValueError, TypeError, ArithmeticError)
 """What is raised where a formula has no real value, or lacks one of a name."""
 
 
-def verify_inverse(robot: Robot, r: Node, branches: Sequence[Mapping[str, Node]]) -> None:
-    """Put every branch into r(q).  Raises VerificationError where one is none, or one is missing."""
+def verify_inverse(
+    robot: Robot, r: Node, angles: Sequence[bool], branches: Sequence[Mapping[str, Node]]
+) -> None:
+    """Put every branch into r(q), whose components are lengths or `angles`.  Raises VerificationError where one is none, or one is missing."""
     task = compile_trees([r])
     for values in states_of(robot):
         reached = reaches(task, values)
         given = {**values, **dict(zip(robot.questions.reached, reached, strict=True))}
         found = [q for q in (on_branch(branch, given) for branch in branches) if q is not None]
-        if not all(near(reaches(task, q), reached) for q in found):
+        if not all(near(reaches(task, q), reached, angles) for q in found):
             raise VerificationError("a branch of the inverse kinematics does not reach what it should")
-        if not any(same_configuration(robot, q, values) for q in found):
+        if not any(same_configuration(robot.ring, q, values) for q in found):
             raise VerificationError("a branch of the inverse kinematics is missing")
+
+
+def verify_target(
+    robot: Robot,
+    r: Node,
+    angles: Sequence[bool],
+    given: Values,
+    configurations: Sequence[tuple[Mapping[str, Node], Sequence[str]]],
+) -> None:
+    """Put configurations as they are printed into r(q), each with the names of what is free in it.
+
+    `given` are the values of the parameters and of the task.  Raises VerificationError where one
+    does not reach the target.
+    """
+    task = compile_trees([r])
+    wanted = [given[name] for name in robot.questions.reached]
+    for formulas, free in configurations:
+        for place in (0.0, 1.0) if free else (0.0,):
+            q = on_branch(formulas, {**given, **dict.fromkeys(free, place)})
+            if q is None or not near(reaches(task, q), wanted, angles):
+                raise VerificationError("a configuration does not reach the target of the inverse kinematics")
 
 
 def reaches(task: Program, q: Values) -> list[float]:
@@ -63,25 +83,6 @@ def on_branch(branch: Mapping[str, Node], given: Values) -> dict[str, float] | N
         except NO_VALUE:
             return None
     return q
-
-
-def near(mine: Sequence[float], theirs: Sequence[float]) -> bool:
-    """Whether the values of a task are the same; of angles it does not matter how often they turn."""
-    return all(
-        abs(a - b) <= CLOSE * max(1.0, abs(b)) or 1 - cos(a - b) <= CLOSE**2
-        for a, b in zip(mine, theirs, strict=True)
-    )
-
-
-def same_configuration(robot: Robot, q: Values, other: Values) -> bool:
-    """Whether two configurations are the same; angles modulo 2π."""
-    for coordinate in robot.coordinates:
-        gap = q[coordinate.name] - other[coordinate.name]
-        if coordinate.type is JointType.REVOLUTE:
-            gap = (gap + pi) % (2 * pi) - pi
-        if abs(gap) > CLOSE:
-            return False
-    return True
 
 
 @dataclass(frozen=True, slots=True)

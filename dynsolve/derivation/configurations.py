@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.rates import whole_or_task
@@ -28,6 +29,11 @@ class Inverse:
 
     solving: Solving
     branches: tuple[Branch, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class NoClosedForm:
+    """A task that the known forms do not solve; what reaches a target in numbers is looked for there."""
 
 
 def configuration_rules(robot: Robot) -> Iterator[Rule]:
@@ -51,7 +57,7 @@ def where_singular(jacobian: Matrix) -> SingularSet | Skipped:
     return found or Skipped("the Jacobian and its minors are too long to be taken apart into factors")
 
 
-def inverse(robot: Robot, r: Matrix) -> Inverse | Skipped:
+def inverse(robot: Robot, r: Matrix) -> Inverse | NoClosedForm | Skipped:
     """q from r(q) = r, where a closed form is found (Spong, section 3.3).
 
     `r` is r(q), m×1, or of a pose its position and the rows of its rotation, 12×1.
@@ -60,10 +66,26 @@ def inverse(robot: Robot, r: Matrix) -> Inverse | Skipped:
     from dynsolve.derivation.inverse.pose import solve_pose
     from dynsolve.derivation.inverse.search import solve_task
 
+    lacking = _without_number(robot, r)
+    if lacking:
+        return Skipped(f"reach has numbers, and {lacking} has none: give it one under values")
     task, names = robot.questions.task, robot.questions.reached
     is_pose = task is not None and task.is_pose
     solving = solve_pose(robot, r, names) if is_pose else solve_task(r, names)
     found = None if solving is None else branches(solving)
     if solving is None or found is None:
-        return Skipped("no closed form was found")
+        return Skipped("no closed form was found") if robot.questions.target is None else NoClosedForm()
     return Inverse(solving, found)
+
+
+def _without_number(robot: Robot, r: Matrix) -> str:
+    """The first parameter of the task that has no number, where the task is to be one."""
+    if robot.questions.target is None:
+        return ""
+    at = dict.fromkeys((*robot.ring.names, *dict(robot.questions.target.numbers)), 0.0)
+    for entry in r.entries:
+        try:
+            evaluate(entry, at)
+        except KeyError as error:
+            return str(error.args[0])
+    return ""

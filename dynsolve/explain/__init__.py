@@ -34,6 +34,10 @@ Everything a step is made from is in its `Context`; `writing` has what several s
                 singular configurations and branches of the inverse, as formulas
     inverse_formulas
                 the solutions of inverse kinematics: atan2(y, x) - …, ± arccos(…)
+    target, branch_values
+                the configurations that reach a target in numbers
+    inverse_target
+                their steps
     inverse_way the lines to each of them: components turned, squared and added, sorted
     inverse_pose
                 of a full pose: the point that is left in place by the wrist, the rotation that is left for it

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -11,17 +12,20 @@ from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.trig_factor import trig_factors
 from dynsolve.derivation.configurations import Inverse
-from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.inverse.subproblems import Solved
 from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.sets import SingularSet
-from dynsolve.explain.forms import is_numeric, parallel_coordinates
+from dynsolve.explain.forms import Forms, is_numeric, parallel_coordinates
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.notation.build import cost, split_sign, times
 from dynsolve.notation.python import to_python
 from dynsolve.notation.tree import Matrix, Negative, Node, Sum, Symbol, column
 from dynsolve.notation.walk import mapped
 from dynsolve.robot.model import Robot
+
+if TYPE_CHECKING:
+    from dynsolve.explain.target import TargetForms
 
 
 class ConfigurationForms:
@@ -95,6 +99,17 @@ class ConfigurationForms:
         """The solution of the task; None where no closed form was found."""
         found = self.values["inverse"]
         return found if isinstance(found, Inverse) else None
+
+    @cached_property
+    def target(self) -> TargetForms | None:
+        """What reaches the numbers of `reach`; None where it has none."""
+        if self.robot.questions.target is None or isinstance(self.values["inverse"], Skipped):
+            return None
+        from dynsolve.explain.target import TargetForms
+
+        branches = self.inverse if self.solved is not None else None
+        (task,) = self.values.rules["inverse"].inputs
+        return TargetForms(self.robot, self.values[task], Forms(self.robot, self.values)(task), branches)
 
     @cached_property
     def inverse(self) -> tuple[dict[str, Node], ...]:

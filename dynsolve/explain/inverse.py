@@ -15,6 +15,7 @@ from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.explain.inverse_pose import introduction, pose_task, wrist_notes
+from dynsolve.explain.inverse_target import given_numbers, target_steps
 from dynsolve.explain.inverse_way import InverseWay
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed, side_by_side
@@ -55,15 +56,18 @@ def steps(context: Context) -> Iterator[Step]:
     forms = ConfigurationForms(context.robot, context.values)
     task = context.robot.questions.task
     assert task is not None
-    yield pose_task(context) if task.is_pose else _task(context)
+    yield pose_task(context) if task.is_pose else _task(context, forms)
     if forms.solved is None:
-        yield _unsolved()
-        return
-    yield from _Explainer(context, forms, forms.solved.solving).steps()
+        yield _unsolved(forms)
+    else:
+        yield from _Explainer(context, forms, forms.solved.solving).steps()
+    if forms.target is not None:
+        yield from target_steps(forms.target)
 
 
-def _task(context: Context) -> Step:
+def _task(context: Context, forms: ConfigurationForms) -> Step:
     names = context.robot.questions.reached
+    numbers = given_numbers(forms.target) if forms.target is not None else ()
     wanted = column(*(Symbol(name) for name in names))
     return Step(
         id="inverse_task",
@@ -72,15 +76,15 @@ def _task(context: Context) -> Step:
         why=("The values of the task are given, and the joint variables that give them are looked for.",),
         formula=equation(letters.TASK, wanted),
         source=_SOURCE,
-        result=(equation(context.form("r"), wanted),),
+        result=(equation(context.form("r"), wanted), *numbers),
         uses=("r",),
         is_task=False,
     )
 
 
-def _unsolved() -> Step:
+def _unsolved(forms: ConfigurationForms) -> Step:
     return Step(
-        id="inverse",
+        id=_id_of_branches(forms),
         stage=STAGE,
         title="No closed form",
         why=(
@@ -90,6 +94,11 @@ def _unsolved() -> Step:
         detail=Detail.BRIEF,
         uses=(),
     )
+
+
+def _id_of_branches(forms: ConfigurationForms) -> str:
+    """Where the target is given in numbers, the answer comes after the branches."""
+    return "inverse" if forms.target is None else "inverse_branches"
 
 
 @dataclass(frozen=True)
@@ -192,7 +201,7 @@ class _Explainer:
         count = len(found)
         why: Prose = ("There is one solution",) if count == 1 else (f"Together there are {count} solutions",)
         return Step(
-            id="inverse",
+            id=_id_of_branches(self.forms),
             stage=STAGE,
             title="The solution" if count == 1 else f"The {count} solutions",
             why=(*why, ", each put into r(q) to see that it gives the task. A coordinate that stands in a "

@@ -26,7 +26,7 @@ from itertools import chain
 from operator import attrgetter, is_
 from typing import Any, TypeVar
 
-from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.tree import Arguments, Function, Node, Symbol
 
 _N = TypeVar("_N", bound=Node)
 Change = Callable[[Node], Node]
@@ -59,6 +59,17 @@ def walk(*nodes: Node) -> Iterator[Node]:
 def names_in(*nodes: Node) -> set[str]:
     """The names of all symbols in trees."""
     return {part.name for part in walk(*nodes) if isinstance(part, Symbol)}
+
+
+def with_atan2_exchanged(node: Node) -> Node:
+    """The tree with atan2(x, y) for atan2(y, x)."""
+    return mapped(node, _exchanged)
+
+
+def _exchanged(part: Node) -> Node:
+    if isinstance(part, Function) and part.name == "atan2" and isinstance(part.argument, Arguments):
+        return Function("atan2", Arguments(part.argument.parts[::-1]))
+    return part
 
 
 def with_children(node: _N, change: Change) -> _N:

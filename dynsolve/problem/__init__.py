@@ -15,7 +15,7 @@
                      base           `gravity`, `base`
                      places         a point of a link: `center`, `at`
                      questions      what is asked around the model: `points`, `task`
-                     reach          what the values of the task are called: `reach`
+                     reach          what the task is to be, joint ranges: `reach`, `limits`
                      loads          `forces`
                      state          `state`
                      rotations      `Rz(90deg) Rx(30deg)`
@@ -27,6 +27,7 @@
       -> Robot       values         the ring that holds everything, and each cell in it
                      positions      where the points of links are
                      build          joints and bodies
+                     targets        `reach` and `limits` with numbers
                      questions_build
                                     points, the task, forces
       -> Problem     model          the robot, and what the exercise says about it

@@ -6,6 +6,8 @@ which axes.  What is wrong is reported at its place; nothing is built of it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.bodies import ParsedBody, ParsedShape, ParsedTensor
@@ -20,10 +22,12 @@ from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
 
-def build_robot(faults: Faults, parsed: ParsedFile, asked: frozenset[str]) -> Robot | None:
+def build_robot(
+    faults: Faults, parsed: ParsedFile, asked: frozenset[str], written: Mapping[str, str]
+) -> Robot | None:
     """The robot of a file, None where something of it was reported.
 
-    `asked` are the answers asked for that a derivation has only where they are.
+    `asked` are the answers asked for that a derivation has only where they are, `written` its `values`.
     """
     values = evaluate(faults, parsed)
     if values is None:
@@ -56,7 +60,7 @@ def build_robot(faults: Faults, parsed: ParsedFile, asked: frozenset[str]) -> Ro
     )
     known_loads = [one for one in loads if one]
     is_drawn = parsed.normals is not None
-    robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn)
+    robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn, written)
     return None if faults.errors else robot
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Shared, Word
-from dynsolve.problem.value_kinds import EXPRESSION, LINK, NAME, PLACE, ROTATION, VECTOR
+from dynsolve.problem.value_kinds import EXPRESSION, LINK, PLACE, ROTATION, VECTOR
 
 MAX_POINTS = 20
 MAX_FORCES = 20
@@ -92,18 +92,27 @@ KINEMATIC_KEYS = (
     ),
     Key(
         "reach",
-        ListOf(NAME, "a list of names", 1, MAX_TASK),
-        "What the values of r(q) are called in the inverse kinematics; of a pose the position, and the rows "
-        "of the rotation behind it.",
+        ListOf(EXPRESSION, "a list of names, or of numbers", 1, MAX_TASK),
+        "What the values of r(q) are called in the inverse kinematics, or what they are: numbers, and "
+        "expressions of parameters that have a number in `values`; of a pose the position, and the rows of the "
+        "rotation behind it.",
         "[px, py]",
         "r1, r2, ...; of a pose x, y, z, r11, ..., r33",
-        remedy="write reach: [px, py], a name for each component of the task",
+        remedy="write reach: [px, py], a name or a number for each component of the task",
     ),
     Key(
         "branches",
         ALL,
         "Whether every branch of the inverse kinematics is asked for; else some are enough.",
         "all",
+    ),
+    Key(
+        "limits",
+        MapOf(ListOf(EXPRESSION, "`[low, high]`", 2, 2), "ranges by coordinate"),
+        "Ranges of the coordinates: they mark the branches of the inverse kinematics, and remove none.",
+        "{theta1: [-90deg, 90deg]}",
+        "none",
+        remedy="write limits: {theta1: [-90deg, 90deg], d2: [0, 1/2]}",
     ),
     Key(
         "forces",

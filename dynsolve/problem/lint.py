@@ -251,6 +251,7 @@ _USED_BY = {
     "state": ("qd", "qdd", "Q", "tau_static", *_SPACES),
     "task": ("r", "Jr", "Jr_dot", "det", "qd", "qdd", "singular", "inverse", *_SPACES),
     "reach": ("inverse",),
+    "limits": ("inverse",),
 }
 """Which answers a key is given for."""
 

@@ -14,7 +14,7 @@ from dynsolve.problem.fields import Fields, did_you_mean, items, word
 from dynsolve.problem.kinematic_keys import ALL, MAX_POINTS, MAX_TASK, POINT, WHOLE
 from dynsolve.problem.loads import ParsedLoad, read_loads
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
-from dynsolve.problem.reach import NO_REACH, ParsedReach, read_reach
+from dynsolve.problem.reach import NO_REACH, ParsedLimits, ParsedReach, read_limits, read_reach
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
@@ -66,6 +66,7 @@ class ParsedQuestions:
     acceleration: ParsedRates | None = None
     reach: ParsedReach = NO_REACH
     all_branches: bool = False
+    limits: tuple[ParsedLimits, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -129,6 +130,7 @@ def read_questions(
         _read_rates(faults, fields, "acceleration"),
         read_reach(faults, fields.get("reach"), coordinates),
         word(faults, fields.get("branches"), ALL.choices, "branches", "write branches: all") is not None,
+        read_limits(faults, fields.get("limits"), coordinates),
     )
 
 

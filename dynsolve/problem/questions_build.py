@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from dynsolve.algebra.angles import angle_from_tree, names_of
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.errors import AlgebraError
+from dynsolve.notation.tree import Node
 from dynsolve.problem.loads import ParsedLoad
 from dynsolve.problem.positions import PlaceBuilder
 from dynsolve.problem.questions import ParsedPoint, ParsedQuestions, ParsedRates, ParsedTask
 from dynsolve.problem.reach import check_reach
+from dynsolve.problem.targets import TargetBuilder
 from dynsolve.problem.values import CellValues
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import last_origin
-from dynsolve.robot.model import Robot
+from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.questions import TIP, Load, NamedPoint, Questions, State, Task, coordinate_of
 
 
@@ -57,6 +61,7 @@ def with_questions(
     loads: Sequence[Load],
     asked: frozenset[str],
     is_drawn: bool,
+    written: Mapping[str, str],
 ) -> Robot:
     """The robot with what its file asks of it; with a task of its own where one is needed and none given."""
     state = parsed.state.values if parsed.state else {}
@@ -66,7 +71,6 @@ def with_questions(
         asked=asked,
         loads=tuple(loads),
         state=State(tuple((name, dots, value) for (name, dots), value in state.items())),
-        reach=parsed.reach.names,
         is_drawn=is_drawn,
         all_branches=parsed.all_branches,
     )
@@ -74,6 +78,7 @@ def with_questions(
         questions = replace(questions, task=_default_task(robot))
     if questions.task is not None and questions.task.reached:
         check_reach(values.faults, parsed.reach, len(questions.task.reached))
+        questions = _with_target(values, robot, questions, parsed, written)
     if questions.task is not None:
         rows = questions.task.rows
         questions = replace(
@@ -82,6 +87,31 @@ def with_questions(
             acceleration=_rates(values, parsed.acceleration, rows),
         )
     return replace(robot, questions=questions)
+
+
+def _with_target(
+    values: CellValues, robot: Robot, questions: Questions, parsed: ParsedQuestions, written: Mapping[str, str]
+) -> Questions:
+    """The questions with the names, or the numbers, of the values of the task."""
+    assert questions.task is not None
+    builder = TargetBuilder(values.faults, written, robot.parameters)
+    kinds = {q.name: q.type for q in robot.coordinates}
+    angles = [_is_angle(entry, kinds) for entry in questions.task.entries]
+    return replace(
+        questions,
+        reach=builder.names(parsed.reach),
+        target=builder.target(parsed.reach, angles),
+        limits=builder.limits(parsed.limits),
+    )
+
+
+def _is_angle(entry: Node, kinds: Mapping[str, JointType]) -> bool:
+    """Whether a component of the task is a sum of joint angles."""
+    try:
+        angle = angle_from_tree(entry)
+    except AlgebraError:
+        return False
+    return any(kinds.get(name) is JointType.REVOLUTE for name in names_of(angle))
 
 
 def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix | None:

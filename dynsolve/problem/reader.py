@@ -96,7 +96,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
     accepted = read_accepted_tables(faults, fields)
     title = free_text(faults, fields.get("title"), "title") or Path(file).stem
     source = free_text(faults, fields.get("source"), "source")
-    robot = build_robot(faults, parsed, exercise.asked)
+    robot = build_robot(faults, parsed, exercise.asked, exercise.written)
     faults.raise_errors()
     assert robot is not None
     problem = Problem(

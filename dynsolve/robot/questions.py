@@ -101,6 +101,26 @@ class State:
 
 
 @dataclass(frozen=True, slots=True)
+class Limits:
+    """The range of a coordinate, its ends formulas of numbers and of parameters that have one."""
+
+    coordinate: str
+    low: Node
+    high: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """What r(q) is to be, in numbers: `values` are formulas of numbers and of the parameters.
+
+    `numbers` are the values of parameters, formulas without names.
+    """
+
+    values: tuple[Node, ...]
+    numbers: tuple[tuple[str, Node], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Questions:
     """Everything that a file asks beside the course's derivation.
 
@@ -110,7 +130,8 @@ class Questions:
     `loads` are the forces from outside; `state` is where rates and torques are asked for,
     `velocity` and `acceleration` (m×1) what the task is to have there.  `reach` are the names of
     the values of r(q) in the inverse kinematics, as the file has them; `all_branches` says that an
-    answer must have them all.
+    answer must have them all.  `target` is what r(q) is to be where the file gives numbers for it,
+    `limits` are the ranges of coordinates.
     """
 
     points: tuple[NamedPoint, ...] = ()
@@ -123,6 +144,8 @@ class Questions:
     acceleration: Matrix | None = None
     reach: tuple[str, ...] = ()
     all_branches: bool = False
+    target: Target | None = None
+    limits: tuple[Limits, ...] = ()
 
     @property
     def reached(self) -> tuple[str, ...]:

@@ -38,13 +38,23 @@ def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wante
     """Hold the singular configurations and the branches of the inverse, as printed, in numbers."""
     if not {"inverse", "singular"} & wanted:
         return
-    from dynsolve.derivation.configuration_check import Singular, verify_inverse, verify_singular
+    from dynsolve.derivation.configuration_check import (
+        Singular,
+        verify_inverse,
+        verify_singular,
+        verify_target,
+    )
+    from dynsolve.derivation.reached import angle_rows
     from dynsolve.explain.configurations import ConfigurationForms
 
     shown = ConfigurationForms(robot, values)
     if "inverse" in wanted and shown.solved is not None:
         (task,) = values.rules["inverse"].inputs
-        verify_inverse(robot, forms(task), shown.inverse)
+        verify_inverse(robot, forms(task), angle_rows(values[task]), shown.inverse)
+    if "inverse" in wanted and shown.target is not None:
+        configurations = [(c.formulas, c.free) for c in shown.target.configurations]
+        target = shown.target
+        verify_target(robot, target.task, target.angles, target.numbers, configurations)
     found = shown.singular_set if "singular" in wanted else None
     if found is not None:
         (jacobian,) = values.rules["singular"].inputs

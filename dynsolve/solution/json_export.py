@@ -24,6 +24,7 @@ from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Kind, Owner
 from dynsolve.quantities.index import Quantity, quantities
 from dynsolve.robot.model import Robot
+from dynsolve.solution.branch_export import beside_branches, branch_results
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.numbers import measures
 from dynsolve.solution.numbers.given import Given
@@ -108,6 +109,8 @@ class _Exporter:
                     _fill(results.setdefault("euler_lagrange", equations), family.json, values)
         results.setdefault("bodies", bodies)
         results |= {quantity.name: self.value(quantity) for quantity in _asked(robot)}
+        if "inverse" in results:
+            results |= dict(beside_branches(self.configurations, self.unicode))
         return results | dict(table_results(self.solution, self.python))
 
     def value(self, quantity: Quantity) -> Any:
@@ -118,10 +121,7 @@ class _Exporter:
             case Kind.EQUATIONS:
                 return [[f"{self.python.text(e)} = 0" for e in one] for one in self.configurations.singular]
             case Kind.BRANCHES:
-                return [
-                    {name: self.python.text(value) for name, value in branch.items()}
-                    for branch in self.configurations.inverse
-                ]
+                return branch_results(self.configurations, self.python)
         form = self.forms(quantity.rule)
         if isinstance(form, Words):
             return {"skipped": form.text}

@@ -12,6 +12,12 @@ _SLIPS = (
     Slip("branch_misses", "a branch", "Branch {number} does not give the values of the task.", _BRANCH),
     Slip("branch_never_exists", "a branch", "Branch {number} gives no configuration at values that the arm "
          "reaches.", "Look at the arguments of roots, arccos and arcsin, and at what each formula needs."),
+    Slip("branch_not_real", "a branch", "Branch {number} gives no real configuration for these numbers.",
+         "Look at the arguments of roots, arccos and arcsin."),
+    Slip("out_of_reach", "a branch", "No configuration reaches these numbers: branch {number} does not either.",
+         "Compare the distance of the target with the longest and the shortest that the arm can make."),
+    Slip("is_reachable", "a branch", "There are configurations that reach these values.",
+         "Compare the distance of the target with the longest and the shortest that the arm can make."),
     Slip("branch_lacks_coordinate", "a branch", "Branch {number} does not give every coordinate.",
          "A branch is a formula for each coordinate."),
     Slip("branches_missing", "a branch", "Every branch is right, and some are missing.",

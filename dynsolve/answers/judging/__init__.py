@@ -20,5 +20,7 @@ follow_through                the values that they lead to
 content                       what a wrong answer keeps of the key, so that inventions lead nowhere
 direction                     which way between τ and D, C, g, so that nothing explains itself
 explanation                   which of those explains an answer
-configurations                sets: singular configurations, branches of the inverse, in numbers
+configurations                sets: singular configurations, in numbers
+branches, target_branches     branches of the inverse; configurations that are to reach numbers
+set_verdict                   what is found of a set
 """

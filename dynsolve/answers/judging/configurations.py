@@ -9,63 +9,65 @@ the student's set must hold, and at every point of the student's the Jacobian mu
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from math import pi
 
+from dynsolve.answers.judging.branches import BranchKey
+from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
+from dynsolve.answers.judging.target_branches import TargetKey
 from dynsolve.answers.submission import ConfigurationAnswer, Part
 from dynsolve.derivation.configuration_check import (
-    CLOSE,
     NO_VALUE,
-    near,
-    on_branch,
     rank_of,
-    reaches,
-    same_configuration,
     states_of,
     zero_near,
 )
-from dynsolve.derivation.graph import Derivation
+from dynsolve.derivation.graph import Derivation, Skipped
+from dynsolve.derivation.reached import CLOSE
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
-from dynsolve.notation.tree import Arguments, Function, Node
 from dynsolve.notation.tree_values import Program, compile_trees
-from dynsolve.notation.walk import mapped, names_in
+from dynsolve.notation.walk import names_in
 from dynsolve.robot.model import JointType, Robot
 
 
-@dataclass(frozen=True, slots=True)
-class SetVerdict:
-    """Whether a set is right, else the `code` of what is said; `is_incomplete`: right, but not all of it."""
-
-    is_right: bool
-    code: str = ""
-    number: int = 0
-    is_incomplete: bool = False
-
-
-RIGHT = SetVerdict(True)
-
-
 class ConfigurationKey:
-    """The key's sets of one problem, in numbers; `numbers` are the values that the problem gives."""
+    """The key's sets of one problem, in numbers; `values` are those that the problem gives.
 
-    def __init__(self, robot: Robot, values: Derivation, numbers: Mapping[str, float]) -> None:
-        self.robot, self.values, self.numbers = robot, values, numbers
-        self.forms = Forms(robot, values)
-        self.shown = ConfigurationForms(robot, values)
+    `exact` are the decimals that stand in its file.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        derivation: Derivation,
+        values: Mapping[str, Fraction],
+        exact: frozenset[Fraction] = frozenset(),
+    ) -> None:
+        self.robot, self.values, self.exact = robot, derivation, exact
+        self.numbers = {name: float(value) for name, value in values.items()}
+        self.forms = Forms(robot, derivation)
+        self.shown = ConfigurationForms(robot, derivation)
 
     def verdict(self, answer: ConfigurationAnswer) -> SetVerdict:
         """Whether a set is that of the key."""
         if not self._known(answer):
             return SetVerdict(False, "foreign_name")
         if answer.name == "inverse":
-            return self._branches(answer.alternatives)
+            return self._branches.verdict(answer.alternatives)
         return self._equations(answer.alternatives)
 
     def is_skipped(self, name: str) -> bool:
         """Whether the key has no set of that name, because it would be too long."""
-        return name == "singular" and self.shown.singular_set is None
+        return isinstance(self.values[name], Skipped) and name == "singular"
+
+    @cached_property
+    def _branches(self) -> BranchKey | TargetKey:
+        if self.shown.target is not None:
+            return TargetKey(self.shown.target, self.exact, self.robot.questions.all_branches)
+        (task,) = self.values.rules["inverse"].inputs
+        return BranchKey(self.robot, self.values[task], self.forms(task), self.shown, self.numbers)
 
     def _known(self, answer: ConfigurationAnswer) -> bool:
         """Whether every name in an answer has a value here."""
@@ -76,49 +78,6 @@ class ConfigurationKey:
 
     def _states(self) -> Iterator[dict[str, float]]:
         return ({**values, **self.numbers} for values in states_of(self.robot))
-
-    # -- branches ----------------------------------------------------------------------------------
-
-    def _branches(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
-        found = self._compared([{part.coordinate: part.node for part in one} for one in given])
-        if found.is_right:
-            return found
-        other = [{part.coordinate: mapped(part.node, _turned_round) for part in one} for one in given]
-        return SetVerdict(False, "atan2_order") if self._compared(other).is_right else found
-
-    def _compared(self, given: Sequence[Mapping[str, Node]]) -> SetVerdict:
-        free = self.shown.solved.solving.free if self.shown.solved is not None else ()
-        names = {q.name for q in self.robot.coordinates} - set(free)
-        for number, branch in enumerate(given, 1):
-            if not names <= branch.keys():
-                return SetVerdict(False, "branch_lacks_coordinate", number)
-        met = [False] * len(given)
-        is_incomplete = False
-        for values in self._states():
-            reached = reaches(self._task, values)
-            at = {name: value for name, value in values.items() if name not in names}
-            at |= dict(zip(self.robot.questions.reached, reached, strict=True))
-            theirs = [on_branch(_in_order(branch), at) for branch in given]
-            for number, q in enumerate(theirs, 1):
-                if q is not None:
-                    met[number - 1] = True
-                    if not near(reaches(self._task, q), reached):
-                        return SetVerdict(False, "branch_misses", number)
-            mine = [q for q in (on_branch(branch, at) for branch in self.shown.inverse) if q is not None]
-            present = [q for q in theirs if q is not None]
-            is_incomplete = is_incomplete or not all(
-                any(same_configuration(self.robot, q, other) for other in present) for q in mine
-            )
-        if not all(met):
-            return SetVerdict(False, "branch_never_exists", met.index(False) + 1)
-        if is_incomplete and self.robot.questions.all_branches:
-            return SetVerdict(False, "branches_missing")
-        return SetVerdict(True, is_incomplete=is_incomplete)
-
-    @cached_property
-    def _task(self) -> Program:
-        (task,) = self.values.rules["inverse"].inputs
-        return compile_trees([self.forms(task)])
 
     # -- equations ---------------------------------------------------------------------------------
 
@@ -159,22 +118,3 @@ def _holds(program: Program, q: Mapping[str, float]) -> bool:
         return all(abs(value) < CLOSE for value in program.run(q))
     except NO_VALUE:
         return False
-
-
-def _in_order(branch: Mapping[str, Node]) -> dict[str, Node]:
-    """The formulas, each behind those whose coordinates stand in it."""
-    ordered: dict[str, Node] = {}
-    left = dict(branch)
-    while left:
-        ready = [name for name, node in left.items() if not (names_in(node) - {name}) & left.keys()]
-        for name in ready or list(left):
-            ordered[name] = left.pop(name)
-    return ordered
-
-
-def _turned_round(part: Node) -> Node:
-    """atan2(x, y) for atan2(y, x)."""
-    if isinstance(part, Function) and isinstance(part.argument, Arguments) and part.name == "atan2":
-        y, x = part.argument.parts
-        return Function("atan2", Arguments((x, y)))
-    return part

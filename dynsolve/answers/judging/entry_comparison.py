@@ -241,9 +241,18 @@ def moved_decimals(node: Node, exact: Container[Fraction] = ()) -> Iterator[Node
         yield mover.tree(node)
 
 
-def _places(value: Number) -> int:
+def half_unit(value: Fraction, exact: Container[Fraction] = ()) -> Fraction | None:
+    """Half a unit of the last place of a decimal that stands for those that round to it; None of any other."""
+    places = _places(value)
+    if not places or value in exact:
+        return None
+    digits = len(str(abs(value.numerator) * 10**places // value.denominator))
+    return Fraction(1, 2 * 10**places) if digits >= FEWEST_DIGITS else None
+
+
+def _places(value: Fraction) -> int:
     """How many decimals a number was written with, at least; 0 for one that was no decimal."""
-    q, places = value.q, 0
+    q, places = value.denominator, 0
     if q == 1:
         return 0
     while q % 10 == 0:
@@ -265,10 +274,7 @@ class _Mover:
 
     def rounds(self, number: Number) -> bool:
         """Whether a number stands for those that round to it."""
-        places = _places(number)
-        if not places or Fraction(number.p, number.q) in self.exact:
-            return False
-        return len(str(number.p * 10**places // number.q)) >= FEWEST_DIGITS
+        return half_unit(Fraction(number.p, number.q), self.exact) is not None
 
     def tree(self, node: Node) -> Node:
         match node:
@@ -279,10 +285,11 @@ class _Mover:
         return with_children(node, self.tree)
 
     def number(self, number: Number) -> Node:
-        if not self.rounds(number):
+        half = half_unit(Fraction(number.p, number.q), self.exact)
+        if half is None:
             return number
         self.left -= 1
         if self.left != -1:
             return number
-        moved = Fraction(number.p, number.q) + Fraction(1, 2 * 10 ** _places(number))
+        moved = Fraction(number.p, number.q) + half
         return Number(moved.numerator, moved.denominator)

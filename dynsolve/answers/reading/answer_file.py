@@ -22,8 +22,11 @@ from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode
 from dynsolve.errors import Finding
 
-KEYS = ("problem", "student", "symbols", "let", "answers")
+KEYS = ("problem", "student", "symbols", "let", "atan2", "answers")
 """The keys of an answer file."""
+
+X_FIRST = "xy"
+"""What `atan2` says where the student's takes x first, as the first edition of Spong has it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +50,8 @@ class AnswerFile:
     student: str
     names: tuple[tuple[bool, Entry], ...]
     answers: tuple[Entry, ...]
-    """`names` are (whether it is one of `symbols`, entry)."""
+    takes_x_first: bool = False
+    """`names` are (whether it is one of `symbols`, entry); `takes_x_first`: the student's atan2 does."""
 
 
 def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str, str], list[Finding]]:
@@ -66,7 +70,10 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
             place = source.place(entry.at, len(entry.key))
             if (configurations := reader.vocabulary.set_named(entry.key)) is not None:
                 text = source.text if entry.node is not None else entry.value.text
-                read_configurations(reader, configurations, place, text, entry.node)
+                takes_x_first = file.takes_x_first
+                read_configurations(
+                    reader, configurations, place, text, entry.node, takes_x_first=takes_x_first
+                )
                 continue
             read_value(reader, entry.key, place, _as_rows(reader, entry, entry.value).display(source))
     return (file.problem, file.student), faults
@@ -99,10 +106,12 @@ def parsed(text: str) -> AnswerFile:
     ]
     inside = _entries(text, nodes["answers"].entries()) if "answers" in nodes else ()
     beside = (pair for pair in top if yaml_values.word(text, pair[0]) not in KEYS)
-    problem, student = (
-        yaml_values.word(text, nodes[key])[:200] if key in nodes else "" for key in ("problem", "student")
+    problem, student, order = (
+        yaml_values.word(text, nodes[key])[:200] if key in nodes else ""
+        for key in ("problem", "student", "atan2")
     )
-    return AnswerFile(problem, student, tuple(names), (*inside, *_entries(text, beside)))
+    answers = (*inside, *_entries(text, beside))
+    return AnswerFile(problem, student, tuple(names), answers, order == X_FIRST)
 
 
 def _entries(text: str, pairs: Iterable[tuple[YamlNode, YamlNode]]) -> Iterator[Entry]:
@@ -125,8 +134,10 @@ def _by_lines(text: str) -> AnswerFile:
         Entry(entry.key, entry.at, answer_lines.value_of(text, entry))
         for entry in [*inside, *beside][:MAX_ANSWERS]
     ]
-    problem, student = (answer_lines.word(text, named.get(key)) for key in ("problem", "student"))
-    return AnswerFile(problem, student, tuple(names), tuple(answers))
+    problem, student, order = (
+        answer_lines.word(text, named.get(key)) for key in ("problem", "student", "atan2")
+    )
+    return AnswerFile(problem, student, tuple(names), tuple(answers), order == X_FIRST)
 
 
 def _text(entry: Entry) -> PlacedText:

@@ -5,7 +5,8 @@ r"""Answers that are sets: singular configurations, and the branches of the inve
       - {q1: atan2(py, px), q3: ±acos((px^2 + py^2 - l1^2 - l2^2)/(2*l1*l2)), q2: ...}
 
 Alternatives are the items of a list; equations that hold together are joined by `and`, or are a
-list of their own.  A branch is a mapping from coordinates to formulas.  `±` stands for two branches
+list of their own.  A branch is a mapping from coordinates to formulas, or a list of these in the order
+of the coordinates; `none` is no branch at all.  `±` stands for two branches
 (alternatives), linked with every other ± of the same branch, and against every ∓ of it; `k*pi`
 with a letter that means nothing else, for all whole multiples.
 """
@@ -13,7 +14,7 @@ with a letter that means nothing else, for all whole multiples.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import islice
 
 from dynsolve.answers.reading import yaml_values
@@ -28,6 +29,7 @@ from dynsolve.answers.submission import ConfigurationAnswer, Part, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import ZERO, Node
+from dynsolve.notation.walk import with_atan2_exchanged
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.spelling import key
 
@@ -38,22 +40,35 @@ _AND = re.compile(r"\s(?:and|und|og|et|y)\s|&&?|∧|\\(?:land|wedge)\b|\s\\text\
 _OR = re.compile(r"\s(?:or|oder|eller|ou)\s|\|\|?|∨|\\(?:lor|vee)\b")
 _EITHER = re.compile(r"±|\\pm\b|\+/-")
 _OPPOSITE = re.compile(r"∓|\\mp\b|-/\+")
+_NONE = re.compile(r"(?:none|no solutions?|empty|unreachable|out of reach|∅)\.?", re.IGNORECASE)
 _MULTIPLE = re.compile(r"(?<![\w\\])([kn])\s*\*?\s*(?=(?:\\?pi\b|π))")
 
 
 def read_configurations(
-    reader: EquationReader, name: str, place: Place, text: str, node: YamlNode | None
+    reader: EquationReader,
+    name: str,
+    place: Place,
+    text: str,
+    node: YamlNode | None,
+    *,
+    takes_x_first: bool = False,
 ) -> None:
-    """Read the alternatives of a set; what cannot be read makes the answer unreadable, with its reason."""
+    """Read the alternatives of a set; what cannot be read makes the answer unreadable, with its reason.
+
+    `takes_x_first` says that the student's atan2 takes x first.
+    """
     kind = reader.vocabulary.quantities[name].family.kind
     written = text.strip() if node is None else ""
     try:
         source, root = (text, _parsed(text)) if node is None else (text, node)
         written = source[root.start : root.end].strip()
-        items = list(islice(_alternatives(source, root, kind), MOST_ITEMS + 1))
+        names = tuple(q.name for q in reader.vocabulary.coordinates)
+        items = list(islice(_alternatives(source, root, kind, names), MOST_ITEMS + 1))
         if len(items) > MOST_ITEMS:
             raise ReadError(f"more than {MOST_ITEMS} alternatives", 0, 1, "write fewer")
         read = tuple(tuple(_part(reader.vocabulary, *part) for part in item) for item in items)
+        if takes_x_first:
+            read = tuple(tuple(_turned_round(part) for part in item) for item in read)
     except ReadError as error:
         found = ConfigurationAnswer(name, place, written, fault=error.message, expected=error.help)
     else:
@@ -74,19 +89,29 @@ _Item = tuple[tuple[str, str], ...]
 """An alternative: (coordinate or nothing, text) for each of its formulas."""
 
 
-def _alternatives(text: str, root: YamlNode, kind: Kind) -> Iterator[_Item]:
+def _alternatives(text: str, root: YamlNode, kind: Kind, names: Sequence[str]) -> Iterator[_Item]:
     items = yaml_values.items_of(text, root) if root.style == "list" else [root]
+    if kind is Kind.BRANCHES:
+        if root.style not in ("list", "mapping") and _NONE.fullmatch(yaml_values.word(text, root)):
+            return
+        if items and all(item.style not in ("list", "mapping") for item in items):
+            items = [root]
     for item in items:
-        parts = tuple(_branch(text, item)) if kind is Kind.BRANCHES else tuple(_together(text, item))
+        parts = tuple(_branch(text, item, names)) if kind is Kind.BRANCHES else tuple(_together(text, item))
         yield from _signed(parts)
 
 
-def _branch(text: str, node: YamlNode) -> Iterator[tuple[str, str]]:
-    """The formulas of a branch, by coordinate."""
-    if node.style != "mapping":
+def _branch(text: str, node: YamlNode, names: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """The formulas of a branch, by coordinate; those of a list in the order of the coordinates."""
+    if node.style == "mapping":
+        yield from yaml_values.pairs_of(text, node)
+        return
+    items = yaml_values.items_of(text, node) if node.style == "list" else []
+    if len(items) != len(names):
         help = "write a mapping for each branch: {q1: atan2(py, px), q2: ...}"
         raise ReadError("a branch gives a formula for each coordinate", 0, 1, help)
-    yield from yaml_values.pairs_of(text, node)
+    for name, item in zip(names, items, strict=True):
+        yield name, yaml_values.word(text, item)
 
 
 def _together(text: str, node: YamlNode) -> Iterator[tuple[str, str]]:
@@ -130,6 +155,10 @@ def _part(vocabulary: Vocabulary, name: str, text: str) -> Part:
     if q is None:
         raise ReadError(f"{name} is no coordinate", 0, 1, "a branch gives a formula for each coordinate")
     return Part(q.name, members[-1])
+
+
+def _turned_round(part: Part) -> Part:
+    return Part(part.coordinate, with_atan2_exchanged(part.node))
 
 
 def _is_zero(node: Node) -> bool:

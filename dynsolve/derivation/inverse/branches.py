@@ -10,18 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
-from math import cos, isclose, pi
 from random import Random
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
 from dynsolve.derivation.inverse.solving import Solving
+from dynsolve.derivation.reached import angle_rows, near, same_configuration
 
 POINTS = 12
 """So many random configurations are tried."""
-
-CLOSE = 1e-7
-"""What floating point may leave of 0 here; lengths and angles are about 1."""
 
 Choice = tuple[int, ...]
 """Of each step of a solving which of its solutions is taken, from 0."""
@@ -48,7 +45,7 @@ def branches(solving: Solving) -> tuple[Branch, ...] | None:
             if q is not None:
                 solves = solves_task(solving, q, reached)
                 verdicts[branch].add(solves)
-                found = found or (solves and _is_same(solving, q, state))
+                found = found or (solves and same_configuration(solving.ring, q, state))
         if not found:
             return None
     if any(len(seen) > 1 for seen in verdicts.values()):
@@ -82,25 +79,8 @@ def configuration(solving: Solving, branch: Branch, given: Mapping[str, float]) 
 
 def solves_task(solving: Solving, q: Mapping[str, float], reached: Mapping[str, float]) -> bool:
     """Whether r(q) is what was asked for; angles modulo 2π."""
-    for name, entry in zip(solving.values, solving.task.entries, strict=True):
-        difference = evaluate(entry, q) - reached[name]
-        if name in solving.angles:
-            if 1 - cos(difference) > CLOSE**2:
-                return False
-        elif abs(difference) > CLOSE * max(1.0, abs(reached[name])):
-            return False
-    return True
-
-
-def _is_same(solving: Solving, q: Mapping[str, float], state: Mapping[str, float]) -> bool:
-    """Whether two configurations are the same, angles modulo 2π."""
-    for name, kind in solving.ring.coordinates:
-        difference = q[name] - state[name]
-        if kind == "revolute":
-            difference = (difference + pi) % (2 * pi) - pi
-        if not isclose(difference, 0, abs_tol=1e-6):
-            return False
-    return True
+    mine = [evaluate(entry, q) for entry in solving.task.entries]
+    return near(mine, [reached[name] for name in solving.values], angle_rows(solving.task))
 
 
 def random_state(solving: Solving, random: Random) -> dict[str, float]:

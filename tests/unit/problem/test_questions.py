@@ -74,6 +74,22 @@ FAULTS = {
     "no such link": ("points: {P: {link: «3»}}", "there is no link 3", "from 1 to 2"),
     "a coordinate": ("points: {P: {link: 1, at: [«theta1», 0, 0]}}", "contains the coordinate", "table"),
     "a place": ("points: {P: {link: 1, at: «end»}}", "tip, origin, midpoint", "{near:"),
+    "names beside numbers": ("reach: [«px», 1]\nfind: [inverse]", "names px", "name all"),
+    "no number": ("reach: [«l1», 1]\nfind: [inverse]", "l1 has no number", "under `values`"),
+    "no number in a formula": (
+        "values: {l1: 1}\nreach: [l1 + «l2», 1]\nfind: [inverse]", "l2 has no number", "under `values`"
+    ),
+    "too few values": ("reach: «[1]»\nfind: [inverse]", "reach has 1 value; the task has 2", "one value for"),
+    "a bare angle": ("task: [theta1 + theta2]\nreach: [«1.2»]\nfind: [inverse]", "stands as an angle", "deg"),
+    "an angle for a length": ("reach: [«30deg», 1]\nfind: [inverse]", "a length, not an angle", "a number"),
+    "a coordinate to reach": ("reach: [1, 2*«theta1»]", "contains the coordinate", "numbers and parameters"),
+    "limits of no coordinate": ("limits: {«theta3»: [0, 1]}", "no coordinate", "theta"),
+    "one end": ("limits: {theta1: «[0]»}", "1 ends, not 2", "limits: {"),
+    "no range": ("limits: {theta1: «90deg»}", "a list [low, high]", "limits: {"),
+    "a bare angle as a limit": ("limits: {theta1: [0, «90»]}", "stands as an angle", "90deg"),
+    "limits that cross": (
+        "reach: [1, 1]\nlimits: {theta1: «[90deg, 0]»}\nfind: [inverse]", "ends before", "lower"
+    ),
     "an unknown point": ("task: [«R».x]", "there is no point R", "tip"),
     "a misspelled tip": ("task: [«tp».x]", "there is no point tp", "did you mean `tip`?"),
     "an empty task": ("task: «[]»", "no components", "task: [tip.x"),

@@ -1,0 +1,218 @@
+"""The configurations that reach a target given in numbers, as formulas.
+
+The branches of the closed form are worked out exactly, as sums of square roots and angles
+with such sines and cosines.  Where there is no closed form, or its formulas say nothing at
+these numbers, configurations are looked for in numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+from math import floor, pi
+
+from dynsolve.algebra.floats import evaluate
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.surd_values import Exact, exact_value
+from dynsolve.algebra.surds import NotExact
+from dynsolve.derivation.reached import CLOSE, angle_rows, near, same_configuration
+from dynsolve.explain.branch_values import BranchValues, Unreal, branch_values, decimal, number_of, shown
+from dynsolve.notation.tree import Node
+from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import Target
+
+if TYPE_CHECKING:
+    from dynsolve.derivation.inverse.numeric import Found
+
+_OTHER_PLACES = (1.0, 2.0)
+"""Where a coordinate that is free is put to see that it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Configuration:
+    """One configuration: the value of each coordinate, in numbers and as a formula.
+
+    `branches` are the numbers (from 1) of the branches that it comes from.  `free` coordinates may
+    have any value: they stand at 0 in `numbers` and have no formula; `outside` are those beyond their
+    limits.
+    """
+
+    numbers: Mapping[str, float]
+    formulas: Mapping[str, Node]
+    branches: tuple[int, ...] = ()
+    free: tuple[str, ...] = ()
+    outside: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Lost:
+    """A branch that is not real at these numbers: the coordinate would be `function` of `argument`."""
+
+    branch: int
+    coordinate: str
+    function: str
+    argument: Node
+
+
+class TargetForms:
+    """What reaches the target of a robot.
+
+    `r` is the task and `task` its formula; `branches` are the formulas of its closed form, None
+    where it has none.
+    """
+
+    def __init__(
+        self, robot: Robot, r: Matrix, task: Node, branches: Sequence[Mapping[str, Node]] | None
+    ) -> None:
+        assert robot.questions.target is not None
+        self.robot, self.r, self.task, self.branches = robot, r, task, branches
+        self.target: Target = robot.questions.target
+
+    # -- what is given -----------------------------------------------------------------------------
+
+    @cached_property
+    def written(self) -> dict[str, Node]:
+        """The formulas of the parameters and of the values of the task, by name."""
+        values = zip(self.robot.questions.reached, self.target.values, strict=True)
+        return {**dict(self.target.numbers), **dict(values)}
+
+    @cached_property
+    def exact(self) -> dict[str, Exact]:
+        """Their exact values, as far as they have any."""
+        found: dict[str, Exact] = {}
+        for name, node in self.written.items():
+            try:
+                found[name] = exact_value(node, found)
+            except NotExact:
+                continue
+        return found
+
+    @cached_property
+    def numbers(self) -> dict[str, float]:
+        """Their values in floating point."""
+        found: dict[str, float] = {"pi": pi}
+        for name, node in self.written.items():
+            found[name] = number_of(name, node, found)
+        return found
+
+    @cached_property
+    def wanted(self) -> tuple[float, ...]:
+        """What r(q) is to be."""
+        return tuple(self.numbers[name] for name in self.robot.questions.reached)
+
+    @cached_property
+    def angles(self) -> tuple[bool, ...]:
+        """Which components of the task are angles."""
+        return angle_rows(self.r)
+
+    def reaches(self, q: Mapping[str, float]) -> bool:
+        """Whether a configuration gives the task what is wanted."""
+        at = {**self.numbers, **q}
+        return near([evaluate(entry, at) for entry in self.r.entries], self.wanted, self.angles)
+
+    # -- the configurations ------------------------------------------------------------------------
+
+    @cached_property
+    def configurations(self) -> tuple[Configuration, ...]:
+        """All that are found, each once."""
+        found: list[Configuration] = []
+        for one in (*self._closed, *self._searched):
+            index = next((i for i, other in enumerate(found) if self._is_same(one, other)), None)
+            if index is None:
+                found.append(replace(one, outside=self._outside(one)))
+            else:
+                found[index] = replace(found[index], branches=(*found[index].branches, *one.branches))
+        return tuple(found)
+
+    def _is_same(self, one: Configuration, other: Configuration) -> bool:
+        return one.free == other.free and same_configuration(self.robot.ring, one.numbers, other.numbers)
+
+    @property
+    def lost(self) -> tuple[Lost, ...]:
+        """The branches that are not real at these numbers."""
+        return tuple(one for one in self._at_target if isinstance(one, Lost))
+
+    @property
+    def is_searched(self) -> bool:
+        """Whether configurations are looked for in numbers, too."""
+        return self.branches is None or None in self._at_target
+
+    @property
+    def _closed(self) -> tuple[Configuration, ...]:
+        return tuple(one for one in self._at_target if isinstance(one, Configuration))
+
+    @cached_property
+    def _at_target(self) -> tuple[Configuration | Lost | None, ...]:
+        """Each branch at the target; None where its formulas say nothing there."""
+        return tuple(self._branch(number, one) for number, one in enumerate(self.branches or (), 1))
+
+    def _branch(self, number: int, branch: Mapping[str, Node]) -> Configuration | Lost | None:
+        try:
+            found = branch_values(branch, self.numbers, self.exact)
+            others = [self._elsewhere(branch, place) for place in _OTHER_PLACES] if found.free else []
+        except Unreal as error:
+            return Lost(number, error.coordinate, error.function, error.argument)
+        except ZeroDivisionError:
+            return None
+        names = self.robot.ring.names
+        unused = {name: 0.0 for name in names if name not in branch}
+        if not all(self.reaches({**unused, **one.numbers}) for one in (found, *others)):
+            return None
+        free = tuple(name for name in names if name in unused or name in found.free)
+        return Configuration(
+            numbers={name: found.numbers.get(name, 0.0) for name in names},
+            formulas={name: self._formula(name, branch, found, others) for name in names if name not in free},
+            branches=(number,),
+            free=free,
+        )
+
+    def _elsewhere(self, branch: Mapping[str, Node], place: float) -> BranchValues:
+        """The branch with its free coordinates at another place."""
+        return branch_values(branch, self.numbers, {**self.exact}, place)
+
+    def _formula(
+        self, name: str, branch: Mapping[str, Node], found: BranchValues, others: Sequence[BranchValues]
+    ) -> Node:
+        """The exact value of a coordinate that does not change with those that are free, else its formula."""
+        changes = any(abs(other.numbers[name] - found.numbers[name]) > CLOSE for other in others)
+        if changes:
+            found = replace(found, exact={})
+        return shown(name, branch, found, self.written)
+
+    @cached_property
+    def _found(self) -> Found | None:
+        """What is found in numbers, where that is looked for."""
+        if not self.is_searched:
+            return None
+        from dynsolve.derivation.inverse.numeric import search
+
+        return search(self.robot.ring, self.task, self.angles, self.numbers, self.wanted)
+
+    @property
+    def _searched(self) -> Iterator[Configuration]:
+        """What is found in numbers and stands alone."""
+        for q in self._found.isolated if self._found else ():
+            yield Configuration(q, {name: decimal(value) for name, value in q.items()})
+
+    @property
+    def is_family(self) -> bool:
+        """Whether configurations are only known not to stand alone: there may be infinitely many."""
+        return self._found is not None and bool(self._found.others) and not self.configurations
+
+    # -- limits ------------------------------------------------------------------------------------
+
+    def _outside(self, one: Configuration) -> tuple[str, ...]:
+        """The coordinates that are beyond their limits; an angle is within where a full turn brings it there."""
+        found = []
+        kinds = dict(self.robot.ring.coordinates)
+        for limits in self.robot.questions.limits:
+            name = limits.coordinate
+            low, high = (number_of(name, end, self.numbers) for end in (limits.low, limits.high))
+            value = one.numbers[name]
+            if kinds[name] == "revolute":
+                value -= 2 * pi * floor((value - low + CLOSE) / (2 * pi))
+            if name not in one.free and not low - CLOSE <= value <= high + CLOSE:
+                found.append(name)
+        return tuple(found)

@@ -1,0 +1,44 @@
+"""The branches of the inverse kinematics in the JSON of a solution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from dynsolve.notation.python import PythonPrinter
+from dynsolve.notation.unicode import UnicodePrinter
+
+if TYPE_CHECKING:
+    from dynsolve.explain.configurations import ConfigurationForms
+
+_DIGITS = 15
+
+
+def branch_results(forms: ConfigurationForms, python: PythonPrinter) -> list[dict[str, str]]:
+    """The branches, or where the target is given in numbers, the configurations that reach it."""
+    branches = forms.inverse if forms.target is None else [c.formulas for c in forms.target.configurations]
+    return [{name: python.text(value) for name, value in branch.items()} for branch in branches]
+
+
+def beside_branches(forms: ConfigurationForms, unicode: UnicodePrinter) -> Iterator[tuple[str, Any]]:
+    """What stands beside `inverse` where the target is given in numbers.
+
+    `inverse_decimals` are the same configurations in numbers (angles in radians), without the coordinates
+    that are free, which `inverse_free` names for each; `inverse_outside` names those beyond their
+    limits, where there are any limits; `inverse_why` says why there is none, or that they were found
+    in numbers.
+    """
+    if forms.target is None:
+        return
+    from dynsolve.explain.inverse_target import reason, told
+
+    found = forms.target.configurations
+    yield "inverse_decimals", [
+        {name: float(f"{one.numbers[name]:.{_DIGITS}g}") for name in one.formulas} for one in found
+    ]
+    if any(one.free for one in found):
+        yield "inverse_free", [list(one.free) for one in found]
+    if forms.robot.questions.limits:
+        yield "inverse_outside", [list(one.outside) for one in found]
+    why = told(forms.target) if found else "".join(map(str, reason(forms.target)))
+    yield "inverse_why", why

@@ -1,0 +1,108 @@
+"""Configurations that reach a target in numbers: exact, each once, with what is free and what is not real."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from dynsolve.derivation.rules import derive
+from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.explain.target import TargetForms
+from dynsolve.notation.python import to_python
+from dynsolve.problem import read_problem
+from tests.support import solve_json
+
+UNIT = "dh: [{theta: q1*, a: 1}, {theta: q2*, a: 1}]"
+TWO = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nvalues: {l1: 2, l2: 1}"
+ELBOW = "dh: [{theta: q1*, d: 1, alpha: 90deg}, {theta: q2*, a: 1}, {theta: q3*, a: 1}]"
+ORTHOGONAL = "dh: [{theta: q1*, a: 1, alpha: 90deg}, {theta: q2*, a: 1, alpha: 90deg}, {theta: q3*, a: 1}]"
+POLAR = "dh: [{theta: q1* + 90deg, alpha: 90deg}, {d: d2*}]"
+DIRECTED = UNIT.replace("]", ", {theta: q3*, a: 1}]\ntask: [tip.x, tip.y, q1 + q2 + q3]")
+
+
+def target(text: str, reach: str, more: str = "") -> TargetForms:
+    robot = read_problem(f"gravity: none\n{text}\nreach: {reach}\n{more}\nfind: [inverse]\n").robot
+    found = ConfigurationForms(robot, derive(robot)).target
+    assert found is not None
+    return found
+
+
+# (the arm, the target, the configurations)
+EXACT = [
+    (TWO, "[1, l1]", "q1: atan2(3, 4), q2: pi/2 | q1: pi/2, q2: -pi/2"),
+    (UNIT, "[sqrt(2), 0]", "q1: -pi/4, q2: pi/2 | q1: pi/4, q2: -pi/2"),
+    (UNIT, "[2, 0]", "q1: 0, q2: 0"),
+    (UNIT, "[0, 0]", "q2: pi"),
+    (ELBOW, "[0, 0, 2]", "q2: pi/6, q3: 2*pi/3 | q2: 5*pi/6, q3: -2*pi/3"),
+    (POLAR, "[3, 4]", "d2: 5, q1: atan2(4, 3) | d2: -5, q1: atan2(-4, -3)"),
+    (DIRECTED, "[1, 1, 60deg]", "q1: -pi/3, q2: 5*pi/6, q3: -pi/6 | q1: pi/2, q2: -5*pi/6, q3: 2*pi/3"),
+]
+
+
+@pytest.mark.parametrize(("arm", "reach", "wanted"), EXACT)
+def test_configurations_are_exact(arm: str, reach: str, wanted: str) -> None:
+    found = target(arm, reach)
+    texts = [
+        ", ".join(f"{name}: {to_python(one.formulas[name])}" for name in sorted(one.formulas))
+        for one in found.configurations
+    ]
+    assert sorted(texts) == sorted(wanted.split(" | "))
+    assert not found.is_searched
+
+
+def test_on_the_boundary_two_branches_are_one() -> None:
+    (one,) = target(UNIT, "[2, 0]").configurations
+    assert (one.branches, one.free) == ((1, 2), ())
+
+
+def test_what_may_be_anything_is_free() -> None:
+    assert [one.free for one in target(UNIT, "[0, 0]").configurations] == [("q1",)]
+    assert [one.free for one in target(ELBOW, "[0, 0, 2]").configurations] == [("q1",), ("q1",)]
+
+
+def test_out_of_reach_says_what_is_not_real() -> None:
+    found = target(UNIT, "[2, 1]")
+    assert found.configurations == ()
+    lost = [(one.branch, one.coordinate, one.function, to_python(one.argument)) for one in found.lost]
+    assert lost == [(1, "q2", "acos", "3/2"), (2, "q2", "acos", "3/2")]
+
+
+def test_without_a_closed_form_they_are_found_in_numbers() -> None:
+    found = target(ORTHOGONAL, "[1, 1, 0.5]")
+    assert found.branches is None and found.is_searched and not found.is_family
+    assert len(found.configurations) == 2
+    # the arm is symmetric about the plane of its first two axes: q3 changes its sign alone
+    first, second = (one.numbers for one in found.configurations)
+    assert math.isclose(first["q3"], -second["q3"], abs_tol=1e-9)
+    for q in (first, second):
+        radius = 1 + math.cos(q["q2"]) * (1 + math.cos(q["q3"]))
+        x = math.cos(q["q1"]) * radius + math.sin(q["q1"]) * math.sin(q["q3"])
+        assert math.isclose(x, 1, abs_tol=1e-9)
+        assert math.isclose(math.sin(q["q2"]) * (1 + math.cos(q["q3"])), 0.5, abs_tol=1e-9)
+
+
+def test_a_redundant_arm_has_infinitely_many() -> None:
+    found = target(UNIT.replace("]", ", {theta: q3*, a: 1}]"), "[1, 1]")
+    assert (found.configurations, found.is_family) == ((), True)
+
+
+# (the ranges, which of the two configurations of [1, 2] lie outside: q1 = 36.87°, 90° and q2 = ±90°)
+LIMITS = [
+    ("{q1: [0, 45deg]}", [(), ("q1",)]),
+    ("{q1: [0, 90deg], q2: [-pi/2, 0]}", [("q2",), ()]),
+    ("{q2: [180deg, 300deg]}", [("q2",), ()]),
+    ("{q1: [370deg, 400deg]}", [(), ("q1",)]),
+]
+
+
+@pytest.mark.parametrize(("limits", "outside"), LIMITS)
+def test_limits_mark_and_remove_none(limits: str, outside: list[tuple[str, ...]]) -> None:
+    found = target(TWO, "[1, 2]", f"limits: {limits}")
+    assert [one.outside for one in found.configurations] == outside
+
+
+def test_the_json_has_the_reason() -> None:
+    results = solve_json(f"gravity: none\n{UNIT}\nreach: [3, 0]\nfind: [inverse]\n")["results"]
+    assert results["inverse"] == results["inverse_decimals"] == []
+    assert results["inverse_why"] == "No configuration reaches this: no branch is real."
