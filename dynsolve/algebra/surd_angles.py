@@ -110,8 +110,8 @@ class SurdAngle:
             found = Function("acos", cosine.node)
             yield found if sine.sign > 0 else negated(found)
         if sine.rational is not None:
-            size = Function("asin", (sine if sine.sign > 0 else -sine).node)
-            turned = size if cosine.sign > 0 else total([PI, negated(size)])
+            angle: Node = Function("asin", (sine if sine.sign > 0 else -sine).node)
+            turned = angle if cosine.sign > 0 else total([PI, negated(angle)])
             yield turned if sine.sign > 0 else negated(turned)
 
 

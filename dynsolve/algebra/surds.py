@@ -185,4 +185,3 @@ def whole_multiple(values: Iterable[Surd]) -> Fraction:
     for c in factors:
         below = below * c.denominator // gcd(below, c.denominator)
     return Fraction(below, above)
-

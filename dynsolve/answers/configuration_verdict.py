@@ -10,6 +10,7 @@ from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.submission import ConfigurationAnswer
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 
+
 def judged_set(key: ConfigurationKey, answer: ConfigurationAnswer, of: Fraction) -> JudgedAnswer:
     """What is said of a set; `of` are its marks."""
     base = JudgedAnswer(answer.name, Verdict.UNREADABLE, place=answer.place, read_as=answer.text, of=of)

@@ -35,7 +35,10 @@ NO_VALUE = (KeyError, ValueError, TypeError, ArithmeticError)
 def verify_inverse(
     robot: Robot, r: Node, angles: Sequence[bool], branches: Sequence[Mapping[str, Node]]
 ) -> None:
-    """Put every branch into r(q), whose components are lengths or `angles`.  Raises VerificationError where one is none, or one is missing."""
+    """Put every branch into r(q), whose components are lengths or `angles`.
+
+    Raises VerificationError where one is none, or one is missing.
+    """
     task = compile_trees([r])
     for values in states_of(robot):
         reached = reaches(task, values)

@@ -1,4 +1,4 @@
-"""One branch of the inverse kinematics at numbers: every coordinate exactly where it can be, and in numbers."""
+"""One branch of the inverse kinematics at numbers: every coordinate, exactly where it can be."""
 
 from __future__ import annotations
 

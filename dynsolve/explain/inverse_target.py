@@ -1,4 +1,4 @@
-"""Steps of the inverse kinematics at numbers: each configuration that reaches the target, and why no others do."""
+"""Steps of the inverse kinematics at numbers: each configuration that reaches them, or why there is none."""
 
 from __future__ import annotations
 
@@ -123,7 +123,9 @@ def _all(forms: TargetForms) -> Step:
     return Step(
         id="inverse",
         stage=Stage.INVERSE,
-        title="The configuration that reaches it" if one else f"The {len(found)} configurations that reach it",
+        title="The configuration that reaches it"
+        if one
+        else f"The {len(found)} configurations that reach it",
         why=(told(forms),),
         table=_table(forms),
         notes=tuple(_lost(forms)),
@@ -201,4 +203,3 @@ def _lost(forms: TargetForms) -> Iterator[Prose]:
             f" {'is' if len(lost) == 1 else 'are'} not real: ", Symbol(one.coordinate), " needs ",
             Function(one.function, one.argument), f", and {_REAL[one.function]}.",
         )  # fmt: skip
-

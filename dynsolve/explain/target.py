@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 from math import floor, pi
+from typing import TYPE_CHECKING
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
@@ -204,7 +204,7 @@ class TargetForms:
     # -- limits ------------------------------------------------------------------------------------
 
     def _outside(self, one: Configuration) -> tuple[str, ...]:
-        """The coordinates that are beyond their limits; an angle is within where a full turn brings it there."""
+        """The coordinates beyond their limits; an angle is within where whole turns bring it there."""
         found = []
         kinds = dict(self.robot.ring.coordinates)
         for limits in self.robot.questions.limits:

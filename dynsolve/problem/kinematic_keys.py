@@ -94,8 +94,8 @@ KINEMATIC_KEYS = (
         "reach",
         ListOf(EXPRESSION, "a list of names, or of numbers", 1, MAX_TASK),
         "What the values of r(q) are called in the inverse kinematics, or what they are: numbers, and "
-        "expressions of parameters that have a number in `values`; of a pose the position, and the rows of the "
-        "rotation behind it.",
+        "expressions of parameters that have a number in `values`; of a pose the position, and the rows of "
+        "the rotation behind it.",
         "[px, py]",
         "r1, r2, ...; of a pose x, y, z, r11, ..., r33",
         remedy="write reach: [px, py], a name or a number for each component of the task",

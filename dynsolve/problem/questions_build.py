@@ -90,7 +90,11 @@ def with_questions(
 
 
 def _with_target(
-    values: CellValues, robot: Robot, questions: Questions, parsed: ParsedQuestions, written: Mapping[str, str]
+    values: CellValues,
+    robot: Robot,
+    questions: Questions,
+    parsed: ParsedQuestions,
+    written: Mapping[str, str],
 ) -> Questions:
     """The questions with the names, or the numbers, of the values of the task."""
     assert questions.task is not None

@@ -1,4 +1,4 @@
-"""`reach` and `limits` of a problem file: what r(q) is to be in the inverse kinematics, and the joint ranges."""
+"""`reach` and `limits` of a problem file: what r(q) is to be, and the ranges of the joints."""
 
 from __future__ import annotations
 
@@ -77,9 +77,7 @@ class ParsedLimits:
     span: Span
 
 
-def read_limits(
-    faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]
-) -> tuple[ParsedLimits, ...]:
+def read_limits(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) -> tuple[ParsedLimits, ...]:
     """The ranges under `limits`; what is wrong with one is reported."""
     if node is None or isinstance(node, FaultyNode):
         return ()
@@ -113,4 +111,3 @@ def _end(faults: Faults, node: YamlNode, name: str, kinds: Mapping[str, str]) ->
     if cell and kinds[name] == "revolute" and read_angle(faults, cell) is None:
         return None
     return cell
-

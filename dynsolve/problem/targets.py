@@ -23,7 +23,10 @@ _NAMED = "give it one under `values`"
 
 
 class TargetBuilder:
-    """Makes the target of a file; `written` are its `values`, `parameters` the names in its table and bodies."""
+    """Makes the target of a file.
+
+    `written` are its `values`, `parameters` the names in its table and bodies.
+    """
 
     def __init__(self, faults: Faults, written: Mapping[str, str], parameters: Sequence[str]) -> None:
         self.faults = faults
@@ -87,7 +90,9 @@ class TargetBuilder:
         return sound
 
     def _number(self, cell: Cell) -> float:
-        values = {name: float(evaluate(node, {})) for name, node in self.numbers.items() if not names_in(node)}
+        values = {
+            name: float(evaluate(node, {})) for name, node in self.numbers.items() if not names_in(node)
+        }
         return float(evaluate(cell.tree, values))
 
 

@@ -33,9 +33,10 @@ def beside_branches(forms: ConfigurationForms, unicode: UnicodePrinter) -> Itera
     from dynsolve.explain.inverse_target import reason, told
 
     found = forms.target.configurations
-    yield "inverse_decimals", [
-        {name: float(f"{one.numbers[name]:.{_DIGITS}g}") for name in one.formulas} for one in found
-    ]
+    yield (
+        "inverse_decimals",
+        [{name: float(f"{one.numbers[name]:.{_DIGITS}g}") for name in one.formulas} for one in found],
+    )
     if any(one.free for one in found):
         yield "inverse_free", [list(one.free) for one in found]
     if forms.robot.questions.limits:

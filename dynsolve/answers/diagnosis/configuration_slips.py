@@ -14,7 +14,7 @@ _SLIPS = (
          "reaches.", "Look at the arguments of roots, arccos and arcsin, and at what each formula needs."),
     Slip("branch_not_real", "a branch", "Branch {number} gives no real configuration for these numbers.",
          "Look at the arguments of roots, arccos and arcsin."),
-    Slip("out_of_reach", "a branch", "No configuration reaches these numbers: branch {number} does not either.",
+    Slip("out_of_reach", "a branch", "No configuration reaches these numbers, and branch {number} does not.",
          "Compare the distance of the target with the longest and the shortest that the arm can make."),
     Slip("is_reachable", "a branch", "There are configurations that reach these values.",
          "Compare the distance of the target with the longest and the shortest that the arm can make."),

@@ -242,7 +242,7 @@ def moved_decimals(node: Node, exact: Container[Fraction] = ()) -> Iterator[Node
 
 
 def half_unit(value: Fraction, exact: Container[Fraction] = ()) -> Fraction | None:
-    """Half a unit of the last place of a decimal that stands for those that round to it; None of any other."""
+    """Half a unit of the last place of a decimal that stands for all that round to it; None of another."""
     places = _places(value)
     if not places or value in exact:
         return None

@@ -125,9 +125,7 @@ def _degrees(node: Node) -> Node:
 
 def _moved(branch: Formulas, exact: frozenset[Fraction]) -> list[dict[str, Node]]:
     """The branch once for each decimal that may have been rounded, moved by half a unit of its last place."""
-    decimals = {
-        part for node in branch.values() for part in walk(node) if isinstance(part, Number | Degrees)
-    }
+    decimals = {part for node in branch.values() for part in walk(node) if isinstance(part, Number | Degrees)}
     found = []
     for part in sorted(decimals, key=repr):
         half = half_unit(Fraction(part.p, part.q), exact)

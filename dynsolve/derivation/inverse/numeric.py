@@ -38,8 +38,10 @@ _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt}
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """Configurations that stand alone, and whether others were met that do not: there the Jacobian has no
-    inverse, and there may be infinitely many around them."""
+    """Configurations that stand alone, and others, at which the Jacobian has less than rank n.
+
+    Around the others there may be infinitely many.
+    """
 
     isolated: tuple[Mapping[str, float], ...]
     others: tuple[Mapping[str, float], ...]
@@ -85,7 +87,9 @@ class _System:
             for _ in range(STEPS):
                 if np.abs(self._gap(q)).max() < ACCURATE:
                     break
-                step = (np.linalg.pinv(self._jacobians(q), rcond=1e-12) @ self._gap(q).T[:, :, None])[:, :, 0].T
+                step = (np.linalg.pinv(self._jacobians(q), rcond=1e-12) @ self._gap(q).T[:, :, None])[
+                    :, :, 0
+                ].T
                 longest = np.abs(step).max(axis=0)
                 q = q + step * np.minimum(1.0, _LONGEST_STEP / np.maximum(longest, _LONGEST_STEP))
         q = q[:, np.isfinite(q).all(axis=0)]
