@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from math import cos, pi, radians, sin, sqrt
+from typing import TYPE_CHECKING
 
 from flint import fmpq_mpoly
 
@@ -11,16 +12,16 @@ from dynsolve.algebra.angles import Atom, names_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator, dotted
 
+if TYPE_CHECKING:
+    from dynsolve.algebra.ring import Ring
+
 
 def evaluate(expr: Expr, values: Mapping[str, float]) -> float:
     """The value at plain names: `theta1`, `theta1_dot`, `theta1_ddot` and the parameters.
 
     Raises KeyError for a symbol that occurs and has no value.
     """
-    for g, degree in zip(expr.ring.generators, expr.poly.degrees(), strict=True):
-        if degree > 0:
-            _require(g, values)
-    return _value(expr.poly, _point(expr, values))
+    return _value(expr.ring, expr.poly, values, {})
 
 
 def _require(g: Generator, values: Mapping[str, float]) -> None:
@@ -30,28 +31,19 @@ def _require(g: Generator, values: Mapping[str, float]) -> None:
             raise KeyError(name)
 
 
-def _point(expr: Expr, values: Mapping[str, float]) -> list[float]:
-    """The value of every generator of the expression's ring."""
-    ring = expr.ring
-    point = [0.0] * len(ring.generators)
-    later: list[Generator] = []
-    for g in ring.generators:
-        if g.kind == "symbol":
+def _generator(ring: Ring, g: Generator, values: Mapping[str, float], known: dict[int, float]) -> float:
+    """The value of a generator; roots and inverses are of expressions in others."""
+    match g.kind:
+        case "symbol":
             name = dotted(g.name, g.dots)
-            point[g.index] = pi if g.name == "pi" else values.get(name, 0.0)
-        elif g.kind in ("sin", "cos", "constant"):
-            turn = sum(float(rate) * _atom_value(atom, values) for atom, rate in g.angle.terms)
-            angle = radians(float(g.angle.degrees)) + turn
-            point[g.index] = sin(angle) if g.kind == "sin" else cos(angle)
-        else:
-            later.append(g)
-    # Roots are of symbols and of roots laid out after them; denominators may hold both.
-    for g in sorted(later, key=lambda g: (g.kind == "inverse", -g.index)):
-        if g.kind == "root":
-            point[g.index] = sqrt(_value(ring.radicands[g.index], point))
-        elif g.index in ring.inverses:
-            point[g.index] = 1 / _value(ring.inverses[g.index], point)
-    return point
+            return pi if g.name == "pi" else values[name]
+        case "root":
+            return sqrt(_value(ring, ring.radicands[g.index], values, known))
+        case "inverse":
+            return 1 / _value(ring, ring.inverses[g.index], values, known)
+    turn = sum(float(rate) * _atom_value(atom, values) for atom, rate in g.angle.terms)
+    angle = radians(float(g.angle.degrees)) + turn
+    return sin(angle) if g.kind == "sin" else cos(angle)
 
 
 def _atom_value(atom: Atom, values: Mapping[str, float]) -> float:
@@ -61,12 +53,19 @@ def _atom_value(atom: Atom, values: Mapping[str, float]) -> float:
     return product
 
 
-def _value(poly: fmpq_mpoly, point: Sequence[float]) -> float:
+def _value(ring: Ring, poly: fmpq_mpoly, values: Mapping[str, float], known: dict[int, float]) -> float:
+    """The value of a polynomial; `known` are generators whose values were found before."""
+    places = [index for index, degree in enumerate(poly.degrees()) if degree > 0]
+    for index in places:
+        if index not in known:
+            g = ring.generators[index]
+            _require(g, values)
+            known[index] = _generator(ring, g, values, known)
     total = 0.0
     for exponents, coefficient in zip(poly.monoms(), poly.coeffs(), strict=True):
         term = int(coefficient.p) / int(coefficient.q)
-        for value, exponent in zip(point, exponents, strict=True):
-            if exponent:
-                term *= value ** int(exponent)
+        for index in places:
+            if exponents[index]:
+                term *= known[index] ** int(exponents[index])
         total += term
     return total

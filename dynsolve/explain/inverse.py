@@ -165,9 +165,7 @@ class _Explainer:
                 within = Relation((Negative(Number(1)), ratio, Number(1)), ("≤", "≤"))
                 yield ("There are solutions where ", within, one)
             case OneLine() if not step.value.is_zero:
-                square = step.cosine * step.cosine + step.sine * step.sine
-                reach = Relation((form(step.value * step.value), form(square)), ("≤",))
-                yield ("There are solutions where ", reach, one)
+                yield ("There are solutions where ", self.formulas.boundary(step), one)
             case RootLength():
                 radicand = Relation((self.formulas.radicand(step), Number(0)), ("≥",))
                 yield ("There are solutions where ", radicand, one)

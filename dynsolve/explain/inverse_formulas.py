@@ -23,14 +23,43 @@ from dynsolve.derivation.inverse.subproblems import (
     TwoLines,
 )
 from dynsolve.notation.build import cost, negated, power, split_sign, times, total
-from dynsolve.notation.tree import Arguments, Function, Node, Quotient, Relation, Sum, Symbol, equation
+from dynsolve.notation.tree import (
+    Arguments,
+    Function,
+    Letter,
+    Node,
+    Quotient,
+    Relation,
+    Sum,
+    Symbol,
+    equation,
+)
 
 _PI = Symbol("pi")
+_X = Letter("X")
+
+LONG = 10
+"""Right sides with more operations are written once, and called X."""
 
 
 def atan2(y: Node, x: Node) -> Node:
     """The angle of the point (x, y), in all four quadrants."""
     return Function("atan2", Arguments((y, x)))
+
+
+def _differ_by_sign(solutions: tuple[Node, ...]) -> bool:
+    """Whether these are two that differ by one sign alone."""
+    if len(solutions) != 2:
+        return False
+    first, second = solutions
+    if second == negated(first):
+        return True
+    return (
+        isinstance(first, Sum)
+        and isinstance(second, Sum)
+        and first.terms[:-1] == second.terms[:-1]
+        and second.terms[-1] == negated(first.terms[-1])
+    )
 
 
 class InverseFormulas:
@@ -64,9 +93,24 @@ class InverseFormulas:
                     yield e.origin.left, total(squares)
 
     def results(self, unknown: Node, step: Solved) -> tuple[Node, ...]:
-        """The solutions as equations; two that differ by a sign alone are one with ±."""
-        found = self.solutions(step)
-        if not self.has_signs(step):
+        """The solutions as equations; two that differ by a sign alone are one with ±.
+
+        A long right side of A cos ψ + B sin ψ = X is called X in them.
+        """
+        if self.has_long_value(step):
+            assert isinstance(step, OneLine)
+            meant = equation(_X, self._form(step.value))
+            return (meant, *self._signed(unknown, self._of_line(step, _X)))
+        return self._signed(unknown, self.solutions(step))
+
+    def has_long_value(self, step: Solved) -> bool:
+        """Whether a step has a right side that is too long to be written twice."""
+        is_general = isinstance(step, OneLine) and not (step.cosine.is_zero or step.sine.is_zero)
+        return is_general and cost(self._form(step.value)) > LONG
+
+    def _signed(self, unknown: Node, found: tuple[Node, ...]) -> tuple[Node, ...]:
+        """Solutions as equations."""
+        if not _differ_by_sign(found):
             return tuple(equation(unknown, value) for value in found)
         first, second = found
         if second == negated(first):
@@ -77,17 +121,7 @@ class InverseFormulas:
 
     def has_signs(self, step: Solved) -> bool:
         """Whether the two solutions of a step differ by one sign alone."""
-        if step.count == 1:
-            return False
-        first, second = self.solutions(step)
-        if second == negated(first):
-            return True
-        return (
-            isinstance(first, Sum)
-            and isinstance(second, Sum)
-            and first.terms[:-1] == second.terms[:-1]
-            and second.terms[-1] == negated(first.terms[-1])
-        )
+        return _differ_by_sign(self.solutions(step))
 
     def solutions(self, step: Solved) -> tuple[Node, ...]:
         """The solutions of a step."""
@@ -152,14 +186,26 @@ class InverseFormulas:
         if a.is_zero:
             first = Function("asin", self.ratio(x, b))
             return first, total([_PI, negated(first)])
-        middle = self._direction(b, a)
-        root = Function("sqrt", self.half_chord(step))
-        either = atan2(root, self._form(x))
+        return self._of_line(step, self._form(x))
+
+    def _of_line(self, step: OneLine, value: Node) -> tuple[Node, Node]:
+        """Both angles of A cos ψ + B sin ψ = X, with X written as `value`."""
+        a, b, x = step.cosine, step.sine, step.value
+        square = a * a + b * b
+        if len(x) == 1:
+            height = self._form(square - x * x)
+        else:
+            height = total([self._form(square), negated(power(value, 2))])
+        middle, either = self._direction(b, a), atan2(Function("sqrt", height), value)
         return total([middle, either]), total([middle, negated(either)])
 
-    def half_chord(self, step: OneLine) -> Node:
-        """A² + B² - X², what is not negative within reach."""
-        return self._form(step.cosine * step.cosine + step.sine * step.sine - step.value * step.value)
+    def boundary(self, step: OneLine) -> Node:
+        """X² ≤ A² + B², where there are solutions."""
+        x = step.value
+        square = self._form(step.cosine * step.cosine + step.sine * step.sine)
+        if len(x) == 1:
+            return Relation((self._form(x * x), square), ("≤",))
+        return Relation((power(_X if self.has_long_value(step) else self._form(x), 2), square), ("≤",))
 
     @_solutions.register
     def _length(self, step: Length) -> tuple[Node, ...]:

@@ -98,7 +98,7 @@ class Chain:
             return ring.zero
         back = inverse(self.between[start])
         slope = next((k for k in range(2) if not back[k, 2].is_zero), None)
-        if slope is None:
+        if slope is None or back[slope, 3].is_zero:
             return ring.zero
         return -(back[slope, 3] * ring.inverse(back[slope, 2])) if back[slope, 2].is_number else None
 

@@ -53,7 +53,9 @@ class Names:
         return Names(self.points[2:], self.turns[1:])
 
     def point(self, point: Matrix) -> tuple[Matrix, tuple[Definition, ...]]:
-        """The coordinates of a point (3×1) by name, and what they stand for."""
+        """The coordinates of a point (3×1) by name, as far as these are shorter, and what they stand for."""
+        if all(_is_name(value) for value in point.entries):
+            return point, ()
         return _named(point, _coordinates(self.points[0]) if self.points else ())
 
     def turn(self, H: Matrix) -> tuple[Matrix, tuple[Definition, ...]]:
@@ -74,13 +76,18 @@ def _entries(letter: str) -> tuple[str, ...]:
     return tuple(f"{letter}{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3))
 
 
+def _is_name(value: Expr) -> bool:
+    """Whether a value is a symbol, perhaps with a minus sign, or a number."""
+    return len(value) <= 1 and int(value.poly.total_degree()) <= 1
+
+
 def _named(values: Matrix, names: Iterable[str]) -> tuple[Matrix, tuple[Definition, ...]]:
-    """The values by name, as far as there are names and they are more than a symbol or a number."""
+    """The values by name, as far as there are names and they are no numbers."""
     ring = values.ring
     shown: dict[str, Expr] = {}
     entries = list(values.entries)
     for k, (value, name) in enumerate(zip(values.entries, names, strict=False)):
-        if len(value) > 1 or (len(value) == 1 and int(value.poly.total_degree()) > 1):
+        if not value.is_number:
             shown[name] = value
             entries[k] = ring.symbol(name)
     width = values.shape[1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
+from itertools import chain
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -70,16 +71,20 @@ def search(given: Sequence[System], unknowns: Unknowns, *, turning: bool = True)
     Systems are only turned where `turning`.
     """
     systems = list(given)
+    sums: list[Equation] = []
     steps: list[Solved] = []
     while unknowns.names:
         systems = [tuple(arranged(e, unknowns) for e in s) for s in systems]
         if turning:
             systems = _grown(systems, unknowns)
-        best = min(_solvable(systems, unknowns), key=_effort, default=None)
+        added = [tuple(_sums(system)) for system in systems]
+        best = min(_solvable(systems, added, sums, unknowns), key=_effort, default=None)
         if best is None:
             break
         steps.append(best)
         unknowns = unknowns.without(best.coordinate)
+        # what is known from now on may make them longer: they are kept as they are
+        sums = [e for e in (*sums, *chain.from_iterable(added)) if len(unknowns.within(e.expr)) == 1]
     return tuple(steps)
 
 
@@ -104,10 +109,20 @@ def _mark(system: System) -> frozenset[str]:
     return frozenset(str(equation.expr.poly) for equation in system)
 
 
-def _solvable(systems: Sequence[System], unknowns: Unknowns) -> Iterator[Solved]:
-    for system in systems:
-        sums = (e for e in squared_sums(system) if len(e.left) + len(e.right) <= MOST_TERMS)
-        yield from recognized([*system, *sums], unknowns)
+def _sums(system: System) -> Iterator[Equation]:
+    return (e for e in squared_sums(system) if len(e.left) + len(e.right) <= MOST_TERMS)
+
+
+def _solvable(
+    systems: Sequence[System], sums: Sequence[System], earlier: Sequence[Equation], unknowns: Unknowns
+) -> Iterator[Solved]:
+    """What the equations of some systems, with their sums of squares, and earlier such sums give."""
+    for equation in earlier:
+        yield from recognized([equation], unknowns)
+    for system, squared in zip(systems, sums, strict=True):
+        yield from recognized([*system, *squared], unknowns)
+    if len(systems) > 1:
+        yield from recognized(tuple({e.expr: e for e in chain.from_iterable(systems)}.values()), unknowns)
 
 
 # -- sums of angles in the task --------------------------------------------------------------------

@@ -50,6 +50,28 @@ ARMS = {
         2,
     ),
     "planar": ("{theta: q1*, a: a1}, {theta: q2*, a: a2}, {theta: q3*, a: a3}", "q2 q1, q3", 2),
+    # three parallel axes, 2 to 4, as of the Universal Robots: 8 solutions (Hawkins, Analytic Inverse
+    # Kinematics for the Universal Robots, 2013)
+    "parallel": (
+        "{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, a: a2}, {theta: q3*, a: a3}, "
+        "{theta: q4*, d: d4, alpha: 90deg}, {theta: q5*, d: d5, alpha: -90deg}, {theta: q6*, d: d6}",
+        "q1 q5 q6, q3 q2, q4",
+        8,
+    ),
+    # twists that are no right angles in the wrist, and a hand beside its last axis
+    "oblique": (
+        "{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, a: a2}, {theta: q3*, alpha: 90deg}, "
+        "{theta: q4*, d: d4, alpha: -60deg}, {theta: q5*, alpha: 60deg}, {theta: q6*, a: a6, d: d6}",
+        "q1 q3 q2, q5 q4 q6",
+        8,
+    ),
+    # axes 3 to 5 meet: what is behind and before them comes first
+    "middle": (
+        "{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, a: a2}, {theta: q3*, alpha: 90deg}, "
+        "{theta: q4*, alpha: -90deg}, {theta: q5*, a: a5, alpha: 90deg}, {theta: q6*, d: d6}",
+        "q6, q1 q2, q4 q3 q5",
+        8,
+    ),
     # the first three axes meet: the same from the other end
     "shoulder": (
         "{theta: q1*, alpha: -90deg}, {theta: q2*, alpha: 90deg}, {theta: q3*, d: d3, a: a3, alpha: -90deg}, "
