@@ -97,15 +97,14 @@ class InverseFormulas:
 
         A long right side of A cos ψ + B sin ψ = X is called X in them.
         """
-        if self.has_long_value(step):
-            assert isinstance(step, OneLine)
+        if isinstance(step, OneLine) and self._is_long(step):
             meant = equation(_X, self._form(step.value))
             return (meant, *self._signed(unknown, self._of_line(step, _X)))
         return self._signed(unknown, self.solutions(step))
 
-    def has_long_value(self, step: Solved) -> bool:
+    def _is_long(self, step: OneLine) -> bool:
         """Whether a step has a right side that is too long to be written twice."""
-        is_general = isinstance(step, OneLine) and not (step.cosine.is_zero or step.sine.is_zero)
+        is_general = not (step.cosine.is_zero or step.sine.is_zero)
         return is_general and cost(self._form(step.value)) > LONG
 
     def _signed(self, unknown: Node, found: tuple[Node, ...]) -> tuple[Node, ...]:
@@ -205,7 +204,7 @@ class InverseFormulas:
         square = self._form(step.cosine * step.cosine + step.sine * step.sine)
         if len(x) == 1:
             return Relation((self._form(x * x), square), ("≤",))
-        return Relation((power(_X if self.has_long_value(step) else self._form(x), 2), square), ("≤",))
+        return Relation((power(_X if self._is_long(step) else self._form(x), 2), square), ("≤",))
 
     @_solutions.register
     def _length(self, step: Length) -> tuple[Node, ...]:
