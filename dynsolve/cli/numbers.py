@@ -32,7 +32,10 @@ AtOption = Annotated[
 DigitsOption = Annotated[
     int | None,
     typer.Option(
-        metavar="N", min=1, max=15, help="Numbers as decimals of N significant digits (else 4, or exact)."
+        metavar="N",
+        min=1,
+        max=15,
+        help="Numbers as decimals of N significant digits, those of a model in numbers too (else 4, or exact).",
     ),
 ]
 
@@ -42,9 +45,12 @@ def with_numbers(
 ) -> Solution:
     """The solution with the numbers beside it that were asked for, or that the file gives in full."""
     if not (values or state or solution.problem.written):
-        if digits is not None:
-            raise typer.BadParameter("--digits needs numbers: --set, --at, or values: in the file")
-        return solution
+        if digits is None:
+            return solution
+        from dynsolve.explain.forms import is_numeric
+
+        if not is_numeric(solution.robot):
+            raise typer.BadParameter("--digits needs numbers: --set, --at, or masses or values: in the file")
     from dynsolve.solution.numbers.assignments import of_option
 
     place = None if state is None else tuple(of_option(AT, state))

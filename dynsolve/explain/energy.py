@@ -100,7 +100,7 @@ def _weight(context: Context, body: Body, general: Node) -> tuple[Prose, Node, t
     height = _height(context, body)
     if height is None:
         return ("Minus the mass times ", *product), general, working
-    h, g = letters.height(context.robot, body), _acceleration(context)
+    h, g = letters.height(context.robot, letters.index_of(body.name)), _acceleration(context)
     where = f" above the origin of the {context.ground}. The same with vectors: minus the mass times "
     why: Prose = ("The mass times ", g, " times the height ", h, where, *product)
     formula = side_by_side([equation(P, Product((context.mass(body), g, h))), general])

@@ -26,9 +26,8 @@ _SAME: dict[Kind, Kind] = {
     ("r", "bold", "c"): ("r", "bold", "c#"),
     ("I", "bold", "#^"): ("I", "bold", "#"),
     ("I", "bold", "#given"): ("I", "bold", "#"),
-    ("h", "italic", "c#"): ("h", "italic", "#"),
 }
-"""Kinds that mean the same: an axis or a matrix without its number, the height h_c1 where h_1 is a length."""
+"""Kinds that mean the same: an axis or a matrix without its number."""
 
 MOTIONS = ("Rot", "Trans")
 """The names of the motions of a row of the table."""

@@ -39,8 +39,11 @@ ALTERNATIVES: dict[tuple[str, int], str] = {
 """Base and number of lower indices of a scalar of the textbook -> the letter that stands in for it."""
 
 
-def report_style(robot: Robot) -> Style:
-    """The style of a report on a robot, in which every sign has one meaning."""
+def report_style(robot: Robot, digits: int | None = None) -> Style:
+    """The style of a report on a robot, in which every sign has one meaning.
+
+    A model in numbers is shown with `digits` significant digits, or as many as its longest number has.
+    """
     style = _with_free_shorthands(robot, style_of(robot))
     taken = frozenset(_own(robot, style))
     found: dict[Sign, str] = {}
@@ -48,7 +51,9 @@ def report_style(robot: Robot) -> Style:
         if not taken.isdisjoint(_printed(_scalars(robot, base, count))):
             found[base, "italic", count] = other
     bold = frozenset(letter.base for letter in _vectors(robot) if not taken.isdisjoint(_printed([letter])))
-    return replace(style, letters=found, bold=bold, digits=shown_digits(robot) if style.decimal else 0)
+    decimal = style.decimal or digits is not None
+    shown = (digits or shown_digits(robot)) if decimal else 0
+    return replace(style, letters=found, bold=bold, decimal=decimal, digits=shown)
 
 
 def _printed(nodes: Iterable[Node]) -> Iterator[str]:

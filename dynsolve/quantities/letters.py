@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dynsolve.notation.names import split
 from dynsolve.notation.tree import (
     Derivative,
     Letter,
@@ -139,10 +140,10 @@ def is_taken(robot: Robot, base: str, body: Body) -> bool:
     return not names.isdisjoint((f"{base}{body.name}", f"{base}_{body.name}"))
 
 
-def height(robot: Robot, body: Body) -> Letter:
-    """h_1, the height of a mass centre; h_{c1} where h_1 is something else."""
-    index = index_of(body.name)
-    return Letter("h", Row((Words("c"), index)) if is_taken(robot, "h", body) else index)
+def height(robot: Robot, index: Node) -> Letter:
+    """h_i, the height of a mass centre; η_i where h or h_1 is something else in the problem."""
+    names = {*robot.parameters, *(q.name for q in robot.coordinates)}
+    return Letter("eta" if any(split(name)[0] == "h" for name in names) else "h", index)
 
 
 def tensor(robot: Robot, body: Body) -> Letter:

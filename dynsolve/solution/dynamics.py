@@ -39,7 +39,8 @@ class Dynamics:
 
     `values` are exact, by the names of the answer file (`H2`, `Jv1`, `K`, `D`);
     `forms` are the same as compact trees.  `given` are numbers that were put for
-    parameters, `numbers` the numeric results that are shown beside the symbolic ones.
+    parameters, `numbers` the numeric results that are shown beside the symbolic ones,
+    `digits` the significant digits that were asked for of a model in numbers.
     """
 
     problem: Problem
@@ -50,6 +51,7 @@ class Dynamics:
     warnings: tuple[Finding, ...] = ()
     given: Given = field(default_factory=Given)
     numbers: Numbers | None = None
+    digits: int | None = None
 
     @classmethod
     def of(cls, problem: Problem, states: int = 5, progress: Progress | None = None) -> Self:
@@ -92,7 +94,7 @@ class Dynamics:
     @cached_property
     def style(self) -> Style:
         """How the formulas of a report look: s_1 for sin θ_1, and no sign with two meanings."""
-        return report_style(self.robot)
+        return report_style(self.robot, self.digits)
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:

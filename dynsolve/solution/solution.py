@@ -198,15 +198,18 @@ class Solution(Dynamics):
 
         With `values`, or where the problem file has one for every parameter, come the
         results with these values; with `state` every result at that state, too.  Results
-        are exact where no decimal goes in, else, or with `digits`, decimals.
+        are exact where no decimal goes in, else, or with `digits`, decimals.  A model in
+        numbers is itself shown with so many `digits`.
         """
         from dynsolve.solution.numbers.results import Numbers, Valued, needed
+
+        shown = replace(self, digits=digits) if is_numeric(self.robot) else self
 
         values = tuple(values)
         all_parameters = set(needed(self.robot))
         with_values = bool(values) or (bool(all_parameters) and all_parameters <= self.problem.written.keys())
         if not with_values and state is None:
-            return self
+            return shown
         given = parameters(self.problem, values)
         at = None if state is None else read_state(self.problem, state)
         numeric = self._with(given) if given.entries else self
@@ -224,7 +227,7 @@ class Solution(Dynamics):
             valued=valued if given.entries and with_values else None,
             state=None if at is None else numeric._at(at, digits),
         )
-        return replace(self, numbers=numbers)
+        return replace(shown, numbers=numbers)
 
     # -- the results by name -----------------------------------------------------------------------
 

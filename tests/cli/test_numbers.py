@@ -58,6 +58,19 @@ def test_digits(digits: str, shown: str) -> None:
     assert shown.strip() in out
 
 
+@pytest.mark.parametrize(
+    ("digits", "shown"),
+    [  # m_p l₁ l₂ + … = 5177/6000 kg m² and 0.167 kg m² (problems/numeric-2r.yaml)
+        ((), "⎡0.8628 + 0.48 c₂  0.167 + 0.24 c₂⎤"),
+        (("--digits", "2"), "⎡0.86 + 0.48 c₂  0.17 + 0.24 c₂⎤"),
+        (("--digits", "6"), "⎡0.862833 + 0.48 c₂  0.167 + 0.24 c₂⎤"),
+    ],
+)
+def test_digits_of_a_model_in_numbers(digits: tuple[str, ...], shown: str) -> None:
+    out = dynsolve("solve", "numeric-2r", "--stage", "vectorized", *digits).out
+    assert shown in out and f"shown with {digits[1] if digits else 4} significant digits" in out
+
+
 def test_stages_choose_numbers_too() -> None:
     out = solved(*SET, "--stage", "lagrangian")
     assert "𝓛 = (0.025 + 0.5 L₂²) θ̇₁² + 0.5 L̇₂² - 7.848 in J" in out and "τ₁" not in out

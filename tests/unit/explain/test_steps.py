@@ -246,9 +246,10 @@ masses:
 
 
 def test_a_letter_of_the_formula_is_not_another_thing_of_the_problem() -> None:
-    assert formula(NAMED, "P1") == "P₁ = m₂ G h_c1, P₁ = -m₂ 𝐠₀ᵀ r_c1"
-    assert shown_working(NAMED, "P1")[0] == "h_c1 = h₁/2"
-    assert formula(NAMED, "P2").startswith("P₂ = (m₁ + M) G h₂, ")
+    assert formula(NAMED, "P1") == "P₁ = m₂ G η₁, P₁ = -m₂ 𝐠₀ᵀ r_c1"
+    assert shown_working(NAMED, "P1")[0] == "η₁ = h₁/2"
+    assert formula(NAMED, "P2").startswith("P₂ = (m₁ + M) G η₂, ")
+    assert shown_working("box-cylinder-rod-sphere", "P2")[0] == "η₂ = h + l₂ s₂/2"
     assert "D = m₂ J_v1ᵀ J_v1 + (m₁ + M) J_v2ᵀ J_v2" in shown_working(NAMED, "D_direct")
 
 
