@@ -35,7 +35,7 @@ DigitsOption = Annotated[
         metavar="N",
         min=1,
         max=15,
-        help="Numbers as decimals of N significant digits, those of a model in numbers too (else 4, or exact).",
+        help="Numbers as decimals of N significant digits, of a model in numbers too (else 4, or exact).",
     ),
 ]
 

@@ -3,6 +3,8 @@
 An entry of the diagonal is the sum of what the bodies add to it, none of which is negative, so
 that one body that always adds something is enough.  A block of several coordinates is definite
 where its minors, from the first entry on or from the last, are positive (Sylvester's criterion).
+Where that is not seen, the bodies are gone through: each has a kinetic energy that is not negative,
+and if all of these vanish, the rates vanish one by one.
 """
 
 from __future__ import annotations
@@ -13,10 +15,11 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.sanity.sign import is_positive, masses_and_moments
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import listed, spong
-from dynsolve.notation.build import cost
+from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import Negative, Node, Number, Power, Product, Row, Sum, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
@@ -29,6 +32,25 @@ def definite_step(context: Context) -> Step | None:
     """What shows that D is positive definite; None where that is not seen."""
     if context.robot.n < 2:
         return None
+    found = _by_entries(context) or _by_bodies(context)
+    if found is None:
+        return None
+    why, result = found
+    square = equation(letters.transposed_product(letters.QD, letters.D), Product((Number(2), letters.K)))
+    start: Prose = ("Since ", square, ", D must be positive definite where masses and moments of inertia ")
+    return Step(
+        id="definite",
+        stage=Stage.VECTORIZED,
+        title="Check: D is positive definite",
+        why=(*start, "are positive. ", *why),
+        source=spong("7.5.1"),
+        result=result,
+        is_task=False,
+    )
+
+
+def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
+    """By the entries of the diagonal, and by minors where coordinates are coupled."""
     squares: list[Node] = []
     determinants: list[Node] = []
     for block in blocks(context.values["D"]):
@@ -42,28 +64,41 @@ def definite_step(context: Context) -> Step | None:
                 return None
             determinants += minors
     verb = "is a sum" if len(squares) == 1 else "are sums"
-    why: Prose = (
-        "Since ",
-        equation(letters.transposed_product(letters.QD, letters.D), Product((Number(2), letters.K))),
-        ", D must be positive definite where masses and moments of inertia are positive. ",
-        *listed(squares),
-        f" {verb} of masses and moments times squares, which never all vanish",
-    )
+    why: Prose = (*listed(squares), f" {verb} of masses and moments times squares, which never all vanish")
     if determinants:
         why += ("; entries between coordinates that are not coupled are zero",) if len(squares) > 1 else ()
         why += ("; and the determinant" + "s" * (len(determinants) > 1), " below ")
         why += ("are" if len(determinants) > 1 else "is", " positive, too (Sylvester's criterion):")
     else:
         why += (", and the other entries are zero.",)
-    return Step(
-        id="definite",
-        stage=Stage.VECTORIZED,
-        title="Check: D is positive definite",
-        why=why,
-        source=spong("7.5.1"),
-        result=tuple(determinants),
-        is_task=False,
+    return why, tuple(determinants)
+
+
+def _by_bodies(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
+    """Body by body: its energy vanishes only where one rate more does."""
+    robot, resting, lines = context.robot, set[int](), list[Node]()
+    for body in sorted(robot.bodies, key=lambda body: body.link):
+        D = context.values[f"Dv{body.name}"] + context.values[f"Dw{body.name}"]
+        moving = [k for k in range(robot.n) if k not in resting and not D[k, k].is_zero]
+        if len(moving) != 1:
+            continue
+        (k,) = moving
+        factor = context.show(D[k, k])
+        if _is_positive(context, factor):
+            energy = Product((Number(2), letters.of_body("K", body)))
+            square = Power(letters.velocity(robot.coordinates[k]), Number(2))
+            value = times(1, [(factor, 1), (square, 1)], decimal=is_numeric(robot))
+            lines.append(equation(energy, value))
+            resting.add(k)
+    if len(resting) < robot.n:
+        return None
+    why: Prose = (
+        "No body has a negative kinetic energy, so where ",
+        letters.K,
+        " is 0, that of each body is. By the lines below the rates are then 0 one after the other; in each "
+        "line those of the lines before it are put to 0:",
     )
+    return why, tuple(lines)
 
 
 def blocks(D: Matrix) -> list[list[int]]:

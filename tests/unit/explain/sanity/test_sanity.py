@@ -117,6 +117,30 @@ def test_the_determinant_of_the_planar_arm() -> None:
     )
 
 
+TILTED = """
+convention: modified
+base: Rx(30deg)
+dh: [{theta: q1*}, {theta: q2*, a: a1, alpha: 90deg}, {theta: q3*, a: a2, d: e}]
+masses:
+  - {mass: m1, link: 1, center: [x1, 0, 0], inertia: {xx: A1, yy: B1, zz: C1}}
+  - {mass: m2, link: 2, center: [x2, 0, 0], inertia: {xx: A2, yy: B2, zz: C2}}
+  - {mass: m3, link: 3, center: [x3, 0, 0], inertia: {xx: A3, yy: B3, zz: C3}}
+"""
+"""All joints are coupled by the offset e: the determinants of D are no sums of squares."""
+
+
+def test_body_by_body_where_the_determinants_are_long() -> None:
+    step = check(TILTED, "definite")
+    assert step is not None
+    style = dynsolve.solve(TILTED).style
+    assert [to_unicode(line, style) for line in step.result] == [
+        "2K₁ = (m₁ x₁² + C₁) q̇₁²",
+        "2K₂ = (m₂ x₂² + C₂) q̇₂²",
+        "2K₃ = (m₃ x₃² + C₃) q̇₃²",
+    ]
+    assert "the rates are then 0 one after the other" in said(TILTED, "definite")
+
+
 POINTS = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nmasses: [{mass: m2, link: 2}]\n"
 """Without a mass at the elbow D is singular where the arm is stretched."""
 
