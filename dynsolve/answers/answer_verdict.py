@@ -34,7 +34,6 @@ NOT_FROM_OWN = "not_from_own"
 NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's"
 FROM_NOTHING = "it is what follows from {}, where next to nothing is right"
 UNAFFECTED = "tau is unaffected"
-OTHER_SOLUTION = "another solution than that of least norm, which is the key"
 
 
 class AnswerJudge:
@@ -101,8 +100,8 @@ class AnswerJudge:
             notes.append(ROUNDED)
         if self.explanations.lead_elsewhere(compared):
             notes.append(NOT_FROM_OWN)
-        if compared.is_other:
-            notes.append(OTHER_SOLUTION)
+        if compared.other is not None:
+            notes.append(compared.other)
         if base.name == "C" and not self._is_christoffel(compared.answer_value):
             notes.append(NOT_CHRISTOFFEL)
         entries = tuple(EntryVerdict(index, Verdict.CORRECT) for index, _, _ in _entries(base.name, compared))

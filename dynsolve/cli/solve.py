@@ -36,6 +36,13 @@ class AbbreviateName(StrEnum):
     ALWAYS = "always"
 
 
+class MethodName(StrEnum):
+    """The way to the forces: the names of `robot.questions.Method`, not imported either."""
+
+    LAGRANGE = "lagrange"
+    NEWTON_EULER = "newton-euler"
+
+
 JsonOption = Annotated[bool, typer.Option("--json", help="JSON with everything, one object a line.")]
 StageOption = Annotated[
     list[Stage] | None,
@@ -56,6 +63,10 @@ AbbreviateOption = Annotated[
 HintOption = Annotated[
     Stage | None,
     typer.Option(metavar="STAGE", help="What to do in this stage, without its result or a later one."),
+]
+MethodOption = Annotated[
+    MethodName,
+    typer.Option(help="The way to the forces: energies, or link by link Newton's and Euler's laws."),
 ]
 
 
@@ -91,6 +102,7 @@ def solve(
     at: AtOption = None,
     digits: DigitsOption = None,
     hint: HintOption = None,
+    method: MethodOption = MethodName.LAGRANGE,
     quiet: Quiet = False,
 ) -> int:
     """Derive a robot's dynamics step by step, verified.
@@ -98,7 +110,8 @@ def solve(
     The stages, in order: kinematics, jacobian, task, singular, inverse, rates, inertia,
     energy, lagrangian, torque, vectorized, statics. A robot without masses has none of the
     dynamics; task, singular, inverse, rates and statics are there where a file asks for
-    something of them.
+    something of them. With --method newton-euler one stage, newton_euler, leads from the
+    kinematics to the forces.
     """
     view = _View(_stages(stage, first, last), detail, star, abbreviate, fragment, hint)
     options = {"json": json, "latex": latex, "pdf": pdf, "html": html, "markdown": markdown}
@@ -107,18 +120,22 @@ def solve(
     if hint and (view.stages or place.format is Format.JSON):
         what = "--json" if place.format is Format.JSON else "--stage, --from or --to"
         raise UsageError(f"--hint is a text on one stage; it does not go with {what}")
-    return _solve_all(problem, place, view, lambda found: with_numbers(found, set_, at, digits), quiet)
+
+    def solved(name: str) -> Solution:
+        return with_numbers(_solved(name, method, quiet), set_, at, digits)
+
+    return _solve_all(problem, place, view, solved, quiet)
 
 
 def _solve_all(
-    names: list[str], output: Output, view: _View, numbered: Callable[[Solution], Solution], quiet: bool
+    names: list[str], output: Output, view: _View, solved: Callable[[str], Solution], quiet: bool
 ) -> int:
     """Solve and show one problem after the other; of several a faulty one is told and passed over."""
     writer = Writer(output)
     code = ExitCode.DONE
     for place, name in enumerate(names):
         try:
-            solution = numbered(_solved(name, quiet))
+            solution = solved(name)
         except ProblemError as error:
             if len(names) == 1:
                 raise
@@ -153,13 +170,13 @@ def _stages(stage: list[Stage] | None, first: Stage | None, last: Stage | None) 
     return [name.value for name in order[start : end + 1]]
 
 
-def _solved(name: str, quiet: bool) -> Solution:
+def _solved(name: str, method: MethodName, quiet: bool) -> Solution:
     from dynsolve.cli.progress import progress
     from dynsolve.solution.solution import solve as solve_problem
 
     problem = read(name)
     with progress(problem.title, quiet) as advance:
-        return solve_problem(problem, progress=advance)
+        return solve_problem(problem, method=method.value, progress=advance)
 
 
 def _report(solution: Solution, output: Output, view: _View) -> bytes:

@@ -12,6 +12,7 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     singular        4.9   where a Jacobian loses rank
     inverse         3.3   q from r(q): one unknown after the other, in known forms; the branches
     rates           4.9, 4.11   det J, q̇ and q̈ for those of the task: likewise
+    recursions      7.6   Newton-Euler in link frames: ω, ω̇, accelerations, f, n: likewise
     statics         4.10  forces from outside, the torques that hold them: likewise
 
 What hangs together how:
@@ -20,6 +21,7 @@ What hangs together how:
     rules           the rules of the textbook; `derive(robot)` gives the `Derivation` of a robot
     kinematic_rules those of what a file asks of the kinematics
     static_rules    those of forces from outside
+    recursion_rules those of the recursions; by their method also of τ
     configurations  those of singular configurations and of inverse kinematics
     link_frame      rules that give K and D faster, by Jacobians in each link's own frame
     agreement       whether D, C q̇ and g come out the same both ways
@@ -35,6 +37,7 @@ And the independent check, which shares no formula with any of these:
     configuration_check
                     singular configurations and branches of the inverse, put in
     rate_check      determinants, rates and accelerations, against elimination on numbers
+    recursion_check the recursions in the links' frames, against those on numbers
     static_check    generalized forces and holding torques, against the power of the forces
 
 A rule takes exact values and returns an exact value, and does nothing else: what a

@@ -147,19 +147,27 @@ def inverse_dynamics(arm: Arm, qd: Sequence[float], qdd: Sequence[float], gravit
     """
     frames, axes = outwards(arm, qd, qdd, scaled(gravity, -1.0))
     tau = [0.0] * arm.n
-    force, moment = ZERO, ZERO
-    for link in range(len(arm.rows), 0, -1):
-        for mass in arm.masses:
-            if mass.link == link:
-                f, m = _wrench(mass, frames[link])
-                force, moment = plus(force, f), plus(moment, m)
-        for axis in reversed(axes[link - 1]):
+    for moving, (force, moment) in zip(axes, held_by_joints(arm, frames), strict=True):
+        for axis in moving:
             load = moment if axis.motion.turns else force
             if axis.motion.turns:
                 load = minus(moment, cross(axis.point, force))
             for k, rate in axis.motion.rates:
                 tau[k] += rate * dot(axis.direction, load)
     return tau
+
+
+def held_by_joints(arm: Arm, frames: Sequence[MovingFrame]) -> list[tuple[Vector, Vector]]:
+    """The force and the moment about the origin of the world that each link takes from the one before."""
+    held: list[tuple[Vector, Vector]] = []
+    force, moment = ZERO, ZERO
+    for link in range(len(arm.rows), 0, -1):
+        for mass in arm.masses:
+            if mass.link == link:
+                f, m = _wrench(mass, frames[link])
+                force, moment = plus(force, f), plus(moment, m)
+        held.append((force, moment))
+    return held[::-1]
 
 
 def _wrench(mass: Mass, frame: MovingFrame) -> tuple[Vector, Vector]:

@@ -41,7 +41,12 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
         yield from _energies(robot)
         yield from _euler_lagrange(robot)
         yield from _vectorized(robot)
-    if Stage.STATICS in asked_stages(robot.questions):
+    asked = asked_stages(robot.questions)
+    if Stage.NEWTON_EULER in asked:
+        from dynsolve.derivation.recursion_rules import recursion_rules
+
+        yield from recursion_rules(robot)
+    if Stage.STATICS in asked:
         from dynsolve.derivation.static_rules import static_rules
 
         yield from static_rules(robot)

@@ -2,9 +2,9 @@
 
 A stage is a file of its name with a function `steps`, which yields its steps in order: `kinematics`,
 `jacobian`, `inertia` (with `mass_centers`), `energy`, `lagrangian`, `torque`, `vectorized` (with
-`christoffel` and `agreement`); `frames` of a drawing; `task`, `singular`, `inverse`, `rates` and
-`statics` where something of them is asked.  To explain a further quantity, yield a `Step` in the
-file of its stage:
+`christoffel` and `agreement`); `frames` of a drawing; `task`, `singular`, `inverse`, `rates`,
+`newton_euler` (made in `recursions`) and `statics` where something of them is asked.  To explain a
+further quantity, yield a `Step` in the file of its stage:
 
     yield Step(
         id="K",                          # the quantity, by its name in an answer file
@@ -41,6 +41,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     inverse_way the lines to each of them: components turned, squared and added, sorted
     inverse_pose
                 of a full pose: the point that is left in place by the wrist, the rotation that is left for it
+    recursions  the Newton-Euler recursions, link by link
     terms       what each term of a force is: inertial, centrifugal, Coriolis, gravity
     sanity      checks that a person can do on the finished model
     closing     the step of D q̈ + C q̇ + g = τ

@@ -284,7 +284,8 @@ class _LongModel:
 
     def inertia(self, step: Step) -> Step:
         """D from the Jacobians: the forces above are written in its entries, and give nothing new."""
-        assert self.direct is not None, "both are steps of one stage"
+        if self.direct is None:  # the forces come from the recursions, and no Jacobian is there
+            return replace(step, result=(equation(letters.D, self.short.D),))
         return replace(
             step,
             title="D, assembled from the Jacobians",

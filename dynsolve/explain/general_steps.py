@@ -37,6 +37,7 @@ from dynsolve.notation.tree import (
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, JointType, Robot
+from dynsolve.robot.questions import Method
 
 _I, _J, _K, _N = (Symbol(name) for name in "ijkn")
 
@@ -65,8 +66,9 @@ def general_steps(context: Context) -> Iterator[GeneralStep]:
             yield GeneralStep(_tensors(context, solid), _ids(["I_body", "R", "I"], names))
         yield GeneralStep(_potential(context), _ids(["P"], bodies))
         yield GeneralStep(_kinetic(context), _ids(["Jv", "v", "Kv", "Kw", "K"], bodies))
-        coordinates = [q.index for q in robot.coordinates]
-        yield GeneralStep(_forces(), _ids(["dLdqd", "ddt", "dLdq", "tau"], coordinates))
+        if robot.questions.method is Method.LAGRANGE:
+            coordinates = [q.index for q in robot.coordinates]
+            yield GeneralStep(_forces(), _ids(["dLdqd", "ddt", "dLdq", "tau"], coordinates))
 
 
 def _ids(stems: Sequence[str], names: Sequence[str | int]) -> frozenset[str]:

@@ -95,6 +95,7 @@ _AT_HAND = {
     ),
     Stage.LAGRANGIAN: "You have the two energies:",
     Stage.TORQUE: "You have the Lagrangian:",
+    Stage.NEWTON_EULER: "You have the matrices of the rows of the table:",
     Stage.VECTORIZED: "You have the forces, one for each coordinate:",
     Stage.STATICS: "You have the Jacobian of the end of the arm, and the frames:",
 }
@@ -123,6 +124,8 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
         yield from ((letters.K, "K"), (letters.P, "P"))
     elif stage is Stage.TORQUE:
         yield letters.L, "L"
+    elif stage is Stage.NEWTON_EULER:
+        yield from ((letters.A(joint.index), f"A{joint.index}") for joint in robot.joints)
     elif stage is Stage.STATICS:
         yield from ((letters.JV, "Jv"), (letters.JW, "Jw"))
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)

@@ -227,6 +227,18 @@ def _frames(robot: Robot) -> Iterator[Prose]:
     yield ("A z may also point the other way, and frame 0 be anywhere on the first axis.",)
 
 
+def _newton_euler(robot: Robot) -> Iterator[Prose]:
+    yield ("Every vector has its components along the axes of its own link: what comes from another link is "
+           "turned first, outwards by the transpose of the rotation, inwards by the rotation.",)  # fmt: skip
+    if robot.convention is Convention.STANDARD:
+        yield ("The axis of joint i is that of frame i-1, turned into frame i: it is the third row of the "
+               "rotation, and not (0, 0, 1).",)  # fmt: skip
+        yield ("The moment is about the origin before the link: the lever of the mass centre starts there.",)
+    if _of_type(robot, JointType.PRISMATIC):
+        yield ("A joint that slides on a turning link adds twice ω × the velocity, besides its own "
+               "acceleration.",)  # fmt: skip
+
+
 _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.FRAMES: _frames,
     Stage.KINEMATICS: _kinematics,
@@ -239,6 +251,7 @@ _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.ENERGY: _energy,
     Stage.LAGRANGIAN: _lagrangian,
     Stage.TORQUE: _torque,
+    Stage.NEWTON_EULER: _newton_euler,
     Stage.VECTORIZED: _vectorized,
     Stage.STATICS: _statics,
 }

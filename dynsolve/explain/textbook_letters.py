@@ -12,9 +12,11 @@ from dynsolve.explain.sign_kinds import MOTIONS, Kind, kind_of
 from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Letter, Node, Row, Symbol, Words
+from dynsolve.notation.tree import Letter, Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Robot
+from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Convention, Robot
 
 WIDEST = 8.0
 """Signs of one meaning that are wider together, in em, are the first, the second and the last."""
@@ -79,6 +81,8 @@ def textbook(robot: Robot) -> Iterator[Line]:
     yield from _kinematics(ground, letters.H(robot, 0).sup)
     yield from _questions(robot)
     yield from _bodies(robot, ground)
+    if Stage.NEWTON_EULER in asked_stages(robot.questions):
+        yield from _recursions(robot)
     yield from _dynamics()
 
 
@@ -160,11 +164,8 @@ def _pose(robot: Robot) -> Iterator[Line]:
 def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     center = Row((Words("c"), _I))
     yield _line(_body("m"), "mass of body i", "kg")
-    centers = [
-        (Letter("r", center, None, "bold"), "mass centre of body i"),
-        (Letter("r", center, _I, "bold"), "the same in its link's frame"),
-    ]
-    yield _each(centers, "", "m")
+    yield _line(Letter("r", center, None, "bold"), "mass centre of body i", "m")
+    yield _line(Letter("r", center, _I, "bold"), "mass centre of body i, in its link's frame", "m")
     yield _line(_own_tensors(robot), "inertia tensor of body i, along its own axes", "kg m^2")
     yield _line(_body("I", "script"), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
     yield _line(_numbered("R"), f"axes of body i, seen from {ground}")
@@ -180,6 +181,34 @@ def _own_tensors(robot: Robot) -> list[Node]:
     tensors = (letters.tensor(robot, body) for body in robot.bodies)
     raised = dict.fromkeys(tensor.sup for tensor in tensors)
     return [Letter("I", _I, sup, "bold") for sup in raised] or [_numbered("I")]
+
+
+def _recursions(robot: Robot) -> Iterator[Line]:
+    """What the Newton-Euler recursions carry from link to link."""
+    before, own = Words("i-1"), Row((Words("c"), _I))
+    first = before if robot.convention is Convention.STANDARD else _I
+    yield _line(letters.bold("z", first, _I), "axis of joint i, in frame i")
+    levers = [
+        (letters.bold("r", Row((before, Words(","), _I)), _I), "origin of frame i"),
+        (letters.bold("r", Row((before, Words(","), own)), _I), "mass centre of body i"),
+    ]
+    yield _each(levers, ", from the origin of frame i-1", "m")
+    yield _line(letters.bold("g", Number(0), _I), "acceleration of gravity, in frame i", "m/s^2")
+    turning = [
+        (letters.bold("omega", _I, _I), "angular velocity"),
+        (letters.bold("omega", _I, _I, 1), "angular acceleration"),
+    ]
+    yield _each(turning, " of link i, in frame i")
+    points = [
+        (letters.bold("a", _I, _I), "origin of frame i"),
+        (letters.bold("a", own, _I), "mass centre of body i"),
+    ]
+    yield _each(points, ": its acceleration, in frame i", "m/s^2")
+    yield _line(
+        letters.bold("I", own, _I), "inertia tensor of body i about its mass centre, in frame i", "kg m^2"
+    )
+    held = [(letters.bold("f", _I, _I), "force"), (letters.bold("n", _I, _I), "moment")]
+    yield _each(held, " with which link i-1 holds link i, in frame i")
 
 
 def _dynamics() -> Iterator[Line]:

@@ -119,7 +119,7 @@ def _force(context: Context, q: Coordinate) -> Step:
 def _driven_by(context: Context, q: Coordinate) -> Prose:
     """The kind of force that drives a coordinate, and of which joints it is made where they share it."""
     kind = "torque" if turns(q) else "force"
-    moved = [(joint, rate) for joint in context.robot.joints for i, rate in joint.rates if i == q.index - 1]
+    moved = context.robot.joints_of(q)
     if all(len(joint.rates) == 1 and rate == 1 for joint, rate in moved) and len(moved) == 1:
         return (f" is {'an angle' if turns(q) else 'a length'}, so what drives it is a {kind}.",)
     parts: Prose = ()

@@ -31,6 +31,7 @@ from dynsolve.notation.tree import (
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Robot
+from dynsolve.robot.questions import Method
 
 STAGE = Stage.VECTORIZED
 
@@ -42,16 +43,19 @@ _I, _J, _K, _N = (Symbol(name) for name in "ijkn")
 
 def steps(context: Context) -> Iterator[Step]:
     """D, c_ijk, C and g; then the comparisons, and the whole model."""
+    from_energies = context.robot.questions.method is Method.LAGRANGE
     yield _inertia(context)
     yield _rest(context)
-    yield _inertia_direct(context)
-    if _is_short(context):
-        for body in context.robot.bodies:
-            yield _part(context, body)
+    if from_energies:
+        yield _inertia_direct(context)
+        if _is_short(context):
+            for body in context.robot.bodies:
+                yield _part(context, body)
     yield christoffel_step(context)
     yield _coriolis(context)
-    yield _gravity(context)
-    yield agreement_step(context)
+    if from_energies:
+        yield _gravity(context)
+        yield agreement_step(context)
     yield skew_step(context)
     yield from terms_step(context)
     yield from sanity_steps(context)
@@ -105,6 +109,7 @@ def _rest(context: Context) -> Step:
         ),
         source=spong("7.3"),
         result=(equation(Cqd, context.form("Cqd")), equation(letters.G, context.form("g"))),
+        also=("g",),
         uses=(*_forces(context), "D"),
         hint=(
             "What is left of the forces without the accelerations: the terms with rates belong to C, the "

@@ -5,6 +5,8 @@
     families    the records, in the order of the derivation
     kinematic_families
                 those of what exercises ask of the kinematics: points, tasks
+    recursion_families
+                those of the Newton-Euler recursions
     static_families
                 those of what exercises ask of forces from outside
     index       the quantities of one robot by name: which there are, what is part of what

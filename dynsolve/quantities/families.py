@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from itertools import product
 
 from dynsolve.notation.tree import Node, Product, Symbol
-from dynsolve.quantities import kinematic_families, letters, static_families
+from dynsolve.quantities import kinematic_families, letters, recursion_families, static_families
 from dynsolve.quantities.family import Family, Owner, of_body, of_coordinate, of_robot
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
@@ -478,6 +478,10 @@ D_DIRECT = Family(
     is_answer=False,
 )
 
+# -- the Newton-Euler recursions -------------------------------------------------------------------
+
+_RECURSIONS = recursion_families.FAMILIES
+
 # -- what an exercise asks of forces ---------------------------------------------------------------
 
 _ASKED_OF_STATICS = static_families.FAMILIES
@@ -485,7 +489,7 @@ _ASKED_OF_STATICS = static_families.FAMILIES
 FAMILIES: tuple[Family, ...] = tuple(
     record
     for value in tuple(vars().values())
-    for record in (value if value in (_ASKED_OF_KINEMATICS, _ASKED_OF_STATICS) else (value,))
+    for record in (value if value in (_ASKED_OF_KINEMATICS, _RECURSIONS, _ASKED_OF_STATICS) else (value,))
     if isinstance(record, Family)
 )
 """The records above, in their order."""

@@ -138,6 +138,13 @@ class Family:
         """What the names of its members begin with: `Kv` of `Kv{b}`."""
         return self.name.partition("{")[0]
 
+    def names(self, name: str) -> bool:
+        """Whether a quantity of that name is of this family: wl2 of wl{i}, acltool of acl{b}."""
+        stem, field, _ = self.name.partition("{")
+        if not field or not name.startswith(stem) or name == stem:
+            return name == self.name
+        return self.owner is Owner.BODY or name[len(stem) :].isdecimal()
+
     @property
     def is_vector(self) -> bool:
         """Whether it is a column vector by its nature, and no matrix that may have one column."""

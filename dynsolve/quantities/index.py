@@ -14,7 +14,7 @@ from dynsolve.quantities.family import Family, Owner, Size
 from dynsolve.quantities.spelling import key, open_index, other_names, subscripts
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType, Robot
-from dynsolve.robot.questions import Questions
+from dynsolve.robot.questions import Method, Questions
 from dynsolve.robot.units import LENGTH, Dimension, times
 
 Shape = tuple[int, int] | None
@@ -360,6 +360,9 @@ class Quantities(Mapping[str, Quantity]):
         return {stem: tuple(sorted(names, key=self.position)) for stem, names in found.items() if names}
 
 
+_OF_LAGRANGE = frozenset({Stage.JACOBIAN, Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE})
+"""The stages that lead from the mass centres to τ by the Lagrangian; the recursions need none of them."""
+
 _OF_THE_TASK = {Stage.SINGULAR, Stage.INVERSE, Stage.RATES}
 """The stages that go on from the task."""
 
@@ -372,7 +375,8 @@ def given_rates(questions: Questions) -> frozenset[str]:
 
 def asked_stages(questions: Questions) -> frozenset[Stage]:
     """The stages of which an exercise asks something."""
-    found = {family.stage for family in FAMILIES if family.stage.asked_for and family.name in questions.asked}
+    asked_for = [family for family in FAMILIES if family.stage.asked_for] if questions.asked else ()
+    found = {family.stage for family in asked_for if any(map(family.names, questions.asked))}
     if given_rates(questions):
         found.add(Stage.RATES)
     if questions.points or questions.task or found & _OF_THE_TASK:
@@ -381,16 +385,20 @@ def asked_stages(questions: Questions) -> frozenset[Stage]:
         found.add(Stage.FRAMES)
     if questions.loads:
         found.add(Stage.STATICS)
+    if questions.method is Method.NEWTON_EULER:
+        found.add(Stage.NEWTON_EULER)
     return frozenset(found)
 
 
 def stages_of(robot: Robot) -> tuple[Stage, ...]:
     """The stages of a robot's solution, in their order."""
     asked = asked_stages(robot.questions)
+    passed_over = _OF_LAGRANGE if robot.questions.method is Method.NEWTON_EULER else frozenset()
     return tuple(
         stage
         for stage in Stage
         if (stage in asked if stage.asked_for else robot.bodies or not stage.needs_masses)
+        and stage not in passed_over
     )
 
 

@@ -129,6 +129,16 @@ def of_load(index: int) -> Letter:
     return bold("Q", bold("F", Number(index)))
 
 
+def in_link(base: str, i: int, dots: int = 0) -> Letter:
+    """A vector of link i along the axes of its own frame: ω_i^i, f_i^i."""
+    return bold(base, Number(i), Number(i), dots)
+
+
+def center_in_link(base: str, body: Body) -> Letter:
+    """A vector of the mass centre of a body, along the axes of its link's frame: a_{c2}^2."""
+    return bold(base, Row((Words("c"), index_of(body.name))), Number(body.link))
+
+
 def rate(matrix: Letter) -> Letter:
     """The time derivative of a matrix: J̇_v."""
     return Letter(matrix.base, matrix.sub, matrix.sup, matrix.style, matrix.dots + 1)

@@ -32,6 +32,7 @@ class Stage(StrEnum):
     ENERGY = "energy", "Potential and kinetic energy"
     LAGRANGIAN = "lagrangian", "The Lagrangian"
     TORQUE = "torque", "The Euler-Lagrange equations"
+    NEWTON_EULER = "newton_euler", "The Newton-Euler recursions", True
     VECTORIZED = "vectorized", "The vectorized form"
     STATICS = "statics", "Forces from outside, and the torques that hold them", True
 

@@ -162,6 +162,18 @@ class Robot:
         """The number of degrees of freedom."""
         return len(self.coordinates)
 
+    def bodies_on(self, link: int) -> tuple[Body, ...]:
+        """The bodies that are fixed to a frame."""
+        return tuple(body for body in self.bodies if body.link == link)
+
+    def links_after(self, link: int) -> tuple[int, ...]:
+        """The frames that start at a frame."""
+        return tuple(joint.index for joint in self.joints if joint.index - 1 == link)
+
+    def joints_of(self, q: Coordinate) -> tuple[tuple[Joint, Fraction], ...]:
+        """The joints that a coordinate moves, each with the rate of its variable."""
+        return tuple((joint, rate) for joint in self.joints for k, rate in joint.rates if k == q.index - 1)
+
     @property
     def ends_in_a_joint(self) -> bool:
         """Whether the last frame lies in the last joint, and the table does not reach the end of the arm.

@@ -9,6 +9,7 @@ of `tip`, or of a point's name, stands for them; they have the same meaning in e
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation.tree import Node, Reference
@@ -16,6 +17,13 @@ from dynsolve.notation.walk import walk
 
 TIP = "tip"
 """The origin of the last frame, as a task names it."""
+
+
+class Method(StrEnum):
+    """The way to the forces τ: from the Lagrangian, or link by link by Newton's and Euler's laws."""
+
+    LAGRANGE = "lagrange"
+    NEWTON_EULER = "newton-euler"
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +139,7 @@ class Questions:
     `velocity` and `acceleration` (m×1) what the task is to have there.  `reach` are the names of
     the values of r(q) in the inverse kinematics, as the file has them; `all_branches` says that an
     answer must have them all.  `target` is what r(q) is to be where the file gives numbers for it,
-    `limits` are the ranges of coordinates.
+    `limits` are the ranges of coordinates.  `method` is the way to τ.
     """
 
     points: tuple[NamedPoint, ...] = ()
@@ -146,6 +154,7 @@ class Questions:
     all_branches: bool = False
     target: Target | None = None
     limits: tuple[Limits, ...] = ()
+    method: Method = Method.LAGRANGE
 
     @property
     def reached(self) -> tuple[str, ...]:

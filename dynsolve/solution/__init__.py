@@ -2,6 +2,7 @@
 
     solution        `load`, `solve` and the `Solution` that it gives
     dynamics        what a solution is made of: a robot's dynamics, derived and verified
+    method          the way to the forces: the Lagrangian, or the recursions
     asked_checks    what only some exercises ask, verified
     given_axes      whether orientations that the problem gives may stand as they are
     numbers/        values for parameters, and what holds at a state

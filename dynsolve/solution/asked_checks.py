@@ -9,6 +9,8 @@ from dynsolve.derivation.kinematic_check import checked_names, verify_kinematics
 from dynsolve.derivation.rate_check import rate_names, verify_rates
 from dynsolve.derivation.static_check import verify_statics
 from dynsolve.explain.forms import Forms
+from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 
 
@@ -23,7 +25,16 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
     verify_rates(robot, {name: forms(name) for name in rate_names(robot, wanted)}, states)
     static = [name for name in ("Q", "tau_static") if name in wanted]
     verify_statics(robot, {name: forms(name) for name in static}, states)
+    _verify_recursions(robot, forms, wanted, states)
     _verify_configurations(robot, values, forms, wanted)
+
+
+def _verify_recursions(robot: Robot, forms: Forms, wanted: frozenset[str], states: int) -> None:
+    """Hold the Newton-Euler recursions, where something of them is asked."""
+    if Stage.NEWTON_EULER in asked_stages(robot.questions):
+        from dynsolve.derivation.recursion_check import recursion_names, verify_recursions
+
+        verify_recursions(robot, {name: forms(name) for name in recursion_names(robot, wanted)}, states)
 
 
 def skipped(robot: Robot, values: Derivation) -> Iterator[tuple[str, str]]:

@@ -20,6 +20,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem
 from dynsolve.robot.model import Robot
 from dynsolve.solution.given_axes import check_axes
+from dynsolve.solution.method import verify_method
 from dynsolve.solution.numbers.given import Given
 
 if TYPE_CHECKING:
@@ -73,6 +74,7 @@ class Dynamics:
                 raise VerificationError(
                     "what is read off from the forces differs from what is assembled directly"
                 )
+            verify_method(robot, values)
         verification = verify(robot, _checked(robot, forms), states)
         if problem.normals is not None:
             from dynsolve.derivation.drawn_motion import verify_drawing

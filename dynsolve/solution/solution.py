@@ -17,7 +17,9 @@ from dynsolve.explain.forms import is_numeric
 from dynsolve.notation.tree import Node
 from dynsolve.problem import Problem, read_problem
 from dynsolve.problem import load as load_file
+from dynsolve.robot.questions import Method
 from dynsolve.solution.dynamics import Dynamics, Progress
+from dynsolve.solution.method import by_method
 from dynsolve.solution.numbers.given import Given, parameters
 from dynsolve.solution.numbers.given import state as read_state
 from dynsolve.solution.numbers.rounding import DIGITS
@@ -46,17 +48,21 @@ def load(problem: str | os.PathLike[str]) -> Problem:
 
 
 def solve(
-    problem: Problem | str | os.PathLike[str], *, states: int = 5, progress: Progress | None = None
+    problem: Problem | str | os.PathLike[str],
+    *,
+    states: int = 5,
+    method: Method | str = Method.LAGRANGE,
+    progress: Progress | None = None,
 ) -> Solution:
     """Derive the dynamics of a robot, and verify the result.
 
     `problem` is a `Problem`, a path, the stem of a bundled problem, or the text of
     a problem file (with line breaks).  `states` is the number of random states at
-    which the result is compared with recursive Newton-Euler; `progress(done, of)` is
-    told how far the work is.
+    which the result is compared with recursive Newton-Euler; `method` is the way to the
+    forces, `lagrange` or `newton-euler`; `progress(done, of)` is told how far the work is.
 
-    Raises ProblemError for a faulty problem, VerificationError where the result
-    disagrees with the independent computation.
+    Raises ProblemError for a faulty problem, UsageError for Newton-Euler without masses,
+    VerificationError where the result disagrees with the independent computation.
 
     >>> solution = solve("planar-2r")
     >>> solution.D[1, 1]
@@ -68,7 +74,7 @@ def solve(
         problem = read_problem(problem)
     elif not isinstance(problem, Problem):
         problem = load(problem)
-    return Solution.of(problem, states, progress)
+    return Solution.of(by_method(problem, Method(method)), states, progress)
 
 
 class Solution(Dynamics):

@@ -18,6 +18,7 @@ from typing import Any
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
+from dynsolve.answers.judging.recursion_routes import recursion_routes
 from dynsolve.answers.judging.route import Route
 from dynsolve.answers.judging.task_routes import task_routes
 from dynsolve.derivation import vectorized
@@ -116,19 +117,24 @@ class AnswerGraph:
             lift = self.zero_potential * body.mass
             return (Route(rule.inputs, lambda rc: rule.compute(rc) + lift, linear=False),)
         lagrange = (Route(rule.inputs, rule.compute, quantity.family in _LINEAR),) if rule.inputs else ()
-        if node in self._of_the_task:
-            return (*lagrange, *self._of_the_task[node])
+        if node in self._further:
+            lagrange = (*lagrange, *self._further[node])
         if assembled and quantity.family is families.FORCE:
             together = partial(vectorized.torque, self.robot, k=quantity.index[0] - 1)
             return (*lagrange, Route(MODEL, together))
         return lagrange
 
     @cached_property
-    def _of_the_task(self) -> dict[str, tuple[Route, ...]]:
-        """Further routes to results about the task, by their nodes."""
+    def _further(self) -> dict[str, tuple[Route, ...]]:
+        """Further routes, by their nodes: to results about the task, and to the forces by the recursions."""
         rules = self.answer_ring.rules
-        known = (quantity for quantity in self.quantities.values() if quantity.rule in rules)
-        return {quantity.rule: found for quantity in known if (found := tuple(task_routes(self, quantity)))}
+        found: dict[str, tuple[Route, ...]] = {}
+        for quantity in self.quantities.values():
+            if quantity.rule in rules:
+                ways = (*task_routes(self, quantity), *recursion_routes(self, quantity))
+                if ways:
+                    found[quantity.rule] = ways
+        return found
 
     def _routes_of_model(self, node: str) -> tuple[Route, ...]:
         """The routes to D, C q̇ and g."""

@@ -12,7 +12,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_values import AnswerValue, fitted
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.other_solutions import is_other_solution
+from dynsolve.answers.judging.other_solutions import Other, other_solution
 from dynsolve.answers.judging.planar import unfolded
 from dynsolve.answers.judging.spans import difference, readings, spans
 from dynsolve.derivation.graph import Skipped
@@ -47,7 +47,7 @@ class Obstacle:
 class KeyComparison:
     """An answer compared with the key: its entries as they are compared, and whether each is right.
 
-    `is_other`: it is right although it is not the key's, one of many solutions.  `written` are
+    `other` says how it is right although it is not the key's.  `written` are
     the vectors of an answer that is a space, in the ways in which they may be meant.
     """
 
@@ -56,7 +56,7 @@ class KeyComparison:
     rows: tuple[tuple[WrittenEntry, ...], ...] = ()
     right: tuple[tuple[str | None, ...], ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
-    is_other: bool = False
+    other: Other | None = None
     written: tuple[Matrix, ...] = ()
 
     @property
@@ -122,10 +122,10 @@ class KeyComparer:
             tuple(map(self.compare, wanted, written)) for wanted, written in zip(expected, rows, strict=True)
         )
         compared = KeyComparison(value, target, rows, right, obstacles)
-        if not compared.correct and is_other_solution(self.graph, target.node, rows, self.compare.values):
-            right = tuple(tuple("" for _ in row) for row in rows)
-            return replace(compared, right=right, is_other=True)
-        return compared
+        other = None if compared.correct else other_solution(self.graph, target.node, rows, self.compare)
+        if other is None:
+            return compared
+        return replace(compared, right=tuple(tuple("" for _ in row) for row in rows), other=other)
 
     def _span(self, value: AnswerValue, target: Target, key: Matrix) -> KeyComparison:
         """Vectors, whether they span the key's space; the verdict is one for all of them."""

@@ -1,27 +1,70 @@
-"""Joint rates and accelerations that are right without being the key's: there may be many.
+"""What is right without being the key's.
 
-Every x with Jᵀ (J x - b) = 0 solves J x = b, or comes as near to it as can be where nothing does;
-the key is the one of least norm.
+Joint rates and accelerations: every x with Jᵀ (J x - b) = 0 solves J x = b, or comes as near to it as can
+be where nothing does; the key is the one of least norm.  Accelerations of links: gravity may count as an
+acceleration of the base, or as a force of its own.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from enum import StrEnum
 from fractions import Fraction
 
 from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, add, multiply
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.entry_comparison import WrittenEntry, put_numbers
+from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, put_numbers
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.rates import wanted_by_accelerations
+from dynsolve.derivation.recursions import is_standard
+from dynsolve.quantities import recursion_families
+from dynsolve.quantities.index import Quantity
+
+
+class Other(StrEnum):
+    """How an answer differs from the key, as it is told."""
+
+    OF_MANY = "another solution than that of least norm, which is the key"
+    WITH_GRAVITY = "right with gravity as an acceleration of the base; in the key it is a force on each link"
+    WITHOUT_GRAVITY = "right with gravity as a force on each link; in the key the base accelerates instead"
+
 
 LONGEST = 400
 """Values with more terms are not put into the equations."""
 
 
-def is_other_solution(
+def other_solution(
+    graph: AnswerGraph,
+    node: str,
+    rows: Sequence[Sequence[WrittenEntry]],
+    compare: EntryComparer,
+) -> Other | None:
+    """What an answer is that is not the key's and right all the same; None of a wrong one."""
+    quantity = graph.quantities.of_rule(node)
+    if quantity is not None and quantity.family in (recursion_families.AL, recursion_families.ACL):
+        return _with_other_gravity(graph, quantity, rows, compare)
+    return Other.OF_MANY if _solves(graph, node, rows, compare.values) else None
+
+
+def _with_other_gravity(
+    graph: AnswerGraph, quantity: Quantity, rows: Sequence[Sequence[WrittenEntry]], compare: EntryComparer
+) -> Other | None:
+    """Whether an acceleration is right where gravity is counted in the other of the two ways."""
+    robot, place = graph.robot, quantity.index[0]
+    link = robot.bodies[place - 1].link if quantity.family is recursion_families.ACL else place
+    standard = is_standard(robot)
+    gravity = rotation(graph.key(f"H{link}")).T @ robot.gravity
+    wanted = graph.key(quantity.rule) + (-gravity if standard else gravity)
+    right = all(compare(entry, row[0]) is not None for entry, row in zip(wanted.entries, rows, strict=True))
+    if not right:
+        return None
+    return Other.WITH_GRAVITY if standard else Other.WITHOUT_GRAVITY
+
+
+def _solves(
     graph: AnswerGraph,
     node: str,
     rows: Sequence[Sequence[WrittenEntry]],
