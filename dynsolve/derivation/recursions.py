@@ -106,7 +106,7 @@ def acceleration_parts(
     back = rotation(A).T
     if is_standard(robot):
         arm = lever(A) if beyond is None else lever(A) + beyond
-        carried = (back @ before.a, *turning_parts(w, dw, arm))
+        carried: tuple[Matrix, ...] = (back @ before.a, *turning_parts(w, dw, arm))
     else:
         towards, around = turning_parts(before.w, before.dw, origin(A))
         carried = (back @ (before.a + towards + around),)
