@@ -47,6 +47,10 @@ class Checker:
     """
 
     def __init__(self, problem: Problem, key: Derivation | None = None) -> None:
+        if problem.robot.questions.state_is_reached:
+            from dynsolve.solution.reached_state import with_reached_state
+
+            problem = with_reached_state(problem)
         self.problem = problem
         self.key = key if key is not None else derive(problem.robot)
         self.answer_ring = AnswerRing(problem.robot, self.key)

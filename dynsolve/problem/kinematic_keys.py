@@ -32,6 +32,7 @@ POINT = Keyed(
 
 WHOLE = Word(("twist", "pose"))
 ALL = Word(("all",))
+REACHED = Word(("reach",))
 IN_LINK = Word(("link",))
 BY = Word(("world", "robot"))
 
@@ -124,8 +125,9 @@ KINEMATIC_KEYS = (
     ),
     Key(
         "state",
-        MapOf(EXPRESSION, "values by coordinate"),
-        "Where Q, tau_static, rates and spaces are asked for: values of coordinates and their rates (q1').",
+        OneOf((MapOf(EXPRESSION, "values by coordinate"), REACHED)),
+        "Where Q, tau_static, rates and spaces are asked for: values of coordinates and their rates (q1'); "
+        "or reach, the one configuration within `limits` that reaches the numbers of `reach`.",
         "{theta1: 90deg, theta1': 1}",
         "every q",
         remedy="write state: {q1: 90deg, q1': 1}",

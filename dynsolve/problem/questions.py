@@ -18,7 +18,7 @@ from dynsolve.problem.reach import NO_REACH, ParsedLimits, ParsedReach, read_lim
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.state import ParsedState, read_state
+from dynsolve.problem.state import ParsedState, is_reached, read_state
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, Span, YamlNode
 from dynsolve.robot.questions import TIP, coordinate_of
 
@@ -67,6 +67,8 @@ class ParsedQuestions:
     reach: ParsedReach = NO_REACH
     all_branches: bool = False
     limits: tuple[ParsedLimits, ...] = ()
+    reached_state: Span | None = None
+    """Where the file says that the state is the configuration that reaches the target."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -131,6 +133,7 @@ def read_questions(
         read_reach(faults, fields.get("reach"), coordinates),
         word(faults, fields.get("branches"), ALL.choices, "branches", "write branches: all") is not None,
         read_limits(faults, fields.get("limits"), coordinates),
+        fields.span_of("state") if is_reached(fields.get("state")) else None,
     )
 
 

@@ -73,12 +73,16 @@ def with_questions(
         state=State(tuple((name, dots, value) for (name, dots), value in state.items())),
         is_drawn=is_drawn,
         all_branches=parsed.all_branches,
+        state_is_reached=parsed.reached_state is not None,
     )
     if questions.task is None and (parsed.rates or Stage.TASK in asked_stages(questions)):
         questions = replace(questions, task=_default_task(robot))
     if questions.task is not None and questions.task.reached:
         check_reach(values.faults, parsed.reach, len(questions.task.reached))
         questions = _with_target(values, robot, questions, parsed, written)
+    if parsed.reached_state is not None and questions.target is None:
+        help = "write reach: [...] with a number for each component of the task, or give the state itself"
+        values.faults.error(parsed.reached_state, "state: reach needs the numbers of a target", help)
     if questions.task is not None:
         rows = questions.task.rows
         questions = replace(

@@ -10,6 +10,7 @@ from dynsolve.notation.text import read
 from dynsolve.notation.tree import Function, Node, Symbol
 from dynsolve.problem.cells import Cell, forbid, read_angle, read_cell
 from dynsolve.problem.fields import did_you_mean
+from dynsolve.problem.kinematic_keys import REACHED
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode
@@ -39,12 +40,17 @@ class ParsedState:
         ]
 
 
+def is_reached(node: YamlNode | None) -> bool:
+    """Whether the state is the configuration that reaches the target."""
+    return isinstance(node, ScalarNode) and node.text in REACHED.choices
+
+
 def read_state(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) -> ParsedState | None:
     """The state of a file, None where there is none; what is wrong with a value is reported."""
-    if node is None or isinstance(node, FaultyNode):
+    if node is None or isinstance(node, FaultyNode) or is_reached(node):
         return None
     if not isinstance(node, MappingNode):
-        faults.error(node.span, "state is a mapping from coordinates to values", _HELP)
+        faults.error(node.span, "state is a mapping from coordinates to values, or reach", _HELP)
         return None
     cells: dict[tuple[str, int], Cell] = {}
     for key, value in node.entries:

@@ -139,7 +139,8 @@ class Questions:
     `velocity` and `acceleration` (m×1) what the task is to have there.  `reach` are the names of
     the values of r(q) in the inverse kinematics, as the file has them; `all_branches` says that an
     answer must have them all.  `target` is what r(q) is to be where the file gives numbers for it,
-    `limits` are the ranges of coordinates.  `method` is the way to τ.
+    `limits` are the ranges of coordinates.  `state_is_reached` says that the state is still to be the one
+    configuration within the limits that reaches the target.  `method` is the way to τ.
     """
 
     points: tuple[NamedPoint, ...] = ()
@@ -155,6 +156,7 @@ class Questions:
     target: Target | None = None
     limits: tuple[Limits, ...] = ()
     method: Method = Method.LAGRANGE
+    state_is_reached: bool = False
 
     @property
     def reached(self) -> tuple[str, ...]:

@@ -9,6 +9,7 @@
     symbolic        a result as SymPy
     numeric         a result as a NumPy function
     json_export     everything as JSON
+    reached_state   the state that reaches a target
     branch_export   branches of the inverse kinematics as JSON has them
     table_export    the Denavit-Hartenberg table as JSON has it
     documents       a solution as a document: stages, steps, numbers

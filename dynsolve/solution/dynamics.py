@@ -61,6 +61,7 @@ class Dynamics:
         Raises ProblemError for given rotations with which the energy would be wrong,
         VerificationError where two ways to a result differ.
         """
+        problem = _with_state(problem)
         robot = problem.robot
         values = derive(robot)
         warnings = (*problem.warnings, *check_axes(problem, values))
@@ -140,6 +141,15 @@ class Dynamics:
         D, C, g = expanded(short.definitions, [short.D, short.C, short.g])
         verify(self.robot, {"D": D, "C": C, "g": g}, self.verification.states)
         return short
+
+
+def _with_state(problem: Problem) -> Problem:
+    """The problem, its state being that of its target where the file says so."""
+    if not problem.robot.questions.state_is_reached:
+        return problem
+    from dynsolve.solution.reached_state import with_reached_state
+
+    return with_reached_state(problem)
 
 
 def _make_all(forms: Forms, progress: Progress) -> None:

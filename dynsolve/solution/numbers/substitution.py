@@ -52,8 +52,8 @@ class Substitution:
     The map respects sums and products.
 
     A coordinate that has a value is none in the new ring, so either all of them have
-    one or none.  Raises AlgebraError where a value leaves a formula without a
-    meaning: a denominator that becomes 0, the root of a negative number.
+    one or none.  The new ring also holds the formulas `more`.  Raises AlgebraError where
+    a value leaves a formula without a meaning: a denominator that becomes 0, the root of a negative number.
 
     >>> ring = build_ring([], [Symbol("L"), Symbol("m")])
     >>> put = Substitution(ring, {("L", 0): Number(1, 2)})
@@ -61,11 +61,13 @@ class Substitution:
     Expr(1/2*m)
     """
 
-    def __init__(self, source: Ring, values: Replacements, angles: Iterable[Angle] = ()) -> None:
+    def __init__(
+        self, source: Ring, values: Replacements, angles: Iterable[Angle] = (), more: Iterable[Node] = ()
+    ) -> None:
         self.source, self.values = source, values
         coordinates = [(name, kind) for name, kind in source.coordinates if (name, 0) not in values]
         basic = [self.angle(pair.angle) for pair in source.pairs]
-        trees = [tree for g in source.generators for tree in self._needs(g)]
+        trees = [*more, *(tree for g in source.generators for tree in self._needs(g))]
         every = [*basic, *(self.angle(angle) for angle in angles)]
         self.ring = build_ring(coordinates, trees, every, basic)
 
@@ -129,13 +131,13 @@ class Substitution:
 # -- a robot with numbers for some of its parameters: a robot like any other -----------------------
 
 
-def robot_with(robot: Robot, values: Replacements) -> Robot:
-    """The robot with these values for its parameters.
+def robot_with(robot: Robot, values: Replacements, more: Iterable[Node] = ()) -> Robot:
+    """The robot with these values for its parameters, its ring holding the formulas `more`, too.
 
     Raises AlgebraError where a formula has no meaning with them.
     """
     angles = [angle for joint in robot.joints for angle in (joint.theta, joint.alpha)]
-    put = Substitution(robot.ring, values, angles)
+    put = Substitution(robot.ring, values, angles, more)
     return Robot(
         ring=put.ring,
         convention=robot.convention,

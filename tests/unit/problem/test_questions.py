@@ -83,6 +83,7 @@ FAULTS = {
     "a bare angle": ("task: [theta1 + theta2]\nreach: [«1.2»]\nfind: [inverse]", "stands as an angle", "deg"),
     "an angle for a length": ("reach: [«30deg», 1]\nfind: [inverse]", "a length, not an angle", "a number"),
     "a coordinate to reach": ("reach: [1, 2*«theta1»]", "contains the coordinate", "numbers and parameters"),
+    "no numbers to reach": ("reach: [px, py]\nstate: «reach»\nfind: [inverse]", "the numbers", "reach:"),
     "limits of no coordinate": ("limits: {«theta3»: [0, 1]}", "no coordinate", "theta"),
     "one end": ("limits: {theta1: «[0]»}", "1 ends, not 2", "limits: {"),
     "no range": ("limits: {theta1: «90deg»}", "a list [low, high]", "limits: {"),

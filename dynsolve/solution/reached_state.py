@@ -1,0 +1,76 @@
+"""`state: reach`: the one configuration within the limits that reaches the target, as a state."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from dynsolve.algebra.at_state import needed_roots
+from dynsolve.derivation.rules import derive
+from dynsolve.errors import AlgebraError, ProblemError
+from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.explain.target import Configuration
+from dynsolve.notation.python import to_python
+from dynsolve.problem import Problem
+from dynsolve.robot.questions import State
+from dynsolve.solution.numbers.substitution import robot_with
+
+
+def with_reached_state(problem: Problem) -> Problem:
+    """The problem with its state as values, in a ring that holds their sines and cosines.
+
+    Raises ProblemError where not exactly one configuration is within the limits, or it is not
+    known exactly.
+    """
+    robot = problem.robot
+    one = _within_limits(problem)
+    state = State(tuple((name, 0, one.formulas[name]) for name in robot.ring.names))
+    try:
+        needed = needed_roots(robot.ring, state.by_symbol)
+    except AlgebraError:
+        raise _fault(
+            problem,
+            "the configuration that reaches the target is known in decimals alone",
+            "give the state itself: state: {q1: 90deg}",
+        ) from None
+    questions = replace(robot.questions, state=state, state_is_reached=False)
+    return replace(problem, robot=robot_with(replace(robot, questions=questions), {}, needed))
+
+
+def _within_limits(problem: Problem) -> Configuration:
+    """The one configuration within the limits, with no coordinate that is free."""
+    found = [one for one in _configurations(problem) if not one.outside]
+    if len(found) == 1 and not found[0].free:
+        return found[0]
+    if found and found[0].free:
+        message = f"{found[0].free[0]} may be anything where the target is reached"
+        raise _fault(problem, message, "give the state itself: state: {q1: 90deg}")
+    if not found:
+        message = "no configuration within the limits reaches the target"
+        raise _fault(
+            problem, message, "look at `reach` and `limits`: `find: [inverse]` shows the configurations"
+        )
+    named = " and ".join(_written(one) for one in found[:2])
+    message = f"{len(found)} configurations reach the target: {named}{', ...' * (len(found) > 2)}"
+    raise _fault(problem, message, "give `limits` that leave one of them: limits: {q2: [0, 180deg]}")
+
+
+def _configurations(problem: Problem) -> tuple[Configuration, ...]:
+    """Those that reach the target, whether they are asked for or not."""
+    questions = problem.robot.questions
+    robot = replace(
+        problem.robot,
+        questions=replace(questions, asked=questions.asked | {"inverse"}, state_is_reached=False),
+    )
+    forms = ConfigurationForms(robot, derive(robot))
+    if forms.target is None:
+        raise _fault(problem, "the target has no numbers", "give numbers for its parameters under `values`")
+    return forms.target.configurations
+
+
+def _written(one: Configuration) -> str:
+    values = (f"{name}: {to_python(value)}" for name, value in one.formulas.items())
+    return f"{{{', '.join(values)}}}"
+
+
+def _fault(problem: Problem, message: str, help: str) -> ProblemError:
+    return ProblemError([problem.finding(("state",), message, help)])
