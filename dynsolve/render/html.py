@@ -7,7 +7,7 @@ that no page shows whole is given entry by entry.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from html import escape
@@ -34,7 +34,7 @@ from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
 from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 from dynsolve.render.page import MarkupPage
 from dynsolve.render.prose import visible
-from dynsolve.render.references import numbered, with_results
+from dynsolve.render.references import levels, numbered, with_results
 from dynsolve.render.typesetting import listed
 
 PHONE = 16.5
@@ -51,7 +51,7 @@ _TALL = ("<mfrac>", "<mtable>", "<munderover>")
 
 def render(document: Document, style: Style = PLAIN, level: str = "normal") -> str:
     """A page that is complete in itself; `level` is the level of detail that it opens with."""
-    page = _Page(style, numbered(document))
+    page = _Page(style, document)
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
     body = "".join(page.document(document.blocks))
     return (
@@ -61,7 +61,7 @@ def render(document: Document, style: Style = PLAIN, level: str = "normal") -> s
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
         f"<title>{escape(title)}</title>\n<style>\n{stylesheet()}</style>\n</head>\n<body>\n"
-        f"{_switch(level) if page.has_levels() else ''}{page.contents()}"
+        f"{_switch(level) if len(page.levels) > 1 else ''}{page.contents()}"
         f"<main>\n{body}</main>\n</body>\n</html>\n"
     )
 
@@ -117,9 +117,12 @@ class _Entry:
 class _Page(MarkupPage):
     """Turns blocks into HTML, and remembers what the contents and the styles need."""
 
-    def __init__(self, style: Style, labels: dict[str, int]) -> None:
+    def __init__(self, style: Style, document: Document) -> None:
         printer = MathMLPrinter(style)
-        super().__init__(printer, labels)
+        super().__init__(printer, numbered(document))
+        self.levels = range(1, len(_LEVELS) + 1) if len(levels(document)) > 1 else range(1)
+        self.numbers = {level: numbered(document, level or None) for level in self.levels}
+        self.level = 0  # of the fold that is being written
         self.ruler = Ruler(style)
         self.splitter = FormulaSplitter(html_notation(printer), self.ruler, _FINE)
         self.entries: list[_Entry] = []
@@ -149,11 +152,25 @@ class _Page(MarkupPage):
         columns = " columns" if equations.in_columns else ""
         yield f'<div class="formula work"><div class="box{columns}">{lines}</div></div>\n'
 
-    def reference(self, label: str) -> str:
-        return f'<a href="#eq-{label}">{super().reference(label)}</a>'
+    def reference(self, label: str, number: int) -> str:
+        return f'<a href="#eq-{label}">{super().reference(label, number)}</a>'
 
-    def uses(self, sentence: str) -> Iterator[str]:
-        yield f'<p class="uses">{sentence}</p>\n'
+    def by_level(self, write: Callable[[Mapping[str, int]], str]) -> Iterator[tuple[str, str]]:
+        """What is written with the numbers of each level of detail, and the classes that show it there."""
+        shown = [level for level in self.levels if level >= self.level]
+        texts = {level: write(self.numbers[level]) for level in shown}
+        for text in dict.fromkeys(texts.values()):
+            at = [level for level in shown if texts[level] == text]
+            if text:
+                yield text, "" if at == shown else " ".join(["in", *(f"in{level}" for level in at)])
+
+    def used(self, labels: Sequence[str]) -> Iterator[str]:
+        """The results used in the next formula, with the numbers of each level."""
+        for sentence, classes in self.by_level(lambda numbers: self.leading_on(labels, numbers)):
+            yield from self.uses(sentence, classes)
+
+    def uses(self, sentence: str, classes: str = "") -> Iterator[str]:
+        yield f'<p class="{f"uses {classes}".strip()}">{sentence}</p>\n'
 
     def list(self, items: Sequence[Prose]) -> Iterator[str]:
         yield "<ul>" + "".join(f"<li>{self.prose(item)}</li>" for item in items) + "</ul>\n"
@@ -185,7 +202,9 @@ class _Page(MarkupPage):
         if self.entries:
             self.entries[-1].steps.append((anchor, title, fold.level))
         yield f'<details open class="step l{int(fold.level)}" id="{anchor}"><summary>{title}</summary>\n'
+        self.level = fold.level
         yield from self.blocks(with_results(fold.blocks))
+        self.level = 0
         yield "</details>\n"
 
     def escaped(self, text: str) -> str:
@@ -209,15 +228,20 @@ class _Page(MarkupPage):
     def formula(self, formula: Formula) -> Iterator[str]:
         if formula.optional and self.is_too_wide(formula.node):
             return
-        number = self.labels.get(formula.label)
-        kind = "result" if formula.label else "work"
-        anchor = f' id="eq-{formula.label}"' if number else ""
-        beside = f'<span class="n">({number})</span>' if number else ""
+        label = formula.label
+        kind = "result" if label else "work"
+        anchor = f' id="eq-{label}"' if label else ""
+        beside = self.number(label) if label else ""
         if formula.source:
             beside = f"<cite>{self.words(formula.source)}</cite>{beside}"
         yield f'<div class="formula {kind}"{anchor}><div class="box">'
         yield from self.lines(formula.node, formula)
         yield f"</div>{beside}</div>\n"
+
+    def number(self, label: str) -> str:
+        """The number beside a formula, at each level of detail its own."""
+        numbers = self.by_level(lambda numbers: f"({numbers[label]})")
+        return "".join(f'<span class="{f"n {classes}".strip()}">{text}</span>' for text, classes in numbers)
 
     def lines(self, node: Node, formula: Formula) -> Iterator[str]:
         """A formula on the page: whole, or in pieces; a matrix that no page shows whole, entry by entry."""
@@ -253,10 +277,6 @@ class _Page(MarkupPage):
             names = [entry_name(i, j, matrix, left, formula) for i, j in places]
             yield self.broken(equation(*names, value))
         yield "</div>"
-
-    def has_levels(self) -> bool:
-        """Whether there are steps of different levels of detail to choose between."""
-        return len({level for entry in self.entries for _, _, level in entry.steps}) > 1
 
     def contents(self) -> str:
         """The table of contents."""

@@ -228,7 +228,7 @@ class _Page(TypesetPage):
         else:
             yield from _aligned(self.unnumbered.equations(equations.nodes), "")
 
-    def reference(self, label: str) -> str:
+    def reference(self, label: str, number: int) -> str:
         return f"\\eqref{{{self.prefix}:{label}}}"
 
     def uses(self, sentence: str) -> Iterator[str]:

@@ -63,9 +63,7 @@ class Page(ABC, Generic[_Piece]):
             case Equations():
                 yield from self.equations(block)
             case Uses(labels):
-                if references := [self.references(run) for run in runs(labels, self.labels)]:
-                    last = " and " * (len(references) > 1) + references[-1]
-                    yield from self.uses(f"With {', '.join(references[:-1])}{last}:")
+                yield from self.used(labels)
             case List(items):
                 yield from self.list(items)
             case Note(parts):
@@ -93,15 +91,27 @@ class Page(ABC, Generic[_Piece]):
     def equations(self, equations: Equations) -> Iterator[_Piece]:
         """Equations in one display."""
 
-    def reference(self, label: str) -> str:
-        """A reference to a numbered formula."""
-        return f"({self.labels[label]})"
+    def leading_on(self, labels: Sequence[str], numbers: Mapping[str, int]) -> str:
+        """With (3) and (7): the results used in the next formula, empty where none of them has a number."""
+        references = [self.references(run, numbers) for run in runs(labels, numbers)]
+        if not references:
+            return ""
+        last = " and " * (len(references) > 1) + references[-1]
+        return f"With {', '.join(references[:-1])}{last}:"
 
-    def references(self, run: Sequence[str]) -> str:
+    def references(self, run: Sequence[str], numbers: Mapping[str, int]) -> str:
         """References to formulas whose numbers follow each other: (3) to (7)."""
-        if len(run) == 1:
-            return self.reference(run[0])
-        return f"{self.reference(run[0])} to {self.reference(run[-1])}"
+        first, last = (self.reference(label, numbers[label]) for label in (run[0], run[-1]))
+        return first if len(run) == 1 else f"{first} to {last}"
+
+    def reference(self, label: str, number: int) -> str:
+        """A reference to a numbered formula."""
+        return f"({number})"
+
+    def used(self, labels: Sequence[str]) -> Iterator[_Piece]:
+        """The results used in the next formula, where they have numbers."""
+        if sentence := self.leading_on(labels, self.labels):
+            yield from self.uses(sentence)
 
     @abstractmethod
     def uses(self, sentence: str) -> Iterator[_Piece]:

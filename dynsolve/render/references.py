@@ -11,10 +11,15 @@ from textwrap import shorten
 from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Text, Uses
 
 
-def numbered(document: Document) -> dict[str, int]:
-    """The number of each labelled formula, from 1."""
-    labels = dict.fromkeys(f.label for f in formulas(document.blocks) if f.label)
+def numbered(document: Document, level: int | None = None) -> dict[str, int]:
+    """The number of each labelled formula, from 1; of those alone that an account of `level` shows."""
+    labels = dict.fromkeys(f.label for f in formulas(document.blocks, level) if f.label)
     return {label: number for number, label in enumerate(labels, start=1)}
+
+
+def levels(document: Document) -> tuple[int, ...]:
+    """The levels of detail of its folds."""
+    return tuple(sorted({block.level for block in document.blocks if isinstance(block, Fold)}))
 
 
 _MANY_SECTIONS = 5
@@ -58,18 +63,18 @@ def runs(labels: Iterable[str], numbers: Mapping[str, int]) -> list[list[str]]:
     return [part for run in found for part in ([run] if len(run) > 2 else [[label] for label in run])]
 
 
-def formulas(blocks: Iterable[Block]) -> Iterator[Formula]:
-    """The displayed formulas, those in folds too."""
-    return (block for block in _unfolded(blocks) if isinstance(block, Formula))
+def formulas(blocks: Iterable[Block], level: int | None = None) -> Iterator[Formula]:
+    """The displayed formulas, those in folds too; in folds of up to `level` alone."""
+    return (block for block in _unfolded(blocks, level) if isinstance(block, Formula))
 
 
-def _unfolded(blocks: Iterable[Block]) -> Iterator[Block]:
-    """The blocks, in place of a fold those in it."""
+def _unfolded(blocks: Iterable[Block], level: int | None = None) -> Iterator[Block]:
+    """The blocks, in place of a fold those in it, or nothing where it belongs to a higher level."""
     for block in blocks:
-        if isinstance(block, Fold):
-            yield from _unfolded(block.blocks)
-        else:
+        if not isinstance(block, Fold):
             yield block
+        elif level is None or block.level <= level:
+            yield from _unfolded(block.blocks, level)
 
 
 def with_results(blocks: Sequence[Block]) -> list[Block]:

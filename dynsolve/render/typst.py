@@ -161,8 +161,8 @@ class _Page(TypesetPage):
         else:
             yield _display(self.unnumbered.equations(equations.nodes), "")
 
-    def reference(self, label: str) -> str:
-        return f"#link(<eq-{label}>)[{super().reference(label)}]"
+    def reference(self, label: str, number: int) -> str:
+        return f"#link(<eq-{label}>)[{super().reference(label, number)}]"
 
     def uses(self, sentence: str) -> Iterator[str]:
         yield f"#block(sticky: true)[{sentence}]"

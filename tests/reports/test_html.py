@@ -10,7 +10,7 @@ import pytest
 from dynsolve.solution.reports import Format
 from tests.reports.browser import Page, chromium
 from tests.reports.tools import HOSTILE_PROBLEM, SEEN, made
-from tests.support import LIBRARY
+from tests.support import ALL_PROBLEMS, LIBRARY
 
 pytestmark = pytest.mark.browser
 
@@ -128,6 +128,34 @@ def test_levels_of_detail_and_folds_work_without_a_script(page: Page, tmp_path: 
     page.ask("document.querySelector('details.step summary').click()")
     assert page.ask("document.querySelector('details.step').open") is False
     assert page.ask("document.querySelectorAll('script').length") == 0
+
+
+SEEN_NUMBERS = """
+[...document.querySelectorAll('.n')].filter(e => e.checkVisibility()).map(e => e.textContent)
+"""
+SEEN_REFERENCES = """
+[...document.querySelectorAll('.uses a')].filter(e => e.checkVisibility()).map(e => {
+  const target = document.querySelector(e.getAttribute('href'));
+  const beside = [...target.querySelectorAll('.n')].filter(n => n.checkVisibility());
+  return [e.textContent, beside.map(n => n.textContent).join()] })
+"""
+
+
+@pytest.mark.parametrize("name", ["planar-2r", "inf3480-rpr"])
+def test_at_each_level_numbers_have_no_gaps_and_references_are_to_what_is_seen(
+    name: str, page: Page, tmp_path: Path
+) -> None:
+    page.open(saved(next(p for p in ALL_PROBLEMS if p.stem == name), tmp_path), 1200)
+    counts = []
+    for level in ("brief", "normal", "full"):
+        page.ask(f"document.querySelector('label[for={level}]').click()")
+        numbers = page.ask(SEEN_NUMBERS)
+        assert numbers == [f"({k})" for k in range(1, len(numbers) + 1)]
+        counts.append(len(numbers))
+        references = page.ask(SEEN_REFERENCES)
+        assert [said for said, beside in references if said != beside] == []
+        assert (len(references) > 10) is (level != "brief")
+    assert 5 < counts[0] < counts[1] <= counts[2]
 
 
 def test_every_link_leads_somewhere_on_the_page(page: Page, tmp_path: Path) -> None:
