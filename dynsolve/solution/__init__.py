@@ -14,6 +14,7 @@
     table_export    the Denavit-Hartenberg table as JSON has it
     documents       a solution as a document: stages, steps, numbers
     earlier_results which of the equations before it a step uses
+    said_once       what holds for several bodies alike, said of the first
     summary         its closing section: the model, its matrices, the forces row by row
     reports         that document as text, LaTeX, PDF, HTML or Markdown
 

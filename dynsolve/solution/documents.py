@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import (
@@ -30,6 +31,7 @@ from dynsolve.quantities.index import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.earlier_results import EarlierResults, labelled_results
+from dynsolve.solution.said_once import SaidOnce
 from dynsolve.solution.summary import summary_blocks
 
 CONVENTIONS = {
@@ -115,7 +117,7 @@ def _stages(
     """Stages and their steps, numbered as in the whole derivation."""
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     numbers = {stage: number for number, stage in enumerate(stages_of(solution.robot), 1)}
-    earlier = EarlierResults()
+    earlier, said = EarlierResults(), SaidOnce()
     stage: Stage | None = None
     place, extra = 0, 0
     heading: Heading | None = None
@@ -138,7 +140,8 @@ def _stages(
                 yield heading
                 heading = None
             uses = inputs.get(step.id, ()) if step.uses is None else step.uses
-            blocks = tuple(step_blocks(step, detail, earlier.used(step, uses)))
+            told = replace(step, why=said.why(step))
+            blocks = tuple(step_blocks(told, detail, earlier.used(step, uses)))
             yield Fold(f"{number} {step.title}", blocks, step.detail)
         earlier.add(step)
 
