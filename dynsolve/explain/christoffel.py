@@ -32,21 +32,25 @@ MOST_ZEROS = 20
 _I, _J, _K = (Symbol(name) for name in "ijk")
 
 
+def _d(*indices: Node) -> Letter:
+    return Letter("d", Row(indices))
+
+
+SLOPES = Parenthesized(
+    Sum((
+        letters.partial_derivative(_d(_K, _J), Letter("q", _I)),
+        letters.partial_derivative(_d(_K, _I), Letter("q", _J)),
+        Negative(letters.partial_derivative(_d(_I, _J), Letter("q", _K))),
+    ))
+)  # fmt: skip
+"""Twice c_ijk, by the derivatives of D."""
+
+
 def christoffel_step(context: Context) -> Step:
     """c_ijk = ½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k), those that are not zero."""
     n = context.robot.n
     nonzero, zero = _sorted_symbols(context)
-    general = equation(
-        Letter("c", Row((_I, _J, _K))),
-        Product((
-            letters.HALF,
-            Parenthesized(Sum((
-                letters.partial_derivative(_d(_K, _J), Letter("q", _I)),
-                letters.partial_derivative(_d(_K, _I), Letter("q", _J)),
-                Negative(letters.partial_derivative(_d(_I, _J), Letter("q", _K))),
-            ))),
-        )),
-    )  # fmt: skip
+    general = equation(Letter("c", Row((_I, _J, _K))), Product((letters.HALF, SLOPES)))
     results = tuple(_symbol(context, *indices) for indices in nonzero)
     way = derivatives.slopes(context)
     return Step(
@@ -65,10 +69,6 @@ def christoffel_step(context: Context) -> Step:
         ),
         notes=tuple(_zero_note(zero)) if nonzero else (),
     )
-
-
-def _d(*indices: Node) -> Letter:
-    return Letter("d", Row(indices))
 
 
 def _christoffel_why(n: int, count: int) -> Prose:

@@ -11,8 +11,9 @@ from dynsolve.explain.jacobian import ZERO, coordinate_column
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import kinetic
 from dynsolve.explain.working.proved import SILENT
-from dynsolve.explain.writing import is_small, listed, name_of, side_by_side, spong
+from dynsolve.explain.writing import are_counted, is_small, listed, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
+    BigSum,
     Function,
     Letter,
     Matrix,
@@ -21,6 +22,7 @@ from dynsolve.notation.tree import (
     Number,
     Power,
     Product,
+    Row,
     Sum,
     Symbol,
     Transpose,
@@ -144,11 +146,10 @@ def _leads_with_minus(expr: Expr) -> bool:
 
 
 def _total(context: Context, name: str, kind: str, letter: Letter, parts: list[Letter]) -> Step:
-    members: list[Node] = [letter]
-    if len(parts) > 1:
-        members.append(Sum(tuple(parts)))
-    else:
-        members.append(parts[0])
+    members: list[Node] = [letter, Sum(tuple(parts)) if len(parts) > 1 else parts[0]]
+    weightless = name == "P" and context.robot.gravity.is_zero
+    if are_counted(context.robot.bodies) and len(parts) > 1 and not weightless:
+        members.append(_summed(context, name))
     notes: tuple[Prose, ...] = ()
     if name == "K":
         notes = (("Each body has its kinetic energy, but each joint its torque or force, below.",),)
@@ -163,6 +164,20 @@ def _total(context: Context, name: str, kind: str, letter: Letter, parts: list[L
         notes=notes,
         detail=Detail.BRIEF,
     )
+
+
+def _summed(context: Context, name: str) -> Node:
+    """The sum over the bodies of -m_i g₀ᵀ r_ci, or of ½ m_i v_iᵀ v_i + ½ ω_iᵀ I_i ω_i."""
+    i, bodies = Symbol("i"), context.robot.bodies
+    count, mass = Number(len(bodies)), Letter("m", i)
+    if name == "P":
+        center = letters.bold("r", Row((Words("c"), i)))
+        return Negative(BigSum(Product((mass, Transpose(letters.GRAVITY), center)), i, Number(1), count))
+    v, w = (letters.bold(base, i) for base in ("v", "omega"))
+    linear = Product((letters.HALF, mass, letters.transposed_product(v)))
+    angular = Product((letters.HALF, letters.transposed_product(w, Letter("I", i, style="script"))))
+    turning = any(not body.is_point for body in bodies)
+    return BigSum(Sum((linear, angular)) if turning else linear, i, Number(1), count)
 
 
 # -- kinetic energy --------------------------------------------------------------------------------

@@ -98,6 +98,7 @@ def _rows(context: Context) -> Step:
         why=("The matrix with the entries of each row.",),
         result=tuple(equation(letters.A(joint.index), context.form(f"A{joint.index}")) for joint in joints),
         together=True,
+        detail=Detail.BRIEF,
         uses=(),
     )
 
@@ -125,6 +126,7 @@ def _columns(context: Context) -> Step:
         ),
         formula=side_by_side([equation(name, kinds[kind][1]) for kind in present]),
         source=spong("4.6.3"),
+        detail=Detail.BRIEF,
         uses=("axes",),
     )
 
@@ -151,6 +153,7 @@ def _mass_centers(context: Context) -> Step:
         source=spong("2.6"),
         result=tuple(given),
         together=True,
+        detail=Detail.BRIEF,
         uses=(),
     )
 
@@ -178,6 +181,7 @@ def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
         source=spong("7.2.1"),
         result=tuple(given),
         together=True,
+        detail=Detail.BRIEF,
         uses=(),
     )
 
@@ -198,6 +202,7 @@ def _potential(context: Context) -> Step:
         source=spong("7.2.3"),
         result=tuple(equation(letters.of_body("P", body), context.form(f"P{body.name}")) for body in bodies),
         listed=True,
+        detail=Detail.BRIEF,
         uses=(),
     )
 
@@ -222,6 +227,7 @@ def _kinetic(context: Context) -> Step:
         formula=side_by_side(velocities),
         source=spong("7.2.2"),
         result=(equation(Letter("K", _I), Sum((linear, rotational))),),
+        detail=Detail.BRIEF,
         uses=(),
     )
 

@@ -11,6 +11,7 @@ from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import block_of, column_of, craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
     Cross,
@@ -233,6 +234,9 @@ def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
 
 def _whole(context: Context) -> Step:
     Jv, Jw = context.form("Jv"), context.form("Jw")
+    in_letters: list[Node] = [letters.J, column(letters.JV, letters.JW)]
+    if context.robot.n <= MOST_JOINTS:
+        in_letters.append(_columns_in_letters(context))
     return Step(
         id="J",
         stage=STAGE,
@@ -244,7 +248,7 @@ def _whole(context: Context) -> Step:
             equation(letters.bold("omega"), Product((letters.JW, letters.QD))),
             " for all velocities of the joints.",
         ),
-        formula=equation(letters.J, column(letters.JV, letters.JW)),
+        formula=equation(*in_letters),
         source=spong("4.6.3"),
         result=(equation(letters.JV, Jv), equation(letters.JW, Jw)),
         also=("Jw",),
@@ -252,6 +256,13 @@ def _whole(context: Context) -> Step:
         notes=tuple(_notes(context)),
         detail=Detail.BRIEF,
     )
+
+
+def _columns_in_letters(context: Context) -> Matrix:
+    """[z × (o_n - o) ...; z ...], a column a coordinate."""
+    last = len(context.robot.joints)
+    columns = [coordinate_column(context, k, last, letters.o(last)) for k in range(context.robot.n)]
+    return Matrix(tuple(zip(*(column for column in columns if column), strict=True)))
 
 
 def _notes(context: Context) -> Iterator[Prose]:

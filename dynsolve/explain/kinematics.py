@@ -170,6 +170,7 @@ def _base(context: Context) -> Step:
         ),
         source=spong("2.7"),
         result=(equation(letters.H(context.robot, 0), context.form("H0")),),
+        detail=Detail.BRIEF,
     )
 
 
@@ -220,6 +221,7 @@ def _general(context: Context) -> Step:
         ),
         formula=equation(Letter("A", i, style="bold"), product, matrix),
         source=spong("3.2") if context.standard else craig("3.5"),
+        detail=Detail.BRIEF,
     )
 
 
@@ -298,7 +300,7 @@ def _frame(context: Context, i: int) -> Step:
         stage=STAGE,
         title=f"Frame {i} seen from the {context.ground}",
         why=_frame_why(context) if last else _OUTWARDS,
-        formula=equation(name, Product(tuple(chain))) if len(chain) > 2 else None,
+        formula=equation(name, Product(tuple(chain))) if last or len(chain) > 2 else None,
         source=_products(context),
         working=(equation(*members),),
         concluding=product_named(context, *(context.values[key] for key in (f"H{i - 1}", f"A{i}", f"H{i}"))),

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 from dynsolve.document import Prose
 from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
-from dynsolve.explain.christoffel import christoffel_step
+from dynsolve.explain.christoffel import SLOPES, christoffel_step
 from dynsolve.explain.closing import closing_step
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_sums
-from dynsolve.explain.writing import and_joined, spong
+from dynsolve.explain.writing import and_joined, are_counted, spong
 from dynsolve.notation.tree import (
     BigSum,
     Letter,
@@ -164,8 +164,7 @@ def _inertia_direct(context: Context) -> Step:
 def _named_otherwise(robot: Robot) -> str:
     """Which bodies there are, where they are not called 1, 2, ..., as a sum counts them."""
     names = [body.name for body in robot.bodies]
-    counted = names == [str(place) for place in range(1, len(names) + 1)]
-    return "" if counted else f" {and_joined(names)}, counted in this order"
+    return "" if are_counted(robot.bodies) else f" {and_joined(names)}, counted in this order"
 
 
 def _is_short(context: Context) -> bool:
@@ -200,8 +199,9 @@ def _part(context: Context, body: Body) -> Step:
 
 
 def _coriolis(context: Context) -> Step:
-    entry = Letter("c", Row((_K, _J)))
-    body = Product((Letter("c", Row((_I, _J, _K))), Letter("q", _I, dots=1)))
+    entry, rate = Letter("c", Row((_K, _J))), Letter("q", _I, dots=1)
+    by_symbols = BigSum(Product((Letter("c", Row((_I, _J, _K))), rate)), _I, Number(1), _N)
+    by_slopes = Product((letters.HALF, BigSum(Product((SLOPES, rate)), _I, Number(1), _N)))
     Cqd = Product((letters.C, letters.QD))
     none = context.values["C"].is_zero
     why: Prose = ("Row k, column j. ", Cqd, " holds the centrifugal terms (a rate squared)")
@@ -212,7 +212,7 @@ def _coriolis(context: Context) -> Step:
         stage=STAGE,
         title="C, from the Christoffel symbols",
         why=why,
-        formula=equation(entry, BigSum(body, _I, Number(1), _N)),
+        formula=equation(entry, by_symbols, by_slopes),
         source=spong("7.3"),
         lines=coriolis_sums(context),
         result=(equation(letters.C, context.form("C")),),

@@ -26,6 +26,11 @@ def name_of(body: Body) -> str:
     return f"body {body.name}"
 
 
+def are_counted(bodies: Sequence[Body]) -> bool:
+    """Whether bodies are called 1, 2, ..., as a sum over them counts."""
+    return [body.name for body in bodies] == [str(place) for place in range(1, len(bodies) + 1)]
+
+
 def listed(parts: Sequence[Prose | Node | str], conjunction: str = "and") -> Prose:
     """a, b and c
 

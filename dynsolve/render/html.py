@@ -229,7 +229,7 @@ class _Page(MarkupPage):
         if formula.optional and self.is_too_wide(formula.node):
             return
         label = formula.label
-        kind = "result" if label else "work"
+        kind = "result" if label else "law" if formula.source else "work"
         anchor = f' id="eq-{label}"' if label else ""
         beside = self.number(label) if label else ""
         if formula.source:

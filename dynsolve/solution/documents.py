@@ -94,8 +94,7 @@ def _sources(steps: Iterable[Step], detail: Detail, short: Abbreviated | None) -
     """The references that a report makes."""
     if short is not None and short.constants:
         yield KHALIL_DOMBRE.section("9.4")
-    if detail > Detail.BRIEF:
-        yield from (step.source for step in steps if step.formula is not None and step.detail <= detail)
+    yield from (step.source for step in steps if step.formula is not None and step.detail <= detail)
 
 
 def _opening(solution: Dynamics, sources: Iterable[str]) -> Iterator[Block]:
@@ -183,7 +182,7 @@ def _defined(definition: Definition) -> Relation:
 
 
 def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Iterator[Block]:
-    """A step: in brief its result alone, in full with its working and notes.
+    """A step: in brief its result and the formula that it comes from, else with its reason, way and notes.
 
     `inputs` names what its result is computed from.
     """
@@ -193,6 +192,8 @@ def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Ite
         yield Table(step.table.header, step.table.rows)
     if detail > Detail.BRIEF:
         yield from _way(step, inputs)
+    elif step.formula is not None:
+        yield Formula(step.formula, step.source)
     if step.listed:
         yield Equations(step.result, in_columns=True)
     for result, label in labelled_results(step):

@@ -103,6 +103,14 @@ def test_in_brief_every_stage_has_its_result(solution: dynsolve.Solution) -> Non
         )
 
 
+def test_in_brief_a_result_stands_with_the_formula_that_it_comes_from(solution: dynsolve.Solution) -> None:
+    """H, J, the bodies, the energies, L, the forces, D, C and g; the table is what all begins with."""
+    for fold in solution_document(solution, Detail.BRIEF).blocks:
+        if isinstance(fold, Fold) and not fold.title.startswith("1.1 "):
+            first = fold.blocks[0]
+            assert isinstance(first, Formula) and first.source and not first.label, fold.title
+
+
 TYPED = r"2m₁ q_1 $x$ `b` <i> \frac{1}{2} | # 50%"
 
 
