@@ -43,7 +43,7 @@ _I, _J, _K, _N = (Symbol(name) for name in "ijkn")
 
 def steps(context: Context) -> Iterator[Step]:
     """D, c_ijk, C and g; then the comparisons, and the whole model."""
-    from_energies = context.robot.questions.method is Method.LAGRANGE
+    from_energies = _from_energies(context)
     yield _inertia(context)
     yield _rest(context)
     if from_energies:
@@ -84,6 +84,11 @@ def _inertia(context: Context) -> Step:
     )
 
 
+def _from_energies(context: Context) -> bool:
+    """Whether the forces come from the Lagrangian, so that D and g follow from the energies too."""
+    return context.robot.questions.method is Method.LAGRANGE
+
+
 def _forces(context: Context) -> tuple[str, ...]:
     """The steps of the forces, by name."""
     return tuple(f"tau{q.index}" for q in context.robot.coordinates)
@@ -109,7 +114,7 @@ def _rest(context: Context) -> Step:
         ),
         source=spong("7.3"),
         result=(equation(Cqd, context.form("Cqd")), equation(letters.G, context.form("g"))),
-        also=("g",),
+        also=() if _from_energies(context) else ("g",),  # from the energies a step of its own gives g
         uses=(*_forces(context), "D"),
         hint=(
             "What is left of the forces without the accelerations: the terms with rates belong to C, the "
