@@ -87,8 +87,11 @@ class Checker:
         tables = [answer for answer in submission.answers if answer.name == TABLE]
         if not tables or len(tables) == len(submission.answers):
             return report
-        own = self.table_judge.own_problem(tables[-1])
-        return report if own is None else in_either(report, Judge(Checker(own), submission).report())
+        for own in self.table_judge.own_problems(tables[-1]):
+            if all(answer.verdict in RIGHT for answer in report.answers if answer.given):
+                break
+            report = in_either(report, Judge(Checker(own), submission).report())
+        return report
 
 
 def check(problem: Problem, submission: Submission, key: Derivation | None = None) -> Report:
@@ -226,6 +229,7 @@ class Judge:
 
 
 IN_OWN_FRAMES = "in your own frames"
+RIGHT = (Verdict.CORRECT, Verdict.FOLLOWS)
 
 
 def in_either(keys: Report, own: Report) -> Report:
@@ -240,8 +244,7 @@ def in_either(keys: Report, own: Report) -> Report:
 def _better(in_keys: JudgedAnswer | None, in_own: JudgedAnswer) -> JudgedAnswer:
     if in_keys is None or in_own.name == TABLE:
         return in_keys or in_own
-    order = (Verdict.CORRECT, Verdict.FOLLOWS)
-    ranks = [order.index(a.verdict) if a.verdict in order else len(order) for a in (in_keys, in_own)]
+    ranks = [RIGHT.index(a.verdict) if a.verdict in RIGHT else len(RIGHT) for a in (in_keys, in_own)]
     if ranks[0] < ranks[1]:
         return in_keys
     is_other = in_own.given and ranks[0] != ranks[1]

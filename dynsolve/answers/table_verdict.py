@@ -46,18 +46,17 @@ class TableJudge:
         told = (Occurrence(a.place, a.label, j.verdict) for a, j in zip(answers, judged, strict=True))
         return replace(judged[-1], occurrences=tuple(told))
 
-    def own_problem(self, answer: Answer) -> Problem | None:
-        """The problem in the frames of a right table; None where they are the key's, or it is wrong."""
+    def own_problems(self, answer: Answer) -> Iterator[Problem]:
+        """The problem in the frames of a right table, in every sense; none where they are the key's."""
         if not isinstance(answer.node, tree.Matrix):
-            return None
+            return
         try:
             table = read_table(answer.node.rows, self.problem.robot.coordinates)
             found = self.comparer(table)
         except TableError:
-            return None
-        if isinstance(found, Mismatch) or self.comparer.is_the_keys(table):
-            return None
-        return in_own_frames(self.problem, table, found, self.comparer.letters)
+            return
+        if isinstance(found, Agreement) and not self.comparer.is_the_keys(table):
+            yield from in_own_frames(self.problem, table, found, self.comparer.letters)
 
     def _judged(self, answer: Answer) -> JudgedAnswer:
         base = JudgedAnswer(

@@ -76,7 +76,7 @@ def with_questions(
         state_is_reached=parsed.reached_state is not None,
     )
     if questions.task is None and (parsed.rates or Stage.TASK in asked_stages(questions)):
-        questions = replace(questions, task=_default_task(robot))
+        questions = replace(questions, task=default_task(robot))
     if questions.task is not None and questions.task.reached:
         check_reach(values.faults, parsed.reach, len(questions.task.reached))
         questions = _with_target(values, robot, questions, parsed, written)
@@ -141,7 +141,7 @@ def _task(parsed: ParsedTask | None) -> Task | None:
     return Task(tuple(cell.tree for cell in parsed.cells), is_twist=parsed.is_twist, is_pose=parsed.is_pose)
 
 
-def _default_task(robot: Robot) -> Task:
+def default_task(robot: Robot) -> Task:
     """The coordinates of the tip that move."""
     tip = last_origin(robot)
     moving = [axis for axis in range(3) if robot.ring.depends_on_coordinates(tip[axis, 0])]

@@ -7,13 +7,13 @@ several random points to nine digits holds.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import degrees, pi, remainder
 from random import Random
 
 from dynsolve.answers.judging.mechanism.chains import Chain, NumberRow, chain_of
-from dynsolve.answers.judging.mechanism.matching import Match, Matching, Mismatch
+from dynsolve.answers.judging.mechanism.matching import Match, Matching, Mismatch, is_seen
 from dynsolve.answers.judging.mechanism.tables import Table, TableError, TableRow, key_table, read_table
 from dynsolve.notation.tree import Node, Number
 from dynsolve.notation.walk import names_in, walk
@@ -35,13 +35,15 @@ _TRIES = 200
 class OwnCoordinate:
     """A student's coordinate in the key's: q' = sense·q + offset, the same at every draw or None.
 
-    The offset is in degrees for an angle, a number for a length.
+    The offset is in degrees for an angle, a number for a length; `shifts` are those at each draw of
+    the letters, in radians.
     """
 
     name: str
     sense: int
     offset: float | None
     is_length: bool = False
+    shifts: tuple[float, ...] = ()
 
     @property
     def is_the_keys(self) -> bool:
@@ -51,11 +53,16 @@ class OwnCoordinate:
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """A table that is the key's mechanism: how it counts the coordinates, how it lies on the key's."""
+    """A table that is the key's mechanism: how it counts the coordinates, how it lies on the key's.
+
+    `others` are further ways in which it does: frame 0 turned by 90° and joint 1 counted from 90° on
+    are one table.
+    """
 
     coordinates: tuple[OwnCoordinate, ...]
     matches: tuple[Match, ...]
     is_rounded: bool = False
+    others: tuple[Agreement, ...] = ()
 
     @property
     def is_strict(self) -> bool:
@@ -87,7 +94,7 @@ class TableComparer:
         """
         self._check_joints(table)
         tolerance = ROUNDED if _holds_decimals(table) else TOLERANCE
-        matches: list[Match] = []
+        ways: list[tuple[Match, ...]] = []
         for letters, key in zip(self.letters, self._keys, strict=True):
             try:
                 student = self.chain(table, letters)
@@ -96,9 +103,40 @@ class TableComparer:
             found = Matching(key, student, self.base_is_free, tolerance).found()
             if isinstance(found, Mismatch):
                 return found
-            matches.append(found)
+            ways.append(found)
+        agreements = list(self._agreements(table, ways))
+        if not agreements:
+            return Mismatch(len(self.joints), "place")
         exact = tolerance == TOLERANCE or self._is_exact(table)
-        return Agreement(tuple(self._coordinates(table, matches)), tuple(matches), is_rounded=not exact)
+        return replace(agreements[0], is_rounded=not exact, others=tuple(agreements[1:]))
+
+    def _agreements(self, table: Table, ways: Sequence[Sequence[Match]]) -> Iterator[Agreement]:
+        """Every way in which the chains lie on each other alike at all draws of the letters.
+
+        z_0 is turned over only where the way with the fewest changes has it so.
+        """
+        seen: list[Match] = []
+        for first in ways[0]:
+            if first.is_turned_over != ways[0][0].is_turned_over:
+                continue
+            found = [next((m for m in draw if m.lies_like(first)), None) for draw in ways]
+            matches = [match for match in found if match is not None]
+            if len(matches) < len(ways) or any(map(first.lies_like, seen)):
+                continue
+            seen.append(first)
+            readings = [matches]
+            if self._may_be_unturned and any(is_seen(match.turn, turns=True) for match in matches):
+                readings.append([match.unturned() for match in matches])
+            for reading in readings:
+                coordinates = self._coordinates(table, reading)
+                if coordinates is not None:
+                    yield Agreement(coordinates, tuple(reading))
+
+    @property
+    def _may_be_unturned(self) -> bool:
+        """Whether a turn of frame 0 about its z is one of the first joint."""
+        first = self.joints[0]
+        return first.turns and abs(abs(first.direction[2]) - 1) < TOLERANCE
 
     def agrees(self, table: Table) -> int | None:
         """How many coordinates a right table counts otherwise than the key; None of a wrong one."""
@@ -126,7 +164,7 @@ class TableComparer:
 
     def _is_exact(self, table: Table) -> bool:
         student = self.chain(table, self.letters[0])
-        return isinstance(Matching(self._keys[0], student, self.base_is_free, TOLERANCE).found(), Match)
+        return isinstance(Matching(self._keys[0], student, self.base_is_free, TOLERANCE).found(), tuple)
 
     def _check_joints(self, table: Table) -> None:
         moving = [(i, row) for i, row in enumerate(table, 1) if row.variable is not None]
@@ -142,20 +180,40 @@ class TableComparer:
                     f"row {i} moves with {here}, where the robot's joint moves with {there}", i, column
                 )
 
-    def _coordinates(self, table: Table, matches: list[Match]) -> Iterator[OwnCoordinate]:
-        """How the student counts each coordinate that moves a joint by itself."""
-        mine = [row for row in table if row.variable is not None]
-        keys = [row for row in self.key if row.variable is not None]
-        for j, (row, theirs) in enumerate(zip(mine, keys, strict=True)):
-            if len(row.rates) != 1:
-                continue
-            ((k, rate),) = row.rates
-            ratio = int(theirs.rates[0][1] / rate)
-            q = self.robot.coordinates[k]
-            offsets = {self._offset(match.offsets[j] / float(rate), q.type) for match in matches}
-            offset = offsets.pop() if len(offsets) == 1 else None
-            is_length = q.type is JointType.PRISMATIC
-            yield OwnCoordinate(q.name, matches[0].senses[j] * ratio, offset, is_length)
+    def _coordinates(self, table: Table, matches: Sequence[Match]) -> tuple[OwnCoordinate, ...] | None:
+        """How the student counts the coordinates; none where it mixes them, None where no count is possible.
+
+        With R q the key's joint variables, and R' q' the student's, R' q' = S R q + o at every q.
+        """
+        import numpy as np
+
+        robot = self.robot
+        theirs, mine = (
+            np.array([_rates(row, robot.n) for row in rows if row.variable is not None])
+            for rows in (self.key, table)
+        )
+        senses = np.diag(matches[0].senses)
+        ways = np.linalg.lstsq(mine, senses @ theirs, rcond=None)[0]
+        shifts = [np.linalg.lstsq(mine, np.array(match.offsets), rcond=None)[0] for match in matches]
+        turns = [row.variable == 0 for row in table if row.variable is not None]
+        for match, shift in zip(matches, shifts, strict=True):
+            left = mine @ shift - np.array(match.offsets)
+            if any(is_seen(value, turn) for value, turn in zip(left, turns, strict=True)):
+                return None
+        if np.abs(mine @ ways - senses @ theirs).max(initial=0) > TOLERANCE:
+            return None
+        if np.abs(np.abs(ways) - np.eye(robot.n)).max(initial=0) > TOLERANCE:
+            return ()
+        return tuple(
+            self._counted(k, round(ways[k][k]), tuple(float(shift[k]) for shift in shifts))
+            for k in range(robot.n)
+        )
+
+    def _counted(self, k: int, sense: int, shifts: tuple[float, ...]) -> OwnCoordinate:
+        q = self.robot.coordinates[k]
+        offsets = {self._offset(shift, q.type) for shift in shifts}
+        offset = offsets.pop() if len(offsets) == 1 else None
+        return OwnCoordinate(q.name, sense, offset, q.type is JointType.PRISMATIC, shifts)
 
     @staticmethod
     def _offset(value: float, kind: JointType) -> float:
@@ -174,6 +232,12 @@ def _near(mine: NumberRow, theirs: NumberRow) -> bool:
     angles = ((mine.theta, theirs.theta), (mine.alpha, theirs.alpha))
     turned = max(abs(remainder(a - b, 2 * pi)) for a, b in angles)
     return max(turned, abs(mine.d - theirs.d), abs(mine.a - theirs.a)) < TOLERANCE
+
+
+def _rates(row: TableRow, n: int) -> list[float]:
+    """How a row's joint variable changes with each coordinate."""
+    found = dict(row.rates)
+    return [float(found.get(k, 0)) for k in range(n)]
 
 
 def _proportional(mine: TableRow, theirs: TableRow) -> bool:

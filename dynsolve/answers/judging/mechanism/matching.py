@@ -53,6 +53,26 @@ class Match:
     base: Rotation
     shift: Vector
 
+    @property
+    def is_turned_over(self) -> bool:
+        """Whether the student's z_0 points against the key's."""
+        return self.base[2][2] < 0
+
+    @property
+    def turn(self) -> float:
+        """The angle from the key's x_0 to the student's, in radians."""
+        return atan2(self.base[1][0], self.base[0][0])
+
+    def lies_like(self, other: Match) -> bool:
+        """Whether all axes point as in another match."""
+        return (self.senses, self.is_turned_over) == (other.senses, other.is_turned_over)
+
+    def unturned(self) -> Match:
+        """The same with x_0 along the key's, and the first joint, which turns, counted from elsewhere."""
+        turn = -self.turn if self.is_turned_over else self.turn
+        base = times(rodrigues((0.0, 0.0, 1.0), -self.turn), self.base)
+        return replace(self, base=base, offsets=(self.offsets[0] + turn, *self.offsets[1:]))
+
 
 @dataclass(frozen=True, slots=True)
 class Mismatch:
@@ -100,17 +120,17 @@ class Matching:
         self.key, self.student, self.base_is_free, self.tolerance = key, student, base_is_free, tolerance
         self.deepest = Mismatch(0, "direction")
 
-    def found(self) -> Match | Mismatch:
-        """The way in which the chains agree with the fewest changes, or where they part."""
+    def found(self) -> tuple[Match, ...] | Mismatch:
+        """The ways in which the chains agree, the fewest changes first, or where they part."""
         ways = (Match(t.senses, m[0], t.base, m[1]) for t in self._turnings(0, None) if (m := self._moved(t)))
-        found = list(islice(ways, _MOST_WAYS))
-        return min(found, key=self._changes) if found else self.deepest
+        return tuple(sorted(islice(ways, _MOST_WAYS), key=self._changes)) or self.deepest
 
-    def _changes(self, match: Match) -> int:
-        """How many joints are counted otherwise, and whether frame 0 is turned."""
+    def _changes(self, match: Match) -> tuple[int, bool]:
+        """How many joints are counted otherwise, frame 0 turned being one more; whether it is."""
         joints = zip(match.senses, match.offsets, self.key.joints, strict=True)
-        turned = abs(match.base[0][0] - 1) > _SEEN or abs(match.base[1][0]) > _SEEN
-        return turned + sum(sense < 0 or _is_seen(offset, joint.turns) for sense, offset, joint in joints)
+        turned = abs(match.turn) > _SEEN
+        changed = sum(sense < 0 or is_seen(offset, joint.turns) for sense, offset, joint in joints)
+        return turned + changed, turned
 
     def _fails(self, joint: int, reason: str) -> None:
         self.deepest = max(self.deepest, Mismatch(joint, reason), key=lambda found: found.depth)
@@ -240,7 +260,7 @@ class Matching:
         return tuple(sense * move for sense, move in zip(turned.senses, moves, strict=True)), shift
 
 
-def _is_seen(offset: float, turns: bool) -> bool:
+def is_seen(offset: float, turns: bool) -> bool:
     """Whether an offset is more than rounding, and of an angle no whole turn."""
     return abs(remainder(offset, 2 * pi) if turns else offset) > _SEEN
 

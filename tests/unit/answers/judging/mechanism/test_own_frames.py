@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import pi
 
+import numpy as np
 import pytest
 
 import dynsolve
@@ -84,7 +85,7 @@ def test_the_robot_in_other_frames_has_the_same_inertia_and_energy() -> None:
     """With q₁' = q₁ and q₂' = 90° - q₂: z_1 points the other way, and θ_2 starts from the vertical."""
     problem = read_problem(ARM)
     table = answer("DH", [["q1", "h", "0", "-90deg"], ["q2 - 90deg", "0", "l2", "180deg"]])
-    own = TableJudge(problem).own_problem(table)
+    own = next(TableJudge(problem).own_problems(table), None)
     assert own is not None
     ours, theirs = dynsolve.solve(own).to_json()["results"], dynsolve.solve(problem).to_json()["results"]
     values = {
@@ -101,3 +102,98 @@ def test_the_robot_in_other_frames_has_the_same_inertia_and_energy() -> None:
     mine, keys = values | {"q2": 1.1}, values | {"q2": pi / 2 - 1.1}
     assert_close(numbers(ours["D"], mine), numbers(theirs["D"], keys), "D")
     assert_close(numbers(ours["P"], mine), numbers(theirs["P"], keys), "P")
+
+
+# What is asked in the student's own frames, of arms with all that moves with the coordinates: a body
+# whose axes are given from the base, joints driven from afar, forces, a task and a state in coordinates.
+FROM_BASE = """
+dh: [{theta: q1*, d: h, alpha: 90deg}, {theta: q2*, a: l2}]
+masses:
+  - {mass: m1, link: 1, center: origin, inertia: {zz: I1}, axes: {base: Rz(q1)}}
+  - {mass: m2, link: 2, center: {near: [lc2, 0, 0]}, inertia: {yy: I2}, axes: {base: [
+      [cos(q1)*cos(q2), -sin(q1), -cos(q1)*sin(q2)], [sin(q1)*cos(q2), cos(q1), -sin(q1)*sin(q2)],
+      [sin(q2), 0, cos(q2)]]}}
+find: [DH, D, g, K, P]
+"""
+REMOTE = """
+gravity: [0, -g, 0]
+dh: [{theta: p1*, a: l1}, {theta: p2* - p1*, a: l2}]
+masses:
+  - {mass: m1, link: 1, center: {near: [lc1, 0, 0]}, inertia: {zz: I1}}
+  - {mass: m2, link: 2, center: {near: [lc2, 0, 0]}, inertia: {zz: I2}}
+find: [DH, D, g, K, P]
+"""
+LOADED = """
+dh: [{theta: q1*, d: h, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
+masses: [{mass: m3, link: 3, center: {along: 1/2}}]
+points: {A: {link: 2, at: {along: 1/2}}}
+task: [tip.x, tip.z, q2 + q3]
+velocity: [0, sin(q1), 1]
+forces:
+  - {link: 3, at: tip, force: [Fx, Fy, -cos(q2)], moment: [0, 0, M]}
+  - {link: 2, at: {along: 1/2}, force: [0, N, 0], in: link}
+find: [DH, r, Jr, Jr_dot, det, qd, pA, JvA, Q, tau_static, D, g]
+"""
+OTHER: dict[str, tuple[str, list[list[str]], dict[str, tuple[int, float]]]] = {
+    # problem, table, the key's coordinates in the student's: q = sense q' + shift
+    "axes from the base": (
+        FROM_BASE, [["q1 + 90deg", "0", "0", "-90deg"], ["q2 - 90deg", "0", "l2", "0"]],
+        {"q2": (-1, pi / 2)}),
+    "driven from afar": (
+        REMOTE, [["p1 + 90deg", "0", "l1", "0"], ["p2 - p1", "0", "l2", "0"]], {}),
+    "driven from afar, the other way": (
+        REMOTE, [["p1", "0", "l1", "180deg"], ["p1 - p2 + 90deg", "0", "l2", "0"]], {"p2": (1, -pi / 2)}),
+    "a task and forces": (
+        LOADED, [["q1", "h", "0", "-90deg"], ["q2 - 90deg", "0", "l2", "0"], ["q3", "0", "l3", "180deg"]],
+        {"q2": (-1, pi / 2), "q3": (-1, 0)}),
+}  # fmt: skip
+"""θ_1 + 90° of the arm that is driven from afar turns frame 0 alone: its coordinates are the key's."""
+
+
+@pytest.mark.parametrize(("text", "table", "keys"), OTHER.values(), ids=OTHER)
+def test_the_same_arm_in_other_frames(text: str, table: list[list[str]], keys: dict[str, str]) -> None:
+    """Energies are the same at the same place; forces and D as the coordinates turn."""
+    problem = read_problem(text)
+    own = next(TableJudge(problem).own_problems(answer("DH", table)))
+    ours, theirs = dynsolve.solve(own).to_json()["results"], dynsolve.solve(problem).to_json()["results"]
+    names = [q.name for q in problem.robot.coordinates]
+    mine = {name: 0.37 + 0.21 * k for k, name in enumerate([*problem.robot.parameters, *names])}
+    there = mine | {name: sense * mine[name] + shift for name, (sense, shift) in keys.items()}
+    senses = np.array([keys.get(name, (1, 0))[0] for name in names])
+    D = np.array(numbers(theirs["D"], there)) * np.outer(senses, senses)
+    assert_close(numbers(ours["D"], mine), D, "D")
+    for name in {"g", "Q", "tau_static"} & theirs.keys():
+        forces = np.array(numbers(theirs[name], there)).ravel() * senses
+        assert_close(np.array(numbers(ours[name], mine)).ravel(), forces, name)
+
+
+UPRIGHT = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+task: [tip.x, tip.y]
+find: [DH, H1, r, g]
+"""
+BELOW: Text = [["l1*sin(q1) + l2*sin(q1 + q2)"], ["-l1*cos(q1) - l2*cos(q1 + q2)"]]
+AS_DRAWN: Text = [["l1*cos(q1) + l2*cos(q1 + q2)"], ["l1*sin(q1) + l2*sin(q1 + q2)"]]
+FROM_BELOW: list[list[str]] = [["q1 - 90deg", "0", "l1", "0"], ["q2", "0", "l2", "0"]]
+
+
+@pytest.mark.parametrize(
+    ("r", "g2"),
+    [
+        (BELOW, "m2*g*l2*sin(q1 + q2)"),  # q1 is counted from below, x_0 kept
+        (BELOW, "m2*g*l2*cos(q1 + q2)"),  # x_0 points up, q1 is the key's
+        (AS_DRAWN, "m2*g*l2*cos(q1 + q2)"),  # x_0 points up, positions seen as drawn
+    ],
+)
+def test_a_table_may_be_meant_in_two_ways(r: Text, g2: str) -> None:
+    """θ_1 - 90°: joint 1 counted from elsewhere, or frame 0 turned."""
+    report = checker(UPRIGHT)(submission({"DH": FROM_BELOW, "r": r, "g2": g2}))
+    given = {a.name: str(a.verdict) for a in report.answers if a.given}
+    assert given == dict.fromkeys(("DH", "r", "g2"), "correct")
+
+
+def test_a_wrong_sign_is_wrong_in_every_way() -> None:
+    report = checker(UPRIGHT)(submission({"DH": FROM_BELOW, "g2": "-m2*g*l2*sin(q1 + q2)"}))
+    assert report.first_wrong == "g2"
