@@ -6,7 +6,8 @@ the square part M where they meet; its pseudoinverse is
     J⁺ = Rᵀ (R Rᵀ)⁻¹ M (Bᵀ B)⁻¹ Bᵀ,
 
 which is J⁻¹ of a square matrix of full rank, Jᵀ (J Jᵀ)⁻¹ of one with independent rows and
-(Jᵀ J)⁻¹ Jᵀ of one with independent columns.  Ranks are those for general values of what is
+(Jᵀ J)⁻¹ Jᵀ of one with independent columns.  Where lengths are xᵀ W x, the part on the left is
+W⁻¹ Rᵀ (R W⁻¹ Rᵀ)⁻¹ in place of Rᵀ (R Rᵀ)⁻¹.  Ranks are those for general values of what is
 left as a symbol.
 
 Golub, Van Loan, Matrix Computations, section 5.5; Ben-Israel, Greville, Generalized Inverses, 1.6.
@@ -65,8 +66,13 @@ def adjugate(matrix: Matrix) -> Matrix:
     return Matrix.of(matrix.ring, ([entry(i, j) for j in size] for i in size))
 
 
-def pseudoinverse_times(matrix: Matrix, right: Matrix) -> Matrix | FractionMatrix:
-    """J⁺ b: the solution of J x = b; of many the shortest; of none what is nearest to one."""
+def pseudoinverse_times(
+    matrix: Matrix, right: Matrix, weights: Matrix | None = None
+) -> Matrix | FractionMatrix:
+    """J⁺ b: the solution of J x = b; of many the shortest; of none what is nearest to one.
+
+    With `weights` W, symmetric and positive definite, the shortest is that with the least xᵀ W x.
+    """
     found, ring = rank_parts(matrix), matrix.ring
     height, width = matrix.shape
     if not found.rank:
@@ -83,8 +89,9 @@ def pseudoinverse_times(matrix: Matrix, right: Matrix) -> Matrix | FractionMatri
         squares = B.T @ B
         value = part(matrix, found.rows, found.columns) @ adjugate(squares) @ B.T @ right
         divisor = determinant(squares)
-    squares = R @ R.T
-    return quotient(R.T @ adjugate(squares) @ value, divisor * determinant(squares))
+    lifted = R.T if weights is None else adjugate(weights) @ R.T  # a factor of W⁻¹ cancels
+    squares = R @ lifted
+    return quotient(lifted @ adjugate(squares) @ value, divisor * determinant(squares))
 
 
 def is_solvable(matrix: Matrix, right: Matrix) -> bool:

@@ -75,19 +75,24 @@ def rate_rules(robot: Robot) -> Iterator[Rule]:
     at = AtState(robot.ring, asked.state.by_symbol)
     velocity, acceleration = asked.velocity, asked.acceleration
 
-    def joint_rates(J: Matrix) -> Matrix | FractionMatrix | Skipped:
-        assert velocity is not None
-        return rates.joint_rates(at.matrix(J), at.matrix(velocity))
+    inertia = ("D",) if asked.weighs_by_inertia else ()
 
-    def joint_accelerations(J: Matrix, J_dot: Matrix) -> Matrix | FractionMatrix | Skipped:
+    def weights(D: tuple[Matrix, ...]) -> Matrix | None:
+        return at.matrix(D[0]) if D else asked.weights
+
+    def joint_rates(J: Matrix, *D: Matrix) -> Matrix | FractionMatrix | Skipped:
+        assert velocity is not None
+        return rates.joint_rates(at.matrix(J), at.matrix(velocity), weights(D))
+
+    def joint_accelerations(J: Matrix, J_dot: Matrix, *D: Matrix) -> Matrix | FractionMatrix | Skipped:
         assert acceleration is not None
         wanted = rates.wanted_by_accelerations(robot, acceleration, J_dot)
-        return rates.joint_rates(at.matrix(J), at.matrix(wanted))
+        return rates.joint_rates(at.matrix(J), at.matrix(wanted), weights(D))
 
     if velocity is not None:
-        yield Rule("qd", ("Jr",), joint_rates)
+        yield Rule("qd", ("Jr", *inertia), joint_rates)
     if acceleration is not None:
-        yield Rule("qdd", ("Jr", "Jr_dot"), joint_accelerations)
+        yield Rule("qdd", ("Jr", "Jr_dot", *inertia), joint_accelerations)
     if Stage.RATES in asked_stages(asked):
         yield Rule("nullspace", ("Jr",), lambda J: rates.motions_without_effect(at.matrix(J)))
         yield Rule("rangespace", ("Jr",), lambda J: rates.possible_motions(at.matrix(J)))

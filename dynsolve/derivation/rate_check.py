@@ -2,7 +2,7 @@
 
 The Jacobian is taken as it is printed, for `kinematic_check` has held it to the motion of the
 arm.  Rates x for a velocity b are right where Jᵀ (J x - b) = 0, so that no others come nearer
-to b, and where they are a sum of rows of J, so that none of those are shorter.
+to b, and where W x is a sum of rows of J, so that none of those have a lesser xᵀ W x.
 """
 
 from __future__ import annotations
@@ -39,6 +39,7 @@ def rate_names(robot: Robot, wanted: frozenset[str]) -> tuple[str, ...]:
     if not asked:
         return ()
     needed = {whole_or_task(robot), "Jr"} | ({"Jr_dot"} if "qdd" in asked else set())
+    needed |= {"D"} if robot.questions.weighs_by_inertia else set()
     return tuple(dict.fromkeys((*(name for name in sorted(needed) if name in wanted), *asked)))
 
 
@@ -91,11 +92,21 @@ def eliminated(rows: list[Vector]) -> float:
 def _rates(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
     asked, rates = robot.questions, [values[q.velocity] for q in robot.coordinates]
     if "qd" in ours and asked.velocity is not None:
-        yield "qd", _gap(ours["Jr"], _flat(ours["qd"]), _numbers(robot, asked.velocity, values))
+        wanted = _numbers(robot, asked.velocity, values)
+        yield "qd", _gap(ours["Jr"], _flat(ours["qd"]), wanted, _weights(robot, values, ours))
     if "qdd" in ours and asked.acceleration is not None:
         wanted = _numbers(robot, asked.acceleration, values)
         wanted = [a - b for a, b in zip(wanted, _times(ours["Jr_dot"], rates), strict=True)]
-        yield "qdd", _gap(ours["Jr"], _flat(ours["qdd"]), wanted)
+        yield "qdd", _gap(ours["Jr"], _flat(ours["qdd"]), wanted, _weights(robot, values, ours))
+
+
+def _weights(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) -> Rows | None:
+    """W in numbers, None where all weights are 1."""
+    if robot.questions.weighs_by_inertia:
+        return [list(row) for row in ours["D"]]
+    if robot.questions.weights is None:
+        return None
+    return [[robot.ring.evaluate(entry, values) for entry in row] for row in robot.questions.weights.rows]
 
 
 def _spaces(ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
@@ -125,10 +136,10 @@ def _numbers(robot: Robot, column: Matrix, values: Mapping[str, float]) -> Vecto
     return [robot.ring.evaluate(entry, values) for entry in column.entries]
 
 
-def _gap(J: Rows, x: Vector, wanted: Vector) -> float:
+def _gap(J: Rows, x: Vector, wanted: Vector, weights: Rows | None) -> float:
     """How far x is from the shortest of the nearest to a solution, relative to its size."""
     left = [a - b for a, b in zip(_times(J, x), wanted, strict=True)]
-    across = list(x)
+    across = list(x) if weights is None else _times(weights, x)
     for row in _orthonormal(J):
         along = sum(a * b for a, b in zip(row, across, strict=True))
         across = [a - along * b for a, b in zip(across, row, strict=True)]

@@ -10,7 +10,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant, work
-from dynsolve.algebra.pseudoinverse import pseudoinverse_times
+from dynsolve.algebra.pseudoinverse import adjugate, pseudoinverse_times
 from dynsolve.algebra.spans import nullspace, rangespace
 from dynsolve.derivation.energy import velocities
 from dynsolve.derivation.graph import Skipped
@@ -44,11 +44,20 @@ def jacobian_determinant(jacobian: Matrix) -> Expr | Skipped:
     return Skipped(TOO_LARGE) if work(square) > MOST_PRODUCTS else determinant(square)
 
 
-def joint_rates(jacobian: Matrix, velocity: Matrix) -> Matrix | FractionMatrix | Skipped:
-    """q̇ = J⁺ ṙ, n×1."""
-    if work(squared(jacobian)) > MOST_PRODUCTS:
+def joint_rates(
+    jacobian: Matrix, velocity: Matrix, weights: Matrix | None = None
+) -> Matrix | FractionMatrix | Skipped:
+    """q̇ = J⁺ ṙ, n×1; of many the one with the least q̇ᵀ W q̇, where there are weights."""
+    square = squared(jacobian) if weights is None else weighted_square(jacobian, weights)
+    if work(square) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
-    return pseudoinverse_times(jacobian, velocity)
+    return pseudoinverse_times(jacobian, velocity, weights)
+
+
+def weighted_square(jacobian: Matrix, weights: Matrix) -> Matrix:
+    """J adj(W) Jᵀ, which is J W⁻¹ Jᵀ but for its factor det W; of one with more rows than columns Jᵀ J."""
+    rows, columns = jacobian.shape
+    return jacobian @ adjugate(weights) @ jacobian.T if rows < columns else squared(jacobian)
 
 
 def wanted_by_accelerations(robot: Robot, acceleration: Matrix, jacobian_rate: Matrix) -> Matrix:

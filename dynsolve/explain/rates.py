@@ -35,7 +35,7 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
 _R_DOT, _R_DDOT = letters.rate(letters.TASK), letters.bold("r", dots=2)
-_J, _JT = letters.J_TASK, Transpose(letters.J_TASK)
+_J, _JT, _W = letters.J_TASK, Transpose(letters.J_TASK), letters.WEIGHTS
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -97,12 +97,16 @@ def _rates(context: Context) -> Step:
         id="qd",
         stage=Stage.RATES,
         title="The rates of the joints",
-        why=(equation(_R_DOT, Product((_J, letters.QD))), *_solved_by(J, right), *state_prose(context)),
-        formula=equation(letters.QD, _inverse_times(J, right, _R_DOT)),
+        why=(
+            equation(_R_DOT, Product((_J, letters.QD))),
+            *_solved_by(context, J, right, letters.QD),
+            *state_prose(context),
+        ),
+        formula=equation(letters.QD, _inverse_times(context, J, right, _R_DOT)),
         source=spong("4.11"),
         working=tuple(_working(context, J, right, _R_DOT)),
         result=(equation(letters.QD, context.form("qd")),),
-        notes=tuple(_notes(J, right)),
+        notes=tuple(_notes(J, right, letters.QD)),
         detail=Detail.BRIEF,
     )
 
@@ -119,40 +123,53 @@ def _accelerations(context: Context) -> Step:
     why = (
         equation(_R_DDOT, Sum((Product((_J, letters.QDD)), turned))),
         ": what J̇ brings without the joints' accelerations is taken off first. The rest ",
-        *_solved_by(J, right), *state_prose(context),
+        *_solved_by(context, J, right, letters.QDD), *state_prose(context),
     )  # fmt: skip
     return Step(
         id="qdd",
         stage=Stage.RATES,
         title="The accelerations of the joints",
         why=why,
-        formula=equation(letters.QDD, _inverse_times(J, right, Parenthesized(wanted))),
+        formula=equation(letters.QDD, _inverse_times(context, J, right, Parenthesized(wanted))),
         source=spong("4.11"),
         working=(equation(wanted, context.show(right)), *_working(context, J, right, None)),
         result=(equation(letters.QDD, context.form("qdd")),),
-        notes=tuple(_notes(J, right)),
+        notes=tuple(_notes(J, right, letters.QDD)),
         detail=Detail.BRIEF,
     )
 
 
-def _solved_by(J: Matrix, right: Matrix) -> Prose:
+def _weights(context: Context) -> Matrix | None:
+    """W at the state, None where all weights are 1."""
+    asked = context.robot.questions
+    if not asked.weighs_by_inertia:
+        return asked.weights
+    return AtState(context.robot.ring, asked.state.by_symbol).matrix(context.values["D"])
+
+
+def _solved_by(context: Context, J: Matrix, right: Matrix, solved: Node) -> Prose:
     """How the system is solved, in words that end a sentence."""
     rank, (rows, columns) = rank_parts(J).rank, J.shape
     if rank == rows == columns:
         return (" has one solution. ",)
     if not is_solvable(J, right):
         return (" has no solution: these come nearest to one, in the sense of least squares. ",)
-    if rank == rows:
-        return (" has many solutions: this is the one of least norm. ",)
-    return (f" has many solutions, the rank being {rank}: this is the one of least norm. ",)
+    which = "" if rank == rows else f", the rank being {rank}"
+    least: Prose = ("of least norm",)
+    if _weights(context) is not None:
+        least = ("with the least ", Product((Transpose(solved), _W, solved)))
+    return (f" has many solutions{which}: this is the one ", *least, ". ")
 
 
-def _inverse_times(J: Matrix, right: Matrix, vector: Node) -> Node:
-    """J⁻¹ b, Jᵀ (J Jᵀ)⁻¹ b, (Jᵀ J)⁻¹ Jᵀ b or J⁺ b."""
+def _inverse_times(context: Context, J: Matrix, right: Matrix, vector: Node) -> Node:
+    """J⁻¹ b, Jᵀ (J Jᵀ)⁻¹ b, W⁻¹ Jᵀ (J W⁻¹ Jᵀ)⁻¹ b, (Jᵀ J)⁻¹ Jᵀ b or J⁺ b."""
     rank, (rows, columns) = rank_parts(J).rank, J.shape
     minus = Negative(Number(1))
     if rank == rows == columns:
         return Product((Power(_J, minus), vector))
+    if rank == rows and _weights(context) is not None:
+        lifted = (Power(_W, minus), _JT)
+        return Product((*lifted, Power(Parenthesized(Product((_J, *lifted))), minus), vector))
     if rank == rows:
         return Product((_JT, Power(Parenthesized(Product((_J, _JT))), minus), vector))
     if rank == columns:
@@ -167,6 +184,10 @@ def _working(context: Context, J: Matrix, right: Matrix, vector: Node | None) ->
     if vector is not None:
         yield equation(vector, context.show(right))
     rank, (rows, columns) = rank_parts(J).rank, J.shape
+    W = _weights(context) if rank < columns else None
+    if W is not None:
+        yield equation(_W, context.show(W))
+        return
     if rank in (rows, columns) and rank:
         square = squared(J)
         if work(square) > MOST_PRODUCTS:
@@ -175,12 +196,12 @@ def _working(context: Context, J: Matrix, right: Matrix, vector: Node | None) ->
         yield equation(Row((Words("det "), of)), context.show(determinant(square)))
 
 
-def _notes(J: Matrix, right: Matrix) -> Iterator[Prose]:
+def _notes(J: Matrix, right: Matrix, solved: Node) -> Iterator[Prose]:
     rank = rank_parts(J).rank
     if rank < J.shape[1] and is_solvable(J, right):
         yield (
             "Every motion of the joints that the task does not see may be added: ",
-            letters.QD, " with ", equation(Product((_J, letters.QD)), Number(0)), ".",
+            solved, " with ", equation(Product((_J, solved)), Number(0)), ".",
         )  # fmt: skip
     if rank < min(J.shape):
         yield (f"The rank is {rank} here, less than it can be: ", Product((_J, _JT)), " has no inverse.")

@@ -139,6 +139,7 @@ def _questions(robot: Robot) -> Iterator[Line]:
     else:
         yield _line(letters.bold("r"), "from the point of a given tensor to its mass centre", "m")
     yield _line(letters.J_TASK, "Jacobian of the task; with + its pseudoinverse", "", ("J", "bold", "r^"))
+    yield _line(letters.WEIGHTS, "weights of the joint rates")
     yield _line([letters.bold("w"), _numbered("w")], "direction that is lost where the arm is singular")
     yield _line([Letter(name) for name in "ABDXY"], "constants of a solution, given where they stand")
     yield _line(Symbol("psi"), "angle that is sought", "rad", ("", "name", "psi"))

@@ -18,6 +18,7 @@
                      reach          what the task is to be, joint ranges: `reach`, `limits`
                      loads          `forces`
                      state          `state`
+                     weights        `weights`
                      rotations      `Rz(90deg) Rx(30deg)`
                      accepted_tables
                                     `also`, `strict`

@@ -33,6 +33,7 @@ POINT = Keyed(
 WHOLE = Word(("twist", "pose"))
 ALL = Word(("all",))
 REACHED = Word(("reach",))
+BY_INERTIA = Word(("D",))
 IN_LINK = Word(("link",))
 BY = Word(("world", "robot"))
 
@@ -145,6 +146,21 @@ KINEMATIC_KEYS = (
         "The acceleration of the task, for which the accelerations qdd are asked.",
         "[0, 0]",
         remedy="write acceleration: [0, 0], an expression for each component of the task",
+    ),
+    Key(
+        "weights",
+        OneOf(
+            (
+                MapOf(EXPRESSION, "weights by coordinate"),
+                ListOf(ListOf(EXPRESSION, "a row", 1), "a matrix W", 1),
+                BY_INERTIA,
+            )
+        ),
+        "Where many rates qd or accelerations qdd do, those with the least q̇ᵀ W q̇ are meant: W is diagonal, "
+        "a matrix, or the inertia matrix D.",
+        "{theta1: 2, L2: 1}",
+        "1 for each coordinate",
+        remedy="write weights: {q1: 2, q2: w}, a matrix [[2, 0], [0, w]], or D",
     ),
 )
 """The keys, in the order of the documentation."""

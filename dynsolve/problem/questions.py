@@ -19,6 +19,7 @@ from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.state import ParsedState, is_reached, read_state
+from dynsolve.problem.weights import ParsedWeights, read_weights
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, Span, YamlNode
 from dynsolve.robot.questions import TIP, coordinate_of
 
@@ -67,6 +68,7 @@ class ParsedQuestions:
     reach: ParsedReach = NO_REACH
     all_branches: bool = False
     limits: tuple[ParsedLimits, ...] = ()
+    weights: ParsedWeights | None = None
     reached_state: Span | None = None
     """Where the file says that the state is the configuration that reaches the target."""
 
@@ -88,6 +90,8 @@ class ParsedQuestions:
         for rotation in self.rotations:
             yield from rotation.entries
         yield from self.state.cells.values() if self.state else ()
+        for row in self.weights.rows if self.weights else ():
+            yield from row
 
     @property
     def moving(self) -> Iterator[Cell]:
@@ -133,6 +137,7 @@ def read_questions(
         read_reach(faults, fields.get("reach"), coordinates),
         word(faults, fields.get("branches"), ALL.choices, "branches", "write branches: all") is not None,
         read_limits(faults, fields.get("limits"), coordinates),
+        read_weights(faults, fields.get("weights"), coordinates, bool(bodies)),
         fields.span_of("state") if is_reached(fields.get("state")) else None,
     )
 

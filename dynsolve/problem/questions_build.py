@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from dynsolve.algebra.angles import angle_from_tree, names_of
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.minors import determinant
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node
 from dynsolve.problem.loads import ParsedLoad
@@ -15,6 +16,7 @@ from dynsolve.problem.questions import ParsedPoint, ParsedQuestions, ParsedRates
 from dynsolve.problem.reach import check_reach
 from dynsolve.problem.targets import TargetBuilder
 from dynsolve.problem.values import CellValues
+from dynsolve.problem.weights import ParsedWeights
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import last_origin
@@ -73,6 +75,8 @@ def with_questions(
         state=State(tuple((name, dots, value) for (name, dots), value in state.items())),
         is_drawn=is_drawn,
         all_branches=parsed.all_branches,
+        weights=_weights(values, parsed.weights),
+        weighs_by_inertia=parsed.weights is not None and parsed.weights.is_inertia,
         state_is_reached=parsed.reached_state is not None,
     )
     if questions.task is None and (parsed.rates or Stage.TASK in asked_stages(questions)):
@@ -120,6 +124,25 @@ def _is_angle(entry: Node, kinds: Mapping[str, JointType]) -> bool:
     except AlgebraError:
         return False
     return any(kinds.get(name) is JointType.REVOLUTE for name in names_of(angle))
+
+
+def _weights(values: CellValues, parsed: ParsedWeights | None) -> Matrix | None:
+    """W, n×n; None where there is none, where it is D, or where it was reported to be no such matrix."""
+    if parsed is None or parsed.is_inertia:
+        return None
+    columns = [values.column(row) for row in parsed.rows]
+    if None in columns:
+        return None
+    W = Matrix.of(values.ring, [column.entries for column in columns if column])
+    help = "weights are symmetric and positive, so that q̇ᵀ W q̇ is a cost"
+    if W.T != W:
+        values.faults.error(parsed.span, "the matrix of the weights is not symmetric", help)
+    for size in range(1, len(W.rows) + 1):
+        minor = determinant(Matrix.of(values.ring, [row[:size] for row in W.rows[:size]]))
+        if minor.is_zero or (minor.is_number and minor.number < 0):
+            values.faults.error(parsed.span, "the matrix of the weights is not positive definite", help)
+            return None
+    return W
 
 
 def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix | None:

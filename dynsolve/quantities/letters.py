@@ -89,6 +89,7 @@ RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r
 LOST = Row((Letter("N", style="script"), Parenthesized(Transpose(bold("J", Symbol("r"))))))
 TASK = bold("r")
 J_TASK = bold("J", Symbol("r"))
+WEIGHTS = bold("W")
 K = Letter("K", style="script")
 P = Letter("P", style="script")
 L = Letter("L", style="script")

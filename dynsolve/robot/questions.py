@@ -140,7 +140,8 @@ class Questions:
     the values of r(q) in the inverse kinematics, as the file has them; `all_branches` says that an
     answer must have them all.  `target` is what r(q) is to be where the file gives numbers for it,
     `limits` are the ranges of coordinates.  `state_is_reached` says that the state is still to be the one
-    configuration within the limits that reaches the target.  `method` is the way to τ.
+    configuration within the limits that reaches the target.  `weights` (n×n) are those of the rates where
+    many do, `weighs_by_inertia` says that they are D.  `method` is the way to τ.
     """
 
     points: tuple[NamedPoint, ...] = ()
@@ -157,6 +158,8 @@ class Questions:
     limits: tuple[Limits, ...] = ()
     method: Method = Method.LAGRANGE
     state_is_reached: bool = False
+    weights: Matrix | None = None
+    weighs_by_inertia: bool = False
 
     @property
     def reached(self) -> tuple[str, ...]:

@@ -164,6 +164,7 @@ def _questions(questions: Questions, put: Substitution) -> Questions:
         state=State(tuple(values)),
         velocity=questions.velocity and put.matrix(questions.velocity),
         acceleration=questions.acceleration and put.matrix(questions.acceleration),
+        weights=questions.weights and put.matrix(questions.weights),
     )
 
 

@@ -20,6 +20,12 @@ THREE = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]\n"
 ROBOTS = {
     "square": ELBOW + "velocity: [vx, vy]\nacceleration: [ax, 0]\n",
     "redundant": THREE + "velocity: [vx, q1*vy]\nacceleration: [0, 0]\n",
+    "weighted": THREE + "velocity: [vx, vy]\nacceleration: [0, 0]\nweights: {q1: w1, q3: 3}\n",
+    "weighted by a matrix, singular": THREE + "velocity: [vx, vy]\nacceleration: [ax, ay]\n"
+    "weights: [[2, 1, 0], [1, 3, 0], [0, 0, w]]\nstate: {q2: 0, q3: 0}\n",
+    "weighted by inertia": "gravity: none\n" + THREE + "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, "
+    "{mass: m3, link: 3}]\nvelocity: [vx, vy]\nacceleration: [0, 0]\nweights: D\n"
+    "state: {q2: 90deg, q3: 0}\n",
     "too few joints": "dh: [{theta: q1*, a: l1}]\nvelocity: [vx, vy]\nacceleration: [ax, 0]\n",
     "singular": ELBOW + "velocity: [vx, vy]\nacceleration: [ax, 0]\nstate: {q2: 0}\n",
     "twist": "dh: [{theta: q1*, alpha: 90deg}, {d: d2*}]\ntask: twist\nvelocity: [0, 0, v, 0, 0, w]\n",
@@ -123,3 +129,33 @@ def test_at_a_state_it_is_not_too_large() -> None:
     state = "state: {q1: 0, q2: 90deg, q3: 0, q4: 90deg, q5: 0, q6: 0}\n"
     text = LONG + "task: [tip.x, tip.y, tip.z]\nvelocity: [v, 0, 0]\n" + state + "find: [qd]\n"
     assert len(dynsolve.solve(text).to_json()["results"]["qd"]) == 6
+
+
+TWO_SLIDES = """
+gravity: none
+dh: [{d: d1*}, {d: d2*}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+velocity: [v]
+find: [qd]
+"""
+# (the weights, the rates of two slides on one line): by hand, from d1' + d2' = v
+WEIGHTED = [
+    ("", ["v/2", "v/2"]),
+    ("weights: {d2: 4}", ["4*v/5", "v/5"]),
+    ("weights: {d1: a, d2: b}", ["b*v/(a + b)", "a*v/(a + b)"]),
+    ("weights: [[2, 1], [1, 2]]", ["v/2", "v/2"]),
+    ("weights: D", ["0", "v"]),  # the energy m1 d1'^2/2 + m2 v^2/2 is least where d1 rests
+]
+
+
+@pytest.mark.parametrize(("weights", "rates"), WEIGHTED)
+def test_the_least_of_a_weighted_sum_of_squares(weights: str, rates: list[str]) -> None:
+    found = dynsolve.solve(TWO_SLIDES + weights).to_json()["results"]["qd"]
+    assert [simplify(sympify(f"{a} - ({b})")) for a, b in zip(found, rates, strict=True)] == [0, 0]
+
+
+def test_rates_of_other_weights_are_right_with_a_note() -> None:
+    problem = read_problem(TWO_SLIDES + "weights: {d2: 4}", "own.yaml")
+    for value, notes in (("[4*v/5, v/5]", 0), ("[v/2, v/2]", 1)):
+        (answer,) = check(problem, FileReader(problem)(f"answers:\n  qd: {value}\n", "answer.yaml")).answers
+        assert (answer.verdict, len(answer.notes)) == ("correct", notes)
