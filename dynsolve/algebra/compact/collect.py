@@ -259,9 +259,12 @@ class Collector:
         return shared if len(poly) <= SEARCHED else shared[:1]
 
     def _is_own_square(self, poly: Polynomial, atom: int) -> bool:
-        """Whether a length or velocity is squared in one term and not in another: no book draws that out."""
+        """Whether a length, sine or velocity is squared in one term and not in another.
+
+        No book draws that out: I_xx s² + 2I_xy s c and not s (I_xx s + 2I_xy c).
+        """
         rank = self.atoms.ranks[atom][0]
-        if rank not in (Rank.PARAMETER, Rank.SUM, Rank.RATE) or (
+        if rank not in (Rank.PARAMETER, Rank.SUM, Rank.TRIG, Rank.RATE) or (
             rank is not Rank.RATE and len(poly) > SEARCHED
         ):
             return False

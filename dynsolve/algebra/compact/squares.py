@@ -40,27 +40,25 @@ def square_in(terms: Terms, width: int) -> Square | None:
     ([(0, 1, 0, 0, 1, 0), (0, 0, 0, 1, 0, 1)], {})
     """
     best: tuple[Root, ...] = ()
-    for turned in (False, True):
-        roots = list(_roots(terms, width, turned))
-        for first in roots:
-            found = _together(first, roots, terms)
-            if len(found) > max(len(best), 1) and any(any(root.exponents[:width]) for root in found):
-                best = found
+    roots = list(_roots(terms, width))
+    for first in roots:
+        found = _together(first, roots, terms)
+        if len(found) > max(len(best), 1) and any(any(root.exponents[:width]) for root in found):
+            best = found
     return Square(best, _without(terms, best, width)) if best else None
 
 
-def _roots(terms: Terms, width: int, turned: bool) -> Iterator[Root]:
-    """The roots of the terms that are squares; with `turned` sines in place of cosines."""
+def _roots(terms: Terms, width: int) -> Iterator[Root]:
+    """The roots of the terms that are squares: cosines of those with a plus, sines of those with a minus."""
     for exponents, factor in terms.items():
         trig, others = exponents[:width], exponents[width:]
-        sign = -1 if turned and any(trig) else 1
-        root = _rational_root(sign * factor)
+        root = _rational_root(abs(factor) if any(trig) else factor)
         if root is None or any(e % 2 for e in others):
             continue
         if not any(trig):
             yield Root(root, (*trig, *(e // 2 for e in others)))
         elif sum(trig) == 2 and 2 in trig[1::2]:
-            place = trig.index(2) - turned
+            place = trig.index(2) - (factor < 0)
             yield Root(root, (*(int(i == place) for i in range(width)), *(e // 2 for e in others)))
 
 

@@ -11,6 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from flint import fmpq_mpoly
+
 from dynsolve.algebra.angles import Angle, angle_from_tree, angle_node
 from dynsolve.algebra.ring import Ring
 from dynsolve.document import Prose
@@ -70,10 +72,38 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
         return None
     if ring.reduce(difference):
         return None
+    angles = _as_they_stand(ring, before, without_sums) or _of_basic_angles(ring, difference)
+    return (*(_pythagoras(angle_node(angle, ring.names)) for angle in angles), *additions)
+
+
+def _of_basic_angles(ring: Ring, difference: fmpq_mpoly) -> list[Angle]:
+    """The basic angles of which a sine or cosine is squared in a difference that s² + c² = 1 makes 0."""
     degrees = difference.degrees()
-    squares = [pair for pair in ring.pairs if degrees[pair.sine] > 1 or degrees[pair.cosine] > 1]
-    pythagoras = (_pythagoras(angle_node(pair.angle, ring.names)) for pair in squares)
-    return (*pythagoras, *additions)
+    return [pair.angle for pair in ring.pairs if degrees[pair.sine] > 1 or degrees[pair.cosine] > 1]
+
+
+def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:
+    """The angles whose s² + c² = 1 alone leads from one line to the other: θ₃, and not θ₂ and θ₂ + θ₃.
+
+    Each angle that stands in the lines is put for one of the ring; none where these are too few.
+    """
+    angles = list(dict.fromkeys(angle for tree in (before, after) for angle in _angles(tree) if angle.terms))
+    if len(angles) > len(ring.pairs):
+        return []
+    stand_in = dict(zip(angles, ring.pairs, strict=False))
+
+    def exchanged(node: Node) -> Node:
+        if isinstance(node, Function) and node.name in ("sin", "cos"):
+            pair = stand_in.get(angle_from_tree(node.argument))
+            return node if pair is None else Function(node.name, angle_node(pair.angle, ring.names))
+        return node
+
+    unreduced = Unreduced(ring)
+    difference = unreduced(mapped(before, exchanged)) - unreduced(mapped(after, exchanged))
+    if ring.reduce(difference):
+        return []
+    squared = set(_of_basic_angles(ring, difference))
+    return [angle for angle, pair in stand_in.items() if pair.angle in squared]
 
 
 _FULL = {"sin": "sine", "cos": "cosine"}

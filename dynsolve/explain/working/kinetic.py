@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations_with_replacement
 
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
@@ -14,7 +15,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
-from dynsolve.explain.working.identities import identities, said
+from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
@@ -33,7 +34,10 @@ from dynsolve.notation.tree import (
     equation,
 )
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Body
+from dynsolve.robot.model import Body, Coordinate
+
+MOST_GROUPS = 8
+"""Up to this number of groups of terms squares are multiplied out term by term."""
 
 _COLLECTED: Prose = ("Collected by the products of the rates:",)
 
@@ -59,12 +63,51 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
 
 
 def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
-    """The squares of some components, which become the result at once."""
-    result, ring = context.form(f"Kv{body.name}"), context.robot.ring
-    tree = _sum_of_squares(context, [x for x in velocity.entries if not x.is_zero])
-    used = identities(ring, Product((letters.HALF, context.show(body.mass), tree)), result)
-    named: Prose = ("Multiplied out, with ", *said(used), ", and collected:") if used else _COLLECTED
-    return _chain(context, body, [(("Its squares:",), tree)], named)
+    """The squares of some components, and these by the products of the rates, which become the result."""
+    components = [x for x in velocity.entries if not x.is_zero]
+    lines: list[tuple[Prose, Node]] = [(("Its squares:",), _sum_of_squares(context, components))]
+    brackets = list(_by_rates(context, components))
+    used: dict[Identity, None] = {}
+    for bracket in brackets:
+        used |= dict.fromkeys(identities(context.robot.ring, bracket.tree, context.show(bracket.value)) or ())
+    by_name = sorted(used, key=lambda identity: bool(identity.name))
+    sorted_out = total([bracket.product for bracket in brackets])
+    if sorted_out != lines[0][1]:
+        lines.append((("Multiplied out by the products of the rates:",), sorted_out))
+    named: Prose = ("With ", *said(by_name), ", and collected:") if used else _COLLECTED
+    return _chain(context, body, lines, named)
+
+
+@dataclass(frozen=True, slots=True)
+class _Bracket:
+    """What stands beside a product of rates in the square of a speed, with its value."""
+
+    tree: Node
+    value: Expr
+    product: Node
+
+
+def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[_Bracket]:
+    """Σ (a_k q̇_k)² as Σ a_k² q̇_k² and 2 Σ a_j a_k q̇_j q̇_k, the factors a as they stand."""
+    coordinates = context.robot.coordinates
+    slopes = [[_slope(x, q) for q in coordinates] for x in components]
+    for j, k in combinations_with_replacement(range(len(coordinates)), 2):
+        pairs = [(a[j], a[k]) for a in slopes if not (a[j].is_zero or a[k].is_zero)]
+        if not pairs:
+            continue
+        first, second = (letters.velocity(coordinates[i]) for i in (j, k))
+        value = sum((a * b for a, b in pairs), start=context.robot.ring.zero)
+        if j == k:
+            tree = sum_of([Power(_without_signs(context.show(a)), Number(2)) for a, _ in pairs])
+            yield _Bracket(tree, value, times(1, [(tree, 1), (first, 2)]))
+        else:
+            tree = total([times(1, [(context.show(a), 1), (context.show(b), 1)]) for a, b in pairs])
+            yield _Bracket(tree, value, times(2, [(tree, 1), (first, 1), (second, 1)]))
+
+
+def _slope(x: Expr, q: Coordinate) -> Expr:
+    """The factor of q̇ in a component of a velocity."""
+    return Expr(x.ring, x.poly.derivative(x.ring.symbol_indices[(q.name, 1)]))
 
 
 def _along(context: Context, body: Body, i: int, turned: Matrix) -> Line:
@@ -140,7 +183,10 @@ def _without_signs(node: Node) -> Node:
 
 
 def _multiplied(context: Context, components: Sequence[Expr]) -> list[tuple[Prose, Node]] | None:
-    """The squares multiplied out, and the brackets worked out; None where a bracket holds rates too."""
+    """The squares multiplied out, and the brackets worked out.
+
+    None where a bracket holds rates too, or there are many.
+    """
     ring = context.robot.ring
     alone, together = squares.separate(ring, components)
     if not together:
@@ -148,6 +194,8 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[tuple[Pros
     poly = sum((x.poly * x.poly for x in together), start=ring.zero.poly)
     found = squares.groups(context.forms, poly)
     if found is None:
+        return None
+    if len(found) > MOST_GROUPS:
         return None
     first = [_sum_of_squares(context, alone)] if alone else []
     multiplied = sum_of([*first, *(group.multiplied for group in found)])

@@ -34,6 +34,9 @@ FORMS = [
     (M * (A * C1 - B * C12) ** 2, "m (a cos(q₁) - b cos(q₁ + q₂))²"),
     (M * (L + A * C1 + B * C12) ** 2, "m (l + a cos(q₁) + b cos(q₁ + q₂))²"),
     (M * (L + A * S1) ** 2, "m (l + a sin(q₁))²"),
+    # sines and cosines together: a mass centre beside the axis of its link
+    (M * (A * C1 - B * S12) ** 2, "m (a cos(q₁) - b sin(q₁ + q₂))²"),
+    (M * (A * C1 - B * S1) ** 2, "m (b sin(q₁) - a cos(q₁))²"),
     (M * (A * C1 + B * C12) ** 2 + M * L**2, "m (l² + (a cos(q₁) + b cos(q₁ + q₂))²)"),
     # no square: the elbow's own coupling, and a difference of squares
     (M * (A**2 + B**2 + A * B * C1 * 2), "m (a² + b² + 2a b cos(q₁))"),

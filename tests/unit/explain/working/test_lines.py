@@ -153,6 +153,20 @@ def test_a_velocity_is_squared_along_the_axes_in_which_that_is_plain() -> None:
     assert "√" not in "".join(found)
 
 
+def test_squares_of_sums_of_lengths_are_multiplied_out_by_the_rates() -> None:
+    """One operation a line: squares, products of rates, and then the brackets one by one."""
+    assert lines("puma560-first3", "Kv2")[-3:] == [
+        "Multiplied out by the products of the rates:",
+        "K_v2 = ½ m₂ (((z₂ c₂)² + (z₂ s₂)² + (y₂ s₂ - (a₂ + x₂) c₂)²) θ̇₁² "
+        "- 2(z₂ c₂ y₂ + z₂ s₂ (a₂ + x₂)) θ̇₁ θ̇₂ + (y₂² + (a₂ + x₂)²) θ̇₂²)",
+        "With s₂² + c₂² = 1, and collected:",
+    ]
+    assert lines("puma560-first3", "Kv3")[-1] == (
+        "With s₂₃² + c₂₃² = 1, s₃² + c₃² = 1 and the sine of a difference, s₂₃ c₃ - c₂₃ s₃ = s₂, "
+        "and collected:"
+    )
+
+
 def test_the_product_of_two_rows_names_the_sums_of_angles() -> None:
     assert lines("planar-2r", "H2") == [
         "With the cosine of a sum, c₁ c₂ - s₁ s₂ = c₁₂ and the sine of a sum, s₁ c₂ + c₁ s₂ = s₁₂:"
