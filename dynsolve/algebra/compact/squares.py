@@ -52,7 +52,7 @@ def _roots(terms: Terms, width: int) -> Iterator[Root]:
     """The roots of the terms that are squares: cosines of those with a plus, sines of those with a minus."""
     for exponents, factor in terms.items():
         trig, others = exponents[:width], exponents[width:]
-        root = _rational_root(abs(factor) if any(trig) else factor)
+        root = _rational_root(-factor if factor < 0 and any(trig) else factor)
         if root is None or any(e % 2 for e in others):
             continue
         if not any(trig):
