@@ -1,10 +1,10 @@
-"""Rational numbers: Python's `Fraction`, FLINT's `fmpq`, trees made of numbers, the divisor of several."""
+"""Rational numbers: Python's `Fraction`, FLINT's `fmpq`, trees made of numbers, divisors and roots."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, isqrt, lcm
 from typing import Any
 
 from flint import fmpq
@@ -68,3 +68,15 @@ def _folded(
             return None
         total = operation(total, value)
     return total
+
+
+def rational_sqrt(value: Fraction) -> Fraction | None:
+    """The square root of a number that is not negative, None where it is not rational.
+
+    >>> rational_sqrt(Fraction(9, 4)), rational_sqrt(Fraction(2))
+    (Fraction(3, 2), None)
+    """
+    if value < 0:
+        return None
+    above, below = isqrt(value.numerator), isqrt(value.denominator)
+    return Fraction(above, below) if Fraction(above, below) ** 2 == value else None

@@ -253,9 +253,8 @@ class Ring:
         slope = self.constant(dict(atom)[name])
         for other, exponent in atom:
             power = exponent - (other == name)
-            if power < 0:
-                raise AlgebraError("an angle divided by a name")
-            slope = slope * self.symbol(other) ** power
+            factor = self.symbol(other) if power >= 0 else self.inverse(self.symbol(other))
+            slope = slope * factor ** abs(power)
         return slope
 
     def diff(self, expr: Expr, k: int) -> Expr:
@@ -324,6 +323,10 @@ class Ring:
         """Whether a coordinate, its velocity or acceleration occurs."""
         degrees = expr.poly.degrees()
         return any(degrees[i] > 0 for i in self._moving)  # of 0 they are -1
+
+    def moving_degree(self, expr: Expr) -> int:
+        """The degree in the coordinates, the sines and cosines of their angles, and their rates."""
+        return max((sum(int(e[i]) for i in self._moving) for e in expr.poly.monoms()), default=0)
 
     def evaluate(self, expr: Expr, values: Mapping[str, float]) -> float:
         """The value at plain names: `theta1`, `theta1_dot`, `theta1_ddot` and the parameters."""

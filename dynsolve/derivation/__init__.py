@@ -23,6 +23,8 @@ What hangs together how:
     static_rules    those of forces from outside
     recursion_rules those of the recursions; by their method also of τ
     configurations  those of singular configurations and of inverse kinematics
+    mechanism       bodies by their positions: Jacobians by differentiation, orientation by turns
+    mechanism_rules the rules of these, and of given energies, in the place of frames and joints
     link_frame      rules that give K and D faster, by Jacobians in each link's own frame
     agreement       whether D, C q̇ and g come out the same both ways
 
@@ -39,6 +41,8 @@ And the independent check, which shares no formula with any of these:
     rate_check      determinants, rates and accelerations, against elimination on numbers
     recursion_check the recursions in the links' frames, against those on numbers
     static_check    generalized forces and holding torques, against the power of the forces
+    mechanism_check models without a table, by virtual work, or by Lagrange's equations on numbers
+    hyper_dual      numbers that carry first and second derivatives, for that
 
 A rule takes exact values and returns an exact value, and does nothing else: what a
 person reads of it is made in `dynsolve.explain`.  To add a quantity, write its record

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
+from typing import TypeVar
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
@@ -28,9 +29,18 @@ from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 
 _DRAWS = 200
 
+Made = TypeVar("Made")
+
 
 def draw(robot: Robot, random: Random) -> tuple[dict[str, float], Arm]:
     """A random state with random parameters for which every root and quotient has a value."""
+    return draw_values(robot, random, lambda values: arm_at(robot, values))
+
+
+def draw_values(
+    robot: Robot, random: Random, at: Callable[[Mapping[str, float]], Made]
+) -> tuple[dict[str, float], Made]:
+    """A random state, and what `at` makes of it; it is drawn again where that has no value."""
     for _ in range(_DRAWS):
         values = {name: random.uniform(0.4, 1.6) for name in robot.ring.parameters}
         values["pi"] = math.pi
@@ -39,7 +49,7 @@ def draw(robot: Robot, random: Random) -> tuple[dict[str, float], Arm]:
             values[q.velocity] = random.uniform(-1.5, 1.5)
             values[q.acceleration] = random.uniform(-1.5, 1.5)
         try:
-            return values, arm_at(robot, values)
+            return values, at(values)
         except (ValueError, ZeroDivisionError):
             continue
     raise VerificationError(

@@ -27,15 +27,20 @@ def derive(robot: Robot) -> Derivation:
     Where both give the same, the link frames' rules, which are faster, take the place
     of the textbook's.
     """
-    return Derivation([*course_rules(robot), *link_frame_rules(robot)])
+    if robot.has_table:
+        return Derivation([*course_rules(robot), *link_frame_rules(robot)])
+    from dynsolve.derivation.mechanism_rules import direct_rules
+
+    return Derivation([*course_rules(robot), *direct_rules(robot)])
 
 
 def course_rules(robot: Robot) -> Iterator[Rule]:
     """Every rule of the textbook's derivation; of a robot without masses those of the kinematics alone."""
     yield from _kinematics(robot)
-    yield from _end_jacobian(robot)
+    if robot.has_table:
+        yield from _end_jacobian(robot)
     yield from _asked_of_kinematics(robot)
-    if robot.bodies:
+    if robot.has_dynamics:
         for body in robot.bodies:
             yield from _body(robot, body)
         yield from _energies(robot)
@@ -87,6 +92,26 @@ def _end_jacobian(robot: Robot) -> Iterator[Rule]:
 
 
 def _body(robot: Robot, body: Body) -> Iterator[Rule]:
+    b = body.name
+    yield from _motion(robot, body)
+    yield Rule(f"v{b}", (f"Jv{b}",), partial(energy.velocity, robot))
+    yield Rule(f"w{b}", (f"Jw{b}",), partial(energy.velocity, robot))
+    yield Rule(f"P{b}", (f"rc{b}",), partial(energy.potential_energy, robot, body.mass))
+    yield Rule(f"Kv{b}", (f"v{b}",), partial(energy.linear_energy, body.mass))
+    if body.is_point:
+        yield Rule(f"Kw{b}", (), lambda: robot.ring.zero)
+    else:
+        yield Rule(f"Kw{b}", (f"w{b}", f"I{b}"), energy.rotational_energy)
+    yield Rule(f"K{b}", (f"Kv{b}", f"Kw{b}"), energy.kinetic_energy)
+
+
+def _motion(robot: Robot, body: Body) -> Iterator[Rule]:
+    """Where a body is and how it moves with the coordinates: by its link, or by its given position."""
+    if not robot.has_table:
+        from dynsolve.derivation.mechanism_rules import motion_rules
+
+        yield from motion_rules(robot, body)
+        return
     b, link = body.name, body.link
     H = f"H{link}"
     from_frames_and_center = (*kinematics.frame_names(link), f"rc{b}")
@@ -103,23 +128,19 @@ def _body(robot: Robot, body: Body) -> Iterator[Rule]:
     yield Rule(f"R{b}", (H,), partial(inertia.body_rotation, robot, body))
     yield Rule(f"Jv{b}", from_frames_and_center, linear)
     yield Rule(f"Jw{b}", from_frames_and_center, angular)
-    yield Rule(f"v{b}", (f"Jv{b}",), partial(energy.velocity, robot))
-    yield Rule(f"w{b}", (f"Jw{b}",), partial(energy.velocity, robot))
     yield Rule(f"I_body{b}", (H,), partial(inertia.central_inertia, robot, body))
     yield Rule(f"I{b}", (f"R{b}", f"I_body{b}"), inertia.base_inertia)
-    yield Rule(f"P{b}", (f"rc{b}",), partial(energy.potential_energy, robot, body.mass))
-    yield Rule(f"Kv{b}", (f"v{b}",), partial(energy.linear_energy, body.mass))
-    if body.is_point:
-        yield Rule(f"Kw{b}", (), lambda: robot.ring.zero)
-    else:
-        yield Rule(f"Kw{b}", (f"w{b}", f"I{b}"), energy.rotational_energy)
-    yield Rule(f"K{b}", (f"Kv{b}", f"Kw{b}"), energy.kinetic_energy)
 
 
 def _energies(robot: Robot) -> Iterator[Rule]:
-    names = [body.name for body in robot.bodies]
-    yield Rule("P", tuple(f"P{b}" for b in names), lambda *parts: energy.total(robot.ring, parts))
-    yield Rule("K", tuple(f"K{b}" for b in names), lambda *parts: energy.total(robot.ring, parts))
+    if robot.given is not None:
+        from dynsolve.derivation.mechanism_rules import given_rules
+
+        yield from given_rules(robot, robot.given)
+    else:
+        names = [body.name for body in robot.bodies]
+        yield Rule("P", tuple(f"P{b}" for b in names), lambda *parts: energy.total(robot.ring, parts))
+        yield Rule("K", tuple(f"K{b}" for b in names), lambda *parts: energy.total(robot.ring, parts))
     yield Rule("L", ("K", "P"), euler_lagrange.lagrangian)
 
 

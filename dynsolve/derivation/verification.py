@@ -9,8 +9,9 @@ then each result is compared: H and J of the last frame, D, C q̇, g, τ, K and 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from random import Random
 
 from dynsolve.derivation.arm_values import draw
@@ -66,41 +67,105 @@ def verify(robot: Robot, results: Mapping[str, Node], states: int = 5) -> Verifi
     program = compile_trees([results[name] for name in names])
     random = Random(SEED)  # noqa: S311 - the same states every time are wanted
     worst = 0.0
+    way = _way(robot)
     for _ in range(states):
-        values, arm = draw(robot, random)
+        values, errors = way.errors_at(robot, random)
         ours = dict(zip(names, program.run(values), strict=True))
-        for name, error in _errors(arm, ours):
+        for name, error in errors(ours):
             if not error <= TOLERANCE:
                 raise VerificationError(
-                    f"{name} differs from {METHOD} by {error:.1e} of its size; this is a fault of dynsolve"
+                    f"{name} differs from {way.method} by {error:.1e} of its size; "
+                    "this is a fault of dynsolve"
                 )
             worst = max(worst, error)
-    return Verification(METHOD, states, worst)
+    return Verification(way.method, states, worst)
+
+
+Results = Mapping[str, list[list[float]]]
+Errors = Callable[[Results], Iterator[tuple[str, float]]]
+"""(name, relative error) of each result."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """An independent computation: what it is called; a random state, and the errors of results there."""
+
+    method: str
+    errors_at: Callable[[Robot, Random], tuple[Mapping[str, float], Errors]]
+
+
+def _way(robot: Robot) -> _Way:
+    """The computation that suits a robot: the recursion for an arm, another for a model without a table."""
+    if robot.has_table:
+        return _Way(METHOD, _of_arm)
+    from dynsolve.derivation.mechanism_check import BY_BODIES, BY_ENERGIES
+
+    return _Way(BY_BODIES if robot.given is None else BY_ENERGIES, _of_mechanism)
+
+
+def _of_arm(robot: Robot, random: Random) -> tuple[Mapping[str, float], Errors]:
+    values, arm = draw(robot, random)
+    return values, partial(_errors, arm)
+
+
+def _of_mechanism(robot: Robot, random: Random) -> tuple[Mapping[str, float], Errors]:
+    from dynsolve.derivation.mechanism_check import draw_mechanism
+
+    values, mechanism = draw_mechanism(robot, random)
+    independent = _Independent(
+        mechanism.qd, mechanism.qdd, mechanism.forces, mechanism.energies(), _NEGLIGIBLE * mechanism.size
+    )
+    return values, partial(_dynamic_errors, independent)
 
 
 # -- the comparison --------------------------------------------------------------------------------
 
 
-def _errors(arm: Arm, ours: Mapping[str, list[list[float]]]) -> Iterator[tuple[str, float]]:
-    """(name, relative error) of each result."""
+@dataclass(frozen=True, slots=True)
+class _Independent:
+    """A robot at a state by the independent computation.
+
+    `forces(q̇, q̈, has_gravity)` are the generalized forces, `energies` K and P; below `negligible`
+    results count as 0.
+    """
+
+    qd: Sequence[float]
+    qdd: Sequence[float]
+    forces: Callable[[Sequence[float], Sequence[float], bool], list[float]]
+    energies: tuple[float, float]
+    negligible: float
+
+
+def _errors(arm: Arm, ours: Results) -> Iterator[tuple[str, float]]:
+    """(name, relative error) of each result of an arm."""
     yield from _kinematic_errors(arm, ours)
     if "D" not in ours:
         return
-    n, still = arm.n, [0.0] * arm.n
+
+    def forces(qd: Sequence[float], qdd: Sequence[float], has_gravity: bool) -> list[float]:
+        return inverse_dynamics(arm, qd, qdd, arm.gravity if has_gravity else ZERO)
+
+    yield from _dynamic_errors(_Independent(arm.qd, arm.qdd, forces, energies(arm), _negligible(arm)), ours)
+
+
+def _dynamic_errors(state: _Independent, ours: Results) -> Iterator[tuple[str, float]]:
+    """The errors of D, C q̇, g, τ and the energies."""
+    n = len(state.qd)
+    still = [0.0] * n
     units = [[float(i == k) for i in range(n)] for k in range(n)]
-    columns = [inverse_dynamics(arm, still, unit, ZERO) for unit in units]
+    columns = [state.forces(still, unit, False) for unit in units]
     theirs = {
         "D": [[columns[j][i] for j in range(n)] for i in range(n)],
-        "Cqd": [[x] for x in inverse_dynamics(arm, arm.qd, still, ZERO)],
-        "g": [[x] for x in inverse_dynamics(arm, still, still, arm.gravity)],
-        "tau": [[x] for x in inverse_dynamics(arm, arm.qd, arm.qdd, arm.gravity)],
+        "Cqd": [[x] for x in state.forces(state.qd, still, False)],
+        "g": [[x] for x in state.forces(still, still, True)],
+        "tau": [[x] for x in state.forces(state.qd, state.qdd, True)],
     }
-    size = max(_negligible(arm), *(_size(matrix) for matrix in theirs.values())) or 1.0
-    mine = {**ours, "Cqd": [[sum(c * x for c, x in zip(row, arm.qd, strict=True))] for row in ours["C"]]}
+    size = max(state.negligible, *(_size(matrix) for matrix in theirs.values())) or 1.0
+    mine = {**ours, "Cqd": [[sum(c * x for c, x in zip(row, state.qd, strict=True))] for row in ours["C"]]}
     for name, matrix in theirs.items():
         if name in mine:
             yield name, _distance(mine[name], matrix) / size
-    for name, value in zip(("K", "P"), energies(arm), strict=True):
+    for name, value in zip(("K", "P"), state.energies, strict=True):
         if name in ours:
             yield name, _distance([[ours[name]]], [[value]]) / max(size, abs(value))  # type: ignore[list-item]
 
@@ -120,7 +185,7 @@ def _negligible(arm: Arm) -> float:
     return _NEGLIGIBLE * max(map(largest, arm.masses), default=0.0)
 
 
-def _kinematic_errors(arm: Arm, ours: Mapping[str, list[list[float]]]) -> Iterator[tuple[str, float]]:
+def _kinematic_errors(arm: Arm, ours: Results) -> Iterator[tuple[str, float]]:
     """The errors of the last frame: of its position, and of its motion J q̇."""
     if "H" not in ours or "J" not in ours:
         return

@@ -35,6 +35,8 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
+from dynsolve.errors import UsageError
+
 if TYPE_CHECKING:
     from dynsolve.document import Picture
     from dynsolve.problem.model import Problem
@@ -61,8 +63,8 @@ SUFFIXES = {
 def draw(problem: Problem, format: PictureFormat = PictureFormat.SVG, *, star: bool = True) -> bytes:
     """The picture of a problem's robot; `star` marks the joint variables.
 
-    The same problem gives the same bytes.  Raises UsageError for PDF and PNG where the
-    extra `pdf` is not installed.
+    The same problem gives the same bytes.  Raises UsageError for a model without a table, and
+    for PDF and PNG where the extra `pdf` is not installed.
 
     >>> import dynsolve
     >>> draw(dynsolve.load("planar-2r"))[:4]
@@ -71,6 +73,10 @@ def draw(problem: Problem, format: PictureFormat = PictureFormat.SVG, *, star: b
     from dynsolve.draw.scene import scene
     from dynsolve.draw.svg import to_svg
 
+    if not problem.robot.has_table:
+        raise UsageError(
+            "there is no picture of a model without a table: it says nothing of links and joints"
+        )
     drawn = scene(problem, star)
     if format is PictureFormat.LATEX:
         from dynsolve.draw.latex import to_latex_picture

@@ -22,6 +22,9 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     step        what a step is, and in which detail it is shown
     context     the robot, its exact values, their compact forms
     forms       the compact form of every value; how long ones are put together from parts
+    placed_bodies
+                bodies that are given by their positions: r_c, turns, Jacobians by differentiation
+    given_model energies and D of a model that is given without bodies
     product_forms
                 products and quotients: a determinant in its factors, fractions
     entry_formulas

@@ -36,6 +36,7 @@ SPONG = Book(
     name="",
     full="M. W. Spong, S. Hutchinson, M. Vidyasagar, Robot Modeling and Control, 1st edition, Wiley, 2006",
     sections={
+        "2.5.3": "Axis/Angle Representation",
         "2.6": "Rigid Motions",
         "2.7": "Homogeneous Transformations",
         "3.1": "Kinematic Chains",

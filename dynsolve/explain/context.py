@@ -9,6 +9,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.agreement import Agreement
 from dynsolve.derivation.graph import Derivation
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.writing import machine
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.quantities import letters
@@ -70,4 +71,9 @@ class Context:
     @property
     def ground(self) -> str:
         """The frame of reference in words: frame 0 (the base), or the world in which the problem turns it."""
-        return "world" if letters.has_base(self.robot) else "base"
+        return "world" if letters.has_base(self.robot) or not self.robot.has_table else "base"
+
+    @property
+    def machine(self) -> str:
+        """What moves, in words."""
+        return machine(self.robot)

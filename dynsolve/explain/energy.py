@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
+from dynsolve.explain.given_model import energy_steps
 from dynsolve.explain.jacobian import ZERO, coordinate_column
+from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import kinetic
 from dynsolve.explain.working.proved import SILENT
@@ -41,14 +43,17 @@ _BESIDE = 2
 
 
 def steps(context: Context) -> Iterator[Step]:
-    """The potential energies, then body by body the kinetic ones, then the total."""
+    """The potential energies, then body by body the kinetic ones, then the total; or those that are given."""
+    if context.robot.given is not None:
+        yield from energy_steps(context, context.robot.given)
+        return
     bodies = context.robot.bodies
     for body in bodies:
         yield _potential(context, body)
     yield _total(context, "P", "potential", letters.P, [letters.of_body("P", b) for b in bodies])
     told = False
     for body in bodies:
-        yield _jacobians(context, body)
+        yield _jacobians(context, body) if context.robot.has_table else jacobians_step(context, body)
         yield _velocities(context, body)
         linear = _linear(context, body, tells=not told)
         told = told or bool(linear.notes)
@@ -232,13 +237,18 @@ def _velocities(context: Context, body: Body) -> Step:
         id=f"v{b}",
         stage=STAGE,
         title=f"Velocity of {name_of(body)}",
-        why=("The Jacobians times the rates of the coordinates.",),
+        why=(_times_rates(context, body),),
         formula=side_by_side(formulas),
         source=spong("7.2.2"),
         working=working,
         result=tuple(results),
         also=(f"w{b}",),
     )
+
+
+def _times_rates(context: Context, body: Body) -> str:
+    alone = body.is_point and not context.robot.has_table
+    return f"The Jacobian{'s' * (not alone)} times the rates of the coordinates."
 
 
 def _linear(context: Context, body: Body, tells: bool) -> Step:
@@ -289,10 +299,11 @@ def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
         if len(pair.angle.terms) != 1 or pair.angle.degrees:
             continue
         ((atom, rate),) = pair.angle.terms
-        if rate != 1 or atom[0][0] not in ring.names or left[pair.sine] or left[pair.cosine]:
+        if rate != 1 or atom[0][0] not in ring.names or left[pair.sine] > 0 or left[pair.cosine] > 0:
             continue
-        holding = [d for d in entries if d[pair.sine] or d[pair.cosine]]
-        if len(holding) > 1 and any(d[pair.sine] for d in holding) and any(d[pair.cosine] for d in holding):
+        holding = [d for d in entries if d[pair.sine] > 0 or d[pair.cosine] > 0]  # of 0 they are -1
+        both = (any(d[k] > 0 for d in holding) for k in (pair.sine, pair.cosine))
+        if len(holding) > 1 and all(both):
             angle = Symbol(atom[0][0])
             yield (
                 "The squares add up by ",

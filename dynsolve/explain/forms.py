@@ -22,7 +22,7 @@ from dynsolve.notation.build import cost, negated, times, total
 from dynsolve.notation.tree import ZERO, Node
 from dynsolve.quantities import families
 from dynsolve.quantities.index import quantities
-from dynsolve.robot.model import Convention, Robot
+from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.parallel import Turn, parallel_groups
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ class Forms:
 
     def _potential_energy(self, compact: Node) -> Node:
         """Σ P_i as it is added up, unless collecting makes it much shorter."""
-        if is_numeric(self.robot):
+        if is_numeric(self.robot) or not self.robot.bodies:
             return compact
         added = total([self(f"P{body.name}") for body in self.robot.bodies])
         return added if cost(added) <= 1.5 * cost(compact) else compact
@@ -198,6 +198,9 @@ def is_numeric(robot: Robot) -> bool:
 
 
 def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
-    """The coordinates of joints that turn about parallel axes, whose angles add up."""
+    """The coordinates of joints that turn about parallel axes, whose angles add up; without joints, all."""
+    if not robot.has_table:
+        turning = frozenset(q.name for q in robot.coordinates if q.type is JointType.REVOLUTE)
+        return [turning] if len(turning) > 1 else []
     turns = [Turn(joint.theta, joint.alpha, joint.variable == "theta") for joint in robot.joints]
     return parallel_groups(turns, robot.ring.names, robot.convention is Convention.MODIFIED)

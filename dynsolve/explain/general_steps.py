@@ -58,17 +58,18 @@ def general_steps(context: Context) -> Iterator[GeneralStep]:
     yield GeneralStep(_rows(context), _ids(["A"], rows) | _ids(["H"], rows[:-1]))
     if _moves_each_joint_alone(robot):
         yield GeneralStep(_columns(context), _ids(["J"], [q.index for q in robot.coordinates]))
-    if bodies:
+    if bodies and robot.has_table:
         solid = [body for body in robot.bodies if _is_plain(body)]
         yield GeneralStep(_mass_centers(context), _ids(["rc"], bodies))
         if solid:
             names = [body.name for body in solid]
             yield GeneralStep(_tensors(context, solid), _ids(["I_body", "R", "I"], names))
-        yield GeneralStep(_potential(context), _ids(["P"], bodies))
         yield GeneralStep(_kinetic(context), _ids(["Jv", "v", "Kv", "Kw", "K"], bodies))
-        if robot.questions.method is Method.LAGRANGE:
-            coordinates = [q.index for q in robot.coordinates]
-            yield GeneralStep(_forces(), _ids(["dLdqd", "ddt", "dLdq", "tau"], coordinates))
+    if bodies:
+        yield GeneralStep(_potential(context), _ids(["P"], bodies))
+    if robot.has_dynamics and robot.questions.method is Method.LAGRANGE:
+        coordinates = [q.index for q in robot.coordinates]
+        yield GeneralStep(_forces(), _ids(["dLdqd", "ddt", "dLdq", "tau"], coordinates))
 
 
 def _ids(stems: Sequence[str], names: Sequence[str | int]) -> frozenset[str]:

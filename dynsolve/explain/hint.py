@@ -43,11 +43,7 @@ def hint_document(title: str, context: Context, stage: str) -> Document:
     """
     asked = Stage(stage)
     if asked not in stages_of(context.robot):
-        raise UsageError(
-            f"this problem asks for nothing of the stage {stage}"
-            if asked.asked_for
-            else f"no body has mass, so there is no stage {stage}: the derivation ends with the Jacobian"
-        )
+        raise UsageError(_why_absent(context, asked))
     return Document((
         Heading(title, 1),
         Heading(f"Hint: {asked.heading[0].lower()}{asked.heading[1:]}"),
@@ -55,6 +51,16 @@ def hint_document(title: str, context: Context, stage: str) -> Document:
         *_tasks(context, asked),
         *_look_out(context, asked),
     ))  # fmt: skip
+
+
+def _why_absent(context: Context, stage: Stage) -> str:
+    """Why a problem has no such stage."""
+    if stage.asked_for:
+        return f"this problem asks for nothing of the stage {stage}"
+    if not context.robot.has_table:
+        what = "frames" if stage.needs_table else "bodies"
+        return f"this model has no {what}, so there is no stage {stage}"
+    return f"no body has mass, so there is no stage {stage}: the derivation ends with the Jacobian"
 
 
 # -- what there is ---------------------------------------------------------------------------------
@@ -71,7 +77,7 @@ def _given(context: Context, stage: Stage) -> Iterator[Block]:
         table = next(step.table for step in explain(context, [Stage.KINEMATICS]) if step.table)
         yield Table(table.header, table.rows)
         return
-    yield Text((_AT_HAND[stage],))
+    yield Text((_at_hand(context, stage),))
     long: list[Node] = []
     for letter, name in _inputs(context, stage):
         form = context.form(name)
@@ -82,6 +88,19 @@ def _given(context: Context, stage: Stage) -> Iterator[Block]:
     if long:
         yield Text((*listed(long), ", too long to be repeated here."))
 
+
+def _at_hand(context: Context, stage: Stage) -> str:
+    """What an earlier stage has given, or the problem."""
+    if not context.robot.has_table:
+        if stage is Stage.INERTIA:
+            return "You have what the problem says of each body: where it is, and how it turns."
+        if stage is Stage.ENERGY:
+            given = context.robot.given is not None
+            return "You have what the problem gives." if given else _OF_PLACED_BODIES
+    return _AT_HAND[stage]
+
+
+_OF_PLACED_BODIES = "You have of each body the position of its mass centre, and its tensor:"
 
 _AT_HAND = {
     Stage.JACOBIAN: "You have the frames of the forward kinematics:",

@@ -13,6 +13,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.citations import LYNCH_PARK
 from dynsolve.explain.context import Context
 from dynsolve.explain.mass_centers import is_given_by, mass_center_step
+from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import is_small, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
@@ -61,15 +62,20 @@ def steps(context: Context) -> Iterator[Step]:
     framed = next(
         (body for body in bodies if has_link_axes(body) and any(_right_frame(context, body.link))), None
     )
+    placed = not context.robot.has_table
     for body in bodies:
-        yield mass_center_step(context, body, tells=body is off_origin)
+        yield (
+            center_step(context, body)
+            if placed
+            else mass_center_step(context, body, tells=body is off_origin)
+        )
         if body.is_point:
             yield _point(context, body)
             continue
         yield _tensor(context, body)
         if is_moved(body):
             yield _parallel_axis(context, body)
-        yield _rotation(context, body, tells=body is framed)
+        yield orientation_step(context, body) if placed else _rotation(context, body, tells=body is framed)
         yield _base_tensor(context, body)
 
 

@@ -55,16 +55,17 @@ def _named(names: Sequence[str], meaning: str, unit: str) -> Line:
 
 
 def _coordinates(robot: Robot) -> Iterator[Line]:
+    of_joint = "joint " if robot.has_table else ""
     for kind, (what, unit) in _COORDINATES.items():
         names = [q.name for q in robot.coordinates if q.type is kind]
         if names:
             many = "s" if len(names) > 1 else ""
-            yield _named(names, f"{what}{many}: generalized coordinate{many}", unit)
+            yield _named(names, f"{of_joint}{what}{many}: generalized coordinate{many}", unit)
 
 
 _COORDINATES = {
-    JointType.REVOLUTE: ("joint angle", "rad"),
-    JointType.PRISMATIC: ("joint displacement", "m"),
+    JointType.REVOLUTE: ("angle", "rad"),
+    JointType.PRISMATIC: ("displacement", "m"),
 }
 
 

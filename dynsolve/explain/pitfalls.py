@@ -93,7 +93,7 @@ def _rates(robot: Robot) -> Iterator[Prose]:
 
 
 def _inertia(robot: Robot) -> Iterator[Prose]:
-    off = [body for body in robot.bodies if not body.center.is_zero]
+    off = [body for body in robot.bodies if not body.center.is_zero and robot.has_table]
     if off:
         yield ("The mass centre is not the origin of the frame: that holds for ", *_bodies(off), ".")
     points = [body for body in robot.bodies if body.is_point]
@@ -107,7 +107,7 @@ def _inertia(robot: Robot) -> Iterator[Prose]:
             *_bodies(moved),
             " is not given about the mass centre. On the way there the parallel-axis term is subtracted.",
         )
-    if any(body.axes.kind is AxesKind.LINK for body in extended):
+    if robot.has_table and any(body.axes.kind is AxesKind.LINK for body in extended):
         standard = robot.convention is Convention.STANDARD
         own, other = ("after", "before") if standard else ("before", "after")
         yield (
@@ -121,13 +121,14 @@ def _energy(robot: Robot) -> Iterator[Prose]:
     if robot.gravity.is_zero:
         yield ("There is no gravity in this problem.",)
     else:
+        in_world = letters.has_base(robot) or not robot.has_table
         yield ("Heights are those of the mass centres, from the origin of the ",
-               "world." if letters.has_base(robot) else "base, against gravity.")  # fmt: skip
-    last = max(joint.index for joint in robot.joints)
+               "world." if in_world else "base, against gravity.")  # fmt: skip
+    last = max((joint.index for joint in robot.joints), default=0)
     inner = [body for body in robot.bodies if body.link < last]
     if inner:
         yield ("Joints after its link do not move a body: their columns are zero, for ", *_bodies(inner), ".")
-    if any(not body.center.is_zero for body in robot.bodies):
+    if robot.has_table and any(not body.center.is_zero for body in robot.bodies):
         yield ("The Jacobian of a body is taken at its mass centre, not at the origin of its frame.",)
     turning = _of_type(robot, JointType.REVOLUTE)
     if turning:

@@ -24,6 +24,7 @@ class Role(Enum):
     PRODUCT = "given products of inertia", "given product of inertia"
     SHAPE = "dimensions of the bodies", "dimension of a body"
     CENTER = "place of the mass centres in their links", "place of a mass centre in its link"
+    POSITION = "lengths in the given positions", "length in the given positions"
     OTHER = "parameters of the problem", "parameter of the problem"
 
     @property
@@ -76,7 +77,9 @@ def _places(robot: Robot) -> Iterator[tuple[Role, Iterable[str]]]:
             yield own if body.shape is None else Role.SHAPE, _names(given[i][j])
     for body in robot.bodies:
         for entry in body.center.entries:
-            yield Role.CENTER, _names(entry)
+            yield Role.CENTER if robot.has_table else Role.POSITION, _names(entry)
+        for turn in body.turns:
+            yield Role.POSITION, (name for rate in turn.rates.entries for name in _names(rate))
 
 
 def _names(expr: Expr) -> Iterator[str]:

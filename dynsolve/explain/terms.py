@@ -49,11 +49,11 @@ _MEANINGS: dict[Kind, str] = {
     Kind.INERTIAL: "A term with the acceleration of its own coordinate is inertial: what it takes to "
     "accelerate that coordinate alone.",
     Kind.COUPLING: "With the acceleration of another coordinate it is coupling inertia: what that "
-    "acceleration asks of this joint.",
+    "acceleration asks of this {joint}.",
     Kind.CENTRIFUGAL: "With the square of a rate it is centrifugal: it remains where that coordinate alone "
     "moves, at a constant rate.",
     Kind.CORIOLIS: "With the product of two rates it is a Coriolis term: it needs both coordinates to move.",
-    Kind.GRAVITY: "Without rates and accelerations it is gravity: what the joint must hold at rest.",
+    Kind.GRAVITY: "Without rates and accelerations it is gravity: what {holds} must hold at rest.",
 }
 
 
@@ -110,7 +110,10 @@ def terms_step(context: Context) -> Iterator[Step]:
     kinds = dict.fromkeys(term.kind for _, terms in found for term in terms)
     known = Dimensions(robot.ring, robot)
     units_known = _fit(context, known, found)
-    why = [_MEANINGS[kind] for kind in Kind if kind in kinds]
+    words = {"joint": "joint", "holds": "the joint"}
+    if not context.robot.has_table:
+        words = {"joint": "coordinate", "holds": "the force of the coordinate"}
+    why = [_MEANINGS[kind].format(**words) for kind in Kind if kind in kinds]
     checked = _said_of_units(robot.coordinates) if units_known else ()
     header = ("force", "term", "what it is", *(("unit",) if units_known else ()))
     rows = [row for q, terms in found for row in _rows(context, q, terms, known if units_known else None)]

@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from dynsolve.explain.sign_kinds import MOTIONS, Kind, kind_of
-from dynsolve.explain.writing import side_by_side
+from dynsolve.explain.writing import machine, side_by_side
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Letter, Node, Number, Row, Symbol, Words
@@ -77,13 +77,13 @@ SHAPES = {
 
 def textbook(robot: Robot) -> Iterator[Line]:
     """The lines of the textbook's letters, in the order of the derivation."""
-    ground = "the world w" if letters.has_base(robot) else "frame 0"
+    ground = "the world w" if letters.has_base(robot) else "frame 0" if robot.has_table else "the world"
     yield from _kinematics(ground, letters.H(robot, 0).sup)
     yield from _questions(robot)
     yield from _bodies(robot, ground)
     if Stage.NEWTON_EULER in asked_stages(robot.questions):
         yield from _recursions(robot)
-    yield from _dynamics()
+    yield from _dynamics(machine(robot))
 
 
 def _line(sign: Node | Sequence[Node], meaning: str, unit: str = "", *kinds: Kind) -> Line:
@@ -212,7 +212,7 @@ def _recursions(robot: Robot) -> Iterator[Line]:
     yield _each(held, " with which link i-1 holds link i, in frame i")
 
 
-def _dynamics() -> Iterator[Line]:
+def _dynamics(machine: str) -> Iterator[Line]:
     yield _line([_sub("J", "v"), _sub("J", "omega")], "Jacobians of the mass centre of body i")
     velocities = [
         (_numbered("v"), "velocity of the mass centre"), (_numbered("omega"), "angular velocity"),
@@ -223,8 +223,8 @@ def _dynamics() -> Iterator[Line]:
         (_sub("K", "omega"), "its part of rotation"), (_body("P"), "potential energy"),
     ]  # fmt: skip
     yield _each(energies, " of body i", "J")
-    of_arm = [(letters.K, "kinetic energy"), (letters.P, "potential energy"), (letters.L, "Lagrangian")]
-    yield _each(of_arm, " of the arm", "J")
+    totals = [(letters.K, "kinetic energy"), (letters.P, "potential energy"), (letters.L, "Lagrangian")]
+    yield _each(totals, f" of the {machine}", "J")
     yield _line(_body("tau"), "generalized force i, a torque: coordinate i is an angle", "N m")
     yield _line(_body("f"), "generalized force i, a force: coordinate i is a length", "N")
     yield _line(letters.TAU, "column of the generalized forces")

@@ -120,7 +120,8 @@ def _driven_by(context: Context, q: Coordinate) -> Prose:
     """The kind of force that drives a coordinate, and of which joints it is made where they share it."""
     kind = "torque" if turns(q) else "force"
     moved = context.robot.joints_of(q)
-    if all(len(joint.rates) == 1 and rate == 1 for joint, rate in moved) and len(moved) == 1:
+    alone = len(moved) == 1 and all(len(joint.rates) == 1 and rate == 1 for joint, rate in moved)
+    if alone or not moved:
         return (f" is {'an angle' if turns(q) else 'a length'}, so what drives it is a {kind}.",)
     parts: Prose = ()
     for joint, rate in moved:

@@ -9,6 +9,7 @@ from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
 from dynsolve.explain.christoffel import SLOPES, christoffel_step
 from dynsolve.explain.closing import closing_step
 from dynsolve.explain.context import Context
+from dynsolve.explain.given_model import inertia_step
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
@@ -47,7 +48,8 @@ def steps(context: Context) -> Iterator[Step]:
     yield _inertia(context)
     yield _rest(context)
     if from_energies:
-        yield _inertia_direct(context)
+        given = context.robot.given
+        yield _inertia_direct(context) if given is None else inertia_step(context, given)
         if _is_short(context):
             for body in context.robot.bodies:
                 yield _part(context, body)
@@ -99,7 +101,7 @@ def _rest(context: Context) -> Step:
     values = context.values
     Cqd = Product((letters.C, letters.QD))
     why: Prose = ("What is left of the forces without the accelerations: the terms with rates are ",)
-    why += (Cqd, "; the others, which remain when the arm is at rest, are ", letters.G, ".")
+    why += (Cqd, f"; the others, which remain when the {context.machine} is at rest, are ", letters.G, ".")
     if values["Cqd"].is_zero:
         why += (" No term has rates here.",)
     if values["g"].is_zero:
@@ -118,7 +120,7 @@ def _rest(context: Context) -> Step:
         uses=(*_forces(context), "D"),
         hint=(
             "What is left of the forces without the accelerations: the terms with rates belong to C, the "
-            "others, which remain when the arm is at rest, are ",
+            f"others, which remain when the {context.machine} is at rest, are ",
             letters.G,
             ".",
         ),

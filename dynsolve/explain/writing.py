@@ -10,7 +10,7 @@ from dynsolve.explain.citations import craig as craig  # what stages write, in o
 from dynsolve.explain.citations import spong as spong
 from dynsolve.notation.tree import ZERO, Matrix, Node, Row, Sum, Words
 from dynsolve.notation.walk import walk
-from dynsolve.robot.model import Body, Coordinate, JointType
+from dynsolve.robot.model import Body, Coordinate, JointType, Robot
 
 LARGEST_WORKING = 260
 """Matrices whose entries have more parts than this are not put into a formula; it stays in letters."""
@@ -19,6 +19,11 @@ LARGEST_WORKING = 260
 def turns(q: Coordinate) -> bool:
     """Whether a coordinate is an angle."""
     return q.type is JointType.REVOLUTE
+
+
+def machine(robot: Robot) -> str:
+    """What moves, in a sentence."""
+    return "arm" if robot.has_table else "mechanism"
 
 
 def name_of(body: Body) -> str:

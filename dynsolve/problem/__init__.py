@@ -12,6 +12,8 @@
                      framing        the table and the base of a drawing
                      drawn_places   points of a drawing, in the frames of their links
                      bodies         `masses`
+                     mechanism      `model`: bodies by their positions, or given energies
+                     rate_cells     an expression in which rates may stand: x', x_dot
                      base           `gravity`, `base`
                      places         a point of a link: `center`, `at`
                      questions      what is asked around the model: `points`, `task`
@@ -28,14 +30,17 @@
       -> Robot       values         the ring that holds everything, and each cell in it
                      positions      where the points of links are
                      build          joints and bodies
+                     body_values    the mass and the tensor of a body
+                     mechanism_build
+                                    bodies by their positions, given energies
                      targets        `reach` and `limits` with numbers
                      questions_build
                                     points, the task, forces
       -> Problem     model          the robot, and what the exercise says about it
 
 `reader` goes this way; each step reports what it finds and goes on with what is sound.
-Which keys there are is said once, in `specification` and `kinematic_keys` (in terms of
-`kinds` and `value_kinds`); from there come
+Which keys there are is said once, in `specification`, `kinematic_keys` and `mechanism_keys` (in
+terms of `kinds` and `value_kinds`); from there come
 the reader's keys, the JSON Schema (`schema`), the file of `dynsolve new` and the tables of
 the documentation (`documentation`).  `lint` finds what is no fault but deserves a look,
 `library` the problems that come with dynsolve.

@@ -29,6 +29,10 @@ class ParsedBase:
         return (self.rotation.cells if self.rotation else ()) + (self.move or ())
 
 
+NO_BASE = ParsedBase(None, None)
+"""Frame 0 is the world."""
+
+
 def read_gravity(faults: Faults, fields: Fields, coordinates: tuple[str, ...]) -> tuple[Cell, ...] | None:
     """The three components of gravity; None where they were reported."""
     node = fields.get("gravity")
@@ -40,7 +44,7 @@ def read_gravity(faults: Faults, fields: Fields, coordinates: tuple[str, ...]) -
             )
         return _components("0", "0", "-g")
     if isinstance(node, ScalarNode) and node.text in NO_VALUE.choices:
-        return _components("0", "0", "0")
+        return NO_GRAVITY
     if not isinstance(node, ListNode):
         span = fields.span_of("gravity")
         faults.error(span, f"gravity is a vector, not {describe(node) if node else 'nothing'}", _GRAVITY_HELP)
@@ -70,6 +74,9 @@ def _points_up(cells: tuple[Cell, ...]) -> bool:
 
 def _begins_with_minus(cell: Cell) -> bool:
     return cell.text.lstrip(" (").startswith(("-", "−"))
+
+
+NO_GRAVITY = _components("0", "0", "0")
 
 
 def read_base(faults: Faults, node: YamlNode | None, coordinates: tuple[str, ...]) -> ParsedBase:

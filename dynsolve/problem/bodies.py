@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix
 from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
@@ -120,7 +121,7 @@ def read_bodies(
         nodes = nodes[:MAX_BODIES]
     entries = [_read_body(faults, entry, i, rows, coordinates, drawn) for i, entry in enumerate(nodes, 1)]
     bodies = tuple(parsed for parsed in entries if parsed)
-    _check_names(faults, bodies)
+    check_names(faults, bodies)
     return bodies
 
 
@@ -146,13 +147,13 @@ def _read_body(
         if fields.lacks(key.name):
             faults.error(node.span, f"body {index} has no `{key.name}`", f"add {key.help}")
     shape = _read_shape(faults, fields.get("shape"), f"body {index}")
-    tensor = _read_tensor(faults, fields.get("inertia"), f"body {index}")
+    tensor = read_tensor(faults, fields.get("inertia"), f"body {index}")
     link = read_link(faults, fields.get("link"), rows, "whose bodies do not move")
     parsed = ParsedBody(
         index=index,
         span=node.span,
         fields=fields,
-        name=_read_name(faults, fields.get("name"), index),
+        name=read_name(faults, fields.get("name"), index),
         mass=read_cell(faults, fields.get("mass"), f"the mass of body {index}"),
         link=link,
         center=drawn.place(faults, _read_center(faults, fields, index), link),
@@ -171,7 +172,8 @@ def _read_body(
     return replace(parsed, faulty=len(faults.errors) > before)
 
 
-def _read_name(faults: Faults, node: YamlNode | None, index: int) -> str:
+def read_name(faults: Faults, node: YamlNode | None, index: int) -> str:
+    """The name of a body: its place in the list unless the file gives one."""
     if node is None or isinstance(node, FaultyNode):
         return str(index)
     text = node.text if isinstance(node, ScalarNode) else ""
@@ -181,8 +183,25 @@ def _read_name(faults: Faults, node: YamlNode | None, index: int) -> str:
     return str(index)
 
 
-def _check_names(faults: Faults, bodies: tuple[ParsedBody, ...]) -> None:
-    first: dict[str, ParsedBody] = {}
+class NamedEntry(Protocol):
+    """An entry of a list of bodies."""
+
+    @property
+    def index(self) -> int:
+        """Its place in the list, from 1."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def fields(self) -> Fields:
+        """Its keys."""
+
+
+def check_names(faults: Faults, bodies: Sequence[NamedEntry]) -> None:
+    """Report a name that two bodies have."""
+    first: dict[str, NamedEntry] = {}
     for body in bodies:
         other = first.setdefault(body.name, body)
         if other is not body:
@@ -262,7 +281,8 @@ def _read_dimensions(
     return ParsedShape(kind, span, found, axis)
 
 
-def _read_tensor(faults: Faults, node: YamlNode | None, body: str) -> ParsedTensor | None:
+def read_tensor(faults: Faults, node: YamlNode | None, body: str) -> ParsedTensor | None:
+    """The tensor under `inertia`, None where there is none or it was reported."""
     if node is None or isinstance(node, FaultyNode):
         return None
     if isinstance(node, ListNode):

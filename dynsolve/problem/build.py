@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.problem.bodies import ParsedBody, ParsedShape, ParsedTensor
+from dynsolve.problem.bodies import ParsedBody, ParsedShape
+from dynsolve.problem.body_values import mass_value, tensor_value
+from dynsolve.problem.mechanism_build import given_model, placed_bodies
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.positions import PlaceBuilder
 from dynsolve.problem.questions_build import load, named_point, with_questions
@@ -36,15 +37,17 @@ def build_robot(
     joints = [_joint(values, parsed, row) for row in parsed.table.rows]
     known = [joint for joint in joints if joint]
     whole = len(known) == len(joints) and bool(joints) and parsed.table.sound
+    model = parsed.model
     links = Links(ring, parsed.convention, known, parsed.table.names) if whole else None
     rotation = values.rotation(parsed.base.rotation, "the axes of the base") if parsed.base.rotation else None
     move = values.column(parsed.base.move) if parsed.base.move else None
     gravity = values.column(parsed.gravity) if parsed.gravity else None
     builder = BodyBuilder(faults, values, links)
-    bodies = [builder.body(body) for body in parsed.bodies]
+    bodies = placed_bodies(values, model) if model else [builder.body(body) for body in parsed.bodies]
     asked_points = [named_point(builder.places, point) for point in parsed.questions.points]
     points = [point for point in asked_points if point]
     loads = [load(builder.places, entry, points, len(joints)) for entry in parsed.questions.loads]
+    given = given_model(values, model) if model else None
     if faults.errors or gravity is None:
         return None
     robot = Robot(
@@ -57,6 +60,7 @@ def build_robot(
         base_rotation=rotation or Matrix.identity(ring, 3),
         base_position=move or Matrix.zero(ring, 3, 1),
         parameters=tuple(name for name in ring.parameters if name != "pi"),
+        given=given,
     )
     known_loads = [one for one in loads if one]
     is_drawn = parsed.normals is not None
@@ -94,9 +98,9 @@ class BodyBuilder:
 
     def body(self, parsed: ParsedBody) -> Body | None:
         """The `Body` of a parsed entry of `masses:`; None where a fault of it was reported."""
-        mass = self._mass(parsed)
+        mass = mass_value(self.values, parsed.mass, parsed.index)
         axes = self._axes(parsed)
-        tensor = self._tensor(parsed.tensor, parsed) if parsed.tensor else None
+        tensor = tensor_value(self.values, parsed.tensor, parsed.index) if parsed.tensor else None
         written = self._written(parsed)
         center = (
             self.places.position(parsed.center, parsed.link, "center", written) if parsed.center else None
@@ -120,14 +124,6 @@ class BodyBuilder:
             center_written=written,
         )
 
-    def _mass(self, parsed: ParsedBody) -> Expr | None:
-        mass = self.values.expr(parsed.mass) if parsed.mass else None
-        if mass is not None and parsed.mass and mass.is_number and mass.number < 0:
-            self.faults.error(
-                parsed.mass.span, f"the mass of body {parsed.index} is negative", "masses are not negative"
-            )
-        return mass
-
     def _written(self, parsed: ParsedBody) -> str:
         if parsed.center is None or "center" not in parsed.fields:
             return "tip"
@@ -147,32 +143,6 @@ class BodyBuilder:
         return point
 
     # -- inertia -----------------------------------------------------------------------------------
-
-    def _tensor(self, tensor: ParsedTensor, parsed: ParsedBody) -> Matrix | None:
-        zero = self.ring.zero
-        rows = [[self.values.expr(cell) if cell else zero for cell in row] for row in tensor.rows]
-        known = [[entry for entry in row if entry is not None] for row in rows]
-        asymmetric = False
-        for i, j in ((0, 1), (0, 2), (1, 2)):
-            above, below = rows[i][j], rows[j][i]
-            if tensor.listed and above is not None and below is not None and above != below:
-                asymmetric = True
-                self._report_asymmetry(tensor, parsed, i, j)
-        if asymmetric or any(len(row) < 3 for row in known):
-            return None
-        return Matrix.of(self.ring, known)
-
-    def _report_asymmetry(self, tensor: ParsedTensor, parsed: ParsedBody, i: int, j: int) -> None:
-        above, below = tensor.rows[i][j], tensor.rows[j][i]
-        assert above and below
-        key = AXES[i] + AXES[j]
-        message = (
-            f"the inertia of body {parsed.index} is not symmetric: "
-            f"I_{key[::-1]} = {below.text} is not I_{key} = {above.text}"
-        )
-        self.faults.error(
-            below.span, message, "an inertia tensor is symmetric: write the same entry in both places"
-        )
 
     def _shape(self, shape: ParsedShape, parsed: ParsedBody, axes: Axes | None) -> Shape | None:
         values = {key: self.values.expr(cell) for key, cell in shape.dimensions.items()}

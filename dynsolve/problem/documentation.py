@@ -18,7 +18,7 @@ from collections.abc import Iterable, Sequence
 from textwrap import wrap
 
 from dynsolve.problem.kinds import BRACKETS, Key, Keyed, ListOf, OneOf, Shared, ValueKind, Word, either, ways
-from dynsolve.problem.specification import BODY, PROBLEM, ROW, SHAPE
+from dynsolve.problem.specification import BODY, PLACED_BODY, PROBLEM, ROW, SHAPE
 from dynsolve.robot.shapes import KINDS
 
 _WIDTH = 110
@@ -71,8 +71,8 @@ def _wrapped(head: str, text: str) -> list[str]:
 
 
 def tables() -> tuple[str, ...]:
-    """The keys of a file, the columns of a row, the keys of a body, the shapes."""
-    return (*map(table_of_keys, (PROBLEM, ROW, BODY)), _shapes())
+    """The keys of a file, the columns of a row, the keys of a body and of one by its position, the shapes."""
+    return (*map(table_of_keys, (PROBLEM, ROW, BODY, PLACED_BODY)), _shapes())
 
 
 def table_of_keys(record: Keyed) -> str:

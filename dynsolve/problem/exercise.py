@@ -43,8 +43,7 @@ class Exercise:
 def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercise:
     """The values, units, marks and answers asked for; everything wrong with them is reported."""
     names = None  # as long as the table or a body is faulty, which answers there are is not known
-    is_sound = parsed.table.sound and not any(body.faulty for body in parsed.bodies)
-    if is_sound and ("find" in fields or "marks" in fields):
+    if parsed.sound and ("find" in fields or "marks" in fields):
         names = Quantities(parsed.owners)
     values, written = _read_values(faults, fields.get("values"))
     find = _read_find(faults, fields.get("find"), names)

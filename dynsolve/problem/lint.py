@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from dynsolve.errors import Finding
 from dynsolve.notation.names import split
+from dynsolve.problem.bodies import ParsedBody
 from dynsolve.problem.cells import Cell
+from dynsolve.problem.mechanism import ParsedPlacedBody
 from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.yaml_nodes import MappingNode, Span
-from dynsolve.robot.model import Body
+from dynsolve.robot.model import Body, Robot
 
 _YAML_WORDS = ("null", "true", "false", "yes", "no", "on", "off")
 _SHORTHAND = re.compile(r"[sc]_?([0-9_]+)")
@@ -166,7 +168,9 @@ def unstarred(reading: Reading) -> Iterator[Finding]:
 def moves_no_mass(reading: Reading) -> Iterator[Finding]:
     """A coordinate that moves no body: a massless last link."""
     robot = reading.problem.robot
-    if not robot.bodies:
+    if reading.parsed.model is not None:
+        yield from _moves_nothing(reading)
+    if not robot.bodies or not robot.has_table:
         return
     last = max((body.link for body in robot.bodies if body.inertia or not body.mass.is_zero), default=0)
     for coordinate in robot.coordinates:
@@ -178,6 +182,30 @@ def moves_no_mass(reading: Reading) -> Iterator[Finding]:
             help = "give a link after this joint a body, or leave the joint out"
             cell = reading.parsed.table.rows[min(rows) - 1].cells[robot.joints[min(rows) - 1].variable or "d"]
             yield _finding(reading, _span(reading, cell), message, help, "moves-no-mass")
+
+
+def _moves_nothing(reading: Reading) -> Iterator[Finding]:
+    """A coordinate of a model that moves no body, or whose rate stands nowhere in what is given."""
+    robot, model = reading.problem.robot, reading.parsed.model
+    for k, coordinate in enumerate(robot.coordinates):
+        if model is not None and not _has_inertia(robot, k):
+            message = f"nothing that has mass moves with {coordinate.name}: D is singular"
+            help = "give a body a position that holds it, or leave it out"
+            yield _finding(reading, model.span, message, help, "moves-no-mass")
+
+
+def _has_inertia(robot: Robot, k: int) -> bool:
+    """Whether something that has mass moves with a coordinate of a model."""
+    given = robot.given
+    if given is not None:
+        if given.D is not None:
+            return not given.D[k, k].is_zero
+        energies = [energy for energy in (given.K, given.L) if energy is not None]
+        return any(not robot.ring.diff_velocity(energy, k).is_zero for energy in energies)
+    heavy = [body for body in robot.bodies if not body.mass.is_zero]
+    moved = any(not robot.ring.diff(entry, k).is_zero for body in heavy for entry in body.center.entries)
+    turned = (turn for body in robot.bodies if body.inertia is not None for turn in body.turns)
+    return moved or any(not turn.rates[0, k].is_zero for turn in turned)
 
 
 def no_tool_row(reading: Reading) -> Iterator[Finding]:
@@ -239,7 +267,9 @@ def unphysical(reading: Reading) -> Iterator[Finding]:
 
 
 def _bodies(reading: Reading) -> Iterator[tuple[Body, Span]]:
-    for body, parsed in zip(reading.problem.robot.bodies, reading.parsed.bodies, strict=True):
+    model = reading.parsed.model
+    listed: Sequence[ParsedBody | ParsedPlacedBody] = model.bodies if model else reading.parsed.bodies
+    for body, parsed in zip(reading.problem.robot.bodies, listed, strict=True):
         yield body, parsed.span
 
 

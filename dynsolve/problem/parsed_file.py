@@ -9,6 +9,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.problem.base import ParsedBase
 from dynsolve.problem.bodies import ParsedBody
 from dynsolve.problem.cells import Cell
+from dynsolve.problem.mechanism import ParsedModel
 from dynsolve.problem.questions import ParsedQuestions
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.table import DHTable
@@ -30,6 +31,15 @@ class ParsedFile:
     questions: ParsedQuestions
     normals: Normals | None = None
     """Of a drawing, the normals that its table was made from."""
+    model: ParsedModel | None = None
+    """In the place of a table and its bodies: a mechanism by positions, or given energies."""
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing of the table, its bodies or the model was reported."""
+        if self.model is not None:
+            return not self.model.faulty
+        return self.table.sound and not any(body.faulty for body in self.bodies)
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -42,11 +52,12 @@ class ParsedFile:
     @property
     def owners(self) -> Owners:
         """What the answers to this problem can belong to, whatever of it is asked for."""
+        bodies = self.model.bodies if self.model else self.bodies
         return Owners(
             rows=len(self.table.rows),
             coordinates=self.coordinates,
-            bodies=tuple(body.name for body in self.bodies),
-            points=frozenset(body.name for body in self.bodies if body.is_point),
+            bodies=tuple(body.name for body in bodies),
+            points=frozenset(body.name for body in bodies if body.is_point),
             named=self.questions.names,
             stages=frozenset(ASKED_FOR),
             is_twist=self.questions.task is not None and self.questions.task.is_twist,
@@ -72,6 +83,8 @@ class ParsedFile:
         for body in self.bodies:
             if body.axes and body.axes.kind is AxesKind.BASE and body.axes.rotation:
                 yield from body.axes.rotation.entries
+        if self.model:
+            yield from self.model.moving
         yield from self.questions.moving
 
     @property
@@ -82,6 +95,8 @@ class ParsedFile:
                 yield row.cells["a"]
         for body in self.bodies:
             yield from body.values
+        if self.model:
+            yield from self.model.constant
         yield from self.gravity or ()
         yield from self.base.move or ()
         if self.base.rotation:
@@ -96,6 +111,8 @@ class ParsedFile:
                 yield from ((row.cells[column], angle) for column, angle in row.angles.items())
         for rotation in self.rotations:
             yield from ((turn.cell, turn.angle) for turn in rotation.turns)
+        if self.model:
+            yield from ((turn.cell, turn.angle) for turn in self.model.turns)
 
     @property
     def cells(self) -> Iterator[Cell]:
@@ -106,6 +123,8 @@ class ParsedFile:
             yield from rotation.cells
         for body in self.bodies:
             yield from body.values
+        if self.model:
+            yield from self.model.cells
         yield from self.gravity or ()
         yield from self.base.move or ()
         yield from self.questions.constant

@@ -13,21 +13,23 @@ from pathlib import Path
 
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.accepted_tables import read_accepted_tables
-from dynsolve.problem.base import read_base, read_gravity
+from dynsolve.problem.base import NO_BASE, NO_GRAVITY, read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
+from dynsolve.problem.cells import Cell
 from dynsolve.problem.drawing import read_drawing
 from dynsolve.problem.drawn_places import DrawnFrames
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.fields import Fields, describe, free_text, word
 from dynsolve.problem.framing import Framed, from_drawing
+from dynsolve.problem.mechanism import ParsedModel, read_model
 from dynsolve.problem.model import FilePlace, Problem
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.questions import read_questions
 from dynsolve.problem.source import MAX_BYTES, Faults, as_source
-from dynsolve.problem.specification import CONVENTION, DRAWING, PROBLEM
+from dynsolve.problem.specification import CONVENTION, DRAWING, OF_A_TABLE, PROBLEM
 from dynsolve.problem.symbols import check_size, check_symbols
-from dynsolve.problem.table import read_table
+from dynsolve.problem.table import DHTable, read_table
 from dynsolve.problem.yaml_nodes import ListNode, MappingNode, YamlNode, read_nodes
 from dynsolve.robot.model import Convention
 
@@ -135,7 +137,8 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
         faults, fields.get("convention"), CONVENTION.choices, "convention", PROBLEM["convention"].help
     )
     convention = Convention(named or "standard")
-    framed = _framed(faults, fields, convention)
+    model = _model(faults, fields) if "model" in fields else None
+    framed = Framed(DHTable((), model.coordinates), NO_BASE) if model else _framed(faults, fields, convention)
     table = framed.table
     coordinates = dict(table.coordinates)
     rows = len(table.rows)
@@ -144,12 +147,34 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     return ParsedFile(
         convention=convention,
         table=table,
-        gravity=read_gravity(faults, fields, table.names),
+        gravity=_gravity(faults, fields, table, model),
         base=framed.base,
         bodies=bodies,
         questions=read_questions(faults, fields, rows, coordinates, [body.name for body in bodies], drawn),
         normals=framed.normals,
+        model=model,
     )
+
+
+def _gravity(
+    faults: Faults, fields: Fields, table: DHTable, model: ParsedModel | None
+) -> tuple[Cell, ...] | None:
+    """The acceleration of gravity, which acts on bodies: a model that is given without them has none."""
+    if model is None or model.bodies or model.faulty:
+        return read_gravity(faults, fields, table.names)
+    if "gravity" in fields:
+        message = "gravity has no effect: the energies of the model are given"
+        faults.warn(fields.key_span("gravity"), message, "delete it; P holds what gravity does", "no-effect")
+    return NO_GRAVITY
+
+
+def _model(faults: Faults, fields: Fields) -> ParsedModel:
+    """The model in the place of a table; keys that need a table are reported."""
+    for key in OF_A_TABLE:
+        if key in fields:
+            message = f"`{key}` stands beside `model`, which has no table"
+            faults.error(fields.key_span(key), message, "delete it, or give a `dh` table in place of `model`")
+    return read_model(faults, fields.get("model"))
 
 
 def _framed(faults: Faults, fields: Fields, convention: Convention) -> Framed:

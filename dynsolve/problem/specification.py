@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, Word
 from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
+from dynsolve.problem.mechanism_keys import COORDINATES, model, placed_body
 from dynsolve.problem.value_kinds import EXPRESSION, LINK, MATRIX, NAME, NUMBER, PLACE, ROTATION, TEXT, VECTOR
 from dynsolve.robot.model import Convention
 from dynsolve.robot.shapes import AXES, KINDS
@@ -163,6 +164,14 @@ BODY = Keyed(
 
 MAX_ROWS = 30
 MAX_BODIES = 100
+OF_A_TABLE = (
+    "dh", "axes", "tip", "zero", "also", "strict", "base", "masses", "coordinates", "convention",
+    "points", "task", "reach", "branches", "forces", "velocity", "acceleration",
+)  # fmt: skip
+"""The keys that have no meaning beside `model`."""
+
+PLACED_BODY = placed_body(OneOf((TENSOR, MATRIX)))
+MODEL = model(PLACED_BODY, MAX_BODIES)
 CONVENTION = Word(tuple(convention.value for convention in Convention))
 ROWS = ListOf(Shared("row", ROW, "a row"), "a list of rows", 1, MAX_ROWS)
 AXES_LIST = ListOf(Shared("axis", DRAWN_AXIS, "an axis"), "a list of joint axes", 1, MAX_ROWS)
@@ -220,7 +229,7 @@ PROBLEM = Keyed(
             "The Denavit-Hartenberg table, a row a frame; missing columns are 0.",
             "\n- {theta: theta1* + 90deg, d: L1,  a: 0, alpha: 90deg}"
             "\n- {theta: 0,               d: L2*, a: 0, alpha: 0}",
-            "must be given, or `axes`",
+            "must be given, or `axes`, or `model`",
             active=True,
             more="The star marks the joint variable: in theta the joint is revolute, in d prismatic; "
             "a row without a star is a fixed frame. Angles: 90deg, pi/2, beta.",
@@ -272,10 +281,21 @@ PROBLEM = Keyed(
         ),
         Key(
             "coordinates",
-            ListOf(NAME, "a list of names"),
-            "Another order of the generalized coordinates than that of the table.",
+            OneOf((ListOf(NAME, "a list of names"), COORDINATES)),
+            "Another order of the generalized coordinates than that of the table; or with their types.",
             "[L2, theta1]",
             "order of first appearance",
+        ),
+        Key(
+            "model",
+            MODEL,
+            "In place of dh and masses: bodies by their positions, or D and P, K and P, or L.",
+            "\n  coordinates: {x: prismatic, theta: revolute}"
+            "\n  bodies:"
+            "\n    - {mass: M, at: [x, 0, 0]}"
+            "\n    - {mass: m, at: [x + l*sin(theta), -l*cos(theta), 0]}",
+            "none",
+            remedy="write model: {coordinates: {x: prismatic}, bodies: [{mass: m, at: [x, 0, 0]}]}",
         ),
         Key(
             "masses",
@@ -317,6 +337,6 @@ PROBLEM = Keyed(
             active=True,
         ),
     ),
-    one_of=("dh", "axes"),
+    one_of=("dh", "axes", "model"),
 )
 """The keys of a problem file, in the order of the documentation."""

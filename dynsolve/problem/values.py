@@ -111,6 +111,8 @@ def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
     ]
     preferred = absolute_angles(turns, parsed.table.names, parsed.convention is Convention.MODIFIED)
     trees: list[Node] = [cell.tree for cell in cells]
+    if parsed.model:
+        trees += (*parsed.model.rates, *parsed.model.slopes)
     angles = [angle for _, angle in parsed.angles]
     state = parsed.questions.state
     if state is None:

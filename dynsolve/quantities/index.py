@@ -74,6 +74,8 @@ class Owners:
             return False
         if family in _FROM_RATES and _FROM_RATES[family] not in self.rates:
             return False
+        if not self.rows and family.stage.needs_table:
+            return False
         return not family.stage.asked_for or family.stage in self.stages
 
     def size(self, size: Size) -> int:
@@ -397,9 +399,15 @@ def stages_of(robot: Robot) -> tuple[Stage, ...]:
     return tuple(
         stage
         for stage in Stage
-        if (stage in asked if stage.asked_for else robot.bodies or not stage.needs_masses)
-        and stage not in passed_over
+        if (stage in asked if stage.asked_for else _belongs(stage, robot)) and stage not in passed_over
     )
+
+
+def _belongs(stage: Stage, robot: Robot) -> bool:
+    """Whether a stage of the course belongs to a robot: to one without masses or a table not all do."""
+    if stage.needs_table:
+        return robot.has_table
+    return bool(robot.bodies) if stage.needs_bodies else robot.has_dynamics
 
 
 @lru_cache(maxsize=64)  # asked for at every hand-in; 18 ms to make for a 7R arm, 0.01 ms to find

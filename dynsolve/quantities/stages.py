@@ -47,10 +47,22 @@ class Stage(StrEnum):
     @property
     def needs_masses(self) -> bool:
         """Whether it is left out where no body has mass."""
-        return self in _OF_BODIES
+        return self in _OF_MASSES
+
+    @property
+    def needs_bodies(self) -> bool:
+        """Whether it speaks of bodies, and is left out where a model is given without them."""
+        return self is Stage.INERTIA
+
+    @property
+    def needs_table(self) -> bool:
+        """Whether it speaks of frames and joints, and is left out of a model without a table."""
+        return self in _OF_A_TABLE
 
 
-_OF_BODIES = frozenset({Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED})
+_OF_MASSES = frozenset({Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED})
+
+_OF_A_TABLE = frozenset({Stage.FRAMES, Stage.KINEMATICS, Stage.JACOBIAN})
 
 COURSE = tuple(stage for stage in Stage if not stage.asked_for)
 """The stages of the course's derivation, which every robot with masses has."""

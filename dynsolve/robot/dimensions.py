@@ -15,8 +15,19 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.bounded_cache import recalled
+from dynsolve.robot.mechanism import GivenModel
 from dynsolve.robot.model import JointType, Robot
-from dynsolve.robot.units import ACCELERATION, INERTIA, LENGTH, MASS, NONE, Dimension, dimension, times
+from dynsolve.robot.units import (
+    ACCELERATION,
+    ENERGY,
+    INERTIA,
+    LENGTH,
+    MASS,
+    NONE,
+    Dimension,
+    dimension,
+    times,
+)
 
 MOST_REMEMBERED = 10_000
 """Of so many terms the dimension is remembered."""
@@ -138,3 +149,16 @@ def _roles(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
                 yield entry, INERTIA
     for entry in robot.gravity.entries:
         yield entry, ACCELERATION
+    if robot.given is not None:
+        yield from _given_roles(robot, robot.given)
+
+
+def _given_roles(robot: Robot, given: GivenModel) -> Iterator[tuple[Expr, Dimension]]:
+    """The dimensions of given energies, and of the entries of a given D."""
+    for energy in (given.K, given.P, given.L):
+        if energy is not None:
+            yield energy, ENERGY
+    for row, q in zip(given.D.rows if given.D else (), robot.coordinates, strict=False):
+        for entry, other in zip(row, robot.coordinates, strict=True):
+            lengths = (q.type is JointType.PRISMATIC) + (other.type is JointType.PRISMATIC)
+            yield entry, times(INERTIA, LENGTH, -lengths)

@@ -28,6 +28,18 @@ def elementary(ring: Ring, axis: str, angle: Angle) -> Matrix:
     return Matrix.of(ring, [[c, -s, zero], [s, c, zero], [zero, zero, one]])
 
 
+def rotation_about(axis: Matrix, angle: Angle) -> Matrix:
+    """The rotation about a unit vector a, 3×3: R = c E + s S(a) + (1 - c) a aᵀ, S(a) b being a × b.
+
+    Rodrigues' formula; Spong, Hutchinson, Vidyasagar, section 2.5.3.
+    """
+    ring = axis.ring
+    c, s, zero = ring.cos(angle), ring.sin(angle), ring.zero
+    x, y, z = axis.entries
+    cross = Matrix.of(ring, [[zero, -z, y], [z, zero, -x], [-y, x, zero]])
+    return Matrix.identity(ring, 3).scale(c) + cross.scale(s) + (axis @ axis.T).scale(ring.one - c)
+
+
 def is_rotation(matrix: Matrix) -> tuple[bool, bool]:
     """(R Rᵀ = 1, det R = +1), decided exactly."""
     ring = matrix.ring

@@ -1,5 +1,7 @@
 """The model of a manipulator: joints in a Denavit-Hartenberg table, and bodies that have mass.
 
+A mechanism by positions has bodies and no joints, a given model neither; see `mechanism`.
+
 Everything here is exact, frozen and whole.  Lengths, masses and inertias are
 elements of one ring (`robot.ring`); angles are linear forms in the coordinates.
 A `Robot` knows no file and no printing.
@@ -16,6 +18,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import Node
+from dynsolve.robot.mechanism import BodyTurn, GivenModel
 from dynsolve.robot.questions import Questions
 from dynsolve.robot.shapes import Shape
 
@@ -117,7 +120,8 @@ class Body:
     the body-attached frame (3×3, kg m²), about `about_point` (3×1 in frame `link`)
     or, where that is None, about the mass centre.  A point mass has inertia None.
     `center_written` and `about` say how the file gave them (`tip`, `midpoint`,
-    `origin`, ...), for the explanation.
+    `origin`, ...), for the explanation.  A body of a mechanism by positions has link 0, a
+    centre in the world that is a function of the coordinates, and `turns`.
     """
 
     name: str
@@ -130,6 +134,7 @@ class Body:
     about: str = "center"
     about_point: Matrix | None = None
     center_written: str = ""
+    turns: tuple[BodyTurn, ...] = ()
 
     @property
     def is_point(self) -> bool:
@@ -143,7 +148,8 @@ class Robot:
 
     `base_rotation` (3×3) and `base_position` (3×1) place frame 0 in the world;
     `gravity` (3×1, world) is the acceleration of gravity, pointing down.  `questions` are
-    what the exercise asks around this model.
+    what the exercise asks around this model.  Without joints the bodies are given by their
+    positions, or `given` stands in their place.
     """
 
     ring: Ring
@@ -156,6 +162,17 @@ class Robot:
     base_position: Matrix
     parameters: tuple[str, ...] = field(default=())
     questions: Questions = field(default=Questions())
+    given: GivenModel | None = None
+
+    @property
+    def has_table(self) -> bool:
+        """Whether it is an arm with a table, and so with frames and a Jacobian of its end."""
+        return bool(self.joints)
+
+    @property
+    def has_dynamics(self) -> bool:
+        """Whether it has mass: bodies, or a model that is given."""
+        return bool(self.bodies) or self.given is not None
 
     @property
     def n(self) -> int:

@@ -24,7 +24,7 @@ from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
 from dynsolve.explain.citations import KHALIL_DOMBRE, cited
 from dynsolve.explain.notation_list import notation
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import listed
+from dynsolve.explain.writing import listed, machine
 from dynsolve.notation.tree import Relation, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import stages_of
@@ -101,7 +101,8 @@ def _opening(solution: Dynamics, sources: Iterable[str]) -> Iterator[Block]:
     problem = solution.problem
     yield Heading(problem.title, 1)
     facts = [problem.source] if problem.source else []
-    facts.append(f"Convention: {CONVENTIONS[problem.convention.value]}.")
+    if solution.robot.has_table:
+        facts.append(f"Convention: {CONVENTIONS[problem.convention.value]}.")
     facts += [
         f"{book.name + ' is' if book.name else 'The sections (§) are those of'} {book.full}."
         for book in cited(sources)
@@ -125,7 +126,7 @@ def _stages(
             continue
         if step.stage != stage:
             if short is not None and step.stage is Stage.VECTORIZED:
-                yield from definition_blocks(short)
+                yield from definition_blocks(short, machine(solution.robot))
             stage, place, extra = step.stage, 0, 0
             heading = Heading(f"{numbers[stage]}. {stage.heading}", 2)
         if step.detail is Detail.FULL:  # 7.3.1, so that the others have the same number in every detail
@@ -145,23 +146,23 @@ def _stages(
         earlier.add(step)
 
 
-def definition_blocks(short: Abbreviated) -> Iterator[Block]:
-    """The section in which the names are defined."""
+def definition_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
+    """The section in which the names are defined; `what` is the arm or the mechanism."""
     if not short.definitions:
         return
     yield Heading("Abbreviations", 2)
     if short.constants:
-        yield Fold("Inertial constants", tuple(_constant_blocks(short)), Detail.BRIEF)
+        yield Fold("Inertial constants", tuple(_constant_blocks(short, what)), Detail.BRIEF)
     if short.sums:
         yield Fold("Recurring terms", tuple(_recurring_blocks(short)), Detail.BRIEF)
 
 
-def _constant_blocks(short: Abbreviated) -> Iterator[Block]:
+def _constant_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
     count = len(short.constants) + len(short.kept)
     own: Prose = (", and ", *listed(short.kept)) if short.kept else ()
     yield Text((
-        f"The arm has {count} base parameter{'s' if count > 1 else ''}: the fewest combinations of masses, "
-        "mass centres, moments of inertia and lengths of which ",
+        f"The {what} has {count} base parameter{'s' if count > 1 else ''}: the fewest combinations of "
+        "masses, mass centres, moments of inertia and lengths of which ",
         *listed([letters.D, letters.G]),
         " are made (",
         KHALIL_DOMBRE.section("9.4"),
@@ -230,7 +231,7 @@ def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
 def _closing(solution: Dynamics) -> Iterator[Block]:
     verification = solution.verification
     how = verification.method
-    if not solution.robot.bodies:
+    if not solution.robot.has_dynamics:
         if not any(stage.asked_for for stage in stages_of(solution.robot)):
             yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
         how = f"the last frame and the Jacobian by the outward half of {how}"

@@ -69,7 +69,7 @@ class Dynamics:
         if progress is not None:
             _make_all(forms, progress)
         agreed = None
-        if robot.bodies:
+        if robot.has_dynamics:
             agreed = agreement(robot, values)
             if not agreed.holds:
                 raise VerificationError(
@@ -129,7 +129,7 @@ class Dynamics:
         from dynsolve.explain.abbreviations import Abbreviate, is_long
 
         asked = Abbreviate(abbreviate)
-        if not self.robot.bodies or asked is Abbreviate.NEVER:
+        if not self.robot.has_dynamics or asked is Abbreviate.NEVER:
             return None
         return self._abbreviated if asked is Abbreviate.ALWAYS or is_long(self.forms) else None
 
@@ -161,5 +161,6 @@ def _make_all(forms: Forms, progress: Progress) -> None:
 
 
 def _checked(robot: Robot, forms: Forms) -> dict[str, Node]:
-    names = CHECKED if robot.bodies else ("J",)
-    return {"H": forms(f"H{len(robot.joints)}"), **{name: forms(name) for name in names}}
+    names = [name for name in CHECKED if name in forms.values.rules]
+    frame = {"H": forms(f"H{len(robot.joints)}")} if robot.has_table else {}
+    return {**frame, **{name: forms(name) for name in names}}

@@ -22,7 +22,7 @@ from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Kind, Owner
-from dynsolve.quantities.index import Quantity, quantities
+from dynsolve.quantities.index import Quantity, quantities, stages_of
 from dynsolve.robot.model import Robot
 from dynsolve.solution.branch_export import beside_branches, branch_results
 from dynsolve.solution.dynamics import Dynamics
@@ -197,9 +197,8 @@ class _Exporter:
 
 def _exported(robot: Robot) -> Iterator[Family]:
     """The families that `results` has, in their order."""
-    for family in FAMILIES:
-        if family.json and (robot.bodies or not family.stage.needs_masses):
-            yield family
+    stages = stages_of(robot)
+    return (family for family in FAMILIES if family.json and family.stage in stages)
 
 
 def _asked(robot: Robot) -> Iterator[Quantity]:

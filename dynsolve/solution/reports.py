@@ -55,7 +55,7 @@ def report(
     style = report_style(solution, star)
     shown = Detail.FULL if format is Format.HTML else detail
     document = solution_document(solution, shown, stages, Abbreviate(abbreviate))
-    if format in PICTURED and (stages is None or _SHOWN_IN & set(stages)):
+    if solution.robot.has_table and format in PICTURED and (stages is None or _SHOWN_IN & set(stages)):
         document = _with_picture(document, solution, star)
     return rendered(document, style, format, detail, fragment)
 

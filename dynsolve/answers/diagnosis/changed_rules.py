@@ -74,7 +74,7 @@ class DerivationSlips:
 
     def _make(self) -> Iterator[tuple[str, ChangedDerivation, Diagnosis]]:
         graph, robot = self.graph, self.graph.robot
-        if not robot.bodies or len(graph.key("K")) > MOST_TERMS:
+        if not robot.has_dynamics or len(graph.key("K")) > MOST_TERMS:
             return
         for node in self._sources():
             right = graph.key(node)

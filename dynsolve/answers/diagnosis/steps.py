@@ -67,6 +67,8 @@ def _frame(robot: Robot, joint: Joint, value: InputValue) -> Iterator[Variant]:
 
 
 def _center(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    if not robot.has_table:
+        return
     for link in (body.link, body.link - 1):
         yield (
             kinematics.origin(value(f"H{link}")),
@@ -82,6 +84,8 @@ def _frames(value: InputValue, link: int) -> list[Matrix]:
 
 
 def _linear_jacobian(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    if not robot.has_table:
+        return
     frames = _frames(value, len(robot.joints))
     tip = kinematics.origin(frames[body.link])
     yield (
@@ -101,6 +105,8 @@ def _end_jacobian(robot: Robot, value: InputValue) -> Iterator[Variant]:
 
 
 def _angular_jacobian(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
+    if not robot.has_table:
+        return
     links = len(robot.joints)
     frames = _frames(value, links)
     yield _all_turn(robot, frames, body.link), slip("prismatic_turns")
@@ -151,6 +157,8 @@ def _base_inertia(robot: Robot, body: Body, value: InputValue) -> Iterator[Varia
     tensor, R = value(f"I_body{body.name}"), value(f"R{body.name}")
     yield tensor, slip("not_rotated", part=body.name)
     yield R.T @ tensor @ R, slip("rotation_transposed", part=body.name)
+    if not robot.has_table:
+        return
     if body.axes.kind is AxesKind.LINK:
         before = inertia.body_rotation(robot, body, value(f"H{body.link - 1}"))
         yield before @ tensor @ before.T, slip("frame_before", part=body.name)
@@ -193,6 +201,8 @@ def _kinetic(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
 
 def _total_kinetic(robot: Robot, value: InputValue) -> Iterator[Variant]:
     bodies = robot.bodies
+    if not bodies:
+        return
     total = energy.total(robot.ring, tuple(value(f"K{b.name}") for b in bodies))
     for b in bodies:
         if len(bodies) > 1:

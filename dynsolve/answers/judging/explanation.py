@@ -166,7 +166,7 @@ class Explanations:
     def lead_elsewhere(self, compared: KeyComparison) -> bool:
         """Whether an answer is the key's although the student's own wrong answers lead to other values."""
         node, robot = compared.target.node, self.hand_in.answer_ring.robot
-        if node in ("Cqd", "C", "christoffel") and not robot.bodies:
+        if node in ("Cqd", "C", "christoffel") and not robot.has_dynamics:
             return False
         if node == "tau" and any(map(self._force_leads_elsewhere, robot.coordinates)):
             return True

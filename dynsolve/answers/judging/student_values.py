@@ -21,7 +21,7 @@ def student_values(graph: AnswerGraph, compared: Mapping[str, KeyComparison]) ->
         is_second = name == "Cqd" and "C" in compared
         if not one.target.entry and is_known and not is_second:
             found[one.target.node] = _value(graph, name, one)
-    for whole in ("D", "g") if graph.robot.bodies else ():
+    for whole in ("D", "g") if graph.robot.has_dynamics else ():
         assembled = None if whole in compared else _assembled(graph, compared, whole)
         if assembled is not None:
             found[whole] = assembled

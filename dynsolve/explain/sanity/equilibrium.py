@@ -19,7 +19,7 @@ RIGHT_ANGLES = (0, 90, 180, -90)
 
 def equilibrium_step(context: Context) -> Step | None:
     """The poses in which the arm needs no torques against gravity, with what P has there."""
-    if context.robot.gravity.is_zero:
+    if context.robot.gravity.is_zero or context.robot.given is not None:
         return None
     why = _everywhere(context) if context.values["g"].is_zero else _hanging_and_upright(context)
     if not why:
@@ -48,9 +48,12 @@ def _hanging_and_upright(context: Context) -> Prose:
     hanging, upright = balanced_poses(context)
     why: Prose = ()
     if hanging is not None:
-        why += (*_zero_at(hanging), "minimum: the arm hangs; the equilibrium is stable. ")
+        why += (*_zero_at(hanging), f"minimum: the {context.machine} hangs; the equilibrium is stable. ")
     if upright is not None:
-        why += (*_zero_at(upright), "maximum: the arm stands upright; the equilibrium is unstable. ")
+        why += (
+            *_zero_at(upright),
+            f"maximum: the {context.machine} stands upright; the equilibrium is unstable. ",
+        )
     assumed = ("Let all lengths be positive. ",) if context.robot.parameters else ()
     return (*assumed, *why) if why else ()
 

@@ -40,7 +40,7 @@ def blocks(numbers: Numbers, detail: Detail, stages: Iterable[str] | None = None
 def _values(numbers: Numbers) -> Iterator[Block]:
     yield Heading("With numbers", 2)
     words = "Lengths are in m, angles in rad."
-    if numbers.robot.bodies:
+    if numbers.robot.has_dynamics:
         words = (
             "Lengths in m, masses in kg, times in s and angles in rad: torques are then in N m, forces in N "
             "and energies in J."

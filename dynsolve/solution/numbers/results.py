@@ -203,7 +203,7 @@ class Numbers:
 
 def needed(robot: Robot) -> tuple[str, ...]:
     """The parameters that results depend on: without masses, gravity is none of them."""
-    if robot.bodies:
+    if robot.has_dynamics:
         return robot.parameters
     used = {name for joint in robot.joints for name in _names(robot, joint.a, joint.d)}
     used |= {name for entry in robot.base_position.entries for name in _names(robot, entry)}

@@ -8,7 +8,7 @@ from itertools import chain
 from dynsolve.notation.tree import Node
 from dynsolve.quantities import families as of
 from dynsolve.quantities.family import Family, Kind
-from dynsolve.quantities.index import Quantity, quantities
+from dynsolve.quantities.index import Quantity, quantities, stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 
@@ -57,8 +57,9 @@ def _members(robot: Robot, groups: Sequence[tuple[Family, ...]]) -> Iterator[Qua
 
 def _by_stage(robot: Robot, shown: Iterator[Quantity]) -> dict[Stage, list[Shown]]:
     found: dict[Stage, list[Shown]] = {}
+    stages = stages_of(robot)
     for quantity in shown:
         stage = quantity.family.stage
-        if robot.bodies or not stage.needs_masses:
+        if stage in stages:
             found.setdefault(stage, []).append((quantity.rule, quantity.letter(robot)))
     return {stage: found[stage] for stage in Stage if stage in found}

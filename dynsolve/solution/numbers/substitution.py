@@ -28,6 +28,7 @@ from dynsolve.notation.tree import (
     number,
 )
 from dynsolve.notation.walk import mapped
+from dynsolve.robot.mechanism import BodyTurn, GivenModel
 from dynsolve.robot.model import Body, Joint, Robot
 from dynsolve.robot.questions import Load, Questions, State
 
@@ -149,6 +150,7 @@ def robot_with(robot: Robot, values: Replacements, more: Iterable[Node] = ()) ->
         base_position=put.matrix(robot.base_position),
         parameters=tuple(name for name in robot.parameters if (name, 0) not in values),
         questions=_questions(robot.questions, put),
+        given=None if robot.given is None else _given(robot.given, put),
     )
 
 
@@ -214,4 +216,20 @@ def _body(body: Body, put: Substitution) -> Body:
         inertia=None if body.inertia is None else put.matrix(body.inertia),
         shape=shape,
         about_point=None if body.about_point is None else put.matrix(body.about_point),
+        turns=tuple(_turn(turn, put) for turn in body.turns),
     )
+
+
+def _turn(turn: BodyTurn, put: Substitution) -> BodyTurn:
+    return BodyTurn(
+        axis=put.matrix(turn.axis),
+        rates=put.matrix(turn.rates),
+        rotation=put.matrix(turn.rotation),
+        angle=_written(turn.angle, put.values),
+    )
+
+
+def _given(given: GivenModel, put: Substitution) -> GivenModel:
+    D = None if given.D is None else put.matrix(given.D)
+    K, P, L = (None if energy is None else put(energy) for energy in (given.K, given.P, given.L))
+    return GivenModel(D, K, P, L)

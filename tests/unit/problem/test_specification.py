@@ -41,7 +41,7 @@ def test_what_new_writes_has_every_key_and_its_meaning() -> None:
 
 
 def test_what_new_writes_as_a_comment_can_be_uncommented() -> None:
-    beside_a_table = [name for name in PROBLEM.names if name not in DRAWING]
+    beside_a_table = [name for name in PROBLEM.names if name not in (*DRAWING, "model")]
     whole = re.sub(rf"^# (?=(?:{'|'.join(beside_a_table)}):)", "", template(), flags=re.MULTILINE)
     assert list(yaml.safe_load(whole)) == beside_a_table
     whole = whole.replace("find: [tau, D, C, g]", "find: [tau, D, C, g, pP, r, inverse, Q, qd, qdd]")
@@ -51,6 +51,12 @@ def test_what_new_writes_as_a_comment_can_be_uncommented() -> None:
 
 def test_the_examples_of_a_drawing_hold_in_the_place_of_a_table() -> None:
     whole = "\n".join(f"{name}: {PROBLEM[name].example}" for name in DRAWING)
+    holds(whole)
+    assert not lint_text(whole)
+
+
+def test_the_example_of_a_model_holds_in_the_place_of_a_table() -> None:
+    whole = f"model: {PROBLEM['model'].example}"
     holds(whole)
     assert not lint_text(whole)
 

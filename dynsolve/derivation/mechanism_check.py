@@ -1,0 +1,240 @@
+"""Models without a table at random states, sharing no formula with the derivation.
+
+Of bodies by their positions: the accelerations of each body come from its position and its
+turns as functions of time, Newton's and Euler's laws give the force and the moment that it
+takes, and virtual displacements bring these to the coordinates (d'Alembert's principle).
+Of given energies: Lagrange's equations on numbers.  All derivatives are those of hyper-dual
+numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from random import Random
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate, evaluate_with
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.hyper_dual import FUNCTIONS, HyperDual, cos, sin
+from dynsolve.derivation.newton_euler import Vector, cross, dot, plus, scaled
+from dynsolve.notation.tree_values import compile_trees
+from dynsolve.robot.mechanism import GivenModel
+from dynsolve.robot.model import Body, Robot
+
+Values = Mapping[str, float | HyperDual]
+Rows = list[list[HyperDual]]
+
+BY_BODIES = "Newton's and Euler's laws of each body with virtual work"
+BY_ENERGIES = "Lagrange's equations on numbers"
+
+
+@dataclass(frozen=True, slots=True)
+class Mechanism:
+    """A model without a table at a state: its parameters, coordinates, rates and accelerations in numbers."""
+
+    robot: Robot
+    values: Mapping[str, float]
+
+    @property
+    def qd(self) -> tuple[float, ...]:
+        """The rates."""
+        return tuple(self.values[q.velocity] for q in self.robot.coordinates)
+
+    @property
+    def qdd(self) -> tuple[float, ...]:
+        """The accelerations."""
+        return tuple(self.values[q.acceleration] for q in self.robot.coordinates)
+
+    def forces(self, qd: Sequence[float], qdd: Sequence[float], has_gravity: bool) -> list[float]:
+        """The generalized forces τ, n of them; without gravity, those of the kinetic energy alone."""
+        given = self.robot.given
+        if given is not None:
+            return [self._by_lagrange(given, k, qd, qdd, has_gravity) for k in range(self.robot.n)]
+        total = [0.0] * self.robot.n
+        for body in self.robot.bodies:
+            for k, force in enumerate(self._by_newton(body, qd, qdd, has_gravity)):
+                total[k] += force
+        return total
+
+    def energies(self) -> tuple[float, float]:
+        """(K, P) at the state."""
+        given = self.robot.given
+        if given is not None:
+            still = self._with([HyperDual(0.0)] * self.robot.n)
+            P = -_lagrangian(given, still).value
+            return _lagrangian(given, self.values).value + P, P
+        kinetic, potential = 0.0, 0.0
+        for body in self.robot.bodies:
+            mass, moving = self._number(body.mass), self._moving(body, self.qd, self.qdd)
+            kinetic += (mass * dot(moving.v, moving.v) + dot(moving.w, moving.momentum)) / 2
+            potential -= mass * dot(self._gravity, moving.p)
+        return kinetic, potential
+
+    @property
+    def size(self) -> float:
+        """The size of what moves, below which results are rounding."""
+        K, P = self.energies()
+        return abs(K) + abs(P)
+
+    # -- bodies ------------------------------------------------------------------------------------
+
+    def _by_newton(
+        self, body: Body, qd: Sequence[float], qdd: Sequence[float], has_gravity: bool
+    ) -> list[float]:
+        """What a body's motion asks of each coordinate."""
+        moving = self._moving(body, qd, qdd)
+        pull = self._gravity if has_gravity else (0.0, 0.0, 0.0)
+        force = scaled(plus(moving.a, scaled(pull, -1.0)), self._number(body.mass))
+        found = []
+        for k in range(self.robot.n):
+            step = [float(i == k) for i in range(self.robot.n)]
+            virtual = self._moving(body, step, [0.0] * self.robot.n)
+            found.append(dot(force, virtual.v) + dot(moving.moment, virtual.w))
+        return found
+
+    def _moving(self, body: Body, qd: Sequence[float], qdd: Sequence[float]) -> _Moving:
+        """A body's motion along q + q̇ t + ½ q̈ t²: both ε are t, so that ε₁ε₂ holds the second derivative."""
+        names = self.robot.ring.names
+        path: dict[str, float | HyperDual] = dict(self.values)
+        for name, rate, acceleration in zip(names, qd, qdd, strict=True):
+            path[name] = HyperDual(self.values[name], rate, rate, acceleration)
+        p = [_hyper_dual(entry, path) for entry in body.center.entries]
+        R = _orientation(body, path)
+        inertia = (
+            [[self._number(entry) for entry in row] for row in body.inertia.rows] if body.inertia else []
+        )
+        return _Moving.of(p, R, inertia)
+
+    @property
+    def _gravity(self) -> Vector:
+        x, y, z = (self._number(entry) for entry in self.robot.gravity.entries)
+        return x, y, z
+
+    def _number(self, expr: Expr) -> float:
+        return evaluate(expr, self.values)
+
+    # -- energies ----------------------------------------------------------------------------------
+
+    def _by_lagrange(
+        self, given: GivenModel, k: int, qd: Sequence[float], qdd: Sequence[float], has_gravity: bool
+    ) -> float:
+        """d/dt ∂L/∂q̇_k - ∂L/∂q_k: t is ε₁, and the change of q̇_k or q_k is ε₂."""
+        q = [self.values[name] for name in self.robot.ring.names]
+        one = [float(i == k) for i in range(self.robot.n)]
+        along = [HyperDual(x, rate) for x, rate in zip(q, qd, strict=True)]
+        rates = [HyperDual(*parts) for parts in zip(qd, qdd, one, strict=True)]
+        momentum_rate = _lagrangian(given, self._with(rates, along), has_gravity).mixed
+        shifted = [HyperDual(x, 0.0, step) for x, step in zip(q, one, strict=True)]
+        held = [HyperDual(rate) for rate in qd]
+        return momentum_rate - _lagrangian(given, self._with(held, shifted), has_gravity).second
+
+    def _with(self, rates: Sequence[HyperDual], q: Sequence[HyperDual] = ()) -> Values:
+        """The values with these rates, and these coordinates where they are given."""
+        found: dict[str, float | HyperDual] = dict(self.values)
+        found.update(zip((c.velocity for c in self.robot.coordinates), rates, strict=True))
+        found.update(zip((c.name for c in self.robot.coordinates), q, strict=False))
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class _Moving:
+    """A body's motion in the world, and the moment that it takes about its mass centre."""
+
+    p: Vector
+    v: Vector
+    a: Vector
+    w: Vector
+    momentum: Vector
+    moment: Vector
+
+    @staticmethod
+    def of(p: Sequence[HyperDual], R: Rows, inertia: list[list[float]]) -> _Moving:
+        """From the position and the orientation as functions of time."""
+        turned = _product(R, _product(inertia, _transposed(R))) if inertia else []
+        spin = _product(_derived(R), _transposed(R))  # S(ω) = Ṙ Rᵀ, whose derivative is S(α)
+        w = (spin[2][1], spin[0][2], spin[1][0])
+        momentum = [sum((row[j] * w[j] for j in range(3)), HyperDual(0.0)) for row in turned]
+        angular = momentum or [HyperDual(0.0)] * 3
+        return _Moving(
+            _vector([x.value for x in p]),
+            _vector([x.first for x in p]),
+            _vector([x.mixed for x in p]),
+            _vector([x.value for x in w]),
+            _vector([x.value for x in angular]),
+            _vector([x.second for x in angular]),
+        )
+
+
+def _vector(entries: Sequence[float]) -> Vector:
+    x, y, z = entries
+    return x, y, z
+
+
+def _derived(R: Rows) -> Rows:
+    """dR/dε₁, as a function of ε₂."""
+    return [[HyperDual(x.first, 0.0, x.mixed) for x in row] for row in R]
+
+
+def _transposed(R: Rows) -> Rows:
+    return [list(column) for column in zip(*R, strict=True)]
+
+
+def _product(A: Sequence[Sequence[HyperDual | float]], B: Rows) -> Rows:
+    columns = list(zip(*B, strict=True))
+    return [[sum((a * b for a, b in zip(row, c, strict=True)), HyperDual(0.0)) for c in columns] for row in A]
+
+
+def _orientation(body: Body, values: Values) -> Rows:
+    """The product of the body's turns: each vector b becomes b cos φ + a × b sin φ + a (a·b)(1 - cos φ)."""
+    R = [[HyperDual(float(i == j)) for j in range(3)] for i in range(3)]
+    for turn in body.turns:
+        (angle,) = compile_trees([turn.angle], FUNCTIONS).run(values)  # type: ignore[arg-type]
+        axis = _vector([_hyper_dual(entry, values).value for entry in turn.axis.entries])
+        c, s = cos(angle), sin(angle)
+        columns = []
+        for k in range(3):
+            unit = _vector([float(i == k) for i in range(3)])
+            across = cross(axis, unit)
+            columns.append([unit[i] * c + across[i] * s + axis[i] * axis[k] * (1.0 - c) for i in range(3)])
+        R = _product(R, _transposed(columns))
+    return R
+
+
+def _lagrangian(given: GivenModel, values: Values, has_gravity: bool = True) -> HyperDual:
+    """L as the file gives it, or K - P; without P where there is no gravity."""
+    if given.L is not None:
+        L = _hyper_dual(given.L, values)
+        return L if has_gravity else L - _hyper_dual(given.L.ring.without(given.L, 1), values)
+    kinetic = _hyper_dual(given.K, values) if given.K is not None else _of_matrix(given.D, values)
+    if given.P is None or not has_gravity:
+        return kinetic
+    return kinetic - _hyper_dual(given.P, values)
+
+
+def _of_matrix(D: Matrix | None, values: Values) -> HyperDual:
+    """½ Σ d_ij q̇_i q̇_j"""
+    total = HyperDual(0.0)
+    if D is not None:
+        rates = [values[f"{name}_dot"] for name in D.ring.names]
+        for row, left in zip(D.rows, rates, strict=True):
+            for entry, right in zip(row, rates, strict=True):
+                total = total + _hyper_dual(entry, values) * left * right * 0.5
+    return total
+
+
+def _hyper_dual(expr: Expr, values: Values) -> HyperDual:
+    value: HyperDual | float = evaluate_with(expr, values, FUNCTIONS)
+    return HyperDual(0.0) + value
+
+
+def draw_mechanism(robot: Robot, random: Random) -> tuple[dict[str, float], Mechanism]:
+    """A random state with random parameters for which every root and quotient has a value."""
+
+    def at(values: Mapping[str, float]) -> Mechanism:
+        mechanism = Mechanism(robot, values)
+        mechanism.energies()
+        return mechanism
+
+    return draw_values(robot, random, at)
