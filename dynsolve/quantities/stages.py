@@ -62,7 +62,10 @@ class Stage(StrEnum):
 
 _OF_MASSES = frozenset({Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED})
 
-_OF_A_TABLE = frozenset({Stage.FRAMES, Stage.KINEMATICS, Stage.JACOBIAN})
+_OF_A_TABLE = frozenset({
+    Stage.FRAMES, Stage.KINEMATICS, Stage.JACOBIAN, Stage.TASK, Stage.SINGULAR, Stage.INVERSE, Stage.RATES,
+    Stage.STATICS, Stage.NEWTON_EULER,
+})  # fmt: skip
 
 COURSE = tuple(stage for stage in Stage if not stage.asked_for)
 """The stages of the course's derivation, which every robot with masses has."""

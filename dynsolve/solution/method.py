@@ -19,12 +19,14 @@ def by_method(problem: Problem, method: Method) -> Problem:
     """The problem, to be solved by a method; by the recursions with all their quantities asked for.
 
     Of robots of more than three coordinates these would fill pages, and are only there where the file
-    asks for them.  Raises UsageError for the recursions of a robot without masses.
+    asks for them.  Raises UsageError for the recursions of a robot without masses or links.
     """
     if method is Method.LAGRANGE:
         return problem
     if not problem.robot.bodies:
         raise UsageError("no body has mass, so the Newton-Euler recursions have nothing to work out")
+    if not problem.robot.has_table:
+        raise UsageError("this model has no links, along which the Newton-Euler recursions go")
     robot = _with_method(problem.robot, method)
     if robot.n > MOST_JOINTS:
         return replace(problem, robot=robot)
