@@ -11,7 +11,7 @@ from functools import partial
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation import inertia, mechanism, vectorized
+from dynsolve.derivation import mechanism, vectorized
 from dynsolve.derivation.graph import Rule
 from dynsolve.derivation.link_frame import inertia_matrix, quadratic_energy
 from dynsolve.robot.mechanism import GivenModel
@@ -19,15 +19,12 @@ from dynsolve.robot.model import Body, Robot
 
 
 def motion_rules(robot: Robot, body: Body) -> Iterator[Rule]:
-    """r_c, R, J_v, J_ω and the tensor of a body that is given by its position."""
+    """r_c, R, J_v and J_ω of a body that is given by its position."""
     b = body.name
-    tensor = body.inertia or Matrix.zero(robot.ring, 3, 3)
     yield Rule(f"rc{b}", (), lambda: body.center)
     yield Rule(f"R{b}", (), partial(mechanism.orientation, robot, body))
     yield Rule(f"Jv{b}", (f"rc{b}",), partial(mechanism.position_jacobian, robot))
     yield Rule(f"Jw{b}", (), partial(mechanism.angular_jacobian, robot, body))
-    yield Rule(f"I_body{b}", (), lambda: tensor)
-    yield Rule(f"I{b}", (f"R{b}", f"I_body{b}"), inertia.base_inertia)
 
 
 def given_rules(robot: Robot, given: GivenModel) -> Iterator[Rule]:

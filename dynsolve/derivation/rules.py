@@ -96,6 +96,8 @@ def _body(robot: Robot, body: Body) -> Iterator[Rule]:
     yield from _motion(robot, body)
     yield Rule(f"v{b}", (f"Jv{b}",), partial(energy.velocity, robot))
     yield Rule(f"w{b}", (f"Jw{b}",), partial(energy.velocity, robot))
+    yield _own_tensor(robot, body)
+    yield Rule(f"I{b}", (f"R{b}", f"I_body{b}"), inertia.base_inertia)
     yield Rule(f"P{b}", (f"rc{b}",), partial(energy.potential_energy, robot, body.mass))
     yield Rule(f"Kv{b}", (f"v{b}",), partial(energy.linear_energy, body.mass))
     if body.is_point:
@@ -128,8 +130,14 @@ def _motion(robot: Robot, body: Body) -> Iterator[Rule]:
     yield Rule(f"R{b}", (H,), partial(inertia.body_rotation, robot, body))
     yield Rule(f"Jv{b}", from_frames_and_center, linear)
     yield Rule(f"Jw{b}", from_frames_and_center, angular)
-    yield Rule(f"I_body{b}", (H,), partial(inertia.central_inertia, robot, body))
-    yield Rule(f"I{b}", (f"R{b}", f"I_body{b}"), inertia.base_inertia)
+
+
+def _own_tensor(robot: Robot, body: Body) -> Rule:
+    """The tensor about the mass centre, along the body's own axes."""
+    b = body.name
+    if robot.has_table:
+        return Rule(f"I_body{b}", (f"H{body.link}",), partial(inertia.central_inertia, robot, body))
+    return Rule(f"I_body{b}", (), lambda: body.inertia or Matrix.zero(robot.ring, 3, 3))
 
 
 def _energies(robot: Robot) -> Iterator[Rule]:
