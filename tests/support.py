@@ -34,6 +34,7 @@ FUNCTIONS: dict[str, Any] = {
     "sin": math.sin,
     "cos": math.cos,
     "sqrt": math.sqrt,
+    "sgn": lambda x: math.copysign(1.0, x),
     "pi": math.pi,
 }
 

@@ -101,6 +101,9 @@ class ContentsCollector:
 
     def function(self, node: Function) -> Sequence[Node]:
         """Note a function of an angle, and return the parts that are still to be walked."""
+        if node.name == "sgn":
+            self.functions.setdefault(node)
+            return ()
         self.angle(angle_from_tree(node.argument))
         if node.name == "tan":
             self.denominators.setdefault(Function("cos", node.argument))

@@ -12,6 +12,7 @@ from flint import fmpq_mpoly
 from dynsolve.algebra.angles import Atom, names_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator, dotted
+from dynsolve.notation.tree_values import evaluate as value_of_tree
 
 if TYPE_CHECKING:
     from dynsolve.algebra.ring import Ring
@@ -77,6 +78,8 @@ class _Evaluation:
                 return self.functions["sqrt"](self.of(self.ring.radicands[g.index]))
             case "inverse":
                 return 1 / self.of(self.ring.inverses[g.index])
+            case "function" if g.node is not None:
+                return value_of_tree(g.node, self.values)
         turn = sum(float(rate) * self._atom(atom) for atom, rate in g.angle.terms)
         angle = radians(float(g.angle.degrees)) + turn
         return self.functions["sin" if g.kind == "sin" else "cos"](angle)

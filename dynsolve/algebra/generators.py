@@ -8,7 +8,7 @@ from typing import Any
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.ring_plan import RingPlan
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Function, Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +18,7 @@ class Generator:
     kind is one of `sin`, `cos` (with `angle`), `symbol` (with `name`, `dots`),
     `root` (√ of `node`), `inverse` (1 / a polynomial, set when first needed),
     `constant` (cos of a constant `angle` of some degrees) or `function` (`node`, a
-    function whose argument has no exact meaning here).
+    function that is no polynomial: the sign of a rate, or of an argument without an exact meaning here).
     """
 
     kind: str
@@ -36,6 +36,11 @@ class Pair:
     angle: Angle
     sine: int
     cosine: int
+
+
+def is_sign(node: Node | None) -> bool:
+    """Whether a function is the sign of a rate, sgn q̇: a generator that is 0 at rest."""
+    return isinstance(node, Function) and node.name == "sgn"
 
 
 def dotted(name: str, dots: int) -> str:

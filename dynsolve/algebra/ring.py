@@ -31,7 +31,7 @@ from dynsolve.algebra.angles import Angle, Atom, names_of
 from dynsolve.algebra.constants import ConstantAngles, minimal_polynomial
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
-from dynsolve.algebra.generators import Pair, dotted, lay_out, sine_cosine_pairs
+from dynsolve.algebra.generators import Pair, dotted, is_sign, lay_out, sine_cosine_pairs
 from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.relations import Relations
 from dynsolve.algebra.ring_plan import RingPlan
@@ -71,6 +71,7 @@ class Ring:
         self.reduce = self._relations.reduce
         self.radicands = self._relations.radicands
         self.inverses = self._relations.inverses
+        self._signs = tuple(g.index for g in self.generators if is_sign(g.node))
         self._spare_inverses = [g.index for g in self.generators if g.kind == "inverse"]
         self._turned: dict[Angle, tuple[fmpq_mpoly, fmpq_mpoly]] = {}
         self._constants = ConstantAngles(
@@ -289,11 +290,11 @@ class Ring:
         return Expr(self, expr.poly.derivative(self.symbol_indices[(name, dots)]))
 
     def without(self, expr: Expr, dots: int) -> Expr:
-        """The expression with all velocities (dots = 1) or accelerations (dots = 2) put to 0."""
+        """The expression with all velocities (dots = 1) or accelerations (dots = 2) put to 0; sgn 0 is 0."""
         poly = expr.poly
         degrees = poly.degrees()
-        for name in self.names:
-            index = self.symbol_indices[(name, dots)]
+        indices = [self.symbol_indices[(name, dots)] for name in self.names]
+        for index in (*indices, *(self._signs if dots == 1 else ())):
             if degrees[index]:
                 poly %= self._gens[index]
         return Expr(self, poly)
@@ -317,7 +318,8 @@ class Ring:
             if not set(self.names).isdisjoint(names_of(pair.angle))
             for i in (pair.sine, pair.cosine)
         }
-        return frozenset(turning | {i for (name, _), i in self.symbol_indices.items() if name in self.names})
+        symbols = {i for (name, _), i in self.symbol_indices.items() if name in self.names}
+        return frozenset(turning | symbols | set(self._signs))
 
     def depends_on_coordinates(self, expr: Expr) -> bool:
         """Whether a coordinate, its velocity or acceleration occurs."""

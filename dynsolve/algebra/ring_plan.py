@@ -147,6 +147,7 @@ def plan_ring(
         fixed=_finest(term for angle in constant for term in angle.terms),
         constants=constants,
         inverses=2 * len(held.denominators),
+        functions=held.functions,
     )
 
 

@@ -120,6 +120,8 @@ class Evaluator:
 
     def function(self, node: Function) -> RationalExpr | tuple[int, int]:
         """The value of a function of an angle, or (generator, ±1) where it is one."""
+        if node.name == "sgn":
+            return RationalExpr(self.ring.function(node))
         angle = angle_from_tree(node.argument)
         match node.name:
             case "sin":

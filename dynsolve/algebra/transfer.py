@@ -10,6 +10,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
+from dynsolve.notation.tree import Function
 
 
 class Transfer:
@@ -68,6 +69,9 @@ class Transfer:
                 case "root":
                     assert g.node is not None
                     images.append(ring.root(g.node, value_of(ring, g.node)))
+                case "function":
+                    assert isinstance(g.node, Function)
+                    images.append(ring.function(g.node))
                 case _:
                     waiting.append(g.index)
                     images.append(ring.zero)

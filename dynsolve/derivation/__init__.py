@@ -6,8 +6,9 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     jacobian        4.6   J_v and J_ω, a column a joint
     inertia         7.2   r_c's tensor: axes of the body, parallel axes, R I Rᵀ
     energy          7.2   v = J_v q̇, ω = J_ω q̇, K_v, K_ω, P
-    euler_lagrange  7.1   L, ∂L/∂q̇, d/dt ∂L/∂q̇, ∂L/∂q, τ (and where friction would go)
+    euler_lagrange  7.1   L, ∂L/∂q̇, d/dt ∂L/∂q̇, ∂L/∂q, τ
     vectorized      7.3   D, the Christoffel symbols, C, g
+    actions         energies of springs and rotors, friction (Siciliano et al., 7.1)
     task            4.6, 4.8, 4.11   points, the task r(q), J_r, J̇: where a file asks for them
     singular        4.9   where a Jacobian loses rank
     inverse         3.3   q from r(q): one unknown after the other, in known forms; the branches
@@ -20,6 +21,7 @@ What hangs together how:
     graph           a `Rule` computes one quantity from others, a `Derivation` evaluates rules
     rules           the rules of the textbook; `derive(robot)` gives the `Derivation` of a robot
     kinematic_rules those of what a file asks of the kinematics
+    action_rules    those of what acts beside gravity
     static_rules    those of forces from outside
     recursion_rules those of the recursions; by their method also of τ
     configurations  those of singular configurations and of inverse kinematics
@@ -32,6 +34,7 @@ And the independent check, which shares no formula with any of these:
 
     newton_euler    recursive Newton-Euler on floating-point numbers
     arm_values      the robot put in numbers, as these want it
+    action_check    forces of springs, friction and dampers, by energies and powers
     verification    what is printed, evaluated at random states, against that
     drawn_motion    a table that was made from a drawing, against the drawn joint axes
     kinematic_check points, the task and Jacobians, against the motion of the arm

@@ -17,6 +17,7 @@ from dynsolve.derivation.newton_euler import (
     Mass,
     Motion,
     Rotation,
+    Rotor,
     Vector,
     dot,
     elementary,
@@ -25,6 +26,7 @@ from dynsolve.derivation.newton_euler import (
     transposed,
 )
 from dynsolve.errors import VerificationError
+from dynsolve.robot.actions import Motor
 from dynsolve.robot.model import AxesKind, Body, Convention, Joint, Robot
 
 _DRAWS = 200
@@ -72,6 +74,7 @@ def arm_at(robot: Robot, values: Mapping[str, float]) -> Arm:
         gravity=numbers.vector(robot.gravity),
         qd=tuple(values[c.velocity] for c in robot.coordinates),
         qdd=tuple(values[c.acceleration] for c in robot.coordinates),
+        rotors=tuple(numbers.rotor(motor) for motor in robot.actions.motors),
     )
 
 
@@ -133,6 +136,11 @@ class RobotValues:
         if body.about_point is not None:
             inertia = _to_center(inertia, mass, minus(center, self.vector(body.about_point)))
         return Mass(mass, body.link, center, inertia)
+
+    def rotor(self, motor: Motor) -> Rotor:
+        """The rotor of a motor."""
+        inertia, ratio = self.number(motor.inertia), self.number(motor.ratio)
+        return Rotor(inertia, motor.carrier, motor.axis, motor.turns, ratio)
 
 
 def _to_center(inertia: Rotation, mass: float, offset: Vector) -> Rotation:

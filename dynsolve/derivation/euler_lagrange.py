@@ -30,13 +30,16 @@ def coordinate_derivative(L: Expr, k: int) -> Expr:
     return L.ring.diff(L, k)
 
 
-def generalized_force(momentum_rate: Expr, coordinate_derivative: Expr) -> Expr:
+def generalized_force(
+    momentum_rate: Expr, coordinate_derivative: Expr, friction: Matrix | None = None, *, k: int
+) -> Expr:
     """τ_k = d/dt ∂L/∂q̇_k - ∂L/∂q_k: a torque for a revolute coordinate, a force for a prismatic one.
 
-    The joints' drives are the only forces beside gravity.  Friction, which no potential
-    gives, would be one more term here: τ_k = ... + F_k(q̇).
+    Friction (n×1), which no potential gives, is one more term: the drive has to overcome it.  k counts
+    from 0.
     """
-    return momentum_rate - coordinate_derivative
+    force = momentum_rate - coordinate_derivative
+    return force if friction is None else force + friction[k, 0]
 
 
 def force_vector(robot: Robot, forces: tuple[Expr, ...]) -> Matrix:

@@ -33,8 +33,9 @@ def link_frame_rules(robot: Robot) -> Iterator[Rule]:
         yield Rule(f"Dw{b}", angular_inputs, partial(angular_part, robot, body))
         yield Rule(f"Kv{b}", (f"Dv{b}",), partial(quadratic_energy, robot))
         yield Rule(f"Kw{b}", (f"Dw{b}",), partial(quadratic_energy, robot))
-    parts = tuple(f"D{kind}{body.name}" for body in robot.bodies for kind in "vw")
-    yield Rule("D_direct", parts, partial(inertia_matrix, robot))
+    parts = [f"D{kind}{body.name}" for body in robot.bodies for kind in "vw"]
+    parts += ["Dm"] if robot.actions.motors else []
+    yield Rule("D_direct", tuple(parts), partial(inertia_matrix, robot))
 
 
 @dataclass(frozen=True, slots=True)

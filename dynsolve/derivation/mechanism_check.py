@@ -48,7 +48,19 @@ class Mechanism:
         return tuple(self.values[q.acceleration] for q in self.robot.coordinates)
 
     def forces(self, qd: Sequence[float], qdd: Sequence[float], has_gravity: bool) -> list[float]:
-        """The generalized forces τ, n of them; without gravity, those of the kinetic energy alone."""
+        """The generalized forces of masses and rotors, n of them; without gravity, of the kinetic energy."""
+        masses = self._of_masses(qd, qdd, has_gravity)
+        for k, inertia in self._rotors:
+            masses[k] += inertia * qdd[k]
+        return masses
+
+    @property
+    def _rotors(self) -> list[tuple[int, float]]:
+        """(coordinate, moment of inertia felt there) of each rotor: no link carries one."""
+        motors = self.robot.actions.motors
+        return [(m.turns, self._number(m.inertia) * self._number(m.ratio) ** 2) for m in motors]
+
+    def _of_masses(self, qd: Sequence[float], qdd: Sequence[float], has_gravity: bool) -> list[float]:
         given = self.robot.given
         if given is not None:
             return [self._by_lagrange(given, k, qd, qdd, has_gravity) for k in range(self.robot.n)]
@@ -59,7 +71,11 @@ class Mechanism:
         return total
 
     def energies(self) -> tuple[float, float]:
-        """(K, P) at the state."""
+        """(K, P) of masses and rotors at the state."""
+        kinetic, potential = self._energies_of_masses()
+        return kinetic + sum(i * self.qd[k] ** 2 / 2 for k, i in self._rotors), potential
+
+    def _energies_of_masses(self) -> tuple[float, float]:
         given = self.robot.given
         if given is not None:
             still = self._with([HyperDual(0.0)] * self.robot.n)

@@ -6,7 +6,7 @@ those of every robot.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 from dynsolve.algebra.expr import Expr
@@ -27,10 +27,16 @@ def motion_rules(robot: Robot, body: Body) -> Iterator[Rule]:
     yield Rule(f"Jw{b}", (), partial(mechanism.angular_jacobian, robot, body))
 
 
-def given_rules(robot: Robot, given: GivenModel) -> Iterator[Rule]:
-    """K and P of a model that is given by D and P, by K and P, or by L."""
-    yield Rule("K", (), partial(_kinetic, robot, given))
-    yield Rule("P", (), partial(_potential, robot, given))
+def given_rules(
+    robot: Robot, given: GivenModel, stored: Sequence[str] = (), moving: Sequence[str] = ()
+) -> Iterator[Rule]:
+    """K and P of a model that is given by D and P, by K and P, or by L.
+
+    `stored` and `moving` are the energies of springs and of rotors, where there are any: they are added.
+    """
+    K, P = _kinetic(robot, given), _potential(robot, given)
+    yield Rule("K", tuple(moving), lambda *parts: sum(parts, start=K))
+    yield Rule("P", tuple(stored), lambda *parts: sum(parts, start=P))
 
 
 def _kinetic(robot: Robot, given: GivenModel) -> Expr:
@@ -52,10 +58,11 @@ def _potential(robot: Robot, given: GivenModel) -> Expr:
 
 def direct_rules(robot: Robot) -> Iterator[Rule]:
     """K_v and K_ω from each body's part of D, along its own axes, and D without the forces (`D_direct`)."""
+    rotors = ("Dm",) if robot.actions.motors else ()
     if robot.given is not None:
         D = robot.given.D
         if D is not None:
-            yield Rule("D_direct", (), lambda: D)
+            yield Rule("D_direct", rotors, lambda *parts: sum(parts, start=D))
         else:
             yield Rule("D_direct", ("K",), partial(vectorized.inertia_from_energy, robot))
         return
@@ -65,7 +72,7 @@ def direct_rules(robot: Robot) -> Iterator[Rule]:
         yield Rule(f"Dw{b}", (f"I_body{b}",), partial(_angular_part, robot, body))
         yield Rule(f"Kv{b}", (f"Dv{b}",), partial(quadratic_energy, robot))
         yield Rule(f"Kw{b}", (f"Dw{b}",), partial(quadratic_energy, robot))
-    parts = tuple(f"D{kind}{body.name}" for body in robot.bodies for kind in "vw")
+    parts = (*(f"D{kind}{body.name}" for body in robot.bodies for kind in "vw"), *rotors)
     yield Rule("D_direct", parts, partial(inertia_matrix, robot))
 
 

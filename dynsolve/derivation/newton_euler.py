@@ -49,6 +49,20 @@ class Mass:
 
 
 @dataclass(frozen=True, slots=True)
+class Rotor:
+    """A rotor in numbers: it spins with `ratio` times the rate of coordinate `turns`, counted from 0.
+
+    Its axis is x, y or z (0, 1 or 2) of frame `link`, which carries it.
+    """
+
+    inertia: float
+    link: int
+    axis: int
+    turns: int
+    ratio: float
+
+
+@dataclass(frozen=True, slots=True)
 class Arm:
     """A robot with numbers in it, at a state q, q̇, q̈."""
 
@@ -58,6 +72,7 @@ class Arm:
     gravity: Vector
     qd: tuple[float, ...]
     qdd: tuple[float, ...]
+    rotors: tuple[Rotor, ...] = ()
 
     @property
     def n(self) -> int:
@@ -147,7 +162,9 @@ def inverse_dynamics(arm: Arm, qd: Sequence[float], qdd: Sequence[float], gravit
     """
     frames, axes = outwards(arm, qd, qdd, scaled(gravity, -1.0))
     tau = [0.0] * arm.n
-    for moving, (force, moment) in zip(axes, held_by_joints(arm, frames), strict=True):
+    for rotor in arm.rotors:
+        tau[rotor.turns] += rotor.ratio * _spun(rotor, frames[rotor.link], qd, qdd)[1]
+    for moving, (force, moment) in zip(axes, held_by_joints(arm, frames, qd, qdd), strict=True):
         for axis in moving:
             load = moment if axis.motion.turns else force
             if axis.motion.turns:
@@ -157,8 +174,13 @@ def inverse_dynamics(arm: Arm, qd: Sequence[float], qdd: Sequence[float], gravit
     return tau
 
 
-def held_by_joints(arm: Arm, frames: Sequence[MovingFrame]) -> list[tuple[Vector, Vector]]:
-    """The force and the moment about the origin of the world that each link takes from the one before."""
+def held_by_joints(
+    arm: Arm, frames: Sequence[MovingFrame], qd: Sequence[float], qdd: Sequence[float]
+) -> list[tuple[Vector, Vector]]:
+    """The force and the moment about the origin of the world that each link takes from the one before.
+
+    The rates q̇ and q̈ are those that the frames move with: a rotor spins with them on its link.
+    """
     held: list[tuple[Vector, Vector]] = []
     force, moment = ZERO, ZERO
     for link in range(len(arm.rows), 0, -1):
@@ -166,6 +188,9 @@ def held_by_joints(arm: Arm, frames: Sequence[MovingFrame]) -> list[tuple[Vector
             if mass.link == link:
                 f, m = _wrench(mass, frames[link])
                 force, moment = plus(force, f), plus(moment, m)
+        for rotor in arm.rotors:
+            if rotor.link == link:
+                moment = plus(moment, _spun(rotor, frames[link], qd, qdd)[0])
         held.append((force, moment))
     return held[::-1]
 
@@ -180,6 +205,20 @@ def _wrench(mass: Mass, frame: MovingFrame) -> tuple[Vector, Vector]:
     return force, plus(couple, cross(plus(frame.o, arm), force))
 
 
+def _spun(
+    rotor: Rotor, frame: MovingFrame, qd: Sequence[float], qdd: Sequence[float]
+) -> tuple[Vector, float]:
+    """The moment that a rotor takes from its link, and the moment about its axis, which its drive gives.
+
+    Its angular momentum h = I (spin + a·ω) a is along its axis a, which turns with the link: ḣ is
+    I (spin' + a·ω̇) a, and across it I (spin + a·ω) ω × a.
+    """
+    a = column(frame.R, rotor.axis)
+    drive = rotor.inertia * (rotor.ratio * qdd[rotor.turns] + dot(a, frame.dw))
+    momentum = rotor.inertia * (rotor.ratio * qd[rotor.turns] + dot(a, frame.w))
+    return plus(scaled(a, drive), scaled(cross(frame.w, a), momentum)), drive
+
+
 def energies(arm: Arm) -> tuple[float, float]:
     """(K, P) of the arm at its state."""
     frames, _ = outwards(arm, arm.qd, arm.qdd, ZERO)
@@ -191,6 +230,10 @@ def energies(arm: Arm) -> tuple[float, float]:
         w = applied(transposed(frame.R), frame.w)
         kinetic += (mass.mass * dot(v, v) + dot(w, applied(mass.inertia, w))) / 2
         potential -= mass.mass * dot(arm.gravity, plus(frame.o, offset))
+    for rotor in arm.rotors:
+        frame = frames[rotor.link]
+        turned = rotor.ratio * arm.qd[rotor.turns] + dot(column(frame.R, rotor.axis), frame.w)
+        kinetic += rotor.inertia * turned * turned / 2
     return kinetic, potential
 
 

@@ -72,7 +72,7 @@ class _Links:
 
     def __post_init__(self) -> None:
         self._lifted = outwards(self.arm, self.arm.qd, self.arm.qdd, scaled(self.arm.gravity, -1.0))[0]
-        self._held = held_by_joints(self.arm, self._lifted)
+        self._held = held_by_joints(self.arm, self._lifted, self.arm.qd, self.arm.qdd)
         modified = self.robot.convention is Convention.MODIFIED
         at_rest = outwards(self.arm, self.arm.qd, self.arm.qdd, ZERO)[0]
         self._frames = self._lifted if modified else at_rest

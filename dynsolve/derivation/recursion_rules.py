@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
+from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation import recursions
+from dynsolve.derivation import actions, recursions
 from dynsolve.derivation.graph import Rule
 from dynsolve.derivation.recursions import Carried, Motion, Step
 from dynsolve.robot.model import Body, Coordinate, Joint, JointType, Robot
@@ -104,6 +105,8 @@ def _force(robot: Robot, joint: Joint) -> Rule:
 def _moment(robot: Robot, joint: Joint) -> Rule:
     i = joint.index
     after, bodies = robot.links_after(i), robot.bodies_on(i)
+    rotors = [motor for motor in robot.actions.motors if motor.carrier == i]
+    none = Matrix.zero(robot.ring, 3, 1)
 
     def compute(A: Matrix, H: Matrix, w: Matrix, dw: Matrix, *values: Matrix) -> Matrix:
         mine, rest = values[: 2 * len(bodies)], values[2 * len(bodies) :]
@@ -112,6 +115,7 @@ def _moment(robot: Robot, joint: Joint) -> Rule:
             along_link = recursions.tensor_in_link(robot, body, H, tensor)
             couple = recursions.inertial_moment(along_link, w, dw)
             own.append((body.center, recursions.inertial_force(robot, body, H, acceleration), couple))
+        own += [(none, none, actions.rotor_moment(robot, motor, w, dw)) for motor in rotors]
         carried = [Carried(*values) for values in _in_groups(rest, 3)]
         return recursions.moment(robot, recursions.start_of_moments(robot, A), carried, own)
 
@@ -121,17 +125,32 @@ def _moment(robot: Robot, joint: Joint) -> Rule:
 
 
 def torque_rule(robot: Robot, q: Coordinate) -> Rule:
-    """τ_k, by the joints that coordinate k moves: nᵀ z of one that turns, fᵀ z of one that slides."""
-    moved = robot.joints_of(q)
+    """τ_k, by the joints that coordinate k moves: nᵀ z of one that turns, fᵀ z of one that slides.
 
-    def compute(*values: Matrix) -> Expr:
+    The motors that turn q_k also drive their rotors, through their gears, and friction and springs add
+    what they resist with.
+    """
+    moved, k = robot.joints_of(q), q.index - 1
+    motors = [motor for motor in robot.actions.motors if motor.turns == k]
+    beside = [
+        name for name, kind in (("Ps", "springs"), ("friction", "friction")) if kind in robot.actions.kinds
+    ]
+
+    def compute(*values: Any) -> Expr:
+        held, rest = values[: 2 * len(moved)], list(values[2 * len(moved) :])
         found = robot.ring.zero
-        for (_, rate), (A, held) in zip(moved, _in_groups(values, 2), strict=True):
-            found = found + recursions.component(robot, A, held) * rate
+        for (_, rate), (A, wrench) in zip(moved, _in_groups(held, 2), strict=True):
+            found = found + recursions.component(robot, A, wrench) * rate
+        for motor in motors:
+            dw = rest.pop(0) if motor.carrier else None
+            found = found + motor.ratio * actions.rotor_drive(robot, motor, dw)
+        for name, value in zip(beside, rest, strict=True):
+            found = found + (robot.ring.diff(value, k) if name == "Ps" else value[k, 0])
         return found
 
-    inputs = (name for joint, _ in moved for name in (f"A{joint.index}", holding(joint)))
-    return Rule(f"tau{q.index}", tuple(inputs), compute)
+    joints = (name for joint, _ in moved for name in (f"A{joint.index}", holding(joint)))
+    carriers = (f"wdl{motor.carrier}" for motor in motors if motor.carrier)
+    return Rule(f"tau{q.index}", (*joints, *carriers, *beside), compute)
 
 
 def holding(joint: Joint) -> str:

@@ -28,10 +28,10 @@ def derive(robot: Robot) -> Derivation:
     of the textbook's.
     """
     if robot.has_table:
-        return Derivation([*course_rules(robot), *link_frame_rules(robot)])
+        return Derivation([*course_rules(robot), *link_frame_rules(robot), *_rotors(robot)])
     from dynsolve.derivation.mechanism_rules import direct_rules
 
-    return Derivation([*course_rules(robot), *direct_rules(robot)])
+    return Derivation([*course_rules(robot), *direct_rules(robot), *_rotors(robot)])
 
 
 def course_rules(robot: Robot) -> Iterator[Rule]:
@@ -43,6 +43,7 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
     if robot.has_dynamics:
         for body in robot.bodies:
             yield from _body(robot, body)
+        yield from _actions(robot)
         yield from _energies(robot)
         yield from _euler_lagrange(robot)
         yield from _vectorized(robot)
@@ -66,6 +67,22 @@ def _asked_of_kinematics(robot: Robot) -> Iterator[Rule]:
         yield from kinematic_rules(robot)
         yield from configuration_rules(robot)
         yield from rate_rules(robot)
+
+
+def _actions(robot: Robot) -> Iterator[Rule]:
+    """What acts beside gravity; it is imported where something does."""
+    if robot.actions:
+        from dynsolve.derivation.action_rules import action_rules
+
+        yield from action_rules(robot)
+
+
+def _rotors(robot: Robot) -> Iterator[Rule]:
+    """The link frames' rules of the rotors."""
+    if robot.has_dynamics and robot.actions.motors:
+        from dynsolve.derivation.action_rules import rotor_rules
+
+        yield from rotor_rules(robot)
 
 
 def _kinematics(robot: Robot) -> Iterator[Rule]:
@@ -141,26 +158,37 @@ def _own_tensor(robot: Robot, body: Body) -> Rule:
 
 
 def _energies(robot: Robot) -> Iterator[Rule]:
+    kinds = robot.actions.kinds
+    stored = ["Ps"] if "springs" in kinds else []
+    moving = ["Km"] if "motors" in kinds else []
     if robot.given is not None:
         from dynsolve.derivation.mechanism_rules import given_rules
 
-        yield from given_rules(robot, robot.given)
+        yield from given_rules(robot, robot.given, stored, moving)
     else:
         names = [body.name for body in robot.bodies]
-        yield Rule("P", tuple(f"P{b}" for b in names), lambda *parts: energy.total(robot.ring, parts))
-        yield Rule("K", tuple(f"K{b}" for b in names), lambda *parts: energy.total(robot.ring, parts))
+        parts_of_P, parts_of_K = (*(f"P{b}" for b in names), *stored), (*(f"K{b}" for b in names), *moving)
+        yield Rule("P", parts_of_P, lambda *parts: energy.total(robot.ring, parts))
+        yield Rule("K", parts_of_K, lambda *parts: energy.total(robot.ring, parts))
     yield Rule("L", ("K", "P"), euler_lagrange.lagrangian)
 
 
 def _euler_lagrange(robot: Robot) -> Iterator[Rule]:
+    resisted = _friction(robot)
     for q in robot.coordinates:
         k = q.index
         yield Rule(f"dLdqd{k}", ("L",), partial(euler_lagrange.momentum, k=k - 1))
         yield Rule(f"ddt{k}", (f"dLdqd{k}",), euler_lagrange.momentum_rate)
         yield Rule(f"dLdq{k}", ("L",), partial(euler_lagrange.coordinate_derivative, k=k - 1))
-        yield Rule(f"tau{k}", (f"ddt{k}", f"dLdq{k}"), euler_lagrange.generalized_force)
+        equation = partial(euler_lagrange.generalized_force, k=k - 1)
+        yield Rule(f"tau{k}", (f"ddt{k}", f"dLdq{k}", *resisted), equation)
     forces = tuple(f"tau{q.index}" for q in robot.coordinates)
     yield Rule("tau", forces, lambda *parts: euler_lagrange.force_vector(robot, parts))
+
+
+def _friction(robot: Robot) -> tuple[str, ...]:
+    """The rule of friction, where there is any."""
+    return ("friction",) if "friction" in robot.actions.kinds else ()
 
 
 def _vectorized(robot: Robot) -> Iterator[Rule]:
@@ -168,5 +196,5 @@ def _vectorized(robot: Robot) -> Iterator[Rule]:
     yield Rule("christoffel", ("D",), partial(vectorized.christoffel_symbols, robot))
     yield Rule("C", ("christoffel",), partial(vectorized.coriolis_matrix, robot))
     yield Rule("g", ("tau",), partial(vectorized.gravity_from_torque, robot))
-    yield Rule("Cqd", ("tau", "g"), partial(vectorized.coriolis_from_torque, robot))
+    yield Rule("Cqd", ("tau", "g", *_friction(robot)), partial(vectorized.coriolis_from_torque, robot))
     yield Rule("g_direct", ("P",), partial(vectorized.gravity_vector, robot))

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from random import Random
 from typing import Any
 
+from dynsolve.derivation.action_check import acting_forces
 from dynsolve.derivation.arm_values import RobotValues, arm_at, draw
 from dynsolve.derivation.newton_euler import (
     ZERO,
@@ -43,7 +44,8 @@ def verify_statics(robot: Robot, results: Mapping[str, Node], states: int = 5) -
         arm = arm_at(robot, values)
         still = [0.0] * arm.n
         Q = generalized_forces(robot, values, arm)
-        held = inverse_dynamics(arm, still, still, arm.gravity)
+        weight = inverse_dynamics(arm, still, still, arm.gravity)
+        held = [a + b for a, b in zip(weight, acting_forces(robot, values).springs, strict=True)]
         theirs = {"Q": Q, "tau_static": [a - b for a, b in zip(held, Q, strict=True)]}
         size = max(1.0, *map(abs, Q), *map(abs, held))
         for name, mine in zip(results, program.run(values), strict=True):

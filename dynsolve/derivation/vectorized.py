@@ -32,9 +32,10 @@ def gravity_from_torque(robot: Robot, tau: Matrix) -> Matrix:
     return tau.map(lambda t: ring.without(ring.without(t, 2), 1))
 
 
-def coriolis_from_torque(robot: Robot, tau: Matrix, g: Matrix) -> Matrix:
-    """C q̇, n×1: τ without the terms of accelerations and gravity."""
-    return tau.map(lambda t: robot.ring.without(t, 2)) - g
+def coriolis_from_torque(robot: Robot, tau: Matrix, g: Matrix, friction: Matrix | None = None) -> Matrix:
+    """C q̇, n×1: τ without the terms of accelerations and gravity, and without friction (n×1)."""
+    left = tau.map(lambda t: robot.ring.without(t, 2)) - g
+    return left if friction is None else left - friction
 
 
 def inertia_from_energy(robot: Robot, K: Expr) -> Matrix:
@@ -76,7 +77,10 @@ def gravity_vector(robot: Robot, P: Expr) -> Matrix:
     return Matrix.column(robot.ring, [robot.ring.diff(P, k) for k in range(robot.n)])
 
 
-def torque(robot: Robot, D: Matrix, coriolis: Matrix, g: Matrix, k: int) -> Expr:
-    """τ_k = Σ_j d_kj q̈_j + (C q̇)_k + g_k; k counts from 0."""
+def torque(
+    robot: Robot, D: Matrix, coriolis: Matrix, g: Matrix, friction: Matrix | None = None, *, k: int
+) -> Expr:
+    """τ_k = Σ_j d_kj q̈_j + (C q̇)_k + g_k, and the friction (n×1) of coordinate k; k counts from 0."""
     accelerations = [robot.ring.symbol(name, 2) for name in robot.ring.names]
-    return robot.ring.dot(list(D.rows[k]), accelerations) + coriolis[k, 0] + g[k, 0]
+    force = robot.ring.dot(list(D.rows[k]), accelerations) + coriolis[k, 0] + g[k, 0]
+    return force if friction is None else force + friction[k, 0]

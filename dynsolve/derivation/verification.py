@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from functools import partial
 from random import Random
 
+from dynsolve.derivation.action_check import ActingForces, acting_forces
 from dynsolve.derivation.arm_values import draw
 from dynsolve.derivation.newton_euler import (
     ZERO,
@@ -59,11 +60,11 @@ class Verification:
 def verify(robot: Robot, results: Mapping[str, Node], states: int = 5) -> Verification:
     """Compare printed forms with recursive Newton-Euler at random states.
 
-    `results` are trees by name: `tau`, `D`, `C`, `g`, `K`, `P`, or, of a robot
+    `results` are trees by name: `tau`, `D`, `C`, `g`, `friction`, `K`, `P`, or, of a robot
     without masses, the last `H` and `J`; those that are absent are passed over.
     Raises VerificationError where one is off by more than `TOLERANCE`.
     """
-    names = [name for name in ("H", "J", "D", "C", "g", "tau", "K", "P") if name in results]
+    names = [name for name in ("H", "J", "D", "C", "g", "friction", "tau", "K", "P") if name in results]
     program = compile_trees([results[name] for name in names])
     random = Random(SEED)  # noqa: S311 - the same states every time are wanted
     worst = 0.0
@@ -105,7 +106,7 @@ def _way(robot: Robot) -> _Way:
 
 def _of_arm(robot: Robot, random: Random) -> tuple[Mapping[str, float], Errors]:
     values, arm = draw(robot, random)
-    return values, partial(_errors, arm)
+    return values, partial(_errors, arm, acting_forces(robot, values))
 
 
 def _of_mechanism(robot: Robot, random: Random) -> tuple[Mapping[str, float], Errors]:
@@ -113,7 +114,12 @@ def _of_mechanism(robot: Robot, random: Random) -> tuple[Mapping[str, float], Er
 
     values, mechanism = draw_mechanism(robot, random)
     independent = _Independent(
-        mechanism.qd, mechanism.qdd, mechanism.forces, mechanism.energies(), _NEGLIGIBLE * mechanism.size
+        mechanism.qd,
+        mechanism.qdd,
+        mechanism.forces,
+        mechanism.energies(),
+        _NEGLIGIBLE * mechanism.size,
+        acting_forces(robot, values),
     )
     return values, partial(_dynamic_errors, independent)
 
@@ -125,8 +131,8 @@ def _of_mechanism(robot: Robot, random: Random) -> tuple[Mapping[str, float], Er
 class _Independent:
     """A robot at a state by the independent computation.
 
-    `forces(q̇, q̈, has_gravity)` are the generalized forces, `energies` K and P; below `negligible`
-    results count as 0.
+    `forces(q̇, q̈, has_gravity)` are the generalized forces of masses and rotors, `energies` their K and P;
+    `acting` is what springs and friction add.  Below `negligible` results count as 0.
     """
 
     qd: Sequence[float]
@@ -134,9 +140,10 @@ class _Independent:
     forces: Callable[[Sequence[float], Sequence[float], bool], list[float]]
     energies: tuple[float, float]
     negligible: float
+    acting: ActingForces
 
 
-def _errors(arm: Arm, ours: Results) -> Iterator[tuple[str, float]]:
+def _errors(arm: Arm, acting: ActingForces, ours: Results) -> Iterator[tuple[str, float]]:
     """(name, relative error) of each result of an arm."""
     yield from _kinematic_errors(arm, ours)
     if "D" not in ours:
@@ -145,11 +152,13 @@ def _errors(arm: Arm, ours: Results) -> Iterator[tuple[str, float]]:
     def forces(qd: Sequence[float], qdd: Sequence[float], has_gravity: bool) -> list[float]:
         return inverse_dynamics(arm, qd, qdd, arm.gravity if has_gravity else ZERO)
 
-    yield from _dynamic_errors(_Independent(arm.qd, arm.qdd, forces, energies(arm), _negligible(arm)), ours)
+    state = _Independent(arm.qd, arm.qdd, forces, energies(arm), _negligible(arm), acting)
+    yield from _dynamic_errors(state, ours)
 
 
 def _dynamic_errors(state: _Independent, ours: Results) -> Iterator[tuple[str, float]]:
-    """The errors of D, C q̇, g, τ and the energies."""
+    """The errors of D, C q̇, friction, g, τ and the energies."""
+    acting = state.acting
     n = len(state.qd)
     still = [0.0] * n
     units = [[float(i == k) for i in range(n)] for k in range(n)]
@@ -157,17 +166,24 @@ def _dynamic_errors(state: _Independent, ours: Results) -> Iterator[tuple[str, f
     theirs = {
         "D": [[columns[j][i] for j in range(n)] for i in range(n)],
         "Cqd": [[x] for x in state.forces(state.qd, still, False)],
-        "g": [[x] for x in state.forces(still, still, True)],
-        "tau": [[x] for x in state.forces(state.qd, state.qdd, True)],
+        "g": _column(state.forces(still, still, True), acting.springs),
+        "friction": _column(acting.friction),
+        "tau": _column(state.forces(state.qd, state.qdd, True), acting.springs, acting.friction),
     }
     size = max(state.negligible, *(_size(matrix) for matrix in theirs.values())) or 1.0
     mine = {**ours, "Cqd": [[sum(c * x for c, x in zip(row, state.qd, strict=True))] for row in ours["C"]]}
     for name, matrix in theirs.items():
         if name in mine:
             yield name, _distance(mine[name], matrix) / size
-    for name, value in zip(("K", "P"), state.energies, strict=True):
+    K, P = state.energies
+    for name, value in (("K", K), ("P", P + acting.energy)):
         if name in ours:
             yield name, _distance([[ours[name]]], [[value]]) / max(size, abs(value))  # type: ignore[list-item]
+
+
+def _column(*parts: Sequence[float]) -> list[list[float]]:
+    """The sum of forces, as a column."""
+    return [[sum(entries)] for entries in zip(*parts, strict=True)]
 
 
 def _negligible(arm: Arm) -> float:

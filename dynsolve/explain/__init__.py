@@ -45,7 +45,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     inverse_pose
                 of a full pose: the point that is left in place by the wrist, the rotation that is left for it
     recursions  the Newton-Euler recursions, link by link
-    terms       what each term of a force is: inertial, centrifugal, Coriolis, gravity
+    actions     what acts beside gravity: springs, rotors, friction
+    terms       what each term of a force is: inertial, centrifugal, Coriolis, friction, gravity
     sanity      checks that a person can do on the finished model
     closing     the step of D q̈ + C q̇ + g = τ
     working     the lines between a formula and its result, each proved before it is shown

@@ -82,6 +82,19 @@ CRAIG = Book(
     },
 )
 
+SICILIANO = Book(
+    name="Siciliano et al.",
+    full=(
+        "B. Siciliano, L. Sciavicco, L. Villani, G. Oriolo, Robotics: Modelling, Planning and Control, "
+        "Springer, 2009"
+    ),
+    sections={
+        "7.1.1": "Computation of Kinetic Energy",
+        "7.1.2": "Computation of Potential Energy",
+        "7.1.3": "Equations of Motion",
+    },
+)
+
 LYNCH_PARK = Book(
     name="Lynch and Park",
     full="K. M. Lynch, F. C. Park, Modern Robotics, Cambridge University Press, 2017",
@@ -94,7 +107,7 @@ KHALIL_DOMBRE = Book(
     sections={"9.4": "Determination of the Base Inertial Parameters"},
 )
 
-BOOKS = (SPONG, CRAIG, LYNCH_PARK, KHALIL_DOMBRE)
+BOOKS = (SPONG, CRAIG, SICILIANO, LYNCH_PARK, KHALIL_DOMBRE)
 
 _IN_A_LIST = "Spong et al."
 """What the course's own book is called where no report names it at its start."""
@@ -116,6 +129,15 @@ def craig(section: str) -> str:
     'Craig §3.5'
     """
     return CRAIG.section(section)
+
+
+def siciliano(section: str) -> str:
+    """A reference to Siciliano, Sciavicco, Villani and Oriolo.
+
+    >>> siciliano("7.1.3")
+    'Siciliano et al. §7.1.3'
+    """
+    return SICILIANO.section(section)
 
 
 def by_itself(source: str) -> str:

@@ -13,7 +13,7 @@ from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import kinetic
 from dynsolve.explain.working.proved import SILENT
-from dynsolve.explain.writing import are_counted, is_small, listed, name_of, side_by_side, spong
+from dynsolve.explain.writing import are_counted, is_small, listed, name_of, side_by_side, spong, sum_of
 from dynsolve.notation.tree import (
     BigSum,
     Function,
@@ -50,7 +50,9 @@ def steps(context: Context) -> Iterator[Step]:
     bodies = context.robot.bodies
     for body in bodies:
         yield _potential(context, body)
-    yield _total(context, "P", "potential", letters.P, [letters.of_body("P", b) for b in bodies])
+    springs, rotors = _acting_steps(context)
+    yield from springs
+    yield _total(context, "P", "potential", letters.P, [letters.PS] * len(springs))
     told = False
     for body in bodies:
         yield _jacobians(context, body) if context.robot.has_table else jacobians_step(context, body)
@@ -60,7 +62,17 @@ def steps(context: Context) -> Iterator[Step]:
         yield linear
         yield _rotational(context, body)
         yield _kinetic(context, body)
-    yield _total(context, "K", "kinetic", letters.K, [letters.of_body("K", b) for b in bodies])
+    yield from rotors
+    yield _total(context, "K", "kinetic", letters.K, [letters.KM] * len(rotors))
+
+
+def _acting_steps(context: Context) -> tuple[list[Step], list[Step]]:
+    """The step of the springs and that of the rotors, where there are any; imported where something acts."""
+    if not context.robot.actions:
+        return [], []
+    from dynsolve.explain.actions import rotor_steps, spring_steps
+
+    return list(spring_steps(context)), list(rotor_steps(context))
 
 
 # -- potential energy ------------------------------------------------------------------------------
@@ -150,11 +162,16 @@ def _leads_with_minus(expr: Expr) -> bool:
     return bool(expr.poly.leading_coefficient() < 0)
 
 
-def _total(context: Context, name: str, kind: str, letter: Letter, parts: list[Letter]) -> Step:
-    members: list[Node] = [letter, Sum(tuple(parts)) if len(parts) > 1 else parts[0]]
+def _total(context: Context, name: str, kind: str, letter: Letter, others: list[Letter]) -> Step:
+    """The energy of the bodies, and of the springs or rotors where there are any."""
+    bodies = [letters.of_body(name, body) for body in context.robot.bodies]
+    why = "The sum over the bodies" if len(bodies) > 1 else "There is only one body"
+    if others:
+        why += f", and the part of the {'springs' if name == 'P' else 'rotors'}"
+    members: list[Node] = [letter, sum_of([*bodies, *others])]
     weightless = name == "P" and context.robot.gravity.is_zero
-    if are_counted(context.robot.bodies) and len(parts) > 1 and not weightless:
-        members.append(_summed(context, name))
+    if are_counted(context.robot.bodies) and len(bodies) > 1 and not weightless:
+        members.append(sum_of([_summed(context, name), *others]))
     notes: tuple[Prose, ...] = ()
     if name == "K":
         notes = (("Each body has its kinetic energy, but each joint its torque or force, below.",),)
@@ -162,7 +179,7 @@ def _total(context: Context, name: str, kind: str, letter: Letter, parts: list[L
         id=name,
         stage=STAGE,
         title=f"Total {kind} energy",
-        why=("The sum over the bodies.",) if len(parts) > 1 else ("There is only one body.",),
+        why=(f"{why}.",),
         formula=equation(*members),
         source=spong("7.2.3" if name == "P" else "7.2.2"),
         result=(equation(letter, context.form(name)),),

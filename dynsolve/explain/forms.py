@@ -107,7 +107,8 @@ class Forms:
         """Σ P_i as it is added up, unless collecting makes it much shorter."""
         if is_numeric(self.robot) or not self.robot.bodies:
             return compact
-        added = total([self(f"P{body.name}") for body in self.robot.bodies])
+        springs = ["Ps"] if self.robot.actions.springs else []
+        added = total([self(name) for name in (*(f"P{body.name}" for body in self.robot.bodies), *springs)])
         return added if cost(added) <= 1.5 * cost(compact) else compact
 
     # -- long values from their parts --------------------------------------------------------------
@@ -136,7 +137,12 @@ class Forms:
             families.FORCE: formulas.force,
         }
         way = of_coordinate.get(quantity.family)
-        return None if way is None else way(quantity.index[0] - 1)
+        if way is None:
+            return None
+        form, k = way(quantity.index[0] - 1), quantity.index[0] - 1
+        if quantity.family is families.FORCE and "friction" in self.values.rules:
+            return total([form, self._entry("friction", k)])
+        return form
 
     @cached_property
     def _formulas(self) -> EntryFormulas:
@@ -149,9 +155,12 @@ class Forms:
         return D.rows[i][j]
 
     def _g(self, k: int) -> Node:
-        g = self("g")
-        assert isinstance(g, tree.Matrix)
-        return g.rows[k][0]
+        return self._entry("g", k)
+
+    def _entry(self, vector: str, k: int) -> Node:
+        form = self(vector)
+        assert isinstance(form, tree.Matrix)
+        return form.rows[k][0]
 
     def _base_inertia(self, body: str) -> Node:
         """Σ_kl R_ik I_kl R_jl with the entries of R as they are printed."""
@@ -171,11 +180,12 @@ def _sandwich(left: tuple[Node, ...], tensor: tree.Matrix, right: tuple[Node, ..
 
 
 def leading_names(robot: Robot) -> list[str]:
-    """The masses and then the moments of inertia, in the order of the bodies."""
+    """The masses and then the moments of inertia, in the order of the bodies, rotors last."""
     masses = [name for body in robot.bodies for name in _linear_names(body.mass)]
     given = [body.inertia for body in robot.bodies if body.inertia is not None and body.shape is None]
+    rotors = [name for motor in robot.actions.motors for name in _linear_names(motor.inertia)]
     inertias = [name for tensor in given for entry in tensor.entries for name in _linear_names(entry)]
-    return list(dict.fromkeys([*masses, *inertias]))
+    return list(dict.fromkeys([*masses, *inertias, *rotors]))
 
 
 def _linear_names(expr: Expr) -> list[str]:

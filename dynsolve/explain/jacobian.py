@@ -151,7 +151,8 @@ def _column(context: Context, q: Coordinate) -> Step:
     robot, k = context.robot, q.index - 1
     last = len(robot.joints)
     in_letters = coordinate_column(context, k, last, letters.o(last))
-    assert in_letters is not None
+    if in_letters is None:
+        return _still_column(context, q)
     linear, angular = (column_of(context.matrix(name), k) for name in ("Jv", "Jw"))
     name = Letter("J", Number(q.index), style="bold")
     joint = _plain_joint(robot, k)
@@ -164,6 +165,20 @@ def _column(context: Context, q: Coordinate) -> Step:
         source=spong("4.6.3"),
         working=_working(context, k, in_letters[0], linear),
         result=(equation(name, Matrix(linear.rows + angular.rows)),),
+        uses=("axes",),
+    )
+
+
+def _still_column(context: Context, q: Coordinate) -> Step:
+    """The column of a coordinate that moves no joint: the angle of a motor behind an elastic joint."""
+    name = Letter("J", Number(q.index), style="bold")
+    return Step(
+        id=f"J{q.index}",
+        stage=STAGE,
+        title=f"Column {q.index} of the Jacobian",
+        why=(Symbol(q.name), " turns a rotor alone and moves no link: its column is zero."),
+        source=spong("4.6.3"),
+        result=(equation(name, ZERO),),
         uses=("axes",),
     )
 

@@ -7,7 +7,9 @@ more than three coordinates the recursions are then told once for all links.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
+from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.recursions.general import general_steps
@@ -39,6 +41,7 @@ def steps(context: Context) -> Iterator[Step]:
     for joint in reversed(robot.joints):
         yield from inwards(context, joint)
     if by_method:
+        yield from _acting_steps(context)
         for q in robot.coordinates:
             yield _torque(context, q)
         yield _lagrange(context)
@@ -53,6 +56,7 @@ def _torque(context: Context, q: Coordinate) -> Step:
             term = Product((number(abs(rate)), term))
         terms.append(Negative(term) if rate < 0 else term)
     kind, what = ("torque", "moment") if turns(q) else ("force", "force")
+    beside, added = _acting(context, q)
     return Step(
         id=f"tau{q.index}",
         stage=STAGE,
@@ -60,12 +64,31 @@ def _torque(context: Context, q: Coordinate) -> Step:
         why=(
             f"The motor gives the component of the {what} along the axis of the joint; "
             "the bearings hold the others.",
+            *beside,
         ),
-        formula=equation(letters.force(q), sum_of(terms)),
+        formula=equation(letters.force(q), sum_of([*terms, *added])),
         source=source_of(context),
         result=(equation(letters.force(q), context.form(f"tau{q.index}")),),
         detail=Detail.BRIEF,
     )
+
+
+def _acting_steps(context: Context) -> Iterator[Step]:
+    """The steps of springs and friction, which the forces are made of, too."""
+    if context.robot.actions:
+        from dynsolve.explain.actions import friction_steps, spring_steps
+
+        found = (*spring_steps(context), *friction_steps(context))
+        yield from (replace(step, stage=STAGE) for step in found)
+
+
+def _acting(context: Context, q: Coordinate) -> tuple[Prose, list[Node]]:
+    """What is said of rotors, springs and friction of a coordinate, and their terms of its force."""
+    if not context.robot.actions:
+        return (), []
+    from dynsolve.explain.actions import in_recursions
+
+    return in_recursions(context, q)
 
 
 def _lagrange(context: Context) -> Step:

@@ -145,6 +145,12 @@ def _energy(robot: Robot) -> Iterator[Prose]:
         yield ("A point has no tensor, and so no rotational energy: that holds for ", *_bodies(points), ".")
     if len(points) < len(robot.bodies):
         yield ("ω and the tensor must be in the same frame.",)
+    if any(spring.law for spring in robot.actions.springs):
+        yield ("The energy of a spring has a ½, and the stretch is squared as a whole, with its rest.",)
+    if any(motor.ratio != robot.ring.one for motor in robot.actions.motors):
+        yield ("The ratio of a gear is squared with the rate: the rotor turns that much faster.",)
+    if any(motor.carrier for motor in robot.actions.motors):
+        yield ("A rotor that rides on a link turns with the link, too: add the rates before you square.",)
 
 
 def _lagrangian(robot: Robot) -> Iterator[Prose]:
@@ -164,6 +170,8 @@ def _torque(robot: Robot) -> Iterator[Prose]:
         yield ("What drives ", *listed(turning), " is a torque; what drives ", *listed(sliding), " a force.")
     if turning:
         yield ("The derivative of a sine or cosine of an angle that moves brings its rate: the chain rule.",)
+    if "friction" in robot.actions.kinds:
+        yield ("Friction does not follow from 𝓛: add it to each equation, with a plus.",)
 
 
 def _vectorized(robot: Robot) -> Iterator[Prose]:

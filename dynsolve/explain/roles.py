@@ -7,6 +7,7 @@ from enum import Enum
 
 from dynsolve.algebra.angles import names_of
 from dynsolve.algebra.expr import Expr
+from dynsolve.robot.actions import Actions
 from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Robot
 from dynsolve.robot.units import si
@@ -25,6 +26,13 @@ class Role(Enum):
     SHAPE = "dimensions of the bodies", "dimension of a body"
     CENTER = "place of the mass centres in their links", "place of a mass centre in its link"
     POSITION = "lengths in the given positions", "length in the given positions"
+    ROTOR = "moments of inertia of the rotors", "moment of inertia of a rotor"
+    RATIO = "ratios of the gears", "ratio of a gear"
+    STIFFNESS = "stiffnesses of the springs", "stiffness of a spring"
+    REST = "where the springs are relaxed", "where a spring is relaxed"
+    VISCOUS = "coefficients of viscous friction", "coefficient of viscous friction"
+    COULOMB = "coefficients of Coulomb friction", "coefficient of Coulomb friction"
+    DAMPING = "coefficients of the dampers", "coefficient of a damper"
     OTHER = "parameters of the problem", "parameter of the problem"
 
     @property
@@ -80,6 +88,22 @@ def _places(robot: Robot) -> Iterator[tuple[Role, Iterable[str]]]:
             yield Role.CENTER if robot.has_table else Role.POSITION, _names(entry)
         for turn in body.turns:
             yield Role.POSITION, (name for rate in turn.rates.entries for name in _names(rate))
+    yield from _places_in(robot.actions)
+
+
+def _places_in(acting: Actions) -> Iterator[tuple[Role, Iterable[str]]]:
+    """Where the parameters of what acts stand."""
+    for motor in acting.motors:
+        yield Role.ROTOR, _names(motor.inertia)
+        yield Role.RATIO, _names(motor.ratio)
+    for law in (spring.law for spring in acting.springs if spring.law):
+        yield Role.STIFFNESS, _names(law.stiffness)
+        yield Role.REST, _names(law.rest)
+    for one in acting.friction:
+        yield Role.VISCOUS, _names(one.viscous)
+        yield Role.COULOMB, _names(one.coulomb)
+    for damper in acting.dampers:
+        yield Role.DAMPING, _names(damper.damping)
 
 
 def _names(expr: Expr) -> Iterator[str]:

@@ -1,12 +1,13 @@
-"""What each term of a force is: inertial, coupling, centrifugal, Coriolis or gravity, by its rates.
+"""What each term of a force is: inertial, coupling, centrifugal, Coriolis, friction, gravity or spring.
 
-By the rates alone, so that it is true of every robot (Spong, Hutchinson, Vidyasagar, section 7.3):
+By the rates, so that it is true of every robot (Spong, Hutchinson, Vidyasagar, section 7.3):
 
     q̈_k in force k     inertial
     q̈_j, j ≠ k         coupling inertia
     q̇_j²               centrifugal
     q̇_i q̇_j            Coriolis
-    none               gravity
+    none               gravity, or a spring
+    sgn q̇, f_v q̇      friction
 """
 
 from __future__ import annotations
@@ -42,7 +43,10 @@ class Kind(StrEnum):
     COUPLING = "coupling inertia"
     CENTRIFUGAL = "centrifugal"
     CORIOLIS = "Coriolis"
+    FRICTION = "friction"
     GRAVITY = "gravity"
+    SPRING = "spring"
+    HELD = "gravity and spring"
 
 
 _MEANINGS: dict[Kind, str] = {
@@ -53,7 +57,11 @@ _MEANINGS: dict[Kind, str] = {
     Kind.CENTRIFUGAL: "With the square of a rate it is centrifugal: it remains where that coordinate alone "
     "moves, at a constant rate.",
     Kind.CORIOLIS: "With the product of two rates it is a Coriolis term: it needs both coordinates to move.",
+    Kind.FRICTION: "What takes energy away is friction: its sign is that of the rates.",
     Kind.GRAVITY: "Without rates and accelerations it is gravity: what {holds} must hold at rest.",
+    Kind.SPRING: "The force of a spring has no rates either.",
+    Kind.HELD: "Without rates and accelerations it is what {holds} must hold at rest, against gravity and "
+    "springs.",
 }
 
 
@@ -80,7 +88,21 @@ def terms_of(context: Context, k: int) -> Iterator[Term]:
         letter = letters.entry("c", i + 1, j + 1, k + 1)
         symbol = values["christoffel"][i, j, k]
         yield from _unless_zero(Term(kind, 1 if i == j else 2, letter, symbol, ((i, 1), (j, 1))))
-    yield from _unless_zero(Term(Kind.GRAVITY, 1, letters.entry("g", k + 1), values["g"][k, 0]))
+    if "friction" in values.rules:
+        friction = values["friction"][k, 0]
+        yield from _unless_zero(Term(Kind.FRICTION, 1, letters.friction(k + 1), friction))
+    held = Term(_held_by(context, k), 1, letters.entry("g", k + 1), values["g"][k, 0])
+    yield from _unless_zero(held)
+
+
+def _held_by(context: Context, k: int) -> Kind:
+    """What a term without rates holds: gravity, a spring, or both."""
+    if not context.robot.actions.springs:
+        return Kind.GRAVITY
+    spring = context.robot.ring.diff(context.values["Ps"], k)
+    if spring.is_zero:
+        return Kind.GRAVITY
+    return Kind.SPRING if context.values["g"][k, 0] == spring else Kind.HELD
 
 
 def _unless_zero(term: Term) -> Iterator[Term]:

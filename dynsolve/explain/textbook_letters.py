@@ -228,6 +228,7 @@ def _dynamics(machine: str) -> Iterator[Line]:
     yield _line(_body("tau"), "generalized force i, a torque: coordinate i is an angle", "N m")
     yield _line(_body("f"), "generalized force i, a force: coordinate i is a length", "N")
     yield _line(letters.TAU, "column of the generalized forces")
+    yield from _actions()
     yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")])
     yield _line(letters.bold("D", Words("p")), "D where the bodies are point masses")
     yield _line(_entry("c", _I, _J, _K), "Christoffel symbol")
@@ -235,6 +236,24 @@ def _dynamics(machine: str) -> Iterator[Line]:
     yield _line(_entry("c", _K, _J), "entry (k, j) of C")
     yield _each([(letters.G, "column of the gravity terms"), (_entry("g", _K), "its entries")])
     yield _each([(letters.bold("N"), "Ḋ - 2C"), (_entry("n", _I, _J), "its entries")])
+
+
+def _actions() -> Iterator[Line]:
+    """What acts beside gravity."""
+    yield _line(letters.PS, "potential energy of the springs", "J")
+    yield _line(letters.KM, "kinetic energy of the rotors", "J")
+    motor = [(_sub("I", "m"), "moment of inertia"), (_sub("k", "r"), "ratio of the gear")]
+    yield _each(motor, " of the rotor of motor i")
+    spin = letters.bold("omega", Words("link")), letters.bold("omega", Row((Words("link"), _I)))
+    yield _line(spin, "angular velocity of the link that carries a motor")
+    yield _line(letters.DM, "what the rotors add to D")
+    rotor = letters.bold("n", Row((Words("m"), _I)))
+    yield _line(rotor, "moment that the rotor of motor i takes from its link", "N m")
+    yield _line(letters.DISSIPATION, "Rayleigh's dissipation function", "W")
+    coulomb = Letter("f", Row((Words("c"), _K)))
+    yield _line(coulomb, "coefficient of Coulomb friction of coordinate k")
+    entry = Letter("tau", Row((Words("f"), _K)))
+    yield _each([(letters.FRICTION, "column of the friction"), (entry, "its entries")])
 
 
 def _numbered(base: str) -> Letter:

@@ -19,6 +19,10 @@ STAGE = Stage.TORQUE
 
 def steps(context: Context) -> Iterator[Step]:
     """∂L/∂q̇, its rate, ∂L/∂q and the force, for each coordinate."""
+    if context.robot.actions:
+        from dynsolve.explain.actions import friction_steps
+
+        yield from friction_steps(context)
     for q in context.robot.coordinates:
         yield _momentum(context, q)
         yield _rate(context, q)
@@ -109,20 +113,32 @@ def _force(context: Context, q: Coordinate) -> Step:
         stage=STAGE,
         title=f"Coordinate {q.index}: the {'torque' if turns(q) else 'force'}",
         why=(Symbol(q.name), *_driven_by(context, q)),
-        formula=equation(force, Sum((momentum, Negative(derivative)))),
+        formula=equation(force, Sum((momentum, Negative(derivative), *_resisted(context, q)))),
         source=spong("7.1"),
         result=(equation(force, context.form(f"tau{q.index}")),),
         detail=Detail.BRIEF,
     )
 
 
+def _resisted(context: Context, q: Coordinate) -> tuple[Node, ...]:
+    """The friction of a coordinate, where there is any."""
+    if "friction" not in context.values.rules or context.values["friction"][q.index - 1, 0].is_zero:
+        return ()
+    return (letters.friction(q.index),)
+
+
 def _driven_by(context: Context, q: Coordinate) -> Prose:
     """The kind of force that drives a coordinate, and of which joints it is made where they share it."""
     kind = "torque" if turns(q) else "force"
+    if q.index - 1 in context.robot.actions.passive:
+        what = f" is {'an angle' if turns(q) else 'a length'} that no motor drives: its {kind} "
+        return (what, equation(letters.force(q), Number(0)), ", and this is its equation of motion.")
     moved = context.robot.joints_of(q)
     alone = len(moved) == 1 and all(len(joint.rates) == 1 and rate == 1 for joint, rate in moved)
     if alone or not moved:
         return (f" is {'an angle' if turns(q) else 'a length'}, so what drives it is a {kind}.",)
+    if not moved:
+        return (f" is the angle of a motor, so what drives it is a {kind}.",)
     parts: Prose = ()
     for joint, rate in moved:
         sign = " minus " if rate < 0 else " plus " if parts else " "

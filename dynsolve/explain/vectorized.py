@@ -14,7 +14,7 @@ from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_sums
-from dynsolve.explain.writing import and_joined, are_counted, spong
+from dynsolve.explain.writing import and_joined, are_counted, spong, sum_of
 from dynsolve.notation.tree import (
     BigSum,
     Letter,
@@ -53,6 +53,10 @@ def steps(context: Context) -> Iterator[Step]:
         if _is_short(context):
             for body in context.robot.bodies:
                 yield _part(context, body)
+        if context.robot.actions:
+            from dynsolve.explain.actions import rotor_part_step
+
+            yield from rotor_part_step(context)
     yield christoffel_step(context)
     yield _coriolis(context)
     if from_energies:
@@ -106,14 +110,16 @@ def _rest(context: Context) -> Step:
         why += (" No term has rates here.",)
     if values["g"].is_zero:
         why += (" No term remains at rest here.",)
+    left: list[Node] = [letters.TAU, Negative(Product((letters.D, letters.QDD)))]
+    if "friction" in values.rules:
+        why += (" Friction, ", letters.FRICTION, ", is taken off.")
+        left.append(Negative(letters.FRICTION))
     return Step(
         id="Cqd",
         stage=STAGE,
         title="C q̇ and the gravity terms, read off from the forces",
         why=why,
-        formula=equation(
-            Sum((Cqd, letters.G)), Sum((letters.TAU, Negative(Product((letters.D, letters.QDD)))))
-        ),
+        formula=equation(Sum((Cqd, letters.G)), Sum(tuple(left))),
         source=spong("7.3"),
         result=(equation(Cqd, context.form("Cqd")), equation(letters.G, context.form("g"))),
         also=() if _from_energies(context) else ("g",),  # from the energies a step of its own gives g
@@ -145,7 +151,8 @@ def _inertia_direct(context: Context) -> Step:
         terms.append(Product((context.mass(body), letters.transposed_product(Jv))))
         if not body.is_point:
             terms.append(letters.transposed_product(Jw, letters.of_body("I", body, "script")))
-    working = equation(letters.D, terms[0] if len(terms) == 1 else Sum(tuple(terms)))
+    rotors = (letters.DM,) if robot.actions.motors else ()
+    working = equation(letters.D, sum_of([*terms, *rotors]))
     name = Number(len(robot.bodies))
     return Step(
         id="D_direct",
@@ -156,9 +163,10 @@ def _inertia_direct(context: Context) -> Step:
             equation(letters.K, Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))),
             f", so D is a sum over the bodies{_named_otherwise(robot)}.",
             " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
+            *((" The rotors add ", letters.DM, ".") if rotors else ()),
             " It gives the same D, entry by entry." if same else " It does not give the same D.",
         ),
-        formula=equation(letters.D, BigSum(total, i, Number(1), name)),
+        formula=equation(letters.D, sum_of([BigSum(total, i, Number(1), name), *rotors])),
         source=spong("7.2.2"),
         working=(working,),
         hint=(
@@ -244,14 +252,16 @@ def _coriolis(context: Context) -> Step:
 
 
 def _gravity(context: Context) -> Step:
-    still = context.values["g"].is_zero
+    still, springs = context.values["g"].is_zero, bool(context.robot.actions.springs)
     why: Prose = ("Directly, without τ: the partial derivatives of the potential energy.",)
+    if springs and not still:
+        why += (" The forces of the springs are part of it.",)
     if still:
         why += (" It does not depend on any coordinate, so ", letters.G, " is zero.")
     return Step(
         id="g",
         stage=STAGE,
-        title="The gravity terms, from the potential energy",
+        title=f"The {'gravity and spring' if springs else 'gravity'} terms, from the potential energy",
         why=why,
         formula=equation(Letter("g", _K), letters.partial_derivative(letters.P, Letter("q", _K))),
         source=spong("7.3"),

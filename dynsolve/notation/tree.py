@@ -129,7 +129,7 @@ class Negative(Node):
 
 @node_class
 class Function(Node):
-    """sin, cos, tan, sqrt, acos, asin, atan of an argument; atan2 of `Arguments` (y, x)."""
+    """sin, cos, tan, sqrt, sgn, acos, asin, atan of an argument; atan2 of `Arguments` (y, x)."""
 
     name: str
     argument: Node

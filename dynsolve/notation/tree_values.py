@@ -11,6 +11,7 @@ import math
 import operator
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -33,6 +34,12 @@ from dynsolve.notation.walk import children
 
 DOTS = ("", "_dot", "_ddot")
 
+
+def sign(x: float | Fraction) -> float:
+    """sgn x: 1, -1, and 0 at 0."""
+    return float(x > 0) - float(x < 0)
+
+
 FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
     "sin": math.sin,
     "cos": math.cos,
@@ -42,6 +49,7 @@ FUNCTIONS: Mapping[str, Callable[[Any], Any]] = {
     "asin": math.asin,
     "atan": math.atan,
     "atan2": lambda arguments: math.atan2(*arguments),
+    "sgn": sign,
 }
 
 _Operation = tuple[Callable[[Any], float], Callable[[Any], Any]]

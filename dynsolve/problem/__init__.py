@@ -21,6 +21,9 @@
                      loads          `forces`
                      state          `state`
                      weights        `weights`
+                     actions        `friction`, `springs`, `dampers`, `motors`, `passive`
+                     motor_coordinates
+                                    the coordinates that motors bring: `turns: thm1*`
                      rotations      `Rz(90deg) Rx(30deg)`
                      accepted_tables
                                     `also`, `strict`
@@ -36,11 +39,12 @@
                      targets        `reach` and `limits` with numbers
                      questions_build
                                     points, the task, forces
+                     actions_build  friction, springs, dampers, motors
       -> Problem     model          the robot, and what the exercise says about it
 
 `reader` goes this way; each step reports what it finds and goes on with what is sound.
-Which keys there are is said once, in `specification`, `kinematic_keys` and `mechanism_keys` (in
-terms of `kinds` and `value_kinds`); from there come
+Which keys there are is said once, in `specification`, `action_keys`, `kinematic_keys` and `mechanism_keys`
+(in terms of `kinds` and `value_kinds`); from there come
 the reader's keys, the JSON Schema (`schema`), the file of `dynsolve new` and the tables of
 the documentation (`documentation`).  `lint` finds what is no fault but deserves a look,
 `library` the problems that come with dynsolve.

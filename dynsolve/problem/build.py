@@ -7,8 +7,10 @@ which axes.  What is wrong is reported at its place; nothing is built of it.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.problem.actions import NO_ACTIONS
 from dynsolve.problem.bodies import ParsedBody, ParsedShape
 from dynsolve.problem.body_values import mass_value, tensor_value
 from dynsolve.problem.mechanism_build import given_model, placed_bodies
@@ -62,6 +64,10 @@ def build_robot(
         parameters=tuple(name for name in ring.parameters if name != "pi"),
         given=given,
     )
+    if parsed.actions is not NO_ACTIONS:
+        from dynsolve.problem.actions_build import actions
+
+        robot = replace(robot, actions=actions(values, parsed.actions))
     known_loads = [one for one in loads if one]
     is_drawn = parsed.normals is not None
     robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn, written)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dynsolve.algebra.angles import Angle
+from dynsolve.problem.actions import NO_ACTIONS, ParsedActions
 from dynsolve.problem.base import ParsedBase
 from dynsolve.problem.bodies import ParsedBody
 from dynsolve.problem.cells import Cell
@@ -31,6 +32,7 @@ class ParsedFile:
     questions: ParsedQuestions
     normals: Normals | None = None
     """Of a drawing, the normals that its table was made from."""
+    actions: ParsedActions = NO_ACTIONS
     model: ParsedModel | None = None
     """In the place of a table and its bodies: a mechanism by positions, or given energies."""
 
@@ -62,6 +64,7 @@ class ParsedFile:
             stages=frozenset(ASKED_FOR),
             is_twist=self.questions.task is not None and self.questions.task.is_twist,
             rates=self.questions.rates,
+            actions=self.actions.kinds,
         )
 
     @property
@@ -86,6 +89,7 @@ class ParsedFile:
         if self.model:
             yield from self.model.moving
         yield from self.questions.moving
+        yield from self.actions.moving
 
     @property
     def constant(self) -> Iterator[Cell]:
@@ -102,6 +106,7 @@ class ParsedFile:
         if self.base.rotation:
             yield from self.base.rotation.entries
         yield from self.questions.constant
+        yield from self.actions.constant
 
     @property
     def angles(self) -> Iterator[tuple[Cell, Angle]]:
@@ -129,3 +134,5 @@ class ParsedFile:
         yield from self.base.move or ()
         yield from self.questions.constant
         yield from self.questions.moving
+        yield from self.actions.constant
+        yield from self.actions.moving

@@ -13,6 +13,8 @@ from pathlib import Path
 
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.accepted_tables import read_accepted_tables
+from dynsolve.problem.actions import KEYS as ACTING
+from dynsolve.problem.actions import NO_ACTIONS, read_actions
 from dynsolve.problem.base import NO_BASE, NO_GRAVITY, read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
@@ -144,6 +146,7 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     rows = len(table.rows)
     drawn = DrawnFrames.of(framed.normals, table.coordinates)
     bodies = read_bodies(faults, fields.get("masses"), rows, coordinates, drawn)
+    acts = any(key in fields for key in ACTING)
     return ParsedFile(
         convention=convention,
         table=table,
@@ -153,6 +156,7 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
         questions=read_questions(faults, fields, rows, coordinates, [body.name for body in bodies], drawn),
         normals=framed.normals,
         model=model,
+        actions=read_actions(faults, fields, rows, coordinates) if acts else NO_ACTIONS,
     )
 
 

@@ -9,12 +9,13 @@ default.  From these records come
 - the commented file that `dynsolve new` writes (`documentation.py`),
 - the tables of keys in `problems/README.md` (`documentation.py`).
 
-To add a key, write its record here (or in `kinematic_keys`), read it with `Fields.get` in
+To add a key, write its record here (or in `action_keys`, `kinematic_keys`), read it with `Fields.get` in
 the module it belongs to, and give what was read a place in `Problem` or `Robot`.
 """
 
 from __future__ import annotations
 
+from dynsolve.problem.action_keys import ACTION_KEYS
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, Word
 from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
 from dynsolve.problem.mechanism_keys import COORDINATES, model, placed_body
@@ -307,6 +308,7 @@ PROBLEM = Keyed(
             active=True,
             remedy="a body is written {mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}",
         ),
+        *ACTION_KEYS,
         *KINEMATIC_KEYS,
         Key(
             "values",

@@ -13,6 +13,7 @@ from dynsolve.notation.text import Name
 from dynsolve.problem.cells import Cell, made_cell, read_angle, read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.linear import NotLinear, linear_rates
+from dynsolve.problem.motor_coordinates import motor_coordinates
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import MAX_ROWS, PROBLEM, ROW
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
@@ -149,6 +150,7 @@ def ordered_coordinates(faults: Faults, fields: Fields, kinds: dict[str, str]) -
 
 
 def _ordered(faults: Faults, fields: Fields, kinds: dict[str, str], whole: bool) -> dict[str, str]:
+    kinds = kinds | motor_coordinates(fields, kinds)
     if "coordinates" not in fields:
         return kinds
     example = f"write coordinates: [{', '.join(kinds)}]"
@@ -250,6 +252,7 @@ def _check_effect(
     if any(row.faulty for row in rows):
         return
     moved = {name for row in rows for name, rate in row.rates.items() if rate}
+    moved |= motor_coordinates(fields, moved).keys()
     for name in coordinates:
         if name not in moved:
             faults.error(

@@ -12,7 +12,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.errors import AlgebraError
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Function, Node, Symbol
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.rotations import ParsedRotation
@@ -113,6 +113,7 @@ def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
     trees: list[Node] = [cell.tree for cell in cells]
     if parsed.model:
         trees += (*parsed.model.rates, *parsed.model.slopes)
+    trees += [Function("sgn", Symbol(name, 1)) for name in parsed.actions.signs]
     angles = [angle for _, angle in parsed.angles]
     state = parsed.questions.state
     if state is None:

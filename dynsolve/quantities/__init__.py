@@ -3,6 +3,8 @@
     stages      the stages of a solution, with their headings
     family      what a record says: owner, shape, dimension, letter, spellings, parts
     families    the records, in the order of the derivation
+    action_families
+                those of what acts beside gravity: springs, rotors, friction
     kinematic_families
                 those of what exercises ask of the kinematics: points, tasks
     recursion_families

@@ -15,7 +15,13 @@ from collections.abc import Iterable
 from itertools import product
 
 from dynsolve.notation.tree import Node, Product, Symbol
-from dynsolve.quantities import kinematic_families, letters, recursion_families, static_families
+from dynsolve.quantities import (
+    action_families,
+    kinematic_families,
+    letters,
+    recursion_families,
+    static_families,
+)
 from dynsolve.quantities.family import Family, Owner, of_body, of_coordinate, of_robot
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate
@@ -256,6 +262,8 @@ K_BODY = Family(
     part_of="K",
 )
 
+_ENERGIES_OF_ACTIONS = action_families.OF_ENERGY
+
 P = Family(
     name="P",
     stage=Stage.ENERGY,
@@ -292,6 +300,8 @@ L = Family(
 def _momentum(q: Coordinate) -> Node:
     return letters.partial_derivative(letters.L, letters.velocity(q))
 
+
+_FRICTION = action_families.OF_TORQUE
 
 DLDQD = Family(
     name="dLdqd{i}",
@@ -478,6 +488,8 @@ D_DIRECT = Family(
     is_answer=False,
 )
 
+_ROTORS = action_families.OF_THE_MODEL
+
 # -- the Newton-Euler recursions -------------------------------------------------------------------
 
 _RECURSIONS = recursion_families.FAMILIES
@@ -486,10 +498,13 @@ _RECURSIONS = recursion_families.FAMILIES
 
 _ASKED_OF_STATICS = static_families.FAMILIES
 
+_GROUPS = (_ASKED_OF_KINEMATICS, _ENERGIES_OF_ACTIONS, _FRICTION, _ROTORS, _RECURSIONS, _ASKED_OF_STATICS)
+"""The families that have a file of their own."""
+
 FAMILIES: tuple[Family, ...] = tuple(
     record
     for value in tuple(vars().values())
-    for record in (value if value in (_ASKED_OF_KINEMATICS, _RECURSIONS, _ASKED_OF_STATICS) else (value,))
+    for record in (value if value in _GROUPS else (value,))
     if isinstance(record, Family)
 )
 """The records above, in their order."""

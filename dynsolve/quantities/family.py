@@ -108,6 +108,7 @@ class Family:
     write where it means nothing else; a family without `is_answer` is none of the answers.
     `aliases` are the further names that `find` and `marks` take.
 
+    `brought_by` is what must act beside gravity for there to be any: friction, springs, motors.
     `part_of` is the whole it is added up to, or an entry of.  `needs_rotation` marks what a point
     mass has in name only; `is_symmetric_entry` an entry that equals the one across the diagonal.
     """
@@ -129,6 +130,7 @@ class Family:
     spellings: tuple[str, ...] = ()
     fallback_spellings: tuple[str, ...] = ()
     aliases: tuple[str, ...] = ()
+    brought_by: str = ""
     part_of: str = ""
     needs_rotation: bool = False
     is_symmetric_entry: bool = False

@@ -35,7 +35,7 @@ class Owners:
     `points` are the bodies without inertia, `named` the points that the exercise names.
     `stages` are those of which something is asked, `task_rows` the components of the task;
     a twist is a task that is no function r(q).  `rates` says whether its velocity, and its
-    acceleration, is given.
+    acceleration, is given; `actions` what acts beside gravity: friction, springs, motors.
     """
 
     rows: int
@@ -48,6 +48,7 @@ class Owners:
     task_rows: int = 0
     is_twist: bool = False
     rates: frozenset[str] = frozenset()
+    actions: frozenset[str] = frozenset()
 
     @staticmethod
     def of(robot: Robot) -> Owners:
@@ -66,11 +67,14 @@ class Owners:
             task_rows=asked.task.rows if asked.task else 0,
             is_twist=asked.task is not None and asked.task.is_twist,
             rates=given_rates(asked),
+            actions=robot.actions.kinds,
         )
 
     def has(self, family: Family) -> bool:
         """Whether there are quantities of a family: those of the course, and of what is asked."""
         if self.is_twist and family is kinematic_families.R:
+            return False
+        if family.brought_by and family.brought_by not in self.actions:
             return False
         if family in _FROM_RATES and _FROM_RATES[family] not in self.rates:
             return False

@@ -93,6 +93,11 @@ WEIGHTS = bold("W")
 K = Letter("K", style="script")
 P = Letter("P", style="script")
 L = Letter("L", style="script")
+PS = Letter("P", Words("s"))
+KM = Letter("K", Words("m"))
+DM = bold("D", Words("m"))
+FRICTION = bold("tau", Words("f"))
+DISSIPATION = Letter("R", style="script")
 
 
 def jv(body: Body) -> Letter:
@@ -170,6 +175,11 @@ def energy_part(part: str, body: Body) -> Letter:
 def force(q: Coordinate) -> Letter:
     """τ_k of an angle, f_k of a length."""
     return Letter("tau" if q.type is JointType.REVOLUTE else "f", Number(q.index))
+
+
+def friction(i: int) -> Letter:
+    """τ_{f i}, entry i of the friction."""
+    return Letter("tau", Row((Words("f"), Number(i))))
 
 
 def velocity(q: Coordinate) -> Symbol:

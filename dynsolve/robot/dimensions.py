@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.generators import Generator, is_sign
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.bounded_cache import recalled
 from dynsolve.robot.mechanism import GivenModel
@@ -56,7 +56,7 @@ class Dimensions:
             for dots in (0, 1, 2):
                 self._of[self.ring.symbol_indices[(q.name, dots)]] = times(base, dimension(time=-dots))
         for g in self.ring.generators:
-            if g.kind in ("sin", "cos", "constant"):
+            if g.kind in ("sin", "cos", "constant") or is_sign(g.node):
                 self._of[g.index] = NONE
             if g.kind == "symbol" and g.name == "pi":
                 self._of[g.index] = NONE
@@ -152,6 +152,8 @@ def _roles(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
     if robot.given is not None:
         yield from _given_roles(robot, robot.given)
 
+    yield from _roles_of_actions(robot)
+
 
 def _given_roles(robot: Robot, given: GivenModel) -> Iterator[tuple[Expr, Dimension]]:
     """The dimensions of given energies, and of the entries of a given D."""
@@ -162,3 +164,40 @@ def _given_roles(robot: Robot, given: GivenModel) -> Iterator[tuple[Expr, Dimens
         for entry, other in zip(row, robot.coordinates, strict=True):
             lengths = (q.type is JointType.PRISMATIC) + (other.type is JointType.PRISMATIC)
             yield entry, times(INERTIA, LENGTH, -lengths)
+
+
+def _roles_of_actions(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:
+    """The same of what acts: friction, stiffnesses, rotors; what a form of the coordinates is not told of."""
+    acting = robot.actions
+
+    def coordinate(k: int) -> Dimension:
+        return LENGTH if robot.coordinates[k].type is JointType.PRISMATIC else NONE
+
+    for one in acting.friction:
+        x = coordinate(one.coordinate)
+        yield one.viscous, times(times(ENERGY, x, -2), dimension(time=1))
+        yield one.coulomb, times(ENERGY, x, -1)
+    for motor in acting.motors:
+        x = coordinate(motor.turns)
+        geared = motor.ratio != robot.ring.one
+        yield motor.inertia, INERTIA if geared else times(INERTIA, x, -2)
+        yield motor.ratio, times(NONE, x, -1) if geared else NONE
+    for form, stiffness, rest, power in _forms(robot):
+        moved = {k for k in range(robot.n) if not robot.ring.diff(form, k).is_zero}
+        kinds = {coordinate(k) for k in moved if robot.ring.diff(form, k).is_number}
+        if len(kinds) == 1:
+            (x,) = kinds
+            yield form, x
+            yield rest, x
+            yield stiffness, times(times(ENERGY, x, -2), dimension(time=power))
+    for spring in acting.springs:
+        if spring.law is None:
+            yield spring.energy, ENERGY
+
+
+def _forms(robot: Robot) -> Iterator[tuple[Expr, Expr, Expr, int]]:
+    """(x, its stiffness or damping, where it is relaxed, the power of time in the first of these)"""
+    for law in (spring.law for spring in robot.actions.springs if spring.law):
+        yield law.of, law.stiffness, law.rest, 0
+    for damper in robot.actions.dampers:
+        yield damper.of, damper.damping, robot.ring.zero, 1

@@ -18,6 +18,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import Node
+from dynsolve.robot.actions import NOTHING_ACTS, Actions
 from dynsolve.robot.mechanism import BodyTurn, GivenModel
 from dynsolve.robot.questions import Questions
 from dynsolve.robot.shapes import Shape
@@ -148,8 +149,8 @@ class Robot:
 
     `base_rotation` (3×3) and `base_position` (3×1) place frame 0 in the world;
     `gravity` (3×1, world) is the acceleration of gravity, pointing down.  `questions` are
-    what the exercise asks around this model.  Without joints the bodies are given by their
-    positions, or `given` stands in their place.
+    what the exercise asks around this model, `actions` what acts beside gravity.  Without joints the
+    bodies are given by their positions, or `given` stands in their place.
     """
 
     ring: Ring
@@ -162,6 +163,7 @@ class Robot:
     base_position: Matrix
     parameters: tuple[str, ...] = field(default=())
     questions: Questions = field(default=Questions())
+    actions: Actions = NOTHING_ACTS
     given: GivenModel | None = None
 
     @property

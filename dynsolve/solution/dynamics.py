@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
     from dynsolve.solution.numbers.results import Numbers
 
-CHECKED = ("J", "D", "C", "g", "tau", "K", "P")
+CHECKED = ("J", "D", "C", "g", "friction", "tau", "K", "P")
 """The results that are compared with the independent computation, besides the last H."""
 
 Progress = Callable[[int, int], None]

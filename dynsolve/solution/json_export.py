@@ -197,8 +197,8 @@ class _Exporter:
 
 def _exported(robot: Robot) -> Iterator[Family]:
     """The families that `results` has, in their order."""
-    stages = stages_of(robot)
-    return (family for family in FAMILIES if family.json and family.stage in stages)
+    stages, has = stages_of(robot), quantities(robot).owners.has
+    return (family for family in FAMILIES if family.json and family.stage in stages and has(family))
 
 
 def _asked(robot: Robot) -> Iterator[Quantity]:

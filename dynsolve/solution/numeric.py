@@ -17,7 +17,7 @@ from dynsolve.notation.tree_values import DOTS, Program, compile_trees
 from dynsolve.problem import Problem
 from dynsolve.quantities.index import quantities
 
-_FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt}
+_FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "sgn": np.sign}
 
 
 @dataclass(frozen=True)

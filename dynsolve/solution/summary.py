@@ -18,7 +18,7 @@ from dynsolve.robot.model import Robot
 
 TITLE = "Summary"
 
-_MATRICES = ("D", "C", "g")
+_MATRICES = ("D", "C", "friction", "g")
 
 
 def summary_blocks(robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
@@ -44,7 +44,7 @@ def summary_blocks(robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
             yield Formula(result, entries=model.entries)
     else:
         yield Text(("The matrices of this robot:",))
-        yield from _results(by_id, _MATRICES)
+        yield from _results(by_id, [name for name in _MATRICES if name in by_id])
     forces = [f"tau{q.index}" for q in robot.coordinates]
     if all(name in by_id for name in forces):
         yield Text(("Row by row:" if len(forces) > 1 else "Multiplied out:",))

@@ -22,7 +22,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.tree_values import plain_name
 
-_FUNCTIONS = {"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "sqrt": sympy.sqrt}
+_FUNCTIONS = {"sin": sympy.sin, "cos": sympy.cos, "tan": sympy.tan, "sqrt": sympy.sqrt, "sgn": sympy.sign}
 
 
 def to_sympy(node: Node) -> Any:

@@ -11,7 +11,7 @@ from dynsolve.algebra.compact.monomials import Monomial
 from dynsolve.algebra.compact.trig_forms import TrigMonomial
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fourier import TrigFunction
-from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.generators import Generator, is_sign
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import Function, Node, Number, Symbol
 
@@ -45,7 +45,7 @@ class RingAtoms:
     def _kind(self, g: Generator) -> str:
         if g.kind in ("sin", "cos", "constant"):
             return "angle"
-        if g.kind == "symbol" and g.dots:
+        if (g.kind == "symbol" and g.dots) or is_sign(g.node):
             return "rate"
         return "leading" if g.name in self._order else "parameter"
 

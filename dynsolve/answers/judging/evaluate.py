@@ -19,7 +19,7 @@ from dynsolve.algebra.fraction import RationalExpr
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import Evaluator, Unreduced
-from dynsolve.answers.judging.ring_extension import expected_angle, plain_radicand
+from dynsolve.answers.judging.ring_extension import expected_angle, plain_radicand, unsigned
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.bounded_cache import keep
 from dynsolve.notation.tree import Function, Node, Reference
@@ -130,7 +130,8 @@ class AnswerEvaluator(Evaluator):
     def _function_value(self, node: Function) -> FunctionValue:
         angle = expected_angle(node, self.ring.names)
         if angle is None:
-            value = self.ring.function(node)
+            sign, bare = unsigned(node)
+            value = self.ring.function(bare) * sign
         elif node.name == "tan":
             cosine = RationalExpr(self._turned("cos", angle))
             return self.product(RationalExpr(self._turned("sin", angle)), self.inverse(cosine))

@@ -23,11 +23,11 @@ from dynsolve.answers.judging.route import Route
 from dynsolve.answers.judging.task_routes import task_routes
 from dynsolve.derivation import vectorized
 from dynsolve.derivation.energy import velocities
-from dynsolve.quantities import families
+from dynsolve.quantities import action_families, families
 from dynsolve.quantities.index import Quantities, quantities
 from dynsolve.robot.model import Body, Robot
 
-_STATED = (families.H0, families.A, families.I_BODY)
+_STATED = (families.H0, families.A, families.I_BODY, action_families.PS, action_families.FRICTION)
 """What the problem says, so that nothing of the student's leads to it."""
 
 _LINEAR = (
@@ -38,7 +38,7 @@ _LINEAR = (
 
 
 MODEL = ("D", "Cqd", "g")
-"""What τ is assembled from."""
+"""What τ is assembled from, with friction where there is any."""
 
 
 class AnswerGraph:
@@ -109,7 +109,7 @@ class AnswerGraph:
         match node:
             case "D" | "Cqd" | "g":
                 found = self._routes_of_model(node)
-                return tuple(r for r in found if r.inputs != ("tau",)) if assembled else found
+                return tuple(r for r in found if "tau" not in r.inputs) if assembled else found
             case "C" | "christoffel":
                 return (Route(("D",), self._symbols if node == "christoffel" else self._coriolis_matrix),)
         body = self._lifted(node)
@@ -121,7 +121,7 @@ class AnswerGraph:
             lagrange = (*lagrange, *self._further[node])
         if assembled and quantity.family is families.FORCE:
             together = partial(vectorized.torque, self.robot, k=quantity.index[0] - 1)
-            return (*lagrange, Route(MODEL, together))
+            return (*lagrange, Route((*MODEL, *self._friction), together))
         return lagrange
 
     @cached_property
@@ -136,6 +136,11 @@ class AnswerGraph:
                     found[quantity.rule] = ways
         return found
 
+    @cached_property
+    def _friction(self) -> tuple[str, ...]:
+        """The node of friction, where there is any: it stands in the equation beside D, C and g."""
+        return ("friction",) if "friction" in self.answer_ring.rules else ()
+
     def _routes_of_model(self, node: str) -> tuple[Route, ...]:
         """The routes to D, C q̇ and g."""
         if node == "D":
@@ -143,7 +148,7 @@ class AnswerGraph:
         if node == "g":
             return (Route(("tau",), self._gravity), Route(("P",), self._gravity_vector))
         return (
-            Route(("tau",), self._coriolis),
+            Route(("tau", *self._friction), self._coriolis),
             Route(("D",), self._coriolis_from_inertia),
             Route(("D",), self._coriolis_entry_by_entry),
         )
@@ -162,11 +167,11 @@ class AnswerGraph:
     def _gravity(self, tau: Matrix) -> Matrix | None:
         return vectorized.gravity_from_torque(self.robot, tau) if self.linear(tau) else None
 
-    def _coriolis(self, tau: Matrix) -> Matrix | None:
+    def _coriolis(self, tau: Matrix, friction: Matrix | None = None) -> Matrix | None:
         if not self.linear(tau):
             return None
         g = vectorized.gravity_from_torque(self.robot, tau)
-        return vectorized.coriolis_from_torque(self.robot, tau, g)
+        return vectorized.coriolis_from_torque(self.robot, tau, g, friction)
 
     def _inertia_from_energy(self, K: Expr) -> Matrix | None:
         D = vectorized.inertia_from_energy(self.robot, K)

@@ -74,6 +74,7 @@ class ExtensionCollector(ContentsCollector):
 
     def function(self, node: Function) -> Sequence[Node]:
         """Note a function, unless it was met before."""
+        node = unsigned(node)[1]
         if node in self._seen or self._known.brings_nothing(node):
             return ()
         self._seen.add(node)
@@ -114,6 +115,8 @@ LARGEST_DIVISOR = 24
 
 def expected_angle(node: Function, coordinates: Iterable[str]) -> Angle | None:
     """The argument of a function as an angle, None where it is none (a velocity, a bare number, a cosine)."""
+    if node.name == "sgn":
+        return None
     try:
         angle = angle_from_tree(node.argument)
     except AlgebraError:
@@ -127,6 +130,27 @@ def expected_angle(node: Function, coordinates: Iterable[str]) -> Angle | None:
     if len(angle.terms) > MOST_TERMS or any(rate.denominator > LARGEST_DIVISOR for _, rate in angle.terms):
         return None
     return angle
+
+
+def unsigned(node: Function) -> tuple[int, Function]:
+    """(±1, sgn x) of the sign of ±x, or of x times a positive number; others as they are.
+
+    >>> x = Symbol("q1", 1)
+    >>> unsigned(Function("sgn", tree.Negative(x))) == (-1, Function("sgn", x))
+    True
+    """
+    sign, inner = 1, node.argument
+    while node.name == "sgn":
+        match inner:
+            case tree.Negative(argument):
+                sign, inner = -sign, argument
+            case tree.Parenthesized(argument):
+                inner = argument
+            case Product(factors) if len(factors) == 2 and (number := rational_value(factors[0])):
+                sign, inner = (sign if number > 0 else -sign), factors[1]
+            case _:
+                return sign, Function("sgn", inner)
+    return 1, node
 
 
 def plain_radicand(node: Node, coordinates: Iterable[str]) -> bool:

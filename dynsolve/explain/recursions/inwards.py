@@ -127,6 +127,10 @@ def _moments(context: Context, joint: Joint) -> Iterator[Part]:
         yield from zip(named, (rotation(A) @ values[f"nl{j}"], force), strict=True)
     for body in robot.bodies_on(i):
         yield from _of_body(context, joint, body)
+    if robot.actions.motors:
+        from dynsolve.explain.actions import rotor_moments
+
+        yield from rotor_moments(context, i)
 
 
 def _of_body(context: Context, joint: Joint, body: Body) -> Iterator[Part]:

@@ -18,7 +18,12 @@ LONGEST = 30
 def cyclic_step(context: Context) -> Step | None:
     """The momenta that stay constant as long as their forces are zero."""
     values = context.values
-    free = [q for q in context.robot.coordinates if values[f"dLdq{q.index}"].is_zero]
+    free = [
+        q
+        for q in context.robot.coordinates
+        if values[f"dLdq{q.index}"].is_zero
+        and ("friction" not in values.rules or values["friction"][q.index - 1, 0].is_zero)
+    ]
     if not free:
         return None
     one = len(free) == 1

@@ -112,8 +112,9 @@ def blocks(D: Matrix) -> list[list[int]]:
 
 
 def _is_sum_of_squares(context: Context, k: int) -> bool:
-    """Whether a body surely adds something to d_kk; no body takes anything away."""
+    """Whether a body or the rotors surely add something to d_kk; nothing takes anything away."""
     parts = [f"D{kind}{body.name}" for body in context.robot.bodies for kind in "vw"]
+    parts += ["Dm"] if context.robot.actions.motors else []
     return any(_is_positive(context, context.show(context.values[part][k, k])) for part in parts)
 
 

@@ -19,7 +19,8 @@ RIGHT_ANGLES = (0, 90, 180, -90)
 
 def equilibrium_step(context: Context) -> Step | None:
     """The poses in which the arm needs no torques against gravity, with what P has there."""
-    if context.robot.gravity.is_zero or context.robot.given is not None:
+    robot = context.robot
+    if robot.gravity.is_zero or robot.given is not None or robot.actions.springs:
         return None
     why = _everywhere(context) if context.values["g"].is_zero else _hanging_and_upright(context)
     if not why:

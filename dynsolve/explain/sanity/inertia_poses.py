@@ -38,7 +38,8 @@ def inertia_poses_step(context: Context) -> Step | None:
     why: Prose = (*listed(names), f" {'is the moment' if one else 'are the moments'} of inertia about ")
     why += (*listed(joints), " of all that this joint moves, the joints after it held: " if one else
             " of all that these joints move, the joints after them held: ")  # fmt: skip
-    why += ("each mass times the square of its distance from the axis, and the moments of the bodies. ",)
+    why += ("each mass times the square of its distance from the axis, and the moments of the bodies",)
+    why += (" and rotors. " if context.robot.actions.motors else ". ",)
     why += ("In simple poses the distances can be seen:",)
     return Step(
         id="inertia_poses",

@@ -29,7 +29,9 @@ def point_masses_step(context: Context) -> Step | None:
         stage=Stage.VECTORIZED,
         title="Check: point masses",
         why=(
-            "Without the tensors, as if each mass were concentrated at its mass centre, ",
+            "Without the tensors",
+            " and the rotors" if robot.actions.motors else "",
+            ", as if each mass were concentrated at its mass centre, ",
             letters.D,
             " is made of masses times products of distances:",
         ),

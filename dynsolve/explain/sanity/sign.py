@@ -32,7 +32,8 @@ def masses_and_moments(robot: Robot) -> Names:
     products = {name for t in tensors for i, j in places if i != j for name in _names(t[i, j])}
     moments = {name for t in tensors for i, j in places if i == j for name in _names(t[i, j])}
     masses = {name for body in robot.bodies for name in _names(body.mass)}
-    return frozenset((masses | moments) - products)
+    rotors = {name for motor in robot.actions.motors for name in _names(motor.inertia)}
+    return frozenset((masses | moments | rotors) - products)
 
 
 def with_lengths(robot: Robot) -> Names:

@@ -27,7 +27,9 @@ from dynsolve.notation.tree import (
     Symbol,
     number,
 )
+from dynsolve.notation.tree_values import sign
 from dynsolve.notation.walk import mapped
+from dynsolve.robot.actions import Actions, Spring
 from dynsolve.robot.mechanism import BodyTurn, GivenModel
 from dynsolve.robot.model import Body, Joint, Robot
 from dynsolve.robot.questions import Load, Questions, State
@@ -90,10 +92,19 @@ class Substitution:
                 yield Quotient(Number(1), self._denominator(g))
             case "constant":
                 yield Function("cos", angle_node(g.angle))
+            case "function":
+                yield self._function(g)
 
     def _root(self, g: Generator) -> Node:
         assert g.node is not None
         return Function("sqrt", replaced(g.node, self.values))
+
+    def _function(self, g: Generator) -> Node:
+        """The sign of a rate; of one that has a value it is a number."""
+        assert isinstance(g.node, Function)
+        argument = replaced(g.node.argument, self.values)
+        value = rational_value(argument)
+        return Function(g.node.name, argument) if value is None else number(Fraction(int(sign(value))))
 
     def _denominator(self, g: Generator) -> Node:
         tree = Compactor(self.source).form(Expr(self.source, self.source.inverses[g.index]))
@@ -114,6 +125,8 @@ class Substitution:
                 return value_of(self.ring, replaced(Symbol(g.name, g.dots), self.values))
             case "root":
                 return value_of(self.ring, self._root(g))
+            case "function":
+                return value_of(self.ring, self._function(g))
             case "inverse" if g.index in self.source.inverses:
                 return value_of(self.ring, Quotient(Number(1), self._denominator(g)))
         return self.ring.zero  # an inverse that was set aside and never used
@@ -150,8 +163,29 @@ def robot_with(robot: Robot, values: Replacements, more: Iterable[Node] = ()) ->
         base_position=put.matrix(robot.base_position),
         parameters=tuple(name for name in robot.parameters if (name, 0) not in values),
         questions=_questions(robot.questions, put),
+        actions=_actions(robot.actions, put),
         given=None if robot.given is None else _given(robot.given, put),
     )
+
+
+def _actions(acting: Actions, put: Substitution) -> Actions:
+    """What acts, with values in it."""
+    return replace(
+        acting,
+        friction=tuple(
+            replace(one, viscous=put(one.viscous), coulomb=put(one.coulomb)) for one in acting.friction
+        ),
+        dampers=tuple(replace(one, damping=put(one.damping), of=put(one.of)) for one in acting.dampers),
+        springs=tuple(_spring(spring, put) for spring in acting.springs),
+        motors=tuple(replace(m, inertia=put(m.inertia), ratio=put(m.ratio)) for m in acting.motors),
+    )
+
+
+def _spring(spring: Spring, put: Substitution) -> Spring:
+    law = spring.law
+    if law is not None:
+        law = replace(law, stiffness=put(law.stiffness), of=put(law.of), rest=put(law.rest))
+    return replace(spring, energy=put(spring.energy), law=law)
 
 
 def _questions(questions: Questions, put: Substitution) -> Questions:

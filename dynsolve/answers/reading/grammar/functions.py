@@ -16,12 +16,13 @@ _NAMES = {"sin": "sin", "cos": "cos", "tan": "tan", "sqrt": "sqrt", "cot": "cot"
 _NAMES |= (
     {name.capitalize(): name for name in _NAMES} | {name.upper(): name for name in _NAMES} | {"cosec": "csc"}
 )
+_NAMES |= {"sgn": "sgn", "sign": "sgn", "signum": "sgn"}
 _INVERSES = {name: name for name in ("asin", "acos", "atan", "atan2")}
 _INVERSES |= {f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan", "tan2")}
 _INVERSES |= {name.capitalize(): meant for name, meant in _INVERSES.items()}
 _RECIPROCALS = {"cot": ("cos", "sin"), "sec": ("", "cos"), "csc": ("", "sin")}
 _ELSEWHERE = frozenset(
-    "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh abs sgn sign max min pow "
+    "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh abs max min pow "
     "sind cosd root det inv simplify eval exec open input print import".split()
 )
 

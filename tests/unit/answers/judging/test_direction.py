@@ -32,7 +32,7 @@ def hand_in(stem: str, values: Mapping[str, Any]) -> Report:
 def assembled(stem: str, D: Matrix, Cqd: Matrix, g: Matrix) -> Matrix:
     """τ of D, C q̇ and g."""
     robot = problem(stem).robot
-    return Matrix.column(robot.ring, [vectorized.torque(robot, D, Cqd, g, k) for k in range(robot.n)])
+    return Matrix.column(robot.ring, [vectorized.torque(robot, D, Cqd, g, k=k) for k in range(robot.n)])
 
 
 def symmetric_slip(D: Matrix, draw: random.Random) -> Matrix:
