@@ -19,6 +19,10 @@ What is drawn of it:
     labels        where labels stand; `typography` how wide they are
     scene         all of it together
 
+Beside a step:
+
+    figure        drawings beside a step, of labelled lines and angles
+
 How it is written down: `svg`, `latex`, and `convert` for PDF and PNG.  What all of it is
 made of: `vectors` (geometry), `paths` (lines and areas with their colours), `occupied` (which
 places on paper are taken).

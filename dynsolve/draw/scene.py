@@ -56,13 +56,13 @@ def scene(problem: Problem, star: bool = True) -> Scene:
         dimension(length, pose, notes)
     _gravity(world, pose, body, notes)
     labels = place(notes.wanted, notes.taken)
-    paths = (*body, *notes.paths, *_leads(labels))
+    paths = (*body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
         _description(problem),
         paths,
         labels,
-        _frame(paths, labels),
+        framed(paths, labels),
         notes.style,
     )
 
@@ -113,11 +113,12 @@ def _unit(a: Point) -> Point:
     return a[0] / size, a[1] / size
 
 
-def _leads(labels: Iterable[Label]) -> Iterable[Path]:
+def leads(labels: Iterable[Label]) -> Iterable[Path]:
+    """Thin lines from labels that stand far away to what they name."""
     return [Path(paths.line(*label.lead), paths.GREY, 0.7) for label in labels if label.lead]
 
 
-def _frame(paths: Iterable[Path], labels: Iterable[Label]) -> Box:
+def framed(paths: Iterable[Path], labels: Iterable[Label]) -> Box:
     """The box around everything, with a margin."""
     box = bounds(paths)
     boxes = [box, *(label.box for label in labels)]

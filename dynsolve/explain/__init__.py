@@ -42,6 +42,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     inverse_target
                 their steps
     inverse_way the lines to each of them: components turned, squared and added, sorted
+    inverse_figures
+                their drawings: a projection, the triangle of two lengths
     inverse_pose
                 of a full pose: the point that is left in place by the wrist, the rotation that is left for it
     recursions  the Newton-Euler recursions, link by link

@@ -13,6 +13,7 @@ from dynsolve.document import Prose, Table
 from dynsolve.explain.citations import spong
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
+from dynsolve.explain.inverse_figures import figure_of
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.explain.inverse_pose import introduction, pose_task, wrist_notes
 from dynsolve.explain.inverse_target import given_numbers, target_steps
@@ -137,6 +138,7 @@ class _Explainer:
             source=_SOURCE,
             concluding=("So:",) if lines else (),
             result=results,
+            figure=figure_of(self.formulas, step),
             notes=tuple(self._notes(step, part)),
             uses=("inverse_task", *(f"inverse_{s.coordinate}" for s in before if s.coordinate in shown)),
         )

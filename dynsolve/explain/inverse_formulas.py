@@ -142,7 +142,7 @@ class InverseFormulas:
         if is_nonnegative(-below):
             sine, cosine, below = -sine, -cosine, -below
         if is_nonnegative(below):
-            return (self._direction(sine, cosine),)
+            return (self.direction(sine, cosine),)
         return (atan2(self.ratio(sine, below), self.ratio(cosine, below)),)
 
     def _turned(self, a: Expr, b: Expr, x: Expr, y: Expr) -> Node:
@@ -153,17 +153,17 @@ class InverseFormulas:
             return self._of_vector(-y, x, b)
         sign, sine = split_sign(self._form(b))
         own = atan2(sine, self._form(a))
-        return total([self._direction(y, x), own if sign > 0 else negated(own)])
+        return total([self.direction(y, x), own if sign > 0 else negated(own)])
 
     def _of_vector(self, x: Expr, y: Expr, length: Expr) -> Node:
         """ψ from length·cos ψ = x, length·sin ψ = y."""
         if is_nonnegative(length):
-            return self._direction(y, x)
+            return self.direction(y, x)
         if is_nonnegative(-length):
-            return self._direction(-y, -x)
+            return self.direction(-y, -x)
         return atan2(self.ratio(y, length), self.ratio(x, length))
 
-    def _direction(self, y: Expr, x: Expr) -> Node:
+    def direction(self, y: Expr, x: Expr) -> Node:
         """atan2(y, x) without a positive factor that both share."""
         shared = y.poly.gcd(x.poly) if not (y.is_zero or x.is_zero) else None
         if shared is not None and not shared.is_constant():
@@ -178,7 +178,7 @@ class InverseFormulas:
     def _one_line(self, step: OneLine) -> tuple[Node, ...]:
         a, b, x = step.cosine, step.sine, step.value
         if x.is_zero:
-            return self._direction(a, -b), self._direction(-a, b)
+            return self.direction(a, -b), self.direction(-a, b)
         if b.is_zero:
             first = Function("acos", self.ratio(x, a))
             return first, negated(first)
@@ -195,7 +195,7 @@ class InverseFormulas:
             height = self._form(square - x * x)
         else:
             height = total([self._form(square), negated(power(value, 2))])
-        middle, either = self._direction(b, a), atan2(Function("sqrt", height), value)
+        middle, either = self.direction(b, a), atan2(Function("sqrt", height), value)
         return total([middle, either]), total([middle, negated(either)])
 
     def boundary(self, step: OneLine) -> Node:

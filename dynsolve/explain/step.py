@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from dynsolve.document import Prose, Table
+from dynsolve.document.figures import Figure
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.stages import Stage
 
@@ -45,7 +46,7 @@ class Step:
     How it is shown: `entries` names the entries of a result that is a matrix too wide for
     the page; an `optional` result says nothing new, and is left out where it does not fit;
     results that are `listed` stand in one display, those that are `together` side by side;
-    `detail` says from which level on.
+    `detail` says from which level on; `figure` is drawn beside it where drawings can be shown.
 
     What a hint makes of it: `hint` is said in place of a `why` that tells something of the
     result, `task` is the formula where it is not `formula`; what is no `is_task` is left
@@ -64,6 +65,7 @@ class Step:
     result: tuple[Node, ...] = ()
     notes: tuple[Prose, ...] = ()
     table: Table | None = None
+    figure: Figure | None = None
     entries: tuple[tuple[Node, ...], ...] = ()
     optional: bool = False
     listed: bool = False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 from dynsolve.derivation.rules import course_rules
@@ -14,11 +14,13 @@ from dynsolve.document import (
     Formula,
     Heading,
     Note,
+    Picture,
     Prose,
     Table,
     Text,
     Uses,
 )
+from dynsolve.document.figures import Figure
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
 from dynsolve.explain.citations import KHALIL_DOMBRE, cited
@@ -34,6 +36,9 @@ from dynsolve.solution.earlier_results import EarlierResults, labelled_results
 from dynsolve.solution.said_once import SaidOnce
 from dynsolve.solution.summary import summary_blocks
 
+Drawn = Callable[[Figure], Picture]
+"""What makes a picture of a drawing."""
+
 CONVENTIONS = {
     "standard": "standard Denavit-Hartenberg (Spong)",
     "modified": "modified Denavit-Hartenberg (Craig)",
@@ -45,16 +50,18 @@ def solution_document(
     detail: Detail = Detail.NORMAL,
     stages: Iterable[str] | None = None,
     abbreviate: Abbreviate = Abbreviate.AUTO,
+    drawn: Drawn | None = None,
 ) -> Document:
     """A solution with the steps of some stages, in the depth of `detail`.
 
-    `abbreviate` says whether long results are written in names, which are defined first.
+    `abbreviate` says whether long results are written in names, which are defined first; `drawn`
+    makes the pictures of steps that have one, where there can be any.
     """
     stages = None if stages is None else tuple(stages)
     short = solution.abbreviated(abbreviate)
     steps = tuple(solution.explain(stages, short))
     derivation = (
-        *_stages(solution, detail, steps, short),
+        *_stages(solution, detail, steps, short, drawn),
         *_numbers(solution, detail, stages),
         *summary_blocks(solution.robot, steps),
     )
@@ -112,7 +119,11 @@ def _opening(solution: Dynamics, sources: Iterable[str]) -> Iterator[Block]:
 
 
 def _stages(
-    solution: Dynamics, detail: Detail, steps: Iterable[Step], short: Abbreviated | None
+    solution: Dynamics,
+    detail: Detail,
+    steps: Iterable[Step],
+    short: Abbreviated | None,
+    drawn: Drawn | None,
 ) -> Iterator[Block]:
     """Stages and their steps, numbered as in the whole derivation."""
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
@@ -141,7 +152,7 @@ def _stages(
                 heading = None
             uses = inputs.get(step.id, ()) if step.uses is None else step.uses
             told = replace(step, why=said.why(step))
-            blocks = tuple(step_blocks(told, detail, earlier.used(step, uses)))
+            blocks = tuple(step_blocks(told, detail, earlier.used(step, uses), drawn))
             yield Fold(f"{number} {step.title}", blocks, step.detail)
         earlier.add(step)
 
@@ -182,13 +193,17 @@ def _defined(definition: Definition) -> Relation:
     return equation(definition.name, definition.meaning)
 
 
-def step_blocks(step: Step, detail: Detail, inputs: tuple[str, ...] = ()) -> Iterator[Block]:
-    """A step: in brief its result and the formula that it comes from, else with its reason, way and notes.
+def step_blocks(
+    step: Step, detail: Detail, inputs: tuple[str, ...] = (), drawn: Drawn | None = None
+) -> Iterator[Block]:
+    """A step: in brief its result and the formula that it comes from, else with reason, drawing, way and notes.
 
     `inputs` names what its result is computed from.
     """
     if detail > Detail.BRIEF and step.why:
         yield Text(step.why)
+    if detail > Detail.BRIEF and step.figure and drawn:
+        yield drawn(step.figure)
     if step.table:
         yield Table(step.table.header, step.table.rows)
     if detail > Detail.BRIEF:

@@ -13,10 +13,12 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.render.formats import Format
 
 if TYPE_CHECKING:
-    from dynsolve.document import Document
+    from dynsolve.document import Document, Picture
+    from dynsolve.document.figures import Figure
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
     from dynsolve.notation.printing import Style
+    from dynsolve.solution.documents import Drawn
     from dynsolve.solution.dynamics import Dynamics
 
 
@@ -54,7 +56,8 @@ def report(
         return (dumps(to_json(solution, abbreviate), ensure_ascii=False) + "\n").encode()
     style = report_style(solution, star)
     shown = Detail.FULL if format is Format.HTML else detail
-    document = solution_document(solution, shown, stages, Abbreviate(abbreviate))
+    drawn = _drawn(style) if format in PICTURED else None
+    document = solution_document(solution, shown, stages, Abbreviate(abbreviate), drawn)
     if solution.robot.has_table and format in PICTURED and (stages is None or _SHOWN_IN & set(stages)):
         document = _with_picture(document, solution, star)
     return rendered(document, style, format, detail, fragment)
@@ -65,6 +68,17 @@ _SHOWN_IN = {Stage.FRAMES, Stage.KINEMATICS}
 
 PICTURED = (Format.LATEX, Format.PDF, Format.HTML)
 """The forms that can show the manipulator."""
+
+
+def _drawn(style: Style) -> Drawn:
+    """What makes a picture of a step's drawing."""
+
+    def picture(figure: Figure) -> Picture:
+        from dynsolve.draw.figure import drawn
+
+        return drawn(figure, style)
+
+    return picture
 
 
 def _with_picture(document: Document, solution: Dynamics, star: bool) -> Document:

@@ -1,0 +1,51 @@
+"""Drawings beside a step, as data: lines, angles and points in a plane, each with its name.
+
+Coordinates are about 1 and y grows upwards; nothing is to scale.  `dynsolve.draw.figure` draws them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from dynsolve.notation.tree import Node
+
+Place = tuple[float, float]
+
+
+class LineKind(Enum):
+    """What a line is: an axis with its head, a length of the arm, or one that only helps the eye."""
+
+    AXIS = "axis"
+    LENGTH = "length"
+    HELP = "help"
+
+
+@dataclass(frozen=True, slots=True)
+class FigureLine:
+    """A straight line; its name stands in the middle, that of an axis at its end."""
+
+    start: Place
+    end: Place
+    kind: LineKind
+    name: Node | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class FigureAngle:
+    """The angle at a place from one direction to another, both in radians from x to y."""
+
+    at: Place
+    start: float
+    end: float
+    name: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A drawing, what it shows in words, and the places that are marked by a point."""
+
+    caption: str
+    lines: tuple[FigureLine, ...]
+    angles: tuple[FigureAngle, ...] = ()
+    points: tuple[Place, ...] = ()
