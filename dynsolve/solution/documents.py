@@ -196,7 +196,7 @@ def _defined(definition: Definition) -> Relation:
 def step_blocks(
     step: Step, detail: Detail, inputs: tuple[str, ...] = (), drawn: Drawn | None = None
 ) -> Iterator[Block]:
-    """A step: in brief its result and the formula that it comes from, else with reason, drawing, way and notes.
+    """A step: in brief its result and the formula that it comes from, else with all that it has.
 
     `inputs` names what its result is computed from.
     """
