@@ -34,6 +34,7 @@ NOT_FROM_OWN = "not_from_own"
 NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's"
 FROM_NOTHING = "it is what follows from {}, where next to nothing is right"
 UNAFFECTED = "tau is unaffected"
+LONGER = "these are {} parameters; {} are enough"
 
 
 class AnswerJudge:
@@ -102,10 +103,20 @@ class AnswerJudge:
             notes.append(NOT_FROM_OWN)
         if compared.other is not None:
             notes.append(compared.other)
+        notes += self._fewer(base.name)
         if base.name == "C" and not self._is_christoffel(compared.answer_value):
             notes.append(NOT_CHRISTOFFEL)
         entries = tuple(EntryVerdict(index, Verdict.CORRECT) for index, _, _ in _entries(base.name, compared))
         return replace(base, verdict=Verdict.CORRECT, notes=tuple(notes), entries=entries)
+
+    def _fewer(self, name: str) -> Iterator[str]:
+        """The remark that fewer parameters are enough, where the student chose more than are needed."""
+        if name in self.hand_in.graph.parameters:
+            mine, least = (
+                len(ring.key(name).rows) for ring in (self.hand_in.graph, self.hand_in.answer_ring)
+            )
+            if mine > least:
+                yield LONGER.format(mine, least)
 
     def _is_christoffel(self, value: AnswerValue) -> bool:
         assert value.rows is not None

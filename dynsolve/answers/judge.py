@@ -119,7 +119,7 @@ class Judge:
     @cached_property
     def _diagnoser(self) -> Diagnoser:
         checker, ring = self.checker, self.hand_in.answer_ring
-        is_shared = ring.same and self.graph.zero_potential is None
+        is_shared = ring.same and self.graph.zero_potential is None and not self.graph.parameters
         changed = checker.derivation_slips if is_shared else DerivationSlips(self.graph)
         factors = checker.factors if ring.same else FactorPairs(ring.ring)
         return Diagnoser(self.problem, self.graph, self.explanations.values, changed, factors)

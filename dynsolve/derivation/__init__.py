@@ -14,6 +14,7 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     inverse         3.3   q from r(q): one unknown after the other, in known forms; the branches
     rates           4.9, 4.11   det J, q̇ and q̈ for those of the task: likewise
     recursions      7.6   Newton-Euler in link frames: ω, ω̇, accelerations, f, n: likewise
+    regressor       7.5.3 τ = Y a, with a of minimal length: likewise
     statics         4.10  forces from outside, the torques that hold them: likewise
 
 What hangs together how:
@@ -22,6 +23,7 @@ What hangs together how:
     rules           the rules of the textbook; `derive(robot)` gives the `Derivation` of a robot
     kinematic_rules those of what a file asks of the kinematics
     action_rules    those of what acts beside gravity
+    model_rules     those of what a file asks of the equations of motion
     static_rules    those of forces from outside
     recursion_rules those of the recursions; by their method also of τ
     configurations  those of singular configurations and of inverse kinematics
@@ -43,6 +45,7 @@ And the independent check, which shares no formula with any of these:
                     singular configurations and branches of the inverse, put in
     rate_check      determinants, rates and accelerations, against elimination on numbers
     recursion_check the recursions in the links' frames, against those on numbers
+    model_check     Y a against τ, its length against the rank of numbers
     static_check    generalized forces and holding torques, against the power of the forces
     mechanism_check models without a table, by virtual work, or by Lagrange's equations on numbers
     hyper_dual      numbers that carry first and second derivatives, for that

@@ -17,7 +17,7 @@ from dynsolve.derivation import energy, euler_lagrange, inertia, jacobian, kinem
 from dynsolve.derivation.graph import Derivation, Rule
 from dynsolve.derivation.link_frame import link_frame_rules
 from dynsolve.quantities.index import asked_stages
-from dynsolve.quantities.stages import Stage
+from dynsolve.quantities.stages import OF_THE_MODEL, Stage
 from dynsolve.robot.model import Body, Robot
 
 
@@ -52,6 +52,10 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
         from dynsolve.derivation.recursion_rules import recursion_rules
 
         yield from recursion_rules(robot)
+    if asked & OF_THE_MODEL and robot.has_dynamics:
+        from dynsolve.derivation.model_rules import model_rules
+
+        yield from model_rules(robot)
     if Stage.STATICS in asked:
         from dynsolve.derivation.static_rules import static_rules
 

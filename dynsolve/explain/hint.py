@@ -116,6 +116,7 @@ _AT_HAND = {
     Stage.TORQUE: "You have the Lagrangian:",
     Stage.NEWTON_EULER: "You have the matrices of the rows of the table:",
     Stage.VECTORIZED: "You have the forces, one for each coordinate:",
+    Stage.PARAMETERS: "You have the equations of motion, one for each coordinate:",
     Stage.STATICS: "You have the Jacobian of the end of the arm, and the frames:",
 }
 
@@ -148,7 +149,7 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
     elif stage is Stage.STATICS:
         yield from ((letters.JV, "Jv"), (letters.JW, "Jw"))
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)
-    elif stage is Stage.VECTORIZED:
+    elif stage in (Stage.VECTORIZED, Stage.PARAMETERS):
         yield from ((letters.force(q), f"tau{q.index}") for q in robot.coordinates)
 
 

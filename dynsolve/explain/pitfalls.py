@@ -205,6 +205,14 @@ def _inverse(robot: Robot) -> Iterator[Prose]:
     yield ("Put each solution into r(q): what was squared on the way may have brought one too many.",)
 
 
+def _parameters(robot: Robot) -> Iterator[Prose]:
+    yield (
+        "Multiply the forces out first: what stands beside one function of the motion is one coefficient.",
+    )
+    yield ("Coefficients that are sums of others need no entry of their own.",)
+    yield ("No parameter stands in Y unless it is known, and nothing that moves in a.",)
+
+
 def _statics(robot: Robot) -> Iterator[Prose]:
     yield (
         "The Jacobian is that of the point at which the force acts, and its transpose stands before the "
@@ -262,5 +270,6 @@ _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.TORQUE: _torque,
     Stage.NEWTON_EULER: _newton_euler,
     Stage.VECTORIZED: _vectorized,
+    Stage.PARAMETERS: _parameters,
     Stage.STATICS: _statics,
 }

@@ -235,6 +235,7 @@ def _dynamics(machine: str) -> Iterator[Line]:
     yield _line(letters.C, "matrix of the Coriolis and centrifugal terms")
     yield _line(_entry("c", _K, _J), "entry (k, j) of C")
     yield _each([(letters.G, "column of the gravity terms"), (_entry("g", _K), "its entries")])
+    yield from _linear()
     yield _each([(letters.bold("N"), "Ḋ - 2C"), (_entry("n", _I, _J), "its entries")])
 
 
@@ -254,6 +255,14 @@ def _actions() -> Iterator[Line]:
     yield _line(coulomb, "coefficient of Coulomb friction of coordinate k")
     entry = Letter("tau", Row((Words("f"), _K)))
     yield _each([(letters.FRICTION, "column of the friction"), (entry, "its entries")])
+
+
+def _linear() -> Iterator[Line]:
+    """The letters of the equations of motion, linear in the parameters."""
+    parts = [(part, (letters.of_part("Y", part), letters.of_part("a", part))) for part in ("M", "g")]
+    signs = [letters.REGRESSOR, *(Y for _, (Y, _) in parts)]
+    yield _line(signs, "regressor: the factor of the parameters in the forces, in a part of them")
+    yield _line([letters.PARAMETERS, *(a for _, (_, a) in parts)], "column of the parameters in these")
 
 
 def _numbered(base: str) -> Letter:

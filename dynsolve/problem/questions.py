@@ -13,6 +13,11 @@ from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.fields import Fields, did_you_mean, items, word
 from dynsolve.problem.kinematic_keys import ALL, MAX_POINTS, MAX_TASK, POINT, WHOLE
 from dynsolve.problem.loads import ParsedLoad, read_loads
+from dynsolve.problem.model_questions import (
+    NO_MODEL_QUESTIONS,
+    ParsedModelQuestions,
+    read_model_questions,
+)
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
 from dynsolve.problem.reach import NO_REACH, ParsedLimits, ParsedReach, read_limits, read_reach
 from dynsolve.problem.rotations import ParsedRotation
@@ -71,6 +76,7 @@ class ParsedQuestions:
     weights: ParsedWeights | None = None
     reached_state: Span | None = None
     """Where the file says that the state is the configuration that reaches the target."""
+    model: ParsedModelQuestions = NO_MODEL_QUESTIONS
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -92,6 +98,7 @@ class ParsedQuestions:
         yield from self.state.cells.values() if self.state else ()
         for row in self.weights.rows if self.weights else ():
             yield from row
+        yield from self.model.constant
 
     @property
     def moving(self) -> Iterator[Cell]:
@@ -116,7 +123,7 @@ def read_questions(
     bodies: Collection[str],
     drawn: DrawnFrames = NOT_DRAWN,
 ) -> ParsedQuestions:
-    """The keys of a file that ask something of the kinematics; what is wrong with one is reported."""
+    """The keys of a file that ask something around the model; what is wrong with one is reported."""
     read = _read_points(faults, fields.get("points"), rows, bodies)
     points = tuple(replace(point, place=drawn.place(faults, point.place, point.link)) for point in read)
     for point in points:
@@ -139,6 +146,7 @@ def read_questions(
         read_limits(faults, fields.get("limits"), coordinates),
         read_weights(faults, fields.get("weights"), coordinates, bool(bodies)),
         fields.span_of("state") if is_reached(fields.get("state")) else None,
+        read_model_questions(faults, fields, coordinates),
     )
 
 

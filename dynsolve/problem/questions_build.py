@@ -11,6 +11,7 @@ from dynsolve.algebra.minors import determinant
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node
 from dynsolve.problem.loads import ParsedLoad
+from dynsolve.problem.model_questions import ParsedModelQuestions, check_model_questions
 from dynsolve.problem.positions import PlaceBuilder
 from dynsolve.problem.questions import ParsedPoint, ParsedQuestions, ParsedRates, ParsedTask
 from dynsolve.problem.reach import check_reach
@@ -21,6 +22,7 @@ from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.geometry import last_origin
 from dynsolve.robot.model import JointType, Robot
+from dynsolve.robot.model_questions import ModelQuestions
 from dynsolve.robot.questions import TIP, Load, NamedPoint, Questions, State, Task, coordinate_of
 
 
@@ -78,6 +80,7 @@ def with_questions(
         weights=_weights(values, parsed.weights),
         weighs_by_inertia=parsed.weights is not None and parsed.weights.is_inertia,
         state_is_reached=parsed.reached_state is not None,
+        model=_model(values, robot, parsed.model),
     )
     if questions.task is None and (parsed.rates or Stage.TASK in asked_stages(questions)):
         questions = replace(questions, task=default_task(robot))
@@ -156,6 +159,15 @@ def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix 
         )
         return None
     return values.column(parsed.cells)
+
+
+def _model(values: CellValues, robot: Robot, parsed: ParsedModelQuestions) -> ModelQuestions:
+    check_model_questions(values.faults, parsed, robot.parameters)
+    return ModelQuestions(
+        known=frozenset(name for name, _ in parsed.known),
+        named=tuple(name for name, _ in parsed.parameters),
+        parameters=values.column(cell for _, cell in parsed.parameters) if parsed.parameters else None,
+    )
 
 
 def _task(parsed: ParsedTask | None) -> Task | None:

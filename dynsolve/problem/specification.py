@@ -9,7 +9,7 @@ default.  From these records come
 - the commented file that `dynsolve new` writes (`documentation.py`),
 - the tables of keys in `problems/README.md` (`documentation.py`).
 
-To add a key, write its record here (or in `action_keys`, `kinematic_keys`), read it with `Fields.get` in
+To add a key, write its record here (or in a file of keys, as `kinematic_keys`), read it with `Fields.get` in
 the module it belongs to, and give what was read a place in `Problem` or `Robot`.
 """
 
@@ -19,6 +19,7 @@ from dynsolve.problem.action_keys import ACTION_KEYS
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, Word
 from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
 from dynsolve.problem.mechanism_keys import COORDINATES, model, placed_body
+from dynsolve.problem.model_keys import MODEL_KEYS
 from dynsolve.problem.value_kinds import EXPRESSION, LINK, MATRIX, NAME, NUMBER, PLACE, ROTATION, TEXT, VECTOR
 from dynsolve.robot.model import Convention
 from dynsolve.robot.shapes import AXES, KINDS
@@ -310,6 +311,7 @@ PROBLEM = Keyed(
         ),
         *ACTION_KEYS,
         *KINEMATIC_KEYS,
+        *MODEL_KEYS,
         Key(
             "values",
             MapOf(NUMBER, "numbers by symbol"),

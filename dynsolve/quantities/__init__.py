@@ -9,6 +9,8 @@
                 those of what exercises ask of the kinematics: points, tasks
     recursion_families
                 those of the Newton-Euler recursions
+    model_families
+                those of what exercises ask of the equations of motion
     static_families
                 those of what exercises ask of forces from outside
     index       the quantities of one robot by name: which there are, what is part of what

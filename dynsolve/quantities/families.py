@@ -19,6 +19,7 @@ from dynsolve.quantities import (
     action_families,
     kinematic_families,
     letters,
+    model_families,
     recursion_families,
     static_families,
 )
@@ -494,11 +495,18 @@ _ROTORS = action_families.OF_THE_MODEL
 
 _RECURSIONS = recursion_families.FAMILIES
 
+# -- what an exercise asks of the equations of motion ----------------------------------------------
+
+_ASKED_OF_MODEL = model_families.FAMILIES
+
 # -- what an exercise asks of forces ---------------------------------------------------------------
 
 _ASKED_OF_STATICS = static_families.FAMILIES
 
-_GROUPS = (_ASKED_OF_KINEMATICS, _ENERGIES_OF_ACTIONS, _FRICTION, _ROTORS, _RECURSIONS, _ASKED_OF_STATICS)
+_GROUPS = (
+    _ASKED_OF_KINEMATICS, _ENERGIES_OF_ACTIONS, _FRICTION, _ROTORS, _RECURSIONS, _ASKED_OF_MODEL,
+    _ASKED_OF_STATICS,
+)  # fmt: skip
 """The families that have a file of their own."""
 
 FAMILIES: tuple[Family, ...] = tuple(

@@ -83,6 +83,8 @@ GRAVITY = bold("g", Number(0))
 TAU = bold("tau")
 Q_FORCES = bold("Q")
 TAU_STATIC = bold("tau", Words("static"))
+PARAMETERS = bold("a")
+REGRESSOR = bold("Y")
 DET = Row((Words("det "), bold("J", Symbol("r"))))
 NULLSPACE = Row((Letter("N", style="script"), Parenthesized(bold("J", Symbol("r")))))
 RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r")))))
@@ -98,6 +100,11 @@ KM = Letter("K", Words("m"))
 DM = bold("D", Words("m"))
 FRICTION = bold("tau", Words("f"))
 DISSIPATION = Letter("R", style="script")
+
+
+def of_part(base: str, part: str) -> Letter:
+    """a_M, Y_g: of one part of the equations of motion."""
+    return bold(base, Symbol(part))
 
 
 def jv(body: Body) -> Letter:

@@ -34,6 +34,7 @@ class Stage(StrEnum):
     TORQUE = "torque", "The Euler-Lagrange equations"
     NEWTON_EULER = "newton_euler", "The Newton-Euler recursions", True
     VECTORIZED = "vectorized", "The vectorized form"
+    PARAMETERS = "parameters", "Linear in the parameters", True
     STATICS = "statics", "Forces from outside, and the torques that hold them", True
 
     def __new__(cls, value: str, heading: str = "", asked_for: bool = False) -> Stage:
@@ -60,7 +61,12 @@ class Stage(StrEnum):
         return self in _OF_A_TABLE
 
 
-_OF_MASSES = frozenset({Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED})
+OF_THE_MODEL = frozenset({Stage.PARAMETERS})
+"""The stages that go on from the equations of motion."""
+
+_OF_MASSES = OF_THE_MODEL | {
+    Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED,
+}  # fmt: skip
 
 _OF_A_TABLE = frozenset({
     Stage.FRAMES, Stage.KINEMATICS, Stage.JACOBIAN, Stage.TASK, Stage.SINGULAR, Stage.INVERSE, Stage.RATES,

@@ -14,6 +14,7 @@ from enum import StrEnum
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation.tree import Node, Reference
 from dynsolve.notation.walk import walk
+from dynsolve.robot.model_questions import NO_MODEL_QUESTIONS, ModelQuestions
 
 TIP = "tip"
 """The origin of the last frame, as a task names it."""
@@ -141,7 +142,8 @@ class Questions:
     answer must have them all.  `target` is what r(q) is to be where the file gives numbers for it,
     `limits` are the ranges of coordinates.  `state_is_reached` says that the state is still to be the one
     configuration within the limits that reaches the target.  `weights` (n×n) are those of the rates where
-    many do, `weighs_by_inertia` says that they are D.  `method` is the way to τ.
+    many do, `weighs_by_inertia` says that they are D.  `method` is the way to τ.  `model` is what is
+    asked of the equations of motion.
     """
 
     points: tuple[NamedPoint, ...] = ()
@@ -160,6 +162,7 @@ class Questions:
     state_is_reached: bool = False
     weights: Matrix | None = None
     weighs_by_inertia: bool = False
+    model: ModelQuestions = NO_MODEL_QUESTIONS
 
     @property
     def reached(self) -> tuple[str, ...]:

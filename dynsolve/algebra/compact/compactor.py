@@ -52,7 +52,8 @@ class Compactor:
     `leading` names the masses and moments of inertia in the order in which a sum
     mentions them; `parallel` are groups of coordinates that turn about parallel axes;
     `decimal` says that numbers are decimals, which are not drawn out of sums;
-    `angles_outside` that masses are never collected outside sines and cosines.
+    `angles_outside` that masses are never collected outside sines and cosines; from `large` terms
+    on one way of collecting is tried and not two.
 
     >>> from dynsolve.algebra.angles import Angle
     >>> from dynsolve.algebra.build import build_ring
@@ -72,12 +73,14 @@ class Compactor:
         *,
         decimal: bool = False,
         angles_outside: bool = False,
+        large: int = LARGE,
     ) -> None:
         self.ring = ring
         self._groups = angle_groups(ring, parallel)
         self._atoms = RingAtoms(ring, leading, self._groups, self.form)
         self.collector = Collector(self._atoms.table, decimal=decimal)
         self._angles_outside = angles_outside
+        self._large = large
         # The entries of D and C come again in the steps and in τ; a 7R arm would take a sixth longer without.
         self._forms: dict[str, Node] = {}
         self._coefficients: dict[tuple[TermLayout, frozenset[tuple[Exponents, Rational]]], Node] = {}
@@ -143,7 +146,7 @@ class Compactor:
         outside = self.collector.sum_of(parts)
         if len(split) == 1:
             return outside
-        if len(terms) <= LARGE:
+        if len(terms) <= self._large:
             inside = self._by_angles(layout, terms)
             cost = self.collector.cost
             if cost(inside) < cost(outside) * (1 if kind == (0, 1) else MUCH_CHEAPER):
@@ -186,7 +189,7 @@ class Compactor:
         if self._angles_outside:
             return self._by_angles(layout, terms)
         scale: Rational = 1
-        if len(terms) > LARGE and not self.collector.decimal:
+        if len(terms) > self._large and not self.collector.decimal:
             numbers, scale = primitive(terms)
             key = layout, numbers
         else:
@@ -196,7 +199,7 @@ class Compactor:
             shared, rest = self._without_common(layout, dict(key[1]))
             size, rest = self._usual(layout, rest)
             found = self._by_angles(layout, rest)
-            if layout.leading and len(terms) <= LARGE:
+            if layout.leading and len(terms) <= self._large:
                 found = min(self._by_masses(layout, rest), found, key=self.collector.cost)
             if size != 1:
                 found = self.collector.sum_of([(size, (), found)])

@@ -290,6 +290,15 @@ dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}, {theta: q3*, a: l3}]
 state: {q2: 0, q3: 0}
 find: [nullspace]
 """, "nullspace", [["l2 + l3", "-l1", "0"], ["l3", "0", "-l1"]])),
+    Slip("parameters", "parameters that are too few", "{yours}",
+         "Multiply the forces out: what stands beside one function of the motion is one coefficient.",
+         Example("""
+dh: [{theta: q1*, a: l1}]
+gravity: [0, -g, 0]
+masses: [{mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}]
+parameters: {known: [l1, g]}
+find: [Y, a]
+""", "a", [["I1"], ["m1"]])),
     Slip("shape", "the size of the matrix", "{yours}", "Count rows and columns.",
          Example(_2R, "g", [["m2*lc2*g*cos(q1)"]])),
 )  # fmt: skip

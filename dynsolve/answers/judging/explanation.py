@@ -22,8 +22,10 @@ from dynsolve.answers.judging.direction import Direction
 from dynsolve.answers.judging.follow_through import FollowThrough, PossibleValue, StudentValue
 from dynsolve.answers.judging.hand_in import ComparedHandIn
 from dynsolve.answers.judging.key_comparison import KeyComparison, Target
+from dynsolve.answers.judging.own_parameters import covers
 from dynsolve.answers.judging.spans import spans
 from dynsolve.answers.judging.student_values import student_values
+from dynsolve.quantities.model_families import REGRESSORS
 from dynsolve.robot.model import Coordinate
 
 MOST_EXPECTED = 4
@@ -87,9 +89,15 @@ class Explanations:
         return None
 
     def of_span(self, compared: KeyComparison) -> PossibleValue | None:
-        """The first space that the student's own answers lead to and that the written vectors span."""
+        """The first space that the student's own answers lead to and that the written vectors span.
+
+        Of parameters a the first that are combinations of those that were written.
+        """
         numbers = self.hand_in.compare_entry.values
         candidates = self._rests_on_answers(compared)
+        if compared.target.node in REGRESSORS:
+            robot, (written,) = self.hand_in.graph.robot, compared.written
+            return next((v for v in candidates if covers(robot, written, v.value)), None)
         return next((v for v in candidates if spans(v.value, compared.written, numbers)), None)
 
     def of_entry(

@@ -20,6 +20,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.route import Route
+from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 
 MOST_CANDIDATES = 64
@@ -155,9 +156,10 @@ class FollowThrough:
             return None
         self.work += cost
         try:
-            return route.compute(*(c.value for c in chosen))
+            found = route.compute(*(c.value for c in chosen))
         except (AlgebraError, ValueError, ZeroDivisionError):
             return None
+        return None if isinstance(found, Skipped) else found
 
 
 def _merged(streams: list[Iterator[PossibleValue]]) -> Iterator[PossibleValue]:

@@ -11,13 +11,14 @@ vector is what the Coriolis term is compared by.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property, partial
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
+from dynsolve.answers.judging.model_routes import model_routes
 from dynsolve.answers.judging.recursion_routes import recursion_routes
 from dynsolve.answers.judging.route import Route
 from dynsolve.answers.judging.task_routes import task_routes
@@ -25,6 +26,7 @@ from dynsolve.derivation import vectorized
 from dynsolve.derivation.energy import velocities
 from dynsolve.quantities import action_families, families
 from dynsolve.quantities.index import Quantities, quantities
+from dynsolve.quantities.model_families import PARAMETERS
 from dynsolve.robot.model import Body, Robot
 
 _STATED = (families.H0, families.A, families.I_BODY, action_families.PS, action_families.FRICTION)
@@ -45,10 +47,18 @@ class AnswerGraph:
     """The graph of one robot in one ring.
 
     `zero_potential` is the potential that a unit of mass has at the key's zero of height,
-    where the student has chosen another zero.
+    where the student has chosen another zero; `parameters` are those of τ = Y a that the student
+    has chosen, by name.
     """
 
-    def __init__(self, answer_ring: AnswerRing, zero_potential: Expr | None = None) -> None:
+    def __init__(
+        self,
+        answer_ring: AnswerRing,
+        zero_potential: Expr | None = None,
+        parameters: Mapping[str, Matrix] | None = None,
+    ) -> None:
+        self.parameters = parameters or {}
+        self._regressors: dict[str, Any] = {}
         self.answer_ring = answer_ring
         self.robot: Robot = answer_ring.robot
         self.zero_potential = zero_potential
@@ -73,7 +83,11 @@ class AnswerGraph:
     # -- values ------------------------------------------------------------------------------------
 
     def key(self, node: str) -> Any:
-        """The key's value of a node; at the student's own zero of height."""
+        """The key's value of a node; at the student's own zero of height, for own parameters a."""
+        if node in self.parameters:
+            return self.parameters[node]
+        if PARAMETERS.get(node) in self.parameters:
+            return self._own_regressor(node)
         value = self.answer_ring.key(node)
         if self.zero_potential is None:
             return value
@@ -83,6 +97,13 @@ class AnswerGraph:
             return value + self.zero_potential * self._mass
         body = self._lifted(node)
         return value if body is None else value + self.zero_potential * body.mass
+
+    def _own_regressor(self, node: str) -> Any:
+        """The regressor that belongs to the student's own parameters."""
+        if node not in self._regressors:
+            rule = self.answer_ring.rules[node]
+            self._regressors[node] = rule.compute(*map(self.key, rule.inputs))
+        return self._regressors[node]
 
     def _lifted(self, node: str) -> Body | None:
         """The body whose potential energy a node is."""
@@ -110,6 +131,8 @@ class AnswerGraph:
             case "D" | "Cqd" | "g":
                 found = self._routes_of_model(node)
                 return tuple(r for r in found if "tau" not in r.inputs) if assembled else found
+            case _ if node in PARAMETERS:
+                return tuple(model_routes(self, quantity))
             case "C" | "christoffel":
                 return (Route(("D",), self._symbols if node == "christoffel" else self._coriolis_matrix),)
         body = self._lifted(node)

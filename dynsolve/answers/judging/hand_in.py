@@ -10,19 +10,22 @@ height is the student's own, see `zero_height`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import as_expr
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison
+from dynsolve.answers.judging.own_parameters import as_matrix, own_parameters
 from dynsolve.answers.judging.zero_height import potential_at_zero_height
 from dynsolve.answers.submission import Answer
 from dynsolve.notation import tree
+from dynsolve.quantities.model_families import PARAMETERS, REGRESSORS
 
 Chain = list[AnswerValue]
 """The members of one equation."""
@@ -49,10 +52,19 @@ class ComparedHandIn:
         self.definitions = _by_quantity([v for v in values.all if v.is_definition], at_keys_height)
         energies = dict(self._energies())
         potential = potential_at_zero_height(self.answer_ring, energies, self.answer_ring.dimensions)
-        self.graph = AnswerGraph(self.answer_ring, potential)
+        self.graph = AnswerGraph(self.answer_ring, potential, self._own_parameters())
         self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
         self.comparisons = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
         self.assembled_coriolis = self._assembled_coriolis()
+
+    def _own_parameters(self) -> Mapping[str, Matrix]:
+        """The parameters a of τ = Y a that the student chose."""
+        asked = PARAMETERS.keys() | REGRESSORS.keys()
+        if not self.chains.keys() & asked:
+            return {}
+        values = {name: last(self.chains[name]) for name in self.chains.keys() & asked}
+        written = {name: matrix for name, value in values.items() if (matrix := as_matrix(value, name))}
+        return own_parameters(self.answer_ring, written)
 
     def _energies(self) -> Iterator[tuple[str, Expr]]:
         """The student's P_i, P and L, where they are expressions of the ring."""

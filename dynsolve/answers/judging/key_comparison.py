@@ -13,12 +13,19 @@ from dynsolve.answers.judging.answer_values import AnswerValue, fitted
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.other_solutions import Other, other_solution
+from dynsolve.answers.judging.own_parameters import (
+    as_matrix,
+    forces_of,
+    is_free,
+    wrong_parameters,
+)
 from dynsolve.answers.judging.planar import unfolded
 from dynsolve.answers.judging.spans import difference, readings, spans
 from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import ZERO, Node, Product, Sum, Symbol
 from dynsolve.quantities.family import Kind
+from dynsolve.quantities.model_families import REGRESSORS
 
 Rows = tuple[tuple[WrittenEntry, ...], ...]
 
@@ -114,6 +121,8 @@ class KeyComparer:
         quantity = self.graph.quantities.of_rule(target.node)
         if quantity is not None and quantity.family.kind is Kind.SPAN:
             return self._span(value, target, key)
+        if is_free(self.robot, target.node) and target.node not in self.graph.parameters:
+            return self._parameters(value, target, key)
         rows, obstacles = self._coriolis(value) if name == "C" else self._rows(name, value, key)
         if not rows:
             return KeyComparison(value, target, obstacles=obstacles)
@@ -126,6 +135,31 @@ class KeyComparer:
         if other is None:
             return compared
         return replace(compared, right=tuple(tuple("" for _ in row) for row in rows), other=other)
+
+    def _parameters(self, value: AnswerValue, target: Target, key: Matrix) -> KeyComparison:
+        """Parameters of τ = Y a with which there is no Y, unless they are the key's, but for rounding."""
+        rows, _ = self._rows(target.node, value, key)
+        right = tuple(
+            tuple(map(self.compare, wanted, written)) for wanted, written in zip(key.rows, rows, strict=False)
+        )
+        compared = KeyComparison(value, target, rows, right)
+        if compared.correct:
+            return compared
+        written = as_matrix(value, target.node)
+        if written is None:
+            return KeyComparison(
+                value, target, obstacles=(Obstacle("parameters", "These are no parameters."),)
+            )
+        why = wrong_parameters(
+            self.graph.robot, forces_of(self.robot, REGRESSORS[target.node], self.graph.key), written
+        )
+        entries = tuple(
+            (WrittenEntry(RationalExpr(e), value.nodes[0][0], self.changed),) for e in written.entries
+        )
+        unknown = tuple((None,) for _ in entries)
+        return KeyComparison(
+            value, target, entries, unknown, (Obstacle("parameters", why),), written=(written,)
+        )
 
     def _span(self, value: AnswerValue, target: Target, key: Matrix) -> KeyComparison:
         """Vectors, whether they span the key's space; the verdict is one for all of them."""

@@ -1,7 +1,8 @@
 """What is right without being the key's.
 
 Joint rates and accelerations: every x with Jᵀ (J x - b) = 0 solves J x = b, or comes as near to it as can
-be where nothing does; the key is the one of least norm.  Accelerations of links: gravity may count as an
+be where nothing does; the key is the one of least norm.  Regressors: where parameters depend on each
+other, many a Y gives one product.  Accelerations of links: gravity may count as an
 acceleration of the base, or as a force of its own.
 """
 
@@ -15,13 +16,16 @@ from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr, add, multiply
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.judging.answer_values import as_value
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, put_numbers
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.own_parameters import forces_of, multiplies_to
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.rates import wanted_by_accelerations
 from dynsolve.derivation.recursions import is_standard
 from dynsolve.quantities import recursion_families
 from dynsolve.quantities.index import Quantity
+from dynsolve.quantities.model_families import PARAMETERS
 
 
 class Other(StrEnum):
@@ -30,6 +34,7 @@ class Other(StrEnum):
     OF_MANY = "another solution than that of least norm, which is the key"
     WITH_GRAVITY = "right with gravity as an acceleration of the base; in the key it is a force on each link"
     WITHOUT_GRAVITY = "right with gravity as a force on each link; in the key the base accelerates instead"
+    OF_THE_PRODUCT = "these parameters leave Y open; the product is right"
 
 
 LONGEST = 400
@@ -46,7 +51,18 @@ def other_solution(
     quantity = graph.quantities.of_rule(node)
     if quantity is not None and quantity.family in (recursion_families.AL, recursion_families.ACL):
         return _with_other_gravity(graph, quantity, rows, compare)
+    if node in PARAMETERS:
+        return Other.OF_THE_PRODUCT if _multiplies(graph, node, rows) else None
     return Other.OF_MANY if _solves(graph, node, rows, compare.values) else None
+
+
+def _multiplies(graph: AnswerGraph, node: str, rows: Sequence[Sequence[WrittenEntry]]) -> bool:
+    """Whether Y a is right for the student's own a."""
+    parameters = graph.parameters.get(PARAMETERS[node])
+    forces = forces_of(graph.robot, node, graph.key)
+    entries = tuple(tuple(entry.value for entry in row) for row in rows)
+    Y = as_value(entries, forces)
+    return parameters is not None and isinstance(Y, Matrix) and multiplies_to(Y, parameters, forces)
 
 
 def _with_other_gravity(

@@ -1,0 +1,38 @@
+"""Ways to what is asked of the equations of motion: Y by the parameters of the key, or by the student's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from dynsolve.algebra.fraction_matrix import FractionMatrix
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.judging.route import Route
+from dynsolve.derivation.graph import Rule, Skipped
+from dynsolve.errors import AlgebraError
+from dynsolve.quantities.index import Quantity
+from dynsolve.quantities.model_families import PARAMETERS
+
+if TYPE_CHECKING:
+    from dynsolve.answers.judging.graph import AnswerGraph
+
+
+def model_routes(graph: AnswerGraph, quantity: Quantity) -> Iterator[Route]:
+    """The routes to a regressor, none to other quantities."""
+    parameters = PARAMETERS.get(quantity.rule)
+    if parameters is None:
+        return
+    rule: Rule = graph.answer_ring.rules[quantity.rule]
+    forces, _ = rule.inputs
+
+    def by_key(value: Any) -> Matrix | FractionMatrix:
+        return _found(rule.compute(value, graph.key(parameters)))
+
+    yield Route((forces,), by_key, linear=False)
+    yield Route(rule.inputs, lambda *values: _found(rule.compute(*values)), linear=False)
+
+
+def _found(value: Matrix | FractionMatrix | Skipped) -> Matrix | FractionMatrix:
+    if isinstance(value, Skipped):
+        raise AlgebraError(value.why)
+    return value

@@ -1,0 +1,130 @@
+"""What is asked of the equations of motion, compared with numbers.
+
+The product Y a is held against the forces as they are printed, which recursive Newton-Euler has
+verified.  The length of a is held against the rank of a table of these forces, with a row for
+each of many motions and a column for each of many choices of the unknown parameters: no
+factorization with fewer columns gives that table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from math import pi
+from random import Random
+from typing import Any
+
+from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.verification import SEED
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import compile_trees
+from dynsolve.quantities.model_families import PARAMETERS
+from dynsolve.robot.model import Robot
+
+TOLERANCE = 1e-8
+"""The largest error of Y a, relative to its largest terms."""
+
+NEGLIGIBLE = 1e-10
+"""A pivot of elimination that is smaller, relative to the first, is rounding."""
+
+MOST_RANK = 40
+"""The length of a longer a is not compared: its smallest pivots would come near to rounding."""
+
+_MARGIN = 4
+"""So many motions and choices of parameters more than the rank needs."""
+
+FORCES = {"Y": "tau", "YM": "D", "Yg": "g"}
+"""What each regressor is one of; of D it is D q̈."""
+
+
+def model_names(wanted: frozenset[str]) -> tuple[str, ...]:
+    """Which of the wanted results are compared, with what they are compared with."""
+    found: list[str] = []
+    for Y, a in PARAMETERS.items():
+        if a in wanted:
+            found += [name for name in (Y, a, FORCES[Y]) if name in wanted]
+    return tuple(dict.fromkeys(found))
+
+
+def verify_model(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
+    """Compare printed forms with the forces (see `model_names`).
+
+    Raises VerificationError where a product differs from the forces, or a is not of minimal length.
+    """
+    program = compile_trees(list(results.values()))
+    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
+    for _ in range(states if results else 0):
+        values, found = draw_values(robot, random, program.run)
+        here = dict(zip(results, found, strict=True))
+        for Y in FORCES:
+            if Y in here and not _is_product(here[Y], here[PARAMETERS[Y]], _force(robot, Y, here, values)):
+                raise VerificationError(f"{Y} a differs from the forces; this is a fault of dynsolve")
+    given = robot.questions.model.parameters is not None
+    for Y, a in PARAMETERS.items():
+        if a in results and not (given and a == "a"):
+            length = len(next(iter(compile_trees([results[a]]).run(values))))
+            if length <= MOST_RANK and rank_of_forces(robot, Y, results[FORCES[Y]], length) != length:
+                raise VerificationError(f"{a} is not of minimal length; this is a fault of dynsolve")
+
+
+def _force(robot: Robot, Y: str, ours: Mapping[str, Any], values: Mapping[str, float]) -> list[float]:
+    """The forces that Y a must be."""
+    found = ours[FORCES[Y]]
+    if Y != "YM":
+        return [row[0] for row in found]
+    rates = [values[q.acceleration] for q in robot.coordinates]
+    return [sum(d * x for d, x in zip(row, rates, strict=True)) for row in found]
+
+
+def _is_product(Y: Sequence[Sequence[float]], a: Sequence[Sequence[float]], forces: Sequence[float]) -> bool:
+    for row, force in zip(Y, forces, strict=True):
+        terms = [y * x for y, (x,) in zip(row, a, strict=True)]
+        if not abs(sum(terms) - force) <= TOLERANCE * max(1.0, *map(abs, terms)):
+            return False
+    return True
+
+
+def rank_of_forces(robot: Robot, Y: str, forces: Node, expected: int) -> int:
+    """The rank of the forces over motions and unknown parameters, looked for a little beyond `expected`."""
+    program = compile_trees([forces])
+    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
+    known = robot.questions.model.known
+    fixed = {
+        name: value for name, value in draw_values(robot, random, program.run)[0].items() if name in known
+    }
+    moving = [name for q in robot.coordinates for name in (q.name, q.velocity, q.acceleration)]
+
+    def numbers(names: Iterable[str]) -> dict[str, float]:
+        return {name: random.uniform(0.4, 1.6) for name in names}
+
+    motions = [numbers(moving) for _ in range(-(-(expected + _MARGIN) // robot.n) + 1)]
+    choices = [numbers(robot.ring.parameters) | fixed for _ in range(expected + _MARGIN)]
+
+    def forces_at(choice: Mapping[str, float], motion: Mapping[str, float]) -> list[float]:
+        values = {**choice, **motion, "pi": pi}
+        return _force(robot, Y, {FORCES[Y]: program.run(values)[0]}, values)
+
+    return rank([[force for motion in motions for force in forces_at(choice, motion)] for choice in choices])
+
+
+def rank(rows: list[list[float]]) -> int:
+    """The rank, by Gauss's elimination with the largest pivot of all that is left.
+
+    >>> rank([[1.0, 2.0], [2.0, 4.0], [0.0, 1.0]])
+    2
+    """
+    left = [list(row) for row in rows]
+    first, found = 0.0, 0
+    while left and left[0]:
+        i, j = max(
+            ((i, j) for i in range(len(left)) for j in range(len(left[0]))),
+            key=lambda place: abs(left[place[0]][place[1]]),
+        )
+        pivot = left[i][j]
+        first = first or abs(pivot)
+        if abs(pivot) <= NEGLIGIBLE * first:
+            break
+        top = left.pop(i)
+        left = [[x - row[j] / pivot * t for x, t in zip(row, top, strict=True)] for row in left]
+        found += 1
+    return found

@@ -1,0 +1,39 @@
+"""What exercises ask of the equations of motion as rules: parameters and regressors.
+
+A robot has the rules of those stages of which something is asked; the formulas are in
+`regressor`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation import regressor
+from dynsolve.derivation.energy import accelerations
+from dynsolve.derivation.graph import Rule
+from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
+
+
+def model_rules(robot: Robot) -> Iterator[Rule]:
+    """The rules of what is asked of the equations of motion; none of a robot of which nothing is."""
+    if Stage.PARAMETERS in asked_stages(robot.questions):
+        yield from _parameters(robot)
+
+
+def _parameters(robot: Robot) -> Iterator[Rule]:
+    minimal, columns = partial(regressor.minimal_parameters, robot), partial(regressor.regressor, robot)
+    given = robot.questions.model.parameters
+    yield Rule("a", ("tau",), minimal) if given is None else Rule("a", (), lambda: given)
+    yield Rule("Y", ("tau", "a"), columns)
+
+    def inertial(D: Matrix) -> Matrix:
+        return D @ accelerations(robot)
+
+    yield Rule("aM", ("D",), lambda D: minimal(inertial(D)))
+    yield Rule("YM", ("D", "aM"), lambda D, a: columns(inertial(D), a))
+    yield Rule("ag", ("g",), minimal)
+    yield Rule("Yg", ("g", "ag"), columns)

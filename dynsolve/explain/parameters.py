@@ -1,0 +1,178 @@
+"""Steps of τ = Y a: the combinations of parameters that count, and what stands beside each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dynsolve.algebra.fraction import RationalExpr
+from dynsolve.algebra.fraction_matrix import FractionMatrix
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.energy import accelerations
+from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.regressor import combinations
+from dynsolve.document import Prose
+from dynsolve.explain.citations import spong
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.writing import side_by_side
+from dynsolve.notation.build import times, total
+from dynsolve.notation.tree import Letter, Node, Number, Product, Symbol, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+
+STAGE = Stage.PARAMETERS
+_SOURCE = spong("7.5.3")
+
+MOST_SHOWN = 24
+"""With more coefficients only the parameters are shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Linear:
+    """Forces that are linear in parameters: the names of both factors, and how the forces are called."""
+
+    Y: str
+    a: str
+    forces: Node
+    Y_letter: Letter
+    a_letter: Letter
+
+
+_ALL = (
+    _Linear("Y", "a", letters.TAU, letters.REGRESSOR, letters.PARAMETERS),
+    _Linear(
+        "YM", "aM", Product((letters.D, letters.QDD)), letters.of_part("Y", "M"), letters.of_part("a", "M")
+    ),
+    _Linear("Yg", "ag", letters.G, letters.of_part("Y", "g"), letters.of_part("a", "g")),
+)
+
+
+def steps(context: Context) -> Iterator[Step]:
+    """The parameters and the regressor of the forces, and of a part of them where that is asked for."""
+    wanted = context.wanted
+    for linear in _ALL:
+        if linear.a in wanted:
+            yield _parameters(context, linear)
+        if linear.Y in wanted:
+            yield _regressor(context, linear)
+
+
+def _forces(context: Context, linear: _Linear) -> Matrix:
+    """The forces that are linear in the parameters."""
+    values = context.values
+    found: Matrix = {"Y": lambda: values["tau"], "Yg": lambda: values["g"]}.get(
+        linear.Y, lambda: values["D"] @ accelerations(context.robot)
+    )()
+    return found
+
+
+# -- the parameters --------------------------------------------------------------------------------
+
+
+def _parameters(context: Context, linear: _Linear) -> Step:
+    asked = context.robot.questions.model
+    value = context.values[linear.a]
+    is_given = linear.a == "a" and asked.parameters is not None
+    if isinstance(value, Skipped):
+        return Step(linear.a, STAGE, "Not derived", (value.why.capitalize() + ".",), detail=Detail.BRIEF)
+    why: Prose = (
+        "Multiplied out, ", linear.forces, " is a sum of products: what moves (coordinates, rates, "
+        "accelerations, sines and cosines) times a coefficient of parameters. ", *_known(context),
+    )  # fmt: skip
+    if is_given:
+        why = (*why, "The problem gives the entries of ", linear.a_letter, ".")
+    return Step(
+        id=linear.a,
+        stage=STAGE,
+        title=_title(linear),
+        why=why,
+        formula=equation(linear.forces, Product((linear.Y_letter, linear.a_letter))),
+        source=_SOURCE,
+        lines=() if is_given else tuple(_lines(context, linear, value)),
+        result=(equation(linear.a_letter, context.form(linear.a)),),
+        notes=() if is_given else ((_minimal(len(value.rows)),),),
+        detail=Detail.BRIEF,
+    )
+
+
+def _title(linear: _Linear) -> str:
+    return {"a": "The parameters", "aM": "The parameters of the inertia matrix"}.get(
+        linear.a, "The parameters of gravity"
+    )
+
+
+def _known(context: Context) -> Prose:
+    known = sorted(context.robot.questions.model.known)
+    if not known:
+        return ()
+    return (side_by_side([Symbol(name) for name in known]), f" count{'s' * (len(known) == 1)} as known. ")
+
+
+def _minimal(count: int) -> str:
+    entries = "one entry" if count == 1 else f"{count} entries"
+    return f"Fewer than {entries} are not enough: that is the rank of the forces over motions and parameters."
+
+
+def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Line]:
+    """The coefficients, and those that others give; none where there are too many to be read."""
+    found = combinations(context.robot, _forces(context, linear), parameters)
+    if not 0 < len(found) <= MOST_SHOWN:
+        return
+    by: Prose = (
+        "The coefficients that occur, without numbers and known factors that all terms of one share",
+    )
+    yield Line(by, tuple(context.show(coefficient) for coefficient, _ in found))
+    names = [_entry(context, k) for k in range(1, len(parameters.rows) + 1)]
+    dependent = [
+        equation(context.show(coefficient), _sum(context, names, factors))
+        for coefficient, factors in found
+        if coefficient not in parameters.entries and None not in names
+    ]
+    if dependent:
+        yield Line(("What is a combination of others needs no entry of its own",), tuple(dependent))
+
+
+def _entry(context: Context, k: int) -> Node | None:
+    """a_k, None where the problem has a parameter of that name."""
+    return None if f"a{k}" in context.robot.parameters else Letter("a", Number(k))
+
+
+def _sum(context: Context, names: list[Node | None], factors: tuple[RationalExpr, ...]) -> Node:
+    """Σ y_k a_k"""
+    terms = []
+    for name, factor in zip(names, factors, strict=True):
+        if name is not None and not factor.is_zero:
+            (row,) = _shown(context, factor)
+            terms.append(times(1, [(row, 1), (name, 1)]))
+    return total(terms)
+
+
+def _shown(context: Context, factor: RationalExpr) -> tuple[Node]:
+    form = context.forms.of(FractionMatrix(factor.ring, ((factor,),)))
+    ((node,),) = form.rows  # type: ignore[attr-defined]
+    return (node,)
+
+
+# -- the regressor ---------------------------------------------------------------------------------
+
+
+def _regressor(context: Context, linear: _Linear) -> Step:
+    value = context.values[linear.Y]
+    if isinstance(value, Skipped):
+        return Step(linear.Y, STAGE, "Not derived", (value.why.capitalize() + ".",), detail=Detail.BRIEF)
+    why: Prose = (
+        "Each force has a row. Column k holds what stands in it beside entry k of ", linear.a_letter, ".",
+    )  # fmt: skip
+    return Step(
+        id=linear.Y,
+        stage=STAGE,
+        title={"Y": "The regressor", "YM": "The regressor of the inertia matrix"}.get(
+            linear.Y, "The regressor of gravity"
+        ),
+        why=why,
+        formula=equation(linear.forces, Product((linear.Y_letter, linear.a_letter))),
+        source=_SOURCE,
+        result=(equation(linear.Y_letter, context.form(linear.Y)),),
+        detail=Detail.BRIEF,
+    )

@@ -1,0 +1,28 @@
+"""What an exercise asks of the equations of motion beside the course's derivation.
+
+`Questions.model` holds it, so that it goes wherever the robot goes.  Values are exact, in the
+robot's ring.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dynsolve.algebra.matrix import Matrix
+
+
+@dataclass(frozen=True, slots=True)
+class ModelQuestions:
+    """What is asked of the model.
+
+    `known` are the names of the parameters that do not count as unknown in τ = Y a.  `parameters`
+    (p×1) are the entries of a where the exercise gives them, `named` the names that it gives them.
+    """
+
+    known: frozenset[str] = frozenset()
+    named: tuple[str, ...] = ()
+    parameters: Matrix | None = None
+
+
+NO_MODEL_QUESTIONS = ModelQuestions()
+"""Of an exercise that asks nothing of the model."""
