@@ -37,7 +37,10 @@ from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import ZERO, Node
 
 MUCH_CHEAPER = 0.75
-"""Energies and torques stay collected by velocities unless another order costs less than this part."""
+"""Energies, momenta, torques stay collected by velocities unless another order costs less than this part."""
+
+LONG = 60
+"""From this number of operations on a momentum or an entry of C takes the cheaper order, as velocities do."""
 
 SMALLEST_SQUARE = 3
 """The terms of (a c₂ + b c₂₃)², multiplied out."""
@@ -149,7 +152,8 @@ class Compactor:
         if len(terms) <= self._large:
             inside = self._by_angles(layout, terms)
             cost = self.collector.cost
-            if cost(inside) < cost(outside) * (1 if kind == (0, 1) else MUCH_CHEAPER):
+            shortest = kind == (0, 1) and (not layout.leading or cost(outside) > LONG)
+            if cost(inside) < cost(outside) * (1 if shortest else MUCH_CHEAPER):
                 return inside
         return self.collector.apart(parts)
 
@@ -221,10 +225,10 @@ class Compactor:
         return size, terms if size == 1 else {e: exact(f, size) for e, f in terms.items()}
 
     def _without_common(self, layout: TermLayout, terms: Terms) -> tuple[tuple[Rational, Monomial], Terms]:
-        """(the parameters and numbers that all terms share, the rest)"""
+        """(the parameters and numbers that all terms share, the rest): l² + l a c keeps its l."""
         start = sum(width for _, width in layout.groups)
         symbols = zip(*(e[start:] for e in terms), strict=True)
-        least = tuple(min(powers) for powers in symbols)
+        least = tuple(min(powers) if len(set(powers)) == 1 else 0 for powers in symbols)
         factor = self.collector.content(terms.values())
         if factor == 1 and not any(least):
             return (1, ()), terms
