@@ -109,13 +109,15 @@ def verify_singular(robot: Robot, jacobian: Node, rank: int, cases: Sequence[Sin
     for case in cases:
         zeros, lost = compile_trees(case.zeros), compile_trees(case.lost)
         found = (zero_near(robot, zeros, values) for values in states_of(robot))
+        ranks: list[int] = []
         for at in (values for values in found if values is not None):
             J = program.run(at)[0]
-            if rank_of(J) != case.rank:
-                raise VerificationError("the rank at a singular configuration is not what it should be")
+            ranks.append(rank_of(J))
             columns = list(zip(*J, strict=True))
             if any(abs(sum(map(mul, _flat(w), column))) > CLOSE for w in lost.run(at) for column in columns):
                 raise VerificationError("a direction that should be lost is not")
+        if ranks and max(ranks) != case.rank:  # it is less where an alternative meets itself or another
+            raise VerificationError("the rank at a singular configuration is not what it should be")
 
 
 def states_of(robot: Robot) -> Iterator[dict[str, float]]:

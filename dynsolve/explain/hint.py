@@ -171,13 +171,13 @@ def _grouped(steps: Iterable[Step]) -> Iterator[_Task]:
     for step in steps:
         if not step.is_task:
             continue
-        why = step.hint or step.why
+        why, title = step.hint or step.why, step.hint_title or step.title
         words = "".join(part for part in why if isinstance(part, str))
         key = re.sub(r"\d+", "", step.id), re.sub(r"\d+", "", words)
         if key in tasks:
-            tasks[key].likewise.append(_lowered(step.title))
+            tasks[key].likewise.append(_lowered(title))
             continue
-        tasks[key] = _Task(step.title, why)
+        tasks[key] = _Task(title, why)
         formula = step.task or step.formula
         if formula is not None:
             tasks[key].formulas.append((formula, by_itself(step.source)))

@@ -210,6 +210,8 @@ class _Explainer:
             notes=tuple(self._free_coordinates()),
             detail=Detail.BRIEF,
             uses=tuple(f"inverse_{name}" for name in names),
+            hint=("Put every choice among these into r(q): those that give the task are the solutions.",),
+            hint_title="The solutions",
         )  # fmt: skip
 
     def _rows(self) -> Iterator[tuple[Node | str, ...]]:

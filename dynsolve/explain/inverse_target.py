@@ -20,6 +20,13 @@ from dynsolve.quantities.stages import Stage
 _DIGITS = 4
 _LIMITS = "Limits"
 
+_TITLE = "The configurations that reach it"
+_HINT = (
+    "Put the numbers into every branch. Look at the arguments of roots, of arccos and arcsin: is the branch "
+    "real, is it one with another? And at atan2: are both its arguments 0?",
+)
+"""What a hint says of them, however many there are."""
+
 _REAL = {
     "acos": "no angle has a cosine beyond -1 and 1",
     "asin": "no angle has a sine beyond -1 and 1",
@@ -54,7 +61,7 @@ def _configuration(forms: TargetForms, one: Configuration, number: int) -> Step:
         notes=tuple(_remarks(one)),
         listed=True,
         uses=("inverse_branches",) if one.branches else (),
-        hint=("Put the numbers of the task into a branch.",),
+        is_task=False,
     )
 
 
@@ -131,7 +138,8 @@ def _all(forms: TargetForms) -> Step:
         notes=tuple(_lost(forms)),
         detail=Detail.BRIEF,
         uses=tuple(f"inverse_{number}" for number in range(1, len(found) + 1)),
-        hint=("Say how many there are, and which are within the limits.",),
+        hint=_HINT,
+        hint_title=_TITLE,
     )
 
 
@@ -173,7 +181,8 @@ def _none(forms: TargetForms) -> Step:
         notes=tuple(_lost(forms)),
         detail=Detail.BRIEF,
         uses=(),
-        hint=("Look at the arguments of the roots, of arccos and arcsin.",),
+        hint=_HINT,
+        hint_title=_TITLE,
     )
 
 

@@ -20,6 +20,10 @@ STAGE = Stage.SINGULAR
 _SOURCE = spong("4.9")
 _LOST = spong("4.10")
 
+_TITLE = "The singular configurations"
+_CASES = ("A product is 0 where one of its factors is. Lengths are not 0.",)
+"""What a hint says of them, however many there are."""
+
 
 def steps(context: Context) -> Iterator[Step]:
     """The minors of the Jacobian as products, and where all of them are 0."""
@@ -82,17 +86,20 @@ def _alternatives(forms: ConfigurationForms) -> Step:
             title="No singular configuration",
             why=("No factor becomes 0 for any q: the rank is the same everywhere.",),
             detail=Detail.BRIEF,
+            hint=_CASES,
+            hint_title=_TITLE,
         )
     one = "A product is 0 where one of its factors is. Lengths are not 0, so one case is left."
     several = "A product is 0 where one of its factors is; each of these cases is enough. Lengths are not 0."
     return Step(
         id="singular",
         stage=STAGE,
-        title="The singular configurations",
+        title=_TITLE,
         why=(one if len(found) == 1 else several,),
         result=tuple(_together(one) for one in found),
         detail=Detail.BRIEF,
         uses=("singular_minors",),
+        hint=_CASES,
     )
 
 
@@ -125,6 +132,13 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
         working=(equation(J, there),) if lost and exact else (),
         result=tuple(equation(name, value) for name, value in zip(names, lost, strict=True)),
         uses=(_matrix(context), f"singular#{case + 1}"),
+        hint=(
+            "In each case: how great is the rank, and which w is orthogonal to every velocity that the "
+            "joints can give?",
+        ),
+        hint_title="What is lost there",
+        task=formula,
+        is_task=case == 0,
     )
 
 

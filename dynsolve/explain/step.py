@@ -49,8 +49,8 @@ class Step:
     `detail` says from which level on; `figure` is drawn beside it where drawings can be shown.
 
     What a hint makes of it: `hint` is said in place of a `why` that tells something of the
-    result, `task` is the formula where it is not `formula`; what is no `is_task` is left
-    out, being given by the problem or a mere comparison.
+    result, `hint_title` in place of such a title, `task` is the formula where it is not `formula`; what
+    is no `is_task` is left out, being given by the problem or a mere comparison.
     """
 
     id: str
@@ -74,5 +74,6 @@ class Step:
     also: tuple[str, ...] = ()
     uses: tuple[str, ...] | None = None
     hint: Prose = ()
+    hint_title: str = ""
     task: Node | None = None
     is_task: bool = True

@@ -14,6 +14,8 @@ _SLIPS = (
          "reaches.", "Look at the arguments of roots, arccos and arcsin, and at what each formula needs."),
     Slip("branch_not_real", "a branch", "Branch {number} gives no real configuration for these numbers.",
          "Look at the arguments of roots, arccos and arcsin."),
+    Slip("target_missed", "a branch", "Branch {number} does not reach the target.",
+         "Put it into r(q), and compare with the numbers that were given."),
     Slip("out_of_reach", "a branch", "No configuration reaches these numbers, and branch {number} does not.",
          "Compare the distance of the target with the longest and the shortest that the arm can make."),
     Slip("is_reachable", "a branch", "There are configurations that reach these values.",

@@ -74,7 +74,7 @@ class TargetKey:
                 return SetVerdict(False, "branch_not_real", number)
             place = next((i for i, key in enumerate(keys) if self._is(one, key)), None)
             if place is None and not self.target.reaches(one.values):
-                return SetVerdict(False, "branch_misses" if keys else "out_of_reach", number)
+                return SetVerdict(False, "target_missed" if keys else "out_of_reach", number)
             is_rounded = is_rounded or one.is_rounded
             met |= set() if place is None else {place}
         is_incomplete = len(met) < len(keys)

@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from dynsolve import solve
 from dynsolve.derivation.rules import derive
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.target import TargetForms
@@ -106,3 +107,19 @@ def test_the_json_has_the_reason() -> None:
     results = solve_json(f"gravity: none\n{UNIT}\nreach: [3, 0]\nfind: [inverse]\n")["results"]
     assert results["inverse"] == results["inverse_decimals"] == []
     assert results["inverse_why"] == "No configuration reaches this: no branch is real."
+
+
+def test_a_hint_does_not_tell_what_is_reached() -> None:
+    reached = [
+        f"gravity: none\n{UNIT}\nreach: {reach}\nfind: [inverse]\n"
+        for reach in ("[1, 1]", "[2, 0]", "[3, 0]")
+    ]
+    hints = [solve(text).hint("inverse") for text in reached]
+    assert hints[0] == hints[1] == hints[2]
+
+
+def test_a_hint_does_not_tell_the_singular_configurations() -> None:
+    """The elbow has two cases, two links have one: neither is told, nor how many there are."""
+    for arm in (ELBOW, UNIT):
+        text = repr(solve(f"gravity: none\n{arm}\nfind: [singular]\n").hint("singular").blocks[3:])
+        assert "case 1" not in text and "likewise" not in text.lower() and "instead of" not in text
