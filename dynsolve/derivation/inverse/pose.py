@@ -30,6 +30,9 @@ from dynsolve.robot.model import Robot
 MOST_JOINTS = 6
 """With more, a pose leaves coordinates free."""
 
+MOST_TERMS = 400
+"""Poses and points whose entries have more terms together are not searched for equations."""
+
 
 def solve_pose(robot: Robot, pose: Matrix, values: Sequence[str]) -> Solving | None:
     """How H(q) = H is solved for q; None where the known forms do not lead to an end.
@@ -140,9 +143,13 @@ def _ways(block: _Block, unknowns: Unknowns, names: Names) -> Iterator[Part]:
     """The steps that can be taken next: from a point or a rotation alone where that is enough, or both."""
     points = sorted(_points(block, names), key=lambda point: point.first - point.last)
     for point in points:
+        if _terms(point.made) > MOST_TERMS:
+            continue
         solved = search([_of_point(point)], unknowns)
         if {step.coordinate for step in solved} == set(_moving(block, point)):
             yield Part(solved, block.turn, point)
+    if _terms(block.chain.product) > MOST_TERMS:
+        return
     turned = tuple(_of_turn(block))
     solved = search(turned, unknowns, turning=False)
     if {step.coordinate for step in solved} == set(block.chain.names):
@@ -151,6 +158,11 @@ def _ways(block: _Block, unknowns: Unknowns, names: Names) -> Iterator[Part]:
         solved = search([_of_point(point), *turned], unknowns)
         if solved:
             yield Part(solved, block.turn, point)
+
+
+def _terms(made: Matrix) -> int:
+    """How many terms its entries have together."""
+    return sum(map(len, made.entries))
 
 
 def _points(block: _Block, names: Names) -> Iterator[FixedPoint]:
