@@ -49,6 +49,7 @@ class ParsedTask:
     cells: tuple[Cell, ...]
     is_twist: bool = False
     is_pose: bool = False
+    span: Span = (0, 0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,7 +206,7 @@ def _read_task(
     faults: Faults, node: YamlNode | None, points: Collection[str], coordinates: Collection[str]
 ) -> ParsedTask | None:
     if isinstance(node, ScalarNode) and node.text in WHOLE.choices:
-        return ParsedTask((), is_twist=True, is_pose=node.text == "pose")
+        return ParsedTask((), is_twist=True, is_pose=node.text == "pose", span=node.span)
     listed = items(faults, node, "task", PROBLEM["task"].help)
     if len(listed) > MAX_TASK and node:
         faults.error(node.span, f"{len(listed)} components; at most {MAX_TASK} are read", "leave some out")

@@ -87,6 +87,7 @@ def with_questions(
     if questions.task is not None and questions.task.reached:
         check_reach(values.faults, parsed.reach, len(questions.task.reached))
         questions = _with_target(values, robot, questions, parsed, written)
+        _check_names(values, robot, questions, parsed)
     if parsed.reached_state is not None and questions.target is None:
         help = "write reach: [...] with a number for each component of the task, or give the state itself"
         values.faults.error(parsed.reached_state, "state: reach needs the numbers of a target", help)
@@ -112,12 +113,25 @@ def _with_target(
     builder = TargetBuilder(values.faults, written, robot.parameters)
     kinds = {q.name: q.type for q in robot.coordinates}
     angles = [_is_angle(entry, kinds) for entry in questions.task.entries]
+    target = builder.target(parsed.reach, angles)
+    if target is not None and questions.task.is_pose:
+        builder.check_rotation(parsed.reach)
     return replace(
         questions,
         reach=builder.names(parsed.reach),
-        target=builder.target(parsed.reach, angles),
+        target=target,
         limits=builder.limits(parsed.limits),
     )
+
+
+def _check_names(values: CellValues, robot: Robot, questions: Questions, parsed: ParsedQuestions) -> None:
+    """The names of a pose, x, y, z and r11 to r33, are no other things where the file does not name it."""
+    taken = {*robot.parameters, *(q.name for q in robot.coordinates)}
+    found = [name for name in questions.reached if name in taken]
+    if found and parsed.task is not None and parsed.task.is_pose and not parsed.reach.cells:
+        message = f"{found[0]} means something else already, and is also the name of a value of the pose"
+        help = "name its twelve values under `reach`: the position, then the rotation row by row"
+        values.faults.error(parsed.task.span, message, help)
 
 
 def _is_angle(entry: Node, kinds: Mapping[str, JointType]) -> bool:

@@ -7,6 +7,7 @@ which they are written, as those of `reach` are.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from operator import mul
 
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.errors import AlgebraError
@@ -18,6 +19,9 @@ from dynsolve.problem.cells import Cell, read_angle
 from dynsolve.problem.reach import ParsedLimits, ParsedReach
 from dynsolve.problem.source import Faults
 from dynsolve.robot.questions import Limits, Target
+
+ORTHONORMAL = 1e-8
+"""How far from orthonormal a rotation may be."""
 
 _NAMED = "give it one under `values`"
 
@@ -61,6 +65,20 @@ class TargetBuilder:
         self._check(reach.cells)
         return Target(tuple(cell.tree for cell in reach.cells), tuple(self.numbers.items()))
 
+    def check_rotation(self, reach: ParsedReach) -> None:
+        """The last nine values of a pose are the rows of a rotation: orthonormal, right-handed."""
+        cells = reach.cells[3:]
+        if not all(name.name in self.numbers for cell in cells for name in cell.names):
+            return  # that was reported
+        entries = [self._number(cell) for cell in cells]
+        off = _off_rotation([entries[k : k + 3] for k in range(0, 9, 3)])
+        if off > ORTHONORMAL:
+            self.faults.error(
+                reach.span,
+                f"these rows are no rotation: R Rᵀ differs from the identity, or det R from 1, by {off:.2g}",
+                "write its entries exactly, row by row: sqrt(3)/2, cos(30deg)",
+            )
+
     @property
     def _known(self) -> frozenset[str]:
         return self.parameters | self.numbers.keys()
@@ -94,6 +112,14 @@ class TargetBuilder:
             name: float(evaluate(node, {})) for name, node in self.numbers.items() if not names_in(node)
         }
         return float(evaluate(cell.tree, values))
+
+
+def _off_rotation(R: Sequence[Sequence[float]]) -> float:
+    """How far R Rᵀ is from the identity, or det R from 1."""
+    (a, b, c), (d, e, f), (g, h, i) = R
+    determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    products = (sum(map(mul, R[k], R[m])) - (k == m) for k in range(3) for m in range(3))
+    return max(map(abs, (*products, determinant - 1)))
 
 
 def _symbol(name: str) -> Node:

@@ -98,6 +98,17 @@ FAULTS = {
     "limits that cross": (
         "reach: [1, 1]\nlimits: {theta1: «[90deg, 0]»}\nfind: [inverse]", "ends before", "lower"
     ),
+    "no rotation": (
+        "task: pose\nreach: «[1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1]»\nfind: [inverse]",
+        "these rows are no rotation", "row by row",
+    ),
+    "a rotation in few digits": (
+        "task: pose\nreach: «[1, 0, 0, 0.866, -0.5, 0, 0.5, 0.866, 0, 0, 0, 1]»\nfind: [inverse]",
+        "by 4.4e-05", "sqrt(3)/2",
+    ),
+    "few values of a pose": (
+        "task: pose\nreach: «[px, py, pz]»\nfind: [inverse]", "the task has 12", "one value for"
+    ),
     "an unknown point": ("task: [«R».x]", "there is no point R", "tip"),
     "a misspelled tip": ("task: [«tp».x]", "there is no point tp", "did you mean `tip`?"),
     "an empty task": ("task: «[]»", "no components", "task: [tip.x"),

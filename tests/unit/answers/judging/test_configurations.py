@@ -54,6 +54,36 @@ BRANCHES = [
 ]  # fmt: skip
 
 
+# A spherical wrist: its angles are the Euler angles ZYZ (Spong, Hutchinson, Vidyasagar, section 2.5.1).
+WRIST = """
+gravity: none
+dh: [{theta: phi*, alpha: -90deg}, {theta: theta*, alpha: 90deg}, {theta: psi*}]
+task: pose
+find: [inverse]
+branches: all
+"""
+PSI = "atan2(-r11*sin(phi) + r21*cos(phi), -r12*sin(phi) + r22*cos(phi))"
+
+# (the branches, the verdict, the note or the code of the slip)
+OF_A_WRIST = [
+    ("[{theta: 'atan2(±sqrt(1 - r33^2), r33)', phi: 'atan2(±r23, ±r13)', psi: 'atan2(±r32, ∓r31)'}]",
+     "correct", ""),
+    (f"[{{phi: 'atan2(r23, r13)', theta: acos(r33), psi: '{PSI}'}}, "
+     f"{{phi: 'atan2(-r23, -r13)', theta: -acos(r33), psi: '{PSI}'}}]", "correct", ""),
+    ("[{theta: 'acos(r33)', phi: 'atan2(r23, r13)', psi: 'atan2(r32, -r31)'}]", "wrong", "branches_missing"),
+    ("[{theta: 'atan2(±sqrt(1 - r33^2), r33)', phi: 'atan2(±r23, ±r13)', psi: 'atan2(±r32, ±r31)'}]",
+     "wrong", "branch_misses"),
+    ("[{theta: '±acos(r33)', phi: 'atan2(r23, r13)', psi: 'atan2(r32, -r31)'}]", "wrong", "branch_misses"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("value", "verdict", "said"), OF_A_WRIST)
+def test_branches_of_a_pose(value: str, verdict: str, said: str) -> None:
+    answer = judged(WRIST, "inverse", value)
+    assert answer.verdict == verdict, (answer.fault, answer.diagnosis)
+    assert said in (*answer.notes, *(slip.code for slip in answer.diagnosis), "")
+
+
 @pytest.mark.parametrize(("value", "verdict", "said"), BRANCHES)
 def test_branches(value: str, verdict: str, said: str) -> None:
     answer = judged(TWO_LINKS, "inverse", value)
