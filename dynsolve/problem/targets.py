@@ -118,7 +118,7 @@ def _off_rotation(R: Sequence[Sequence[float]]) -> float:
     """How far R Rᵀ is from the identity, or det R from 1."""
     (a, b, c), (d, e, f), (g, h, i) = R
     determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
-    products = (sum(map(mul, R[k], R[m])) - (k == m) for k in range(3) for m in range(3))
+    products = (float(sum(map(mul, R[k], R[m]))) - (k == m) for k in range(3) for m in range(3))
     return max(map(abs, (*products, determinant - 1)))
 
 
