@@ -96,14 +96,11 @@ class TableJudge:
     # -- wrong -------------------------------------------------------------------------------------
 
     def _mismatched(self, base: JudgedAnswer, rows: Rows, table: Table, found: Mismatch) -> JudgedAnswer:
-        if self._is_of_the_other_convention(table):
-            mine, other = ("modified", "standard") if self.comparer.modified else ("standard", "modified")
-            return _wrong(base, rows, {}, slip("dh_convention", part=mine, other=other))
-        blamed = {
-            cell: self._told(table, repair)
-            for repair in repairs_of(self.comparer, table, found)
-            for cell in repair.cells
-        }
+        repairs = repairs_of(self.comparer, table, found)
+        convention = self._other_convention(table) if len(repairs) != 1 else None
+        if convention is not None:
+            return _wrong(base, rows, {}, convention)
+        blamed = {cell: self._told(table, repair) for repair in repairs for cell in repair.cells}
         where = parting(found, len(self.comparer.joints))
         return _wrong(base, rows, blamed, slip("dh_mechanism", part=where))
 
@@ -118,12 +115,20 @@ class TableJudge:
             term=effect(self.comparer, table, repair),
         )
 
-    def _is_of_the_other_convention(self, table: Table) -> bool:
-        """Whether the rows, read in the other convention, are the mechanism."""
-        robot = self.problem.robot
-        turned = Convention.STANDARD if self.comparer.modified else Convention.MODIFIED
-        other = TableComparer(self.problem, read_as=turned)
-        return robot.n > 1 and isinstance(other(table), Agreement)
+    def _other_convention(self, table: Table) -> Diagnosis | None:
+        """The slip of rows that are the mechanism in the other convention, at least up to the last joint."""
+        n = self.problem.robot.n
+        if n < 2:
+            return None
+        is_modified = self.comparer.modified
+        turned = Convention.STANDARD if is_modified else Convention.MODIFIED
+        found = TableComparer(self.problem, read_as=turned)(table)
+        mine, other = ("modified", "standard") if is_modified else ("standard", "modified")
+        if isinstance(found, Agreement):
+            return slip("dh_convention", part=mine, other=other)
+        if found.joint < n:
+            return None
+        return slip("dh_shifted", part=mine, other=other, yours="high" if is_modified else "low")
 
 
 def _wrong(

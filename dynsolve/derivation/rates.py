@@ -6,6 +6,8 @@ q̈ = J⁻¹ (r̈ - J̇ q̇), and for the pseudoinverse where J is not square.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
@@ -65,16 +67,23 @@ def wanted_by_accelerations(robot: Robot, acceleration: Matrix, jacobian_rate: M
     return acceleration - jacobian_rate @ velocities(robot)
 
 
-def motions_without_effect(jacobian: Matrix) -> Matrix:
+def motions_without_effect(jacobian: Matrix) -> Matrix | Skipped:
     """A basis of the joint rates with J q̇ = 0, which the task does not see."""
-    return nullspace(jacobian)
+    return _spanned(jacobian, nullspace)
 
 
-def possible_motions(jacobian: Matrix) -> Matrix:
+def possible_motions(jacobian: Matrix) -> Matrix | Skipped:
     """A basis of the velocities J q̇ of the task that are possible."""
-    return rangespace(jacobian)
+    return _spanned(jacobian, rangespace)
 
 
-def lost_motions(jacobian: Matrix) -> Matrix:
+def lost_motions(jacobian: Matrix) -> Matrix | Skipped:
     """A basis of the directions across all possible ones: Jᵀ F = 0, so forces along them need no torque."""
-    return nullspace(jacobian.T)
+    return _spanned(jacobian.T, nullspace)
+
+
+def _spanned(matrix: Matrix, space: Callable[[Matrix], Matrix]) -> Matrix | Skipped:
+    """A space of a matrix, where its minors of full size are not too large."""
+    size = range(min(matrix.shape))
+    square = Matrix.of(matrix.ring, ([matrix[i, j] for j in size] for i in size))
+    return Skipped(TOO_LARGE) if work(square) > MOST_PRODUCTS else space(matrix)

@@ -9,6 +9,7 @@ from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant, work
 from dynsolve.algebra.pseudoinverse import is_solvable, rank_parts
+from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.rates import MOST_PRODUCTS, squared, wanted_by_accelerations, whole_or_task
 from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
@@ -244,6 +245,8 @@ _SPACES = {
 
 
 def _space(context: Context, name: str) -> Step:
+    if isinstance(context.values[name], Skipped):
+        return _space_left_out(name)
     space, form = _SPACES[name], context.matrix(name)
     at = AtState(context.robot.ring, context.robot.questions.state.by_symbol)
     J = at.matrix(context.values["Jr"])
@@ -263,3 +266,17 @@ def _space(context: Context, name: str) -> Step:
         notes=((dimension,),),
         detail=Detail.BRIEF,
     )
+
+
+def _space_left_out(name: str) -> Step:
+    """A space whose vectors are too long to be written."""
+    space = _SPACES[name]
+    return Step(
+        id=name,
+        stage=Stage.RATES,
+        title=space.title,
+        why=(space.why, space.condition, ". In symbols its vectors are too long to be read: give the ",
+             "coordinates values under `state`.",),
+        source=spong("4.9"),
+        detail=Detail.BRIEF,
+    )  # fmt: skip

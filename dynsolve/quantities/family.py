@@ -39,6 +39,8 @@ class Owner(Enum):
     """A point that the exercise names."""
     LOAD = 7
     """A force from outside."""
+    TASK = 8
+    """A component of the task."""
 
 
 class Kind(Enum):

@@ -14,7 +14,7 @@ from dynsolve.quantities.family import Family, Owner, Size
 from dynsolve.quantities.spelling import key, open_index, other_names, subscripts
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType, Robot
-from dynsolve.robot.questions import Method, Questions
+from dynsolve.robot.questions import Method, Questions, component_names
 from dynsolve.robot.units import LENGTH, Dimension, times
 
 Shape = tuple[int, int] | None
@@ -33,9 +33,10 @@ class Owners:
     """The owners of a robot's quantities: rows of its table, coordinates, bodies and points by name, forces.
 
     `points` are the bodies without inertia, `named` the points that the exercise names.
-    `stages` are those of which something is asked, `task_rows` the components of the task;
-    a twist is a task that is no function r(q).  `rates` says whether its velocity, and its
-    acceleration, is given; `actions` what acts beside gravity: friction, springs, motors.
+    `stages` are those of which something is asked, `task_rows` the components of the task, and
+    `task_names` what else each of them is called where the task is a function r(q), which a twist is
+    not.  `rates` says whether its velocity, and its acceleration, is given; `actions` what acts beside
+    gravity: friction, springs, motors.
     """
 
     rows: int
@@ -46,6 +47,7 @@ class Owners:
     stages: frozenset[Stage] = frozenset()
     loads: int = 0
     task_rows: int = 0
+    task_names: tuple[tuple[str, ...], ...] = ()
     is_twist: bool = False
     rates: frozenset[str] = frozenset()
     actions: frozenset[str] = frozenset()
@@ -65,6 +67,7 @@ class Owners:
             stages=asked_stages(asked),
             loads=len(asked.loads),
             task_rows=asked.task.rows if asked.task else 0,
+            task_names=component_names(asked.task) if asked.task else (),
             is_twist=asked.task is not None and asked.task.is_twist,
             rates=given_rates(asked),
             actions=robot.actions.kinds,
@@ -95,6 +98,7 @@ class Owners:
             Owner.COORDINATE: len(self.coordinates),
             Owner.POINT: len(self.named),
             Owner.LOAD: self.loads,
+            Owner.TASK: len(self.task_names),
         }
         if owner in count:
             return ((i,) for i in range(1, count[owner] + 1))
@@ -104,7 +108,7 @@ class Owners:
     def template_values(self, owner: Owner, index: tuple[int, ...]) -> dict[str, str]:
         """The values of the fields in a family's templates; see `dynsolve.quantities.family`."""
         match owner:
-            case Owner.ROW | Owner.LOAD:
+            case Owner.ROW | Owner.LOAD | Owner.TASK:
                 return {"i": str(index[0])}
             case Owner.BODY:
                 return {"b": self.bodies[index[0] - 1]}
@@ -242,7 +246,11 @@ class Quantities(Mapping[str, Quantity]):
         """Templates of its family, filled in; each once."""
         owner = quantity.family.owner
         values = self.owners.template_values(owner, quantity.index)
-        names = [{}] if owner is not Owner.COORDINATE else self._coordinate_names[quantity.index[0] - 1]
+        names: list[dict[str, str]] = [{}]
+        if owner is Owner.COORDINATE:
+            names = self._coordinate_names[quantity.index[0] - 1]
+        elif owner is Owner.TASK:
+            names = [{"name": name} for name in self.owners.task_names[quantity.index[0] - 1]]
         return iter(dict.fromkeys(text.format(**values, **more) for text in templates for more in names))
 
     @cached_property

@@ -95,6 +95,16 @@ R = Family(
     name="r", stage=Stage.TASK, shape=("m", 1), letter=of_robot(letters.TASK), spellings=("p", "pe", "ptip")
 )
 
+R_ENTRY = Family(
+    name="r{i}",
+    rule="r",
+    owner=Owner.TASK,
+    stage=Stage.TASK,
+    letter=lambda robot, i: letters.entry("r", i),
+    spellings=("{name}",),
+    part_of="r",
+)
+
 JR = Family(
     name="Jr", stage=Stage.TASK, shape=("m", "n"), letter=of_robot(letters.J_TASK), spellings=("J", "Ja")
 )

@@ -142,6 +142,11 @@ def of_load(index: int) -> Letter:
     return bold("Q", bold("F", Number(index)))
 
 
+def static_torque(robot: object, i: int) -> Letter:
+    """τ_{static,i}, an entry of the torques that hold the arm at rest."""
+    return Letter("tau", Row((Words("static,"), Number(i))))
+
+
 def in_link(base: str, i: int, dots: int = 0) -> Letter:
     """A vector of link i along the axes of its own frame: ω_i^i, f_i^i."""
     return bold(base, Number(i), Number(i), dots)

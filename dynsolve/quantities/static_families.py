@@ -43,5 +43,24 @@ TAU_STATIC = Family(
     spellings=("taus", "taust", "tau0", "tau"),
 )
 
-FAMILIES: tuple[Family, ...] = (LOAD, Q, TAU_STATIC)
+Q_ENTRY = Family(
+    name="Q{i}",
+    rule="Q",
+    owner=Owner.COORDINATE,
+    stage=Stage.STATICS,
+    letter=lambda robot, i: letters.entry("Q", i),
+    part_of="Q",
+)
+
+TAU_STATIC_ENTRY = Family(
+    name="tau_static{i}",
+    rule="tau_static",
+    owner=Owner.COORDINATE,
+    stage=Stage.STATICS,
+    letter=letters.static_torque,
+    spellings=("taus{i}", "tau{i}", "tau{q}", "{force}"),
+    part_of="tau_static",
+)
+
+FAMILIES: tuple[Family, ...] = (LOAD, Q, Q_ENTRY, TAU_STATIC, TAU_STATIC_ENTRY)
 """The records above, in their order."""

@@ -69,6 +69,23 @@ def coordinate_of(point: str, axis: int) -> Reference:
     return Reference(point, axis + 1, 1)
 
 
+_AXES = "xyz"
+
+
+def component_names(task: Task) -> tuple[tuple[str, ...], ...]:
+    """What else each component of r(q) is called, where it is a coordinate of a point: x, px, xtip."""
+    return () if task.is_twist else tuple(map(_names_of, task.entries))
+
+
+def _names_of(entry: Node) -> tuple[str, ...]:
+    if not isinstance(entry, Reference) or entry.row is None:
+        return ()
+    axis = _AXES[entry.row - 1]
+    if entry.quantity != TIP:
+        return f"{axis}{entry.quantity}", f"p{entry.quantity}{axis}"
+    return axis, f"p{axis}", f"{axis}e", f"{axis}tip", f"tip{axis}"
+
+
 def points_of(task: Task) -> tuple[str, ...]:
     """The points whose coordinates stand in a task, each once."""
     found = (part.quantity for part in walk(*task.entries) if isinstance(part, Reference))

@@ -7,7 +7,8 @@ gives exactly the value that the student's own nearest answers lead to; where no
 differs is said (`differences`), and no more.  `diagnoser` decides that, and tries the
 explanations one after the other, the nearest first, in the order of the list at its end:
 
-    steps            this step done otherwise, from the student's own inputs
+    steps            this step done otherwise, from the student's own inputs (`kinematic_steps`: of what
+                     exercises ask of the kinematics)
     one_place        one factor where another belongs (`factors` has the pairs), a sign, a number,
                      a missing term; `exchanges` names these and makes their words of the mend
     substitution     one symbol, angle or function for another throughout

@@ -87,8 +87,8 @@ class Redoing:
         return mine == self.wrong and not mine.is_zero
 
     def applied(self, mine: Expr) -> Expr:
-        """What the right step gives."""
-        return mine - self.wrong + self.right
+        """What the right step gives, which may be a fraction."""
+        return self.right if mine == self.wrong else mine - self.wrong + self.right
 
 
 def mends(all_of: Iterable[Mend], mine: Expr, expected: Expr) -> bool:

@@ -49,6 +49,13 @@ gravity: [0, -g, 0]
 masses: [{mass: m1, link: 1, center: midpoint, inertia: {zz: I1}, about: joint}]
 """
 
+_HELD = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+velocity: [v, 0]
+forces: [{link: 2, force: [0, F, 0], moment: [0, 0, M]}]
+find: [qd, Q, tau_static]
+"""
+
 _SLIPS = (
     Slip("sign", "a sign", "The sign of {term} is wrong.", "Go through the signs of this term once more.",
          Example(_RP, "tau1", "(I1zz + m2*L2^2)*theta1_ddot - 2*m2*L2*L2_dot*theta1_dot")),
@@ -277,6 +284,12 @@ _SLIPS = (
 convention: modified
 dh: [{theta: q1*}, {theta: q2*, a: l1}, {a: l2}]
 """, "DH", [["q1", "0", "l1", "0"], ["q2", "0", "l2", "0"]])),
+    Slip("dh_shifted", "the convention",
+         "a and α stand one row too {yours}: the rows are those of the {other} convention, and the {part} "
+         "one is asked for.",
+         "In Spong's table a row ends with a and α, in Craig's it begins with those of the row before.",
+         Example("elbow-3r", "DH", [["theta1", "L1", "0", "0"], ["theta2", "0", "0", "90deg"],
+                                    ["theta3", "0", "L2", "0"]])),
     Slip("dh_sense", "the sense of a joint",
          "{yours}; here every coordinate has to be counted as it is given.",
          "Choose the direction of each z, and where each joint is at 0, as they are given.",
@@ -299,6 +312,30 @@ masses: [{mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}]
 parameters: {known: [l1, g]}
 find: [Y, a]
 """, "a", [["I1"], ["m1"]])),
+    Slip("tool_frame", "the frame of a vector",
+         "Your matrix is seen from frame {part}; it is asked for along the axes of the base.",
+         "Its columns are vectors: z and o belong in the same frame.",
+         Example(_2R, "Jv", [["l1*sin(q2)", "0"], ["l1*cos(q2) + l2", "l2"], ["0", "0"]])),
+    Slip("transpose_for_inverse", "the transpose for the inverse",
+         "The velocity is multiplied by the transpose of the Jacobian, which takes forces to torques.",
+         "Solve J q̇ = ṙ for q̇, and put what you find into it.",
+         Example(_HELD, "qd", [["-l1*sin(q1)*v - l2*sin(q1 + q2)*v"], ["-l2*sin(q1 + q2)*v"]])),
+    Slip("load_sign", "the sign of the forces",
+         "The forces from outside have the wrong sign: at rest the joints give g - Q.",
+         "Ask who pushes: what acts on the arm is held by the opposite.",
+         Example(_HELD, "tau_static", [["l1*cos(q1)*F + l2*cos(q1 + q2)*F + M"], ["l2*cos(q1 + q2)*F + M"]])),
+    Slip("moments_left_out", "a moment left out", "The moment that acts from outside is left out.",
+         "A moment M gives J_ωᵀ M, beside J_vᵀ F of the force.",
+         Example(_HELD, "Q", [["l1*cos(q1)*F + l2*cos(q1 + q2)*F"], ["l2*cos(q1 + q2)*F"]])),
+    Slip("weight_left_out", "the weight left out", "The weight of the arm is left out.",
+         "At rest the joints hold the weight too: g - Q.",
+         Example("""
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}]
+masses: [{mass: m1, link: 1}]
+forces: [{link: 1, force: [0, F, 0]}]
+find: [tau_static]
+""", "tau_static", [["-l1*cos(q1)*F"]])),
     Slip("shape", "the size of the matrix", "{yours}", "Count rows and columns.",
          Example(_2R, "g", [["m2*lc2*g*cos(q1)"]])),
 )  # fmt: skip

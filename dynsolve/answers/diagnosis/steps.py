@@ -13,6 +13,7 @@ from typing import Any
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.diagnosis import kinematic_steps
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.verdict import Diagnosis
 from dynsolve.derivation import energy, inertia, jacobian, kinematics, vectorized
@@ -319,6 +320,7 @@ _OF_ROBOT: dict[Family, Callable[[Robot, InputValue], Iterator[Variant]]] = {
     families.D: _inertia_matrix,
     families.CQD: _coriolis,
     families.G: _gravity,
+    **kinematic_steps.OF_ROBOT,
 }
 
 _OF_ROW: dict[Family, Callable[[Robot, Joint, InputValue], Iterator[Variant]]] = {

@@ -125,6 +125,13 @@ def test_what_nobody_could_read_is_left_out_and_said_to_be() -> None:
     assert [a.verdict for a in check(problem, submission).answers if a.given] == ["unreadable"]
 
 
+def test_spaces_whose_vectors_are_too_long_are_left_out() -> None:
+    solution = dynsolve.solve(LONG + "task: twist\nfind: [nullspace, lost]\n")
+    results = solution.to_json()["results"]
+    assert results["nullspace"] == results["lost"] == {"skipped": "multiplied out it is too large to be read"}
+    assert [step.id for step in solution.steps if step.stage == "rates"] == ["nullspace", "lost"]
+
+
 def test_at_a_state_it_is_not_too_large() -> None:
     state = "state: {q1: 0, q2: 90deg, q3: 0, q4: 90deg, q5: 0, q6: 0}\n"
     text = LONG + "task: [tip.x, tip.y, tip.z]\nvelocity: [v, 0, 0]\n" + state + "find: [qd]\n"

@@ -84,3 +84,20 @@ def test_notations(written: str, name: str) -> None:
 def test_without_questions_no_such_answer_exists() -> None:
     report = judge("planar-2r", {"Jr": [["1"]]})
     assert "no quantity of this problem" in next(a for a in report.answers if a.name == "Jr").fault
+
+
+REACHING = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+points: {A: {link: 1, at: tip}}
+task: [tip.x, A.y, q1 + q2]
+find: [r]
+"""
+
+
+@pytest.mark.parametrize("names", [("r_1", "r_2", "r_3"), ("x", "y_A", "r_3"), ("p_x", "p_{A,y}", "r_3")])
+def test_components_of_the_task_may_be_written_alone(names: tuple[str, ...]) -> None:
+    values = ("l_1 c_1 + l_2 c_{12}", "l_1 s_1", "q_1 + q_2")
+    text = "\n\n".join(f"$${name} = {value}$$" for name, value in zip(names, values, strict=True))
+    problem = read_problem(REACHING, "own.yaml")
+    found = verdicts(check(problem, FileReader(problem)(text, "report.md")))
+    assert found == {"r": "correct", "r1": "correct", "r2": "correct", "r3": "correct"}

@@ -65,3 +65,11 @@ def test_the_jacobian_of_the_task_may_be_made_of_rows_of_that_of_the_arm() -> No
     J = [["-l1*sin(q1)", "-l2*sin(q2)"], ["l1*cos(q1)", "l2*cos(q2)"], ["0", "0"]]
     found = verdicts(judge(PLANAR.replace(", q1 + q2]", "]"), {"Jv": J, "Jr": J[:2]}))
     assert (found["Jv"], found["Jr"]) == ("wrong", "follows")
+
+
+def test_entries_may_be_written_alone() -> None:
+    problem = read_problem(HELD, "own.yaml")
+    text = b"$$\\tau_1 = F l_2 s_2$$\n\n$$\\tau_2 = F l_2 s_2$$\n\n$$Q_1 = F l_2 s_2$$\n"
+    found = verdicts(check(problem, FileReader(problem)(text, "report.md")))
+    assert found["tau_static"] == "correct"
+    assert found["Q1"] == "wrong"

@@ -1,0 +1,88 @@
+"""Slips in the steps of what exercises ask of the kinematics: Jacobians, rates, forces at rest.
+
+Each function gives, as those of `steps` do, what comes out when a step goes wrong in a way that people do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from dynsolve.algebra.at_state import AtState
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.answers.diagnosis.slips import slip
+from dynsolve.answers.verdict import Diagnosis
+from dynsolve.derivation import kinematics, statics
+from dynsolve.derivation.static_rules import jacobians
+from dynsolve.quantities import families, static_families
+from dynsolve.quantities import kinematic_families as asked
+from dynsolve.quantities.family import Family
+from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import Load
+
+Variant = tuple[Any, Diagnosis]
+InputValue = Callable[[str], Any]
+
+
+def _in_last_frame(name: str) -> Callable[[Robot, InputValue], Iterator[Variant]]:
+    """R_nᵀ J: the Jacobian along the axes of the last frame."""
+
+    def variants(robot: Robot, value: InputValue) -> Iterator[Variant]:
+        last = len(robot.joints)
+        R = kinematics.rotation(value(f"H{last}"))
+        if Matrix.identity(robot.ring, 3) != R:
+            yield R.T @ value(name), slip("tool_frame", part=str(last))
+
+    return variants
+
+
+def _joint_rates(robot: Robot, value: InputValue) -> Iterator[Variant]:
+    """J_rᵀ ṙ in place of J_r⁻¹ ṙ."""
+    questions = robot.questions
+    if questions.velocity is not None:
+        at = AtState(robot.ring, questions.state.by_symbol)
+        yield at.matrix(value("Jr")).T @ at.matrix(questions.velocity), slip("transpose_for_inverse")
+
+
+def _forces(robot: Robot, value: InputValue) -> Iterator[Variant]:
+    at, loads = _at(robot), robot.questions.loads
+    if any(not load.moment.is_zero for load in loads) and any(not load.force.is_zero for load in loads):
+        yield at.matrix(_without_moments(robot, value)), slip("moments_left_out")
+
+
+def _holding(robot: Robot, value: InputValue) -> Iterator[Variant]:
+    g, Q, at = _weight(robot, value), value("Q"), _at(robot)
+    yield g + Q, slip("load_sign")
+    if any(not load.moment.is_zero for load in robot.questions.loads):
+        yield g - at.matrix(_without_moments(robot, value)), slip("moments_left_out")
+    if not g.is_zero:
+        yield -Q, slip("weight_left_out")
+
+
+def _weight(robot: Robot, value: InputValue) -> Matrix:
+    none = Matrix.zero(robot.ring, robot.n, 1)
+    return _at(robot).matrix(value("g")) if robot.bodies else none
+
+
+def _without_moments(robot: Robot, value: InputValue) -> Matrix:
+    """Σ J_vᵀ F."""
+    return statics.total(robot, tuple(_of_force(robot, load, value) for load in robot.questions.loads))
+
+
+def _of_force(robot: Robot, load: Load, value: InputValue) -> Matrix:
+    frames = tuple(value(name) for name in kinematics.frame_names(load.link))
+    linear, _ = jacobians(robot, load, frames)
+    force, _ = statics.wrench(load, frames[load.link])
+    return linear.T @ force
+
+
+def _at(robot: Robot) -> AtState:
+    return AtState(robot.ring, robot.questions.state.by_symbol)
+
+
+OF_ROBOT: dict[Family, Callable[[Robot, InputValue], Iterator[Variant]]] = {
+    families.JV: _in_last_frame("Jv"),
+    asked.QD: _joint_rates,
+    static_families.Q: _forces,
+    static_families.TAU_STATIC: _holding,
+}
