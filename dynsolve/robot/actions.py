@@ -7,7 +7,8 @@ says none of this has `NOTHING_ACTS`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 from dynsolve.algebra.expr import Expr
 
@@ -83,3 +84,34 @@ class Actions:
 
 
 NOTHING_ACTS = Actions()
+
+
+def values_of(actions: Actions) -> Iterator[Expr]:
+    """Every value in them."""
+    for friction in actions.friction:
+        yield from (friction.viscous, friction.coulomb)
+    for damper in actions.dampers:
+        yield from (damper.damping, damper.of)
+    for spring in actions.springs:
+        yield spring.energy
+        if spring.law is not None:
+            yield from (spring.law.stiffness, spring.law.of, spring.law.rest)
+    for motor in actions.motors:
+        yield from (motor.inertia, motor.ratio)
+
+
+def with_values(actions: Actions, changed: Callable[[Expr], Expr]) -> Actions:
+    """The same with every value changed, into those of another ring for example."""
+
+    def law(found: Elastic | None) -> Elastic | None:
+        return found and Elastic(changed(found.stiffness), changed(found.of), changed(found.rest))
+
+    return replace(
+        actions,
+        friction=tuple(
+            replace(f, viscous=changed(f.viscous), coulomb=changed(f.coulomb)) for f in actions.friction
+        ),
+        dampers=tuple(Damper(changed(d.damping), changed(d.of)) for d in actions.dampers),
+        springs=tuple(Spring(changed(s.energy), law(s.law)) for s in actions.springs),
+        motors=tuple(replace(m, inertia=changed(m.inertia), ratio=changed(m.ratio)) for m in actions.motors),
+    )

@@ -30,6 +30,7 @@ from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.problem.model import Problem
 from dynsolve.problem.questions_build import default_task
+from dynsolve.robot.actions import with_values
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.questions import Load, NamedPoint, Questions
 
@@ -87,6 +88,8 @@ class _Own:
     def robot(self, sense: Sense) -> Robot:
         """The robot in the student's frames."""
         key, start = self.key, self.places.start
+        if any(motor.carrier for motor in key.actions.motors):
+            raise NotExact  # the axis of the rotor is one of the key's frame
         place = Displacement(self.places.moved(key.base_rotation), self.places.moved(key.base_position))
         world = Displacement(Matrix.identity(self.ring, 3), Matrix.zero(self.ring, 3, 1))
         gravity = self.places.moved(key.gravity)
@@ -101,6 +104,7 @@ class _Own:
             joints=tuple(self._joint(i, row) for i, row in enumerate(self.places.table, 1)),
             bodies=tuple(self._body(body, self.places.changes[body.link]) for body in key.bodies),
             gravity=seen @ gravity,
+            actions=with_values(key.actions, self.places.moved_value),
             base_rotation=world.R,
             base_position=world.o,
             parameters=tuple(name for name in self.ring.parameters if name != "pi"),

@@ -25,9 +25,10 @@ from dynsolve.answers.judging.mechanism.comparison import Agreement, OwnCoordina
 from dynsolve.answers.judging.mechanism.restated import Count, Counts, restated, restated_state
 from dynsolve.answers.judging.mechanism.tables import Table, key_table
 from dynsolve.notation.build import times, total
-from dynsolve.notation.tree import ZERO, Degrees, Function, Negative, Node, Reference
+from dynsolve.notation.tree import ZERO, Degrees, Function, Negative, Node, Reference, Symbol
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.walk import mapped
+from dynsolve.robot.actions import values_of
 from dynsolve.robot.geometry import elementary
 from dynsolve.robot.model import Convention, Joint, JointType, Robot
 from dynsolve.robot.parallel import Turn, absolute_angles
@@ -82,6 +83,7 @@ class OwnPlaces:
         coordinates = [(q.name, q.type.value) for q in key.coordinates]
         trees = [restated(self.form(value), self.counts) for value in self._key_values()]
         trees += [cell for row in self.table for cell in row.constants[1:3]]
+        trees += [Function("sgn", Symbol(names[f.coordinate], dots=1)) for f in key.actions.friction]
         trees += self._asked_trees({}) + self._asked_trees(self.counts)
         turns = [
             Turn(self.theta(i), alpha, row.variable == 0)
@@ -111,6 +113,7 @@ class OwnPlaces:
         matrices += [m for m in (asked.velocity, asked.acceleration) if m is not None]
         for matrix in matrices:
             yield from matrix.entries
+        yield from values_of(key.actions)
         yield from (length for joint in key.joints for length in (joint.d, joint.a))
 
     def _asked_trees(self, counts: Counts) -> list[Node]:
@@ -152,6 +155,10 @@ class OwnPlaces:
     def value(self, tree: Node) -> Expr:
         """The value of a formula in this ring."""
         return value_of(self.ring, tree)
+
+    def moved_value(self, value: Expr) -> Expr:
+        """A value of the key in this ring, in the student's coordinates."""
+        return self.value(restated(self.form(value), self.counts))
 
     def moved(self, matrix: Matrix) -> Matrix:
         """A matrix of the key in this ring, in the student's coordinates."""

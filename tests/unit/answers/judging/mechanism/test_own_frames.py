@@ -134,6 +134,15 @@ forces:
   - {link: 2, at: {along: 1/2}, force: [0, N, 0], in: link}
 find: [DH, r, Jr, Jr_dot, det, qd, pA, JvA, Q, tau_static, D, g]
 """
+SPRUNG = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+friction: {q2: {viscous: fv, coulomb: fc}}
+springs: [{stiffness: k, of: q2 - q1, rest: delta}]
+motors: [{turns: q2, inertia: Im, ratio: kr}]
+find: [DH, D, g]
+"""
 OTHER: dict[str, tuple[str, list[list[str]], dict[str, tuple[int, float]]]] = {
     # problem, table, the key's coordinates in the student's: q = sense q' + shift
     "axes from the base": (
@@ -143,6 +152,8 @@ OTHER: dict[str, tuple[str, list[list[str]], dict[str, tuple[int, float]]]] = {
         REMOTE, [["p1 + 90deg", "0", "l1", "0"], ["p2 - p1", "0", "l2", "0"]], {}),
     "driven from afar, the other way": (
         REMOTE, [["p1", "0", "l1", "180deg"], ["p1 - p2 + 90deg", "0", "l2", "0"]], {"p2": (1, -pi / 2)}),
+    "springs, friction and a motor": (
+        SPRUNG, [["q1", "0", "l1", "180deg"], ["q2 + 90deg", "0", "l2", "0"]], {"q2": (-1, -pi / 2)}),
     "a task and forces": (
         LOADED, [["q1", "h", "0", "-90deg"], ["q2 - 90deg", "0", "l2", "0"], ["q3", "0", "l3", "180deg"]],
         {"q2": (-1, pi / 2), "q3": (-1, 0)}),
