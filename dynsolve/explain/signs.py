@@ -23,6 +23,8 @@ from dynsolve.notation.tree import Function, Letter, Node, Number, Sum, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
+from dynsolve.quantities.index import stages_of
+from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Convention, Robot
 from dynsolve.robot.parallel import Turn, parallel_groups
 
@@ -37,6 +39,10 @@ ALTERNATIVES: dict[tuple[str, int], str] = {
     ("f", 1): "F",
 }
 """Base and number of lower indices of a scalar of the textbook -> the letter that stands in for it."""
+
+
+CONSTANTS_OF_SOLUTIONS = "ABDXY"
+"""What a solution of inverse kinematics calls what stands beside its sines and cosines."""
 
 
 def report_style(robot: Robot, digits: int | None = None) -> Style:
@@ -85,6 +91,9 @@ def _own(robot: Robot, style: Style) -> Iterator[str]:
     for body in robot.bodies:
         if body.shape is not None and body.shape.formulas:
             names += (letter for letter, _ in body.shape.letters)  # those of the formulas of its moments
+    names += robot.questions.reached
+    if Stage.INVERSE in stages_of(robot):
+        names += CONSTANTS_OF_SOLUTIONS
     yield from _printed(map(Symbol, names))
     yield from map(UnicodePrinter(style).text, shorthands(robot, style))
 
@@ -119,7 +128,7 @@ def _scalars(robot: Robot, base: str, count: int) -> Iterator[Node]:
 def _vectors(robot: Robot) -> Iterator[Letter]:
     """The bold letters of the textbook."""
     yield from (letters.J, letters.Q, letters.D, letters.C, letters.G, letters.GRAVITY, letters.TAU)
-    yield from map(letters.bold, ("N", "E", "r", "v", "omega", "x", "z", "o"))
+    yield from map(letters.bold, ("A", "N", "E", "U", "r", "v", "omega", "x", "z", "o"))
     numbered: tuple[Callable[[int], Letter], ...] = (letters.A, letters.z, letters.o, _bold("x"), _bold("J"))
     frames = [letter(i) for letter in numbered for i in range(len(robot.joints) + 1)]
     yield from frames

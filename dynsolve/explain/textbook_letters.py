@@ -9,6 +9,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from dynsolve.explain.sign_kinds import MOTIONS, Kind, kind_of
+from dynsolve.explain.signs import CONSTANTS_OF_SOLUTIONS
 from dynsolve.explain.writing import machine, side_by_side
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style
@@ -141,7 +142,7 @@ def _questions(robot: Robot) -> Iterator[Line]:
     yield _line(letters.J_TASK, "Jacobian of the task; with + its pseudoinverse", "", ("J", "bold", "r^"))
     yield _line(letters.WEIGHTS, "weights of the joint rates")
     yield _line([letters.bold("w"), _numbered("w")], "direction that is lost where the arm is singular")
-    yield _line([Letter(name) for name in "ABDXY"], "constants of a solution, given where they stand")
+    yield _line([Letter(name) for name in CONSTANTS_OF_SOLUTIONS], "constants of a solution, given where they stand")
     yield _line(Symbol("psi"), "angle that is sought", "rad", ("", "name", "psi"))
     yield _line(_numbered("F"), "force from outside", "N")
     yield _line([_numbered("M"), _body("M")], "moment from outside, its size", "N m")

@@ -22,10 +22,10 @@ from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.notation.walk import children
 from dynsolve.render import latex, markdown
 from dynsolve.solution.documents import solution_document
-from tests.support import STEMS
+from tests.support import ALL_PROBLEMS
 
 LONG = ["puma560", "stanford-6"]
-SHORT = sorted(STEMS - {*LONG, "panda-7r"})
+SHORT = sorted({path.stem for path in ALL_PROBLEMS} - {*LONG, "panda-7r"})
 PROBLEMS = [*SHORT, *(pytest.param(name, marks=pytest.mark.slow) for name in LONG)]
 
 # Names that look like the textbook's letters: entries of D and g, energies, a force, an axis, the Jacobian

@@ -16,6 +16,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.summary import TITLE
 from tests.robots import robots
+from tests.support import STEMS
 
 
 @lru_cache
@@ -64,8 +65,15 @@ def test_the_terms_of_any_robot_make_its_forces(problem: str) -> None:
         assert sum(values, start=solution.robot.ring.zero) == solution.values[f"tau{q.index}"]
 
 
-@pytest.mark.parametrize("detail", Detail)
-@pytest.mark.parametrize("problem", ["in3140-rp", "planar-2r", "elbow-3r", "scara-rrpr"])
+IN_EVERY_DETAIL = {"in3140-rp", "planar-2r", "elbow-3r", "scara-rrpr"}
+LONG = {"puma560", "stanford-6", "panda-7r"}
+CLOSED = [
+    *((problem, detail) for problem in sorted(IN_EVERY_DETAIL) for detail in Detail),
+    *((problem, Detail.NORMAL) for problem in sorted(STEMS - IN_EVERY_DETAIL - LONG)),
+]
+
+
+@pytest.mark.parametrize(("problem", "detail"), CLOSED)
 def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> None:
     blocks = solution_document(solved(problem), detail).blocks
     *_, last, verification = (place for place, block in enumerate(blocks) if isinstance(block, Heading))

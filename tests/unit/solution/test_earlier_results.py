@@ -12,9 +12,11 @@ from dynsolve.document import Block, Fold, Formula, Uses
 from dynsolve.render import markdown
 from dynsolve.render.references import numbered
 from dynsolve.solution.documents import solution_document
-from tests.support import STEMS
+from tests.support import ALL_PROBLEMS
 
-SHORT = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
+LONG = ["puma560", "stanford-6"]
+SHORT = sorted({path.stem for path in ALL_PROBLEMS} - {*LONG, "panda-7r"})
+PROBLEMS = [*SHORT, *(pytest.param(name, marks=pytest.mark.slow) for name in LONG)]
 
 
 @lru_cache
@@ -51,7 +53,7 @@ def test_c_is_made_of_all_christoffel_symbols() -> None:
     assert labels == ("christoffel", *(f"christoffel-{k}" for k in range(2, 8)))
 
 
-@pytest.mark.parametrize("problem", SHORT)
+@pytest.mark.parametrize("problem", PROBLEMS)
 def test_a_reference_is_to_an_equation_before_it(problem: str) -> None:
     document = solution_document(dynsolve.solve(problem))
     numbers = numbered(document)
