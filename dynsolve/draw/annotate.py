@@ -31,7 +31,8 @@ from dynsolve.draw.vectors import (
     unit,
 )
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Node, Row, Symbol, Words
+from dynsolve.notation.tree import Node, Number, Row, Symbol, Words
+from dynsolve.quantities import letters
 from dynsolve.robot.model import JointType
 
 _END_ON = 0.06
@@ -82,7 +83,7 @@ def frames(pose: Pose, notes: Notes) -> None:
     for i, frame in enumerate(pose.skeleton.frames):
         origin = view.point(frame.origin)
         for letter, axis in (("x", frame.x), ("z", frame.z)):
-            name = Symbol(f"{letter}{i}")
+            name = letters.bold(letter, Number(i))
             tip = _axis(origin, axis, pose, notes)
             known = next(
                 (g for g in groups if math.dist(g[1], tip) < _SAME and math.dist(g[0], origin) < _SAME), None
@@ -200,7 +201,8 @@ def masses(pose: Pose, notes: Notes) -> None:
             origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
             notes.draw(Path(paths.line(origin, center), paths.BLACK, 0.9, dashed=True))
         notes.draw(*(_ball(center) if mass.is_point else _quartered(center)))
-        notes.label(Symbol(f"rc{mass.name}"), [center], (0.0, 0.0), paths.BLACK, "mass", _MARK)
+        name = letters.bold("r", Row((Words("c"), letters.index_of(mass.name))))
+        notes.label(name, [center], (0.0, 0.0), paths.BLACK, "mass", _MARK)
 
 
 def _is_on_link(center: Point, pose: Pose) -> bool:

@@ -13,7 +13,7 @@ from dynsolve.draw.paths import Commands, Path
 from dynsolve.draw.scene import Scene
 from dynsolve.draw.svg import number
 from dynsolve.draw.typography import SIZE
-from dynsolve.notation.latex import to_latex
+from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Row, Words
 
@@ -85,11 +85,18 @@ def _colour(colour: str) -> str:
     return " ".join(f"{int(colour[k : k + 2], 16) / 255:.3f}" for k in (1, 3, 5))
 
 
+class _Printer(LatexPrinter):
+    """LaTeX that needs no package for a word."""
+
+    def _words(self, node: Words) -> str:
+        return rf"\mathrm{{{node.text}}}"
+
+
 def _formula(node: Node, style: Style) -> str:
     """A label's formula; a list of names needs no package for its commas."""
     if isinstance(node, Row):
-        return ",\\ ".join(to_latex(part, style) for part in node.parts if not isinstance(part, Words))
-    return to_latex(node, style)
+        return ",\\ ".join(_formula(part, style) for part in node.parts if not isinstance(part, Words))
+    return _Printer(style).text(node)
 
 
 def _label(label: Label, scene: Scene) -> str:

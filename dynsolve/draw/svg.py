@@ -81,7 +81,7 @@ def _label(label: Label) -> str:
 
 
 def _run(run: Run, drop: float) -> str:
-    attributes = ' font-style="italic"' if run.italic else ""
+    attributes = ' font-style="italic"' if run.italic else ' font-weight="bold"' if run.bold else ""
     if run.size != SIZE:
         attributes += f' font-size="{number(run.size)}"'
     if run.gap:

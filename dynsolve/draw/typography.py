@@ -1,4 +1,4 @@
-"""Formulas as runs of letters: italics, upright digits, indices below and the star above the line.
+"""Formulas as runs of letters: italics, bold vectors, upright digits, indices below and the star above the line.
 
 Widths are those of a book face, on the generous side, so that whatever face shows
 the picture, a label stays within its box.
@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.names import split
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.tree import Letter, Node, Number, Symbol, Words
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.notation.walk import walk
 
 SIZE = 17.0
 """The size of a label's letters in picture units."""
@@ -23,6 +24,9 @@ INDEX = 0.7
 
 _DROP, _RISE = 0.24, 0.36
 _DOWN, _UP, _BACK = "\ue000", "\ue001", "\ue002"
+_BOLD, _UPRIGHT, _SLANTED = "\ue003", "\ue004", "\ue005"
+_FACES = frozenset((_BOLD, _UPRIGHT, _SLANTED))
+_MARKS = frozenset((_DOWN, _UP, _BACK)) | _FACES
 _STAR = "∗"
 _SPACE = 0.25
 _PRINTED = {"-": "−", " ": "\u00a0"}
@@ -44,6 +48,7 @@ class Run:
     size: float
     shift: float
     gap: float = 0.0
+    bold: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +61,7 @@ class LabelLine:
 
 
 class _MarkedPrinter(UnicodePrinter):
-    """Unicode with marks where indices begin and end."""
+    """Unicode with marks where indices and bold letters begin and end."""
 
     def _symbol(self, node: Symbol) -> str:
         base, groups = split(node.name)
@@ -64,6 +69,24 @@ class _MarkedPrinter(UnicodePrinter):
         if groups:
             text += _DOWN + ",".join(_index(group) for group in groups) + _BACK
         return text + (_UP + _STAR + _BACK if self.style.starred(node) else "")
+
+
+    def _letter(self, node: Letter) -> str:
+        """A vector of the textbook: bold, with its index."""
+        index = "" if node.sub is None else _DOWN + "".join(map(_leaf, walk(node.sub))) + _BACK
+        return _BOLD + node.base + _SLANTED + index
+
+
+def _leaf(node: Node) -> str:
+    """What stands in an index: numbers, words and names."""
+    match node:
+        case Number(p):
+            return str(p)
+        case Words(text):
+            return _UPRIGHT + text + _SLANTED
+        case Symbol(name):
+            return _index(name)
+    return ""
 
 
 def _index(group: str) -> str:
@@ -78,14 +101,16 @@ def typeset(node: Node, style: Style) -> LabelLine:
 
 def _runs(marked: str) -> Iterator[Run]:
     """The pieces between marks, upright and slanted ones apart."""
-    size, shift, text, italic = SIZE, 0.0, "", False
+    size, shift, text, italic, face = SIZE, 0.0, "", False, _SLANTED
     for character in marked + _BACK:
-        slanted = character.isalpha()
-        if character in (_DOWN, _UP, _BACK) or slanted != italic:
+        slanted = character.isalpha() and face == _SLANTED
+        if character in _MARKS or slanted != italic:
             if text:
-                yield Run(text, italic, round(size, 2), round(shift, 2))
+                yield Run(text, italic, round(size, 2), round(shift, 2), bold=face == _BOLD)
             text, italic = "", slanted
-        if character == _DOWN:
+        if character in _FACES:
+            face = character
+        elif character == _DOWN:
             size, shift = SIZE * INDEX, SIZE * _DROP
         elif character == _UP:
             size, shift = SIZE * INDEX, -SIZE * _RISE

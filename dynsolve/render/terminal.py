@@ -112,7 +112,7 @@ class _Page(Page[StyledLine]):
         middle = (len(lines) - 1) // 2
         beside = source and width(lines[middle]) + len(source) + _INDENT + 3 <= self.columns
         for i, line in enumerate(lines):
-            text = " " * _INDENT + line.rstrip()
+            text = (" " * _INDENT + line).rstrip()
             if beside and i == middle:
                 text += " " * (min(self.columns, _PROSE) - width(text) - len(source)) + source
                 if width(text) < width(line) + _INDENT + 3 + len(source):

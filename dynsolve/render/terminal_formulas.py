@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from dynsolve.document import Formula
-from dynsolve.notation.tree import Letter, Matrix, Node, Relation
+from dynsolve.notation.tree import Letter, Matrix, Node, Relation, Row
 from dynsolve.notation.unicode import UnicodePrinter, width
 from dynsolve.render.matrices import entries_by_value, entry_name
-from dynsolve.render.terminal_boxes import TextBox, beside, matrix_box, matrix_width, pieces
+from dynsolve.render.terminal_boxes import TextBox, beside, boxed, matrix_box, matrix_width, pieces
 from dynsolve.render.terminal_breaking import break_sum
+from dynsolve.render.typesetting import listed
 
 _HANG = 4
 _LONGEST_HANG = 12
@@ -26,6 +28,8 @@ def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[st
         return list(beside(boxes).lines)
     if formula.optional and len(boxes) < len(groups):
         return []
+    if isinstance(formula.node, Row) and len(parts := list(listed(formula.node))) > 1:
+        return _set_several(parts, formula, printer, room)
     members = list(_members(groups))
     left = _width(members[0], room)
     hang = left + 1 if left + 1 <= _LONGEST_HANG else _HANG
@@ -38,6 +42,27 @@ def set_formula(formula: Formula, printer: UnicodePrinter, room: int) -> list[st
     for member in members[1:]:
         lines += _set_member(member, formula, printer, room, hang, hang + 2)
     return lines
+
+
+def _set_several(parts: Sequence[Node], formula: Formula, printer: UnicodePrinter, room: int) -> list[str]:
+    """Equations with commas between them, as many on one line as it holds."""
+    lines: list[str] = []
+    row = TextBox.of("")
+    for place, part in enumerate(parts):
+        comma = "," if place < len(parts) - 1 else ""
+        boxes = list(pieces(part, printer))
+        fits = all(isinstance(box, TextBox) or matrix_width(box, printer) < room for box in boxes)
+        box = beside([boxed(piece, printer) for piece in boxes]) if fits else None
+        if box is not None and box.width < room:
+            if row.width and row.width + 1 + box.width + len(comma) > room:
+                lines += [*_flushed(row), *([""] if len(row.lines) > 1 else [])]
+                row = TextBox.of("")
+            row = beside([row, TextBox.of(" " if row.width else ""), box, TextBox.of(comma)])
+        else:
+            *others, last = set_formula(replace(formula, node=part, optional=False), printer, room - 1)
+            lines += [*_flushed(row), *others, last + comma]
+            row = TextBox.of("")
+    return lines + _flushed(row)
 
 
 def _grouped(node: Node, printer: UnicodePrinter, room: int) -> Iterator[Group]:

@@ -17,7 +17,7 @@ from dynsolve.draw.skeleton import skeleton
 from dynsolve.draw.typography import typeset
 from dynsolve.draw.vectors import IDENTITY, applied, distance, into, turned
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Degrees, Number, Quotient, Sum, Symbol
+from dynsolve.notation.tree import Degrees, Letter, Number, Quotient, Row, Sum, Symbol, Words
 from dynsolve.problem import load, read_problem
 from tests.support import LIBRARY, TEXTBOOKS
 
@@ -107,6 +107,14 @@ def test_formulas_are_set_in_runs() -> None:
     assert [run.text for run in runs] == ["θ", "1", "∗", "+", "l", "c", "1", "/2\xa0+\xa090°"]
     assert [run.italic for run in runs[:6]] == [True, False, False, False, True, True]
     assert runs[1].shift > 0 > runs[2].shift and runs[3].gap > 0
+
+
+def test_vectors_are_bold_as_in_the_text() -> None:
+    runs = typeset(Letter("r", Row((Words("c"), Number(1))), style="bold"), Style()).runs
+    assert [(run.text, run.bold, run.italic) for run in runs] == [
+        ("r", True, False), ("c", False, False), ("1", False, False),
+    ]  # fmt: skip
+    assert runs[1].shift > 0
 
 
 @pytest.mark.parametrize("make", [to_pdf, to_png])

@@ -9,6 +9,7 @@ import pytest
 import dynsolve
 from dynsolve.document import Document, Fold, Formula, Heading, List, Note, Table, Text
 from dynsolve.explain.step import Detail
+from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Node, Number, Product, Transpose, equation
 from dynsolve.notation.unicode import width
@@ -50,6 +51,19 @@ def test_a_chain_that_does_not_fit_has_a_member_a_line() -> None:
     shown = lines(Formula(equation(Letter("H"), Product((wide, wide)), wide)), columns=100)
     row = "⎡abcd efgh  abcd efgh  abcd efgh  abcd efgh⎤"
     assert [line.rstrip() for line in shown[::2]] == [f"    H = {row} {row}", f"      = {row}", ""]
+
+
+def test_equations_on_one_line_that_do_not_fit_go_on_below_after_a_comma() -> None:
+    unit = matrix("1, 0", "0, 1")
+    matrices = side_by_side([equation(Letter("A", Number(k)), unit) for k in (1, 2, 3)])
+    assert lines(Formula(matrices), columns=35) == [
+        "    A₁ = ⎡1  0⎤, A₂ = ⎡1  0⎤,",
+        "         ⎣0  1⎦       ⎣0  1⎦",
+        "",
+        "    A₃ = ⎡1  0⎤",
+        "         ⎣0  1⎦",
+        "",
+    ]
 
 
 def test_a_matrix_too_wide_is_given_entry_by_entry() -> None:
