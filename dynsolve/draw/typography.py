@@ -1,4 +1,4 @@
-"""Formulas as runs of letters: italics, bold vectors, upright digits, indices below and the star above the line.
+"""Formulas as runs of letters: italics, bold vectors, upright digits, indices below, the star above the line.
 
 Widths are those of a book face, on the generous side, so that whatever face shows
 the picture, a label stays within its box.
@@ -69,7 +69,6 @@ class _MarkedPrinter(UnicodePrinter):
         if groups:
             text += _DOWN + ",".join(_index(group) for group in groups) + _BACK
         return text + (_UP + _STAR + _BACK if self.style.starred(node) else "")
-
 
     def _letter(self, node: Letter) -> str:
         """A vector of the textbook: bold, with its index."""

@@ -142,7 +142,9 @@ def _questions(robot: Robot) -> Iterator[Line]:
     yield _line(letters.J_TASK, "Jacobian of the task; with + its pseudoinverse", "", ("J", "bold", "r^"))
     yield _line(letters.WEIGHTS, "weights of the joint rates")
     yield _line([letters.bold("w"), _numbered("w")], "direction that is lost where the arm is singular")
-    yield _line([Letter(name) for name in CONSTANTS_OF_SOLUTIONS], "constants of a solution, given where they stand")
+    yield _line(
+        [Letter(name) for name in CONSTANTS_OF_SOLUTIONS], "constants of a solution, given where they stand"
+    )
     yield _line(Symbol("psi"), "angle that is sought", "rad", ("", "name", "psi"))
     yield _line(_numbered("F"), "force from outside", "N")
     yield _line([_numbered("M"), _body("M")], "moment from outside, its size", "N m")
