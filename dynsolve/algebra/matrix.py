@@ -94,6 +94,12 @@ class Matrix:
         return Matrix(self.ring, tuple((row[j],) for row in self.rows))
 
 
+def skew(a: Matrix) -> Matrix:
+    """S(a), 3×3, with S(a) b = a × b."""
+    (x, y, z), zero = a.entries, a.ring.zero
+    return Matrix(a.ring, ((zero, -z, y), (z, zero, -x), (-y, x, zero)))
+
+
 def cross(a: Matrix, b: Matrix) -> Matrix:
     """a × b of two 3×1 columns."""
     (x, y, z), (u, v, w) = a.entries, b.entries

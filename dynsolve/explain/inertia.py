@@ -15,6 +15,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.mass_centers import is_given_by, mass_center_step
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working.products import product_named
 from dynsolve.explain.writing import is_small, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
@@ -299,7 +300,14 @@ def _base_tensor(context: Context, body: Body) -> Step:
         formula=equation(*members[:2]),
         source=spong("7.2.1"),
         working=(equation(inertia_, members[2]),) if len(members) > 2 else (),
+        concluding=_turned_named(context, body) if len(members) > 2 else (),
         result=(equation(inertia_, base),),
         notes=notes,
         detail=Detail.BRIEF if is_small(base) else Detail.NORMAL,
     )
+
+
+def _turned_named(context: Context, body: Body) -> Prose:
+    """The identities by which R (I Rᵀ) becomes what is printed."""
+    R, given, base = (context.values[f"{letter}{body.name}"] for letter in ("R", "I_body", "I"))
+    return product_named(context, R, given @ R.T, base)

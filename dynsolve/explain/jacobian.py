@@ -7,10 +7,11 @@ from fractions import Fraction
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.jacobian import joint_frame
-from dynsolve.derivation.kinematics import origin
+from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working.products import product_named
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import block_of, column_of, craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
@@ -156,6 +157,7 @@ def _column(context: Context, q: Coordinate) -> Step:
     linear, angular = (column_of(context.matrix(name), k) for name in ("Jv", "Jw"))
     name = Letter("J", Number(q.index), style="bold")
     joint = _plain_joint(robot, k)
+    named = _turning_named(context, joint)
     return Step(
         id=f"J{q.index}",
         stage=STAGE,
@@ -163,7 +165,8 @@ def _column(context: Context, q: Coordinate) -> Step:
         why=(Symbol(q.name), *_column_why(context, q, joint)),
         formula=equation(name, column(*in_letters)),
         source=spong("4.6.3"),
-        working=_working(context, k, in_letters[0], linear),
+        working=_working(context, k, in_letters[0], None if named else linear),
+        concluding=named,
         result=(equation(name, Matrix(linear.rows + angular.rows)),),
         uses=("axes",),
     )
@@ -183,8 +186,20 @@ def _still_column(context: Context, q: Coordinate) -> Step:
     )
 
 
-def _working(context: Context, k: int, in_letters: Node, linear: Matrix) -> tuple[Node, ...]:
-    """The linear part with this robot's axes and levers put in, where there is anything to work out."""
+def _turning_named(context: Context, joint: Joint | None) -> Prose:
+    """The identities by which z × (o_n - o), worked out, becomes what is printed."""
+    if joint is None or joint.type is JointType.PRISMATIC:
+        return ()
+    z = axis(context.values[f"H{joint_frame(context.robot, joint)}"])
+    lever = _lever(context, joint)
+    return product_named(context, algebra.skew(z), lever, algebra.cross(z, lever))
+
+
+def _working(context: Context, k: int, in_letters: Node, linear: Matrix | None) -> tuple[Node, ...]:
+    """The linear part with this robot's axes and levers put in, where there is anything to work out.
+
+    Its value stands at the end, unless it is None: then an identity is named before the result.
+    """
     robot = context.robot
     moved = [(rate, joint) for joint in robot.joints for i, rate in joint.rates if i == k]
     if all(joint.type is JointType.PRISMATIC for _, joint in moved):
@@ -200,7 +215,8 @@ def _working(context: Context, k: int, in_letters: Node, linear: Matrix) -> tupl
         else:
             small.append(z)
             parts.append((rate, z))
-    return (equation(in_letters, _total(parts), linear),) if is_small(*small) else ()
+    members = [in_letters, _total(parts), *([linear] if linear else [])]
+    return (equation(*members),) if is_small(*small) else ()
 
 
 def _lever(context: Context, joint: Joint) -> algebra.Matrix:

@@ -84,9 +84,10 @@ class Collector:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
         factor = self.content(poly.values())
         mono = self._worth_drawing(poly, common(poly))
-        if (factor != 1 or mono) and self.mostly_negative(poly):
-            factor = -factor
-        return factor, mono, self._divided(poly, mono, factor)
+        rest = self._divided(poly, mono, factor)
+        if (factor != 1 or mono) and self.mostly_negative(rest):
+            factor, rest = -factor, {m: -f for m, f in rest.items()}
+        return factor, mono, rest
 
     def content(self, factors: Iterable[Rational]) -> Rational:
         """The factor worth drawing out; of decimals only one that all are equal to."""
@@ -103,13 +104,17 @@ class Collector:
         negative = sum(f < 0 for f in poly.values())
         if 2 * negative != len(poly):
             return 2 * negative > len(poly)
-        moving = [mono for mono in poly if self._is_moving(mono)]
+        return self.starts_negative(poly, below=Rank.TRIG)
+
+    def starts_negative(self, poly: Polynomial, below: Rank = Rank.RATE) -> bool:
+        """Whether the first term has a minus; the first with a coordinate that has nothing above `below`."""
+        moving = [mono for mono in poly if self._is_moving(mono, below)]
         return poly[min(moving or poly, key=self.order)] < 0
 
-    def _is_moving(self, mono: Monomial) -> bool:
-        """Whether a coordinate stands in a term, and neither an angle nor a rate."""
+    def _is_moving(self, mono: Monomial, below: Rank) -> bool:
+        """Whether a coordinate stands in a term, and nothing that ranks higher."""
         ranks = {self.atoms.ranks[atom][0] for atom, _ in mono}
-        return Rank.COORDINATE in ranks and max(ranks) < Rank.TRIG
+        return Rank.COORDINATE in ranks and max(ranks) < below
 
     def _oriented(self, node: Sum) -> tuple[int, Node]:
         """(±1, the sum with that sign): as a factor one sum has one orientation, wherever it stands.

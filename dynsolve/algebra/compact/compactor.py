@@ -271,7 +271,7 @@ class Compactor:
             sign, trig = self._atoms.basic_trig_monomial(exponents[:width], g)
             symbols = self._atoms.monomial(layout.symbols, exponents[width + inner :])
             root[multiply(trig, symbols)] = sign * factor
-        if self.collector.mostly_negative(root):
+        if self.collector.starts_negative(root):
             root = {mono: -factor for mono, factor in root.items()}
         number, mono = self.collector.decompose(tree.Power(self.collector.form(root), tree.Number(2)))
         rest = self._by_angles(layout, found.rest) if found.rest else ZERO

@@ -87,6 +87,7 @@ def test_a_polynomial_and_a_multiple_of_it_are_spelled_alike(written: str, print
         ("(d - l/2)*sin(q1)", "(d - l/2)*sin(q1)"),
         ("(I1 - m1*a^2 - I2)*cos(q1)", "-(m1*a**2 - I1 + I2)*cos(q1)"),
         ("m1*(l/2 - d)^2*sin(q1)^2", "m1*(d - l/2)**2*sin(q1)**2"),
+        ("m1*(l/2 - d)^2*cos(q2)^2 + m2*d^2*cos(q2)^2", "(m1*(d - l/2)**2 + m2*d**2)*cos(q2)**2"),
         ("l/2 - d", "l/2 - d"),
     ],
 )

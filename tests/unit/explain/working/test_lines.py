@@ -174,3 +174,10 @@ def test_the_product_of_two_rows_names_the_sums_of_angles() -> None:
         "With the cosine of a sum, c₁ c₂ - s₁ s₂ = c₁₂ and the sine of a sum, s₁ c₂ + c₁ s₂ = s₁₂:"
     ]
     assert not lines("in3140-rp", "H2") and not lines("scara-rrpr", "H2")
+
+
+def test_the_identity_of_a_turned_tensor_and_of_a_lever_is_named() -> None:
+    assert lines("crustcrawler-2r", "I1") == lines("elbow-3r", "J2") == ["With s₁² + c₁² = 1:"]
+    assert lines("elbow-3r", "J1") == lines("planar-2r", "I1") == []
+    axis_and_lever = to_unicode(step("elbow-3r", "J2").working[0], solved("elbow-3r").style)
+    assert axis_and_lever.count(" = ") == 1, "the value comes after the identity"
