@@ -7,6 +7,8 @@ exact it is carried out, so that most values become elements of the ring.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
@@ -118,6 +120,24 @@ def cancelled(value: RationalExpr) -> RationalExpr:
     plain = _without_common(_without_roots(value))
     other = simplified(plain)
     return other if _length(other) < _length(plain) else plain
+
+
+def with_integers(value: RationalExpr) -> RationalExpr:
+    """The same fraction with integer coefficients that have no common factor, above and below together.
+
+    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
+    >>> a, b = ring.symbol("a"), ring.symbol("b")
+    >>> with_integers(RationalExpr(a / 2, a + b / 3))
+    RationalExpr(numerator=Expr(3*a), divisor=Expr(6*a + 2*b))
+    """
+    if value.divisor is None:
+        return value
+    both = (*value.numerator.poly.coeffs(), *value.divisor.poly.coeffs())
+    common = lcm(*(int(c.q) for c in both))
+    scale = Fraction(common, gcd(*(int(c.p) * common // int(c.q) for c in both)))
+    return RationalExpr(value.numerator * scale, value.divisor * scale)
 
 
 def _length(value: RationalExpr) -> int:

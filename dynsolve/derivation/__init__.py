@@ -13,6 +13,7 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     singular        4.9   where a Jacobian loses rank
     inverse         3.3   q from r(q): one unknown after the other, in known forms; the branches
     rates           4.9, 4.11   det J, q̇ and q̈ for those of the task: likewise
+    constraints     A_c q̇ = 0 and its multipliers (Murray, Li, Sastry 6.1): likewise
     recursions      7.6   Newton-Euler in link frames: ω, ω̇, accelerations, f, n: likewise
     regressor       7.5.3 τ = Y a, with a of minimal length: likewise
     statics         4.10  forces from outside, the torques that hold them: likewise
@@ -25,6 +26,7 @@ What hangs together how:
     action_rules    those of what acts beside gravity
     model_rules     those of what a file asks of the equations of motion
     static_rules    those of forces from outside
+    constraint_rules those of constraints
     recursion_rules those of the recursions; by their method also of τ
     configurations  those of singular configurations and of inverse kinematics
     mechanism       bodies by their positions: Jacobians by differentiation, orientation by turns
@@ -44,6 +46,7 @@ And the independent check, which shares no formula with any of these:
     configuration_check
                     singular configurations and branches of the inverse, put in
     rate_check      determinants, rates and accelerations, against elimination on numbers
+    constraint_check constraints against the motion of the arm, the multipliers against elimination
     recursion_check the recursions in the links' frames, against those on numbers
     model_check     Y a against τ, its length against the rank of numbers
     static_check    generalized forces and holding torques, against the power of the forces

@@ -56,7 +56,7 @@ def _task(robot: Robot, asked: Task) -> Iterator[Rule]:
             yield Rule("pose", (f"H{len(robot.joints)}",), task.pose_entries)
     else:
         used = points_of(asked)
-        inputs = tuple(_position_rule(robot, point) for point in used)
+        inputs = tuple(position_rule(robot, point) for point in used)
 
         def value(*found: Matrix) -> Matrix:
             positions = zip(used, found, strict=True)
@@ -99,6 +99,6 @@ def rate_rules(robot: Robot) -> Iterator[Rule]:
         yield Rule("lost", ("Jr",), lambda J: rates.lost_motions(at.matrix(J)))
 
 
-def _position_rule(robot: Robot, point: str) -> str:
+def position_rule(robot: Robot, point: str) -> str:
     """The quantity that holds a point's position: the last frame for the tip."""
     return f"H{len(robot.joints)}" if point == TIP else f"p{point}"

@@ -115,11 +115,11 @@ def _spaces(ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
     if not asked:
         return
     J = ours["Jr"]
-    rank = len(_orthonormal(J))
+    rank = len(orthonormal(J))
     inside = {"nullspace": J, "lost": _transposed(J)}
     dimension = {"nullspace": len(J[0]) - rank, "rangespace": rank, "lost": len(J) - rank}
     for name in asked:
-        vectors = _orthonormal(_transposed(ours[name]))
+        vectors = orthonormal(_transposed(ours[name]))
         gap = 0.0 if len(vectors) == dimension[name] else float("inf")
         for vector in vectors if name in inside else ():
             gap = max(gap, *map(abs, _times(inside[name], vector)))
@@ -140,14 +140,14 @@ def _gap(J: Rows, x: Vector, wanted: Vector, weights: Rows | None) -> float:
     """How far x is from the shortest of the nearest to a solution, relative to its size."""
     left = [a - b for a, b in zip(_times(J, x), wanted, strict=True)]
     across = list(x) if weights is None else _times(weights, x)
-    for row in _orthonormal(J):
+    for row in orthonormal(J):
         along = sum(a * b for a, b in zip(row, across, strict=True))
         across = [a - along * b for a, b in zip(across, row, strict=True)]
     size = max(1.0, *map(abs, x), *map(abs, wanted)) * max(1.0, *(abs(e) for row in J for e in row)) ** 2
     return max(map(abs, (*_times(_transposed(J), left), *across))) / size
 
 
-def _orthonormal(J: Rows) -> list[Vector]:
+def orthonormal(J: Rows) -> list[Vector]:
     """Orthogonal rows of length 1 that span those of J."""
     found: list[Vector] = []
     for row in J:

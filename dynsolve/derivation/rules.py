@@ -56,6 +56,10 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
         from dynsolve.derivation.model_rules import model_rules
 
         yield from model_rules(robot)
+    if Stage.CONSTRAINTS in asked:
+        from dynsolve.derivation.constraint_rules import constraint_rules
+
+        yield from constraint_rules(robot)
     if Stage.STATICS in asked:
         from dynsolve.derivation.static_rules import static_rules
 

@@ -101,13 +101,26 @@ LYNCH_PARK = Book(
     sections={"8.2.1": "Classical Formulation"},
 )
 
+MURRAY_LI_SASTRY = Book(
+    name="Murray, Li, Sastry",
+    full=(
+        "R. M. Murray, Z. Li, S. S. Sastry, A Mathematical Introduction to Robotic Manipulation, "
+        "CRC Press, 1994"
+    ),
+    sections={
+        "6.1.1": "Pfaffian constraints",
+        "6.1.2": "Lagrange multipliers",
+        "6.1.3": "Lagrange-d'Alembert formulation",
+    },
+)
+
 KHALIL_DOMBRE = Book(
     name="Khalil and Dombre",
     full="W. Khalil, E. Dombre, Modeling, Identification and Control of Robots, Hermes Penton, 2002",
     sections={"9.4": "Determination of the Base Inertial Parameters"},
 )
 
-BOOKS = (SPONG, CRAIG, SICILIANO, LYNCH_PARK, KHALIL_DOMBRE)
+BOOKS = (SPONG, CRAIG, SICILIANO, LYNCH_PARK, MURRAY_LI_SASTRY, KHALIL_DOMBRE)
 
 _IN_A_LIST = "Spong et al."
 """What the course's own book is called where no report names it at its start."""
@@ -138,6 +151,15 @@ def siciliano(section: str) -> str:
     'Siciliano et al. §7.1.3'
     """
     return SICILIANO.section(section)
+
+
+def mls(section: str) -> str:
+    """A reference to Murray, Li and Sastry.
+
+    >>> mls("6.1.2")
+    'Murray, Li, Sastry §6.1.2'
+    """
+    return MURRAY_LI_SASTRY.section(section)
 
 
 def by_itself(source: str) -> str:

@@ -1,6 +1,6 @@
 """The step that closes a derivation: D q̈ + C q̇ + g = τ, with this robot's matrices where they fit.
 
-Friction stands beside g, forces from outside beside τ, where there are any.
+Friction stands beside g, forces from outside and of constraint beside τ, where there are any.
 """
 
 from __future__ import annotations
@@ -11,7 +11,19 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.style import style_of
 from dynsolve.explain.working.proved import MOST_JOINTS
-from dynsolve.notation.tree import ZERO, Matrix, Node, Product, Sum, Symbol, column, equation
+from dynsolve.explain.writing import sum_of
+from dynsolve.notation.tree import (
+    ZERO,
+    Matrix,
+    Node,
+    Product,
+    Relation,
+    Sum,
+    Symbol,
+    Transpose,
+    column,
+    equation,
+)
 from dynsolve.notation.unicode import UnicodePrinter, width
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
@@ -25,10 +37,8 @@ WIDEST = 84
 
 
 def closing_step(context: Context) -> Step:
-    """D q̈ + C q̇ + g = τ, with friction on the left and Q on the right where there are any."""
-    robot = context.robot
-    inertial, coriolis = Product((letters.D, letters.QDD)), Product((letters.C, letters.QD))
-    rubs, loaded = "friction" in context.values.rules, bool(robot.questions.loads)
+    """D q̈ + C q̇ + g = τ, with friction on the left, Q and A_cᵀ λ on the right where there are any."""
+    robot, rubs = context.robot, has_friction(context)
     parts = [context.matrix(name) for name in ("D", "C", *(("friction",) if rubs else ()), "g")]
     qd = column(*(Symbol(q.name, 1) for q in robot.coordinates))
     qdd = column(*(Symbol(q.name, 2) for q in robot.coordinates))
@@ -37,28 +47,62 @@ def closing_step(context: Context) -> Step:
     result: tuple[Node, ...] = ()
     if robot.n <= MOST_JOINTS and all(_width(context, part) <= WIDEST for part in parts):
         left = Sum((Product((parts[0], qdd)), Product((parts[1], qd)), *parts[2:]))
-        result = (equation(left, Sum((forces, letters.Q_FORCES)) if loaded else forces),)
-    beside = (letters.FRICTION,) if rubs else ()
-    right: Node = Sum((letters.TAU, letters.Q_FORCES)) if loaded else letters.TAU
+        result = (equation(left, sum_of([forces, *_beside_motors(context)])),)
     return Step(
         id=ID,
         stage=Stage.VECTORIZED,
         title="The dynamical model",
-        why=_meanings(context, rubs, loaded),
-        formula=equation(Sum((inertial, coriolis, *beside, letters.G)), right),
+        why=_meanings(context),
+        formula=equations_of_motion(context),
         source=spong("7.3"),
         result=result,
         detail=Detail.BRIEF,
     )
 
 
-def _meanings(context: Context, rubs: bool, loaded: bool) -> Prose:
+def has_friction(context: Context) -> bool:
+    """Whether friction is a term of its own."""
+    return "friction" in context.values.rules
+
+
+def _beside_motors(context: Context) -> list[Node]:
+    """Q and A_cᵀ λ, as far as there are forces from outside and constraints."""
+    asked = context.robot.questions
+    outside: list[Node] = [letters.Q_FORCES] if asked.loads else []
+    held: list[Node] = [Product((Transpose(letters.A_C), letters.LAMBDA))] if asked.constraints else []
+    return [*outside, *held]
+
+
+def driving_side(context: Context, constrained: bool = True) -> Node:
+    """τ + Q + A_cᵀ λ, or without the last where that is put elsewhere."""
+    beside = _beside_motors(context)
+    if not constrained and context.robot.questions.constraints:
+        beside.pop()
+    return sum_of([letters.TAU, *beside])
+
+
+def moving_side(context: Context) -> Sum:
+    """D q̈ + C q̇ + g, and friction."""
+    rubs = (letters.FRICTION,) if has_friction(context) else ()
+    inertial, coriolis = Product((letters.D, letters.QDD)), Product((letters.C, letters.QD))
+    return Sum((inertial, coriolis, *rubs, letters.G))
+
+
+def equations_of_motion(context: Context) -> Relation:
+    """D q̈ + C q̇ + g = τ in letters, with everything that acts."""
+    return equation(moving_side(context), driving_side(context))
+
+
+def _meanings(context: Context) -> Prose:
     """What the terms of the equation are."""
+    asked = context.robot.questions
     why: Prose = (Product((letters.D, letters.QDD)), " are the inertial forces, ")
     why += (Product((letters.C, letters.QD)), " the Coriolis and centrifugal ones, ")
-    why += (letters.FRICTION, " those of friction, ") if rubs else ()
+    why += (letters.FRICTION, " those of friction, ") if has_friction(context) else ()
     why += (letters.G, " those of gravity", " and springs." if context.robot.actions.springs else ".")
-    why += (" ", letters.Q_FORCES, " are those from outside.") if loaded else ()
+    why += (" ", letters.Q_FORCES, " are those from outside.") if asked.loads else ()
+    if asked.constraints:
+        why += (" ", Product((Transpose(letters.A_C), letters.LAMBDA)), " are those of the constraints.")
     if context.robot.actions.passive:
         from dynsolve.explain.actions import passive_prose
 

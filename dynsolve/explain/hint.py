@@ -117,6 +117,7 @@ _AT_HAND = {
     Stage.NEWTON_EULER: "You have the matrices of the rows of the table:",
     Stage.VECTORIZED: "You have the forces, one for each coordinate:",
     Stage.PARAMETERS: "You have the equations of motion, one for each coordinate:",
+    Stage.CONSTRAINTS: "You have the forward kinematics, and the matrices of the model:",
     Stage.STATICS: "You have the Jacobian of the end of the arm, and the frames:",
 }
 
@@ -146,6 +147,10 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
         yield letters.L, "L"
     elif stage is Stage.NEWTON_EULER:
         yield from ((letters.A(joint.index), f"A{joint.index}") for joint in robot.joints)
+    elif stage is Stage.CONSTRAINTS:
+        yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints[-1:])
+        if "lambda" in context.wanted:
+            yield from ((letters.D, "D"), (letters.C, "C"), (letters.G, "g"))
     elif stage is Stage.STATICS:
         yield from ((letters.JV, "Jv"), (letters.JW, "Jw"))
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)

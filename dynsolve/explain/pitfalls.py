@@ -256,6 +256,12 @@ def _newton_euler(robot: Robot) -> Iterator[Prose]:
                "acceleration.",)  # fmt: skip
 
 
+def _constraints(robot: Robot) -> Iterator[Prose]:
+    yield ("The matrix moves: the constraint, differentiated twice, has a term with its rate, too.",)
+    yield ("Neither the coordinates nor the rates are free: results may be written otherwise with the "
+           "constraint put in.",)  # fmt: skip
+
+
 _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.FRAMES: _frames,
     Stage.KINEMATICS: _kinematics,
@@ -271,5 +277,6 @@ _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.NEWTON_EULER: _newton_euler,
     Stage.VECTORIZED: _vectorized,
     Stage.PARAMETERS: _parameters,
+    Stage.CONSTRAINTS: _constraints,
     Stage.STATICS: _statics,
 }

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.fraction import RationalExpr
+from dynsolve.algebra.fraction import RationalExpr, with_integers
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.transfer import Transfer
 from dynsolve.algebra.trig_factor import trig_factors
@@ -33,6 +33,7 @@ class ProductForms:
 
     def fraction(self, value: RationalExpr) -> Node:
         """A fraction, numerator and denominator as products."""
+        value = with_integers(value)
         above, over = self._factors(value.numerator)
         if value.divisor is None:
             return times(above, over)

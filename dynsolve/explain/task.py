@@ -161,7 +161,7 @@ def _task(context: Context, task: Task, wanted: frozenset[str]) -> Iterator[Step
 
 
 def _map(context: Context, task: Task) -> Step:
-    entries = column(*(mapped(entry, _with_letters) for entry in task.entries))
+    entries = column(*(mapped(entry, with_letters) for entry in task.entries))
     points = ["the tip" if point == TIP else point for point in points_of(task)]
     where: Prose = ("The coordinates of ", *listed(points), " are put in.") if points else ()
     why: Prose = ("The components of the task as functions of the joint variables. ", *where)
@@ -179,7 +179,7 @@ def _map(context: Context, task: Task) -> Step:
     )
 
 
-def _with_letters(part: Node) -> Node:
+def with_letters(part: Node) -> Node:
     """A coordinate of a point as it is printed: x_tip, y_P."""
     if not isinstance(part, Reference) or part.row is None:
         return part

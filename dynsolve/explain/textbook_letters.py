@@ -149,6 +149,12 @@ def _questions(robot: Robot) -> Iterator[Line]:
     yield _line(_numbered("F"), "force from outside", "N")
     yield _line([_numbered("M"), _body("M")], "moment from outside, its size", "N m")
     yield _line(letters.Q_FORCES, "generalized forces of these", "", ("Q", "bold", "F#"))
+    held = [(letters.H_C, "what the constraints keep at 0"), (letters.A_C, "constraint matrix"),
+            (letters.LAMBDA, "multipliers")]  # fmt: skip
+    yield _each(held)
+    free = [(letters.bold("Z"), "rates that the constraints leave free"), (letters.bold("v"), "their sizes")]
+    if robot.questions.constraints:
+        yield _each(free)
     yield _line(letters.TAU_STATIC, "forces and torques that hold the arm at rest")
 
 

@@ -20,6 +20,10 @@
                      reach          what the task is to be, joint ranges: `reach`, `limits`
                      model_questions
                                     what is asked of the equations of motion: `parameters`
+                     constraints, rate_cells
+                                    `constraints`; expressions in which rates stand
+                     point_expressions
+                                    expressions in which tip.x stands
                      loads          `forces`
                      state          `state`
                      weights        `weights`
@@ -45,8 +49,8 @@
       -> Problem     model          the robot, and what the exercise says about it
 
 `reader` goes this way; each step reports what it finds and goes on with what is sound.
-Which keys there are is said once, in `specification`, `action_keys`, `kinematic_keys`, `mechanism_keys`
-and `model_keys` (in terms of `kinds` and `value_kinds`); from there come
+Which keys there are is said once, in `specification`, `action_keys`, `kinematic_keys`, `constraint_keys`,
+`mechanism_keys` and `model_keys` (in terms of `kinds` and `value_kinds`); from there come
 the reader's keys, the JSON Schema (`schema`), the file of `dynsolve new` and the tables of
 the documentation (`documentation`).  `lint` finds what is no fault but deserves a look,
 `library` the problems that come with dynsolve.

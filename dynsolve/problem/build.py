@@ -24,6 +24,9 @@ from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
+HOLD_FORCES = frozenset({"lambda"})
+"""The results that hold the generalized forces by their names."""
+
 
 def build_robot(
     faults: Faults, parsed: ParsedFile, asked: frozenset[str], written: Mapping[str, str]
@@ -32,7 +35,8 @@ def build_robot(
 
     `asked` are the answers asked for that a derivation has only where they are, `written` its `values`.
     """
-    values = evaluate(faults, parsed)
+    inputs = tuple(q.force for q in parsed.coordinates) if asked & HOLD_FORCES else ()
+    values = evaluate(faults, parsed, inputs)
     if values is None:
         return None
     ring = values.ring
@@ -61,8 +65,9 @@ def build_robot(
         gravity=gravity,
         base_rotation=rotation or Matrix.identity(ring, 3),
         base_position=move or Matrix.zero(ring, 3, 1),
-        parameters=tuple(name for name in ring.parameters if name != "pi"),
         given=given,
+        parameters=tuple(name for name in ring.parameters if name not in ("pi", *inputs)),
+        inputs=inputs,
     )
     if parsed.actions is not NO_ACTIONS:
         from dynsolve.problem.actions_build import actions

@@ -63,6 +63,7 @@ class ParsedFile:
             named=self.questions.names,
             stages=frozenset(ASKED_FOR),
             is_twist=self.questions.task is not None and self.questions.task.is_twist,
+            constraints=len(self.questions.constraints),
             rates=self.questions.rates,
             actions=self.actions.kinds,
         )

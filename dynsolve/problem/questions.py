@@ -6,11 +6,10 @@ import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from dynsolve.notation.tree import Function, Node, Reference, Symbol
-from dynsolve.notation.walk import mapped, names_in, walk
-from dynsolve.problem.cells import Cell, denominators, forbid, read_cell, read_expressions
+from dynsolve.problem.cells import Cell, forbid, read_expressions
+from dynsolve.problem.constraints import ParsedConstraint, read_constraints
 from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
-from dynsolve.problem.fields import Fields, did_you_mean, items, word
+from dynsolve.problem.fields import Fields, items, word
 from dynsolve.problem.kinematic_keys import ALL, MAX_POINTS, MAX_TASK, POINT, WHOLE
 from dynsolve.problem.loads import ParsedLoad, read_loads
 from dynsolve.problem.model_questions import (
@@ -19,6 +18,7 @@ from dynsolve.problem.model_questions import (
     read_model_questions,
 )
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
+from dynsolve.problem.point_expressions import read_point_expression
 from dynsolve.problem.reach import NO_REACH, ParsedLimits, ParsedReach, read_limits, read_reach
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.source import Faults
@@ -26,10 +26,8 @@ from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.state import ParsedState, is_reached, read_state
 from dynsolve.problem.weights import ParsedWeights, read_weights
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, Span, YamlNode
-from dynsolve.robot.questions import TIP, coordinate_of
 
 _NAME = re.compile(r"[A-Za-z][0-9]{0,4}")
-_COORDINATE = re.compile(r"(?<![\w.])([A-Za-z]\w*)\.([xyz])(?!\w)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +73,7 @@ class ParsedQuestions:
     all_branches: bool = False
     limits: tuple[ParsedLimits, ...] = ()
     weights: ParsedWeights | None = None
+    constraints: tuple[ParsedConstraint, ...] = ()
     reached_state: Span | None = None
     """Where the file says that the state is the configuration that reaches the target."""
     model: ParsedModelQuestions = NO_MODEL_QUESTIONS
@@ -107,6 +106,7 @@ class ParsedQuestions:
         yield from self.task.cells if self.task else ()
         for load in self.loads:
             yield from (*load.force, *load.moment)
+        yield from (constraint.cell for constraint in self.constraints)
         for rates in (self.velocity, self.acceleration):
             yield from rates.cells if rates else ()
 
@@ -134,7 +134,8 @@ def read_questions(
             coordinates,
             "it is fixed in the link: joint variables stand in the table",
         )
-    task = _read_task(faults, fields.get("task"), [point.name for point in points], coordinates)
+    names = [point.name for point in points]
+    task = _read_task(faults, fields.get("task"), names, coordinates)
     return ParsedQuestions(
         points,
         task,
@@ -146,6 +147,7 @@ def read_questions(
         word(faults, fields.get("branches"), ALL.choices, "branches", "write branches: all") is not None,
         read_limits(faults, fields.get("limits"), coordinates),
         read_weights(faults, fields.get("weights"), coordinates, bool(bodies)),
+        read_constraints(faults, fields, names, coordinates),
         fields.span_of("state") if is_reached(fields.get("state")) else None,
         read_model_questions(faults, fields, coordinates),
     )
@@ -213,44 +215,9 @@ def _read_task(
         return None
     if node is not None and not isinstance(node, FaultyNode) and not listed:
         faults.error(node.span, "the task has no components", PROBLEM["task"].help)
-    cells = [_read_component(faults, item, i, points, coordinates) for i, item in enumerate(listed, 1)]
+    cells = [
+        read_point_expression(faults, item, f"component {i} of the task", points, coordinates)
+        for i, item in enumerate(listed, 1)
+    ]
     found = tuple(cell for cell in cells if cell)
     return ParsedTask(found) if found and len(found) == len(cells) else None
-
-
-def _read_component(
-    faults: Faults, node: YamlNode, index: int, points: Collection[str], coordinates: Collection[str]
-) -> Cell | None:
-    """A component of the task: an expression in which P.x is a coordinate of a point."""
-    what = f"component {index} of the task"
-    dotted = list(_COORDINATE.finditer(node.text)) if isinstance(node, ScalarNode) else []
-    for found in dotted:
-        if found[1] not in (TIP, *points):
-            start = node.start + found.start() if isinstance(node, ScalarNode) else 0
-            help = did_you_mean(found[1], (TIP, *points)) or "points are the tip and those of `points:`"
-            faults.error((start, start + len(found[1])), f"there is no point {found[1]}", help)
-            return None
-    plain = replace(node, text=_COORDINATE.sub(r"\1_\2", node.text)) if isinstance(node, ScalarNode) else node
-    cell = read_cell(faults, plain, what)
-    if cell is None:
-        return None
-    places = {found.start() for found in dotted}
-    meant = {f"{found[1]}_{found[2]}": coordinate_of(found[1], "xyz".index(found[2])) for found in dotted}
-
-    def with_references(part: Node) -> Node:
-        return meant.get(part.name, part) if isinstance(part, Symbol) else part
-
-    names = tuple(name for name in cell.names if name.offset not in places)
-    sound = replace(cell, tree=mapped(cell.tree, with_references), names=names)
-    return sound if _is_polynomial(faults, sound, coordinates) else None
-
-
-def _is_polynomial(faults: Faults, cell: Cell, coordinates: Collection[str]) -> bool:
-    """Whether no coordinate, and no coordinate of a point, stands in a denominator or under a root."""
-    roots = [part for part in walk(cell.tree) if isinstance(part, Function) and part.name == "sqrt"]
-    for part in (*denominators(cell.tree), *roots):
-        if names_in(part) & set(coordinates) or any(isinstance(p, Reference) for p in walk(part)):
-            message = f"{cell.what}: a coordinate stands in a denominator or under a root"
-            faults.error(cell.span, message, "a task is made of sums, products, sines and cosines")
-            return False
-    return True

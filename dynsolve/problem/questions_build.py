@@ -10,6 +10,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node
+from dynsolve.problem.constraints import ParsedConstraint
 from dynsolve.problem.loads import ParsedLoad
 from dynsolve.problem.model_questions import ParsedModelQuestions, check_model_questions
 from dynsolve.problem.positions import PlaceBuilder
@@ -20,6 +21,7 @@ from dynsolve.problem.values import CellValues
 from dynsolve.problem.weights import ParsedWeights
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.constraints import Constraint
 from dynsolve.robot.geometry import last_origin
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.model_questions import ModelQuestions
@@ -69,10 +71,12 @@ def with_questions(
 ) -> Robot:
     """The robot with what its file asks of it; with a task of its own where one is needed and none given."""
     state = parsed.state.values if parsed.state else {}
+    constraints = tuple(_constraint(values, robot, one) for one in parsed.constraints)
     questions = Questions(
         points=tuple(points),
         task=_task(parsed.task),
-        asked=asked,
+        asked=asked | {"Ac"} if constraints else asked,
+        constraints=constraints,
         loads=tuple(loads),
         state=State(tuple((name, dots, value) for (name, dots), value in state.items())),
         is_drawn=is_drawn,
@@ -160,6 +164,21 @@ def _weights(values: CellValues, parsed: ParsedWeights | None) -> Matrix | None:
             values.faults.error(parsed.span, "the matrix of the weights is not positive definite", help)
             return None
     return W
+
+
+def _constraint(values: CellValues, robot: Robot, parsed: ParsedConstraint) -> Constraint:
+    """A constraint; one on the rates that is not linear in them is reported."""
+    constraint = Constraint(parsed.cell.tree, parsed.in_rates)
+    value = values.expr(parsed.cell) if parsed.in_rates else None
+    if value is not None:
+        ring = robot.ring
+        factors = [ring.coefficient(value, name, 1) for name in ring.names]
+        terms = (factor * ring.symbol(name, 1) for factor, name in zip(factors, ring.names, strict=True))
+        moving = any(ring.coefficient(f, name, 1) != ring.zero for f in factors for name in ring.names)
+        if moving or sum(terms, start=ring.zero) != value:
+            help = "a constraint on rates is a sum of rates, each times a function of the coordinates"
+            values.faults.error(parsed.cell.span, f"{parsed.cell.what} is not linear in the rates", help)
+    return constraint
 
 
 def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix | None:

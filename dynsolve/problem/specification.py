@@ -16,6 +16,7 @@ the module it belongs to, and give what was read a place in `Problem` or `Robot`
 from __future__ import annotations
 
 from dynsolve.problem.action_keys import ACTION_KEYS
+from dynsolve.problem.constraint_keys import CONSTRAINT_KEYS
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, Word
 from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
 from dynsolve.problem.mechanism_keys import COORDINATES, model, placed_body
@@ -312,6 +313,7 @@ PROBLEM = Keyed(
         *ACTION_KEYS,
         *KINEMATIC_KEYS,
         *MODEL_KEYS,
+        *CONSTRAINT_KEYS,
         Key(
             "values",
             MapOf(NUMBER, "numbers by symbol"),

@@ -7,6 +7,8 @@
                 those of what acts beside gravity: springs, rotors, friction
     kinematic_families
                 those of what exercises ask of the kinematics: points, tasks
+    constraint_families
+                those of constraints
     recursion_families
                 those of the Newton-Euler recursions
     model_families

@@ -17,6 +17,7 @@ from itertools import product
 from dynsolve.notation.tree import Node, Product, Symbol
 from dynsolve.quantities import (
     action_families,
+    constraint_families,
     kinematic_families,
     letters,
     model_families,
@@ -503,9 +504,13 @@ _ASKED_OF_MODEL = model_families.FAMILIES
 
 _ASKED_OF_STATICS = static_families.FAMILIES
 
+# -- constraints -----------------------------------------------------------------------------------
+
+_CONSTRAINTS = constraint_families.FAMILIES
+
 _GROUPS = (
     _ASKED_OF_KINEMATICS, _ENERGIES_OF_ACTIONS, _FRICTION, _ROTORS, _RECURSIONS, _ASKED_OF_MODEL,
-    _ASKED_OF_STATICS,
+    _ASKED_OF_STATICS, _CONSTRAINTS,
 )  # fmt: skip
 """The families that have a file of their own."""
 

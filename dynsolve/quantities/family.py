@@ -56,8 +56,8 @@ class Kind(Enum):
     """A space, by a matrix whose columns span it."""
 
 
-Size = int | Literal["n", "m", "any"]
-"""Rows or columns; n is the number of coordinates, m that of the components of the task.
+Size = int | Literal["n", "m", "c", "any"]
+"""Rows or columns; n is the number of coordinates, m that of the components of the task, c of constraints.
 
 How many vectors span a space is known when it is computed: there may be any number.
 """

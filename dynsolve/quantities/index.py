@@ -49,6 +49,7 @@ class Owners:
     task_rows: int = 0
     task_names: tuple[tuple[str, ...], ...] = ()
     is_twist: bool = False
+    constraints: int = 0
     rates: frozenset[str] = frozenset()
     actions: frozenset[str] = frozenset()
 
@@ -69,12 +70,15 @@ class Owners:
             task_rows=asked.task.rows if asked.task else 0,
             task_names=component_names(asked.task) if asked.task else (),
             is_twist=asked.task is not None and asked.task.is_twist,
+            constraints=len(asked.constraints),
             rates=given_rates(asked),
             actions=robot.actions.kinds,
         )
 
     def has(self, family: Family) -> bool:
         """Whether there are quantities of a family: those of the course, and of what is asked."""
+        if family.stage is Stage.CONSTRAINTS and not self.constraints:
+            return False
         if self.is_twist and family is kinematic_families.R:
             return False
         if family.brought_by and family.brought_by not in self.actions:
@@ -87,7 +91,7 @@ class Owners:
 
     def size(self, size: Size) -> int:
         """Rows or columns in numbers."""
-        sizes = {"n": len(self.coordinates), "m": self.task_rows, "any": 0}
+        sizes = {"n": len(self.coordinates), "m": self.task_rows, "c": self.constraints, "any": 0}
         return sizes[size] if isinstance(size, str) else size
 
     def indices(self, owner: Owner) -> Iterator[tuple[int, ...]]:
@@ -397,6 +401,8 @@ def asked_stages(questions: Questions) -> frozenset[Stage]:
         found.add(Stage.TASK)
     if questions.is_drawn:
         found.add(Stage.FRAMES)
+    if questions.constraints:
+        found.add(Stage.CONSTRAINTS)
     if questions.loads:
         found.add(Stage.STATICS)
     if questions.method is Method.NEWTON_EULER:

@@ -36,6 +36,7 @@ class Stage(StrEnum):
     VECTORIZED = "vectorized", "The vectorized form"
     PARAMETERS = "parameters", "Linear in the parameters", True
     STATICS = "statics", "Forces from outside, and the torques that hold them", True
+    CONSTRAINTS = "constraints", "Constraints", True
 
     def __new__(cls, value: str, heading: str = "", asked_for: bool = False) -> Stage:
         """The member of that value."""

@@ -148,7 +148,8 @@ class Robot:
     """A manipulator.
 
     `base_rotation` (3×3) and `base_position` (3×1) place frame 0 in the world;
-    `gravity` (3×1, world) is the acceleration of gravity, pointing down.  `questions` are
+    `gravity` (3×1, world) is the acceleration of gravity, pointing down.  `inputs` are the names
+    of generalized forces that results hold.  `questions` are
     what the exercise asks around this model, `actions` what acts beside gravity.  Without joints the
     bodies are given by their positions, or `given` stands in their place.
     """
@@ -162,6 +163,7 @@ class Robot:
     base_rotation: Matrix
     base_position: Matrix
     parameters: tuple[str, ...] = field(default=())
+    inputs: tuple[str, ...] = field(default=())
     questions: Questions = field(default=Questions())
     actions: Actions = NOTHING_ACTS
     given: GivenModel | None = None

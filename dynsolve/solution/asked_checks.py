@@ -26,10 +26,21 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
     verify_rates(robot, {name: forms(name) for name in rate_names(robot, wanted)}, states)
     static = [name for name in ("Q", "tau_static") if name in wanted]
     verify_statics(robot, {name: forms(name) for name in static}, states)
+    _verify_constraints(robot, forms, wanted, states)
     _verify_recursions(robot, forms, wanted, states)
     model = [name for name in model_names(wanted) if name in values.rules]
     verify_model(robot, {name: forms(name) for name in model}, states)
     _verify_configurations(robot, values, forms, wanted)
+
+
+def _verify_constraints(robot: Robot, forms: Forms, wanted: frozenset[str], states: int) -> None:
+    """Hold the constraints, where there are any."""
+    if robot.questions.constraints:
+        from dynsolve.derivation.constraint_check import ACTING, verify_constraints
+
+        needed = ("D", *ACTING) if "lambda" in wanted else ()
+        names = [name for name in ("hc", "Ac", "Ac_dot", "lambda", *needed) if name in wanted]
+        verify_constraints(robot, {name: forms(name) for name in names}, states)
 
 
 def _verify_recursions(robot: Robot, forms: Forms, wanted: frozenset[str], states: int) -> None:

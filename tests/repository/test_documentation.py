@@ -52,7 +52,9 @@ def _folder(folder: Path) -> None:
 
 
 def test_there_are_examples() -> None:
-    files = "rp drawn cart rrp elbow target rates adaptive held driven answer slips spellings set".split()
+    files = (
+        "rp drawn cart rrp elbow target rates adaptive held driven line answer slips spellings set".split()
+    )
     assert {*(f"{name}.yaml" for name in files), "report.md"} == FILES.keys()
     sections = {"Problem file", "Solution JSON", "Answer file", "Verdicts", "Grading", "Commands"}
     assert sections == EXAMPLES.keys()

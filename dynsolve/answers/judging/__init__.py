@@ -6,6 +6,7 @@ answer_values                 the answers of a hand-in with their values
 own_coordinates               answers in the student's own coordinates, turned to the problem's
 own_names                     what a name inside a value stands for
 route, task_routes            one way to an answer; those by way of the task's Jacobian
+own_constraint                A_c by its rows, its rate, and λ by A_cᵀ λ, where the constraint holds
 recursion_routes              the ways from the recursions to a force
 graph                         which answers lead to which, by which routes
 entry_comparison              whether two scalars are equal

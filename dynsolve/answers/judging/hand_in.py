@@ -21,6 +21,7 @@ from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison
+from dynsolve.answers.judging.own_constraint import with_own_constraint
 from dynsolve.answers.judging.own_parameters import as_matrix, own_parameters
 from dynsolve.answers.judging.zero_height import potential_at_zero_height
 from dynsolve.answers.submission import Answer
@@ -54,7 +55,8 @@ class ComparedHandIn:
         potential = potential_at_zero_height(self.answer_ring, energies, self.answer_ring.dimensions)
         self.graph = AnswerGraph(self.answer_ring, potential, self._own_parameters())
         self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
-        self.comparisons = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
+        compared = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
+        self.comparisons = with_own_constraint(self.graph, compared)
         self.assembled_coriolis = self._assembled_coriolis()
 
     def _own_parameters(self) -> Mapping[str, Matrix]:

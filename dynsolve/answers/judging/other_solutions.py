@@ -35,6 +35,8 @@ class Other(StrEnum):
     WITH_GRAVITY = "right with gravity as an acceleration of the base; in the key it is a force on each link"
     WITHOUT_GRAVITY = "right with gravity as a force on each link; in the key the base accelerates instead"
     OF_THE_PRODUCT = "these parameters leave Y open; the product is right"
+    SAME_CONSTRAINT = "right in another form of the same constraint"
+    ON_CONSTRAINT = "right where the constraint holds; that was held in numbers, at several states"
 
 
 LONGEST = 400

@@ -1,0 +1,45 @@
+"""Constraints as rules; the formulas are in `constraints`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from dynsolve.algebra.fraction_matrix import FractionMatrix
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation import constraints, kinematics, task
+from dynsolve.derivation.graph import Rule, Skipped
+from dynsolve.derivation.kinematic_rules import position_rule
+from dynsolve.robot.model import Robot
+from dynsolve.robot.questions import TIP, Task, points_of
+
+LAMBDA = "lambda"
+
+
+def constraint_rules(robot: Robot) -> Iterator[Rule]:
+    """The rules of h, A_c, its rate and, where they are asked for, the multipliers."""
+    used = points_of(Task(tuple(one.entry for one in constraints.holonomic(robot))))
+
+    def functions(*found: Matrix) -> Matrix:
+        positions = zip(used, found, strict=True)
+        at = {point: kinematics.origin(x) if point == TIP else x for point, x in positions}
+        return constraints.constraint_functions(robot, at)
+
+    yield Rule("hc", tuple(position_rule(robot, point) for point in used), functions)
+    yield Rule("Ac", ("hc",), partial(constraints.constraint_matrix, robot))
+    yield Rule("Ac_dot", ("Ac",), task.rate)
+    if LAMBDA in robot.questions.asked and robot.has_dynamics:
+        yield _multipliers(robot)
+
+
+def _multipliers(robot: Robot) -> Rule:
+    held = ("Cqd", "g", *(("friction",) if "friction" in robot.actions.kinds else ()))
+    outside = ("Q",) if robot.questions.loads else ()
+
+    def compute(A: Matrix, A_dot: Matrix, D: Matrix, *forces: Matrix) -> Matrix | FractionMatrix | Skipped:
+        acting = sum(forces[len(held) :], start=constraints.driving_forces(robot))
+        for force in forces[: len(held)]:
+            acting = acting - force
+        return constraints.multipliers(robot, A, A_dot, D, acting)
+
+    return Rule(LAMBDA, ("Ac", "Ac_dot", "D", *held, *outside), compute)

@@ -1,0 +1,39 @@
+"""The families of constraints: their matrix, its rate, the multipliers; see `quantities.families`."""
+
+from __future__ import annotations
+
+from dynsolve.quantities import letters
+from dynsolve.quantities.family import Family, of_robot
+from dynsolve.quantities.stages import Stage
+
+H_C = Family(
+    name="hc", stage=Stage.CONSTRAINTS, shape=("c", 1), letter=of_robot(letters.H_C), is_answer=False
+)
+"""The functions h(q) that are kept at 0; there are none of constraints on the rates."""
+
+AC = Family(
+    name="Ac",
+    stage=Stage.CONSTRAINTS,
+    shape=("c", "n"),
+    letter=of_robot(letters.A_C),
+    spellings=("A", "Jc", "Jh", "Jlambda"),
+)
+
+AC_DOT = Family(
+    name="Ac_dot",
+    stage=Stage.CONSTRAINTS,
+    shape=("c", "n"),
+    letter=of_robot(letters.rate(letters.A_C)),
+    spellings=("Adot", "dA", "dAc", "Jcdot", "Jhdot"),
+)
+
+LAMBDA = Family(
+    name="lambda",
+    stage=Stage.CONSTRAINTS,
+    shape=("c", 1),
+    letter=of_robot(letters.LAMBDA),
+    spellings=("lam", "lambda_", "mu"),
+)
+
+FAMILIES: tuple[Family, ...] = (H_C, AC, AC_DOT, LAMBDA)
+"""The records above, in their order."""

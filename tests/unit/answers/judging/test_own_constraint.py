@@ -1,0 +1,64 @@
+"""Answers about constraints: other forms of the same, and what belongs to the student's own matrix."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.answers.judging.other_solutions import Other
+from tests.unit.answers.hands import Text, judge, verdicts
+
+LINE = """
+gravity: none
+dh: [{theta: q1* + 90deg, alpha: 90deg}, {d: q2*}]
+masses: [{mass: m, link: 2, center: origin}]
+constraints: [tip.x - k]
+find: [Ac, Ac_dot, lambda]
+"""
+AC = [["-q2*sin(q1)", "cos(q1)"]]
+RATE = [["-q2_dot*sin(q1) - q2*cos(q1)*q1_dot", "-sin(q1)*q1_dot"]]
+FORCE = "(tau1*sin(q1)/q2 - f2*cos(q1))"
+"""λ by hand: m q2² q̈1 + 2 m q2 q̇1 q̇2 = τ1 - q2 s1 λ and m q̈2 - m q2 q̇1² = f2 + c1 λ, with A q̈ + Ȧ q̇ = 0."""
+
+
+@pytest.mark.parametrize(
+    ("answers", "expected"),
+    [
+        ({"Ac": AC, "Ac_dot": RATE}, ["correct", "correct"]),
+        ({"Ac": [["q2*sin(q1)", "-cos(q1)"]]}, ["correct"]),
+        ({"Ac": [["-q2*tan(q1)", "1"]]}, ["correct"]),
+        ({"Ac": [["-k*tan(q1)", "cos(q1)"]]}, ["correct"]),
+        ({"Ac": [["q2*sin(q1)", "cos(q1)"]]}, ["wrong"]),
+        ({"Ac": [["-q2*cos(q1)", "-sin(q1)"]]}, ["wrong"]),
+        ({"Ac": [["0", "0"]]}, ["wrong"]),
+        ({"Ac": [["q2*sin(q1)", "-cos(q1)"]],
+          "Ac_dot": [["q2_dot*sin(q1) + q2*cos(q1)*q1_dot", "sin(q1)*q1_dot"]]}, ["correct", "correct"]),
+        ({"Ac": [["-q2*tan(q1)", "1"]],
+          "Ac_dot": [["-q2_dot*tan(q1) - q2*q1_dot/cos(q1)^2", "0"]]}, ["correct", "correct"]),
+        ({"Ac": AC, "Ac_dot": [["-q2_dot*sin(q1)", "-sin(q1)*q1_dot"]]}, ["correct", "wrong"]),
+    ],
+)  # fmt: skip
+def test_the_matrix_and_its_rate(answers: dict[str, Text], expected: list[str]) -> None:
+    found = verdicts(judge(LINE, answers))
+    assert [found[name] for name in answers] == expected
+
+
+@pytest.mark.parametrize(
+    ("matrix", "multiplier", "expected"),
+    [
+        (AC, FORCE, "correct"),
+        ([["q2*sin(q1)", "-cos(q1)"]], f"-{FORCE}", "correct"),
+        ([["-q2*tan(q1)", "1"]], f"cos(q1)*{FORCE}", "correct"),
+        (AC, FORCE.replace("q2 -", "q2 +"), "wrong"),
+        (AC, FORCE.replace("/q2", ""), "wrong"),
+    ],
+)
+def test_the_multipliers_go_with_the_matrix(matrix: Text, multiplier: str, expected: str) -> None:
+    found = verdicts(judge(LINE, {"Ac": matrix, "lambda": multiplier}))
+    assert (found["Ac"], found["lambda"]) == ("correct", expected)
+
+
+def test_what_holds_on_the_constraint_alone_is_told() -> None:
+    """q2 cos q1 = k there, and so q̇2 = q2 tan(q1) q̇1."""
+    rate = [["-k*q1_dot - q2_dot*sin(q1)", "-sin(q1)*q1_dot"]]
+    (answer,) = [a for a in judge(LINE, {"Ac_dot": rate}).answers if a.name == "Ac_dot"]
+    assert Other.ON_CONSTRAINT in answer.notes
