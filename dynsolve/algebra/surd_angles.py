@@ -1,12 +1,12 @@
-"""Angles with exact sine and cosine: the directions of points (x, y) whose coordinates are sums of roots."""
+"""Exact angles: directions of points (x, y) whose coordinates are sums of roots, and degrees beside them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
-from math import atan2, pi
+from math import atan2, copysign, pi, radians
 
 from dynsolve.algebra.surds import NotExact, Surd, whole_multiple
 from dynsolve.notation.build import cost, negated, times, total
@@ -21,7 +21,9 @@ _STEP = 15
 
 @dataclass(frozen=True, slots=True)
 class SurdAngle:
-    """The angle of the point (x, y), which is not the origin; modulo 2π, whatever the length of (x, y).
+    """The angle of the point (x, y), which is not the origin, and `rest` degrees; modulo 2π.
+
+    The length of (x, y) means nothing.  `rest` is 0 or no multiple of 15, between -45 and 45.
 
     >>> right = SurdAngle(Surd.of(0), Surd.of(1))
     >>> (right + right).is_same(SurdAngle.of_degrees(180))
@@ -30,18 +32,23 @@ class SurdAngle:
 
     x: Surd
     y: Surd
+    rest: Fraction = Fraction(0)
 
     @staticmethod
     def of_degrees(degrees: Fraction | int) -> SurdAngle:
-        """A constant angle; raises NotExact for what is no multiple of 15 degrees."""
+        """A constant angle."""
         steps = Fraction(degrees) / _STEP
-        if steps.denominator != 1:
-            raise NotExact
-        return _multiples()[int(steps) % (360 // _STEP)]
+        if steps.denominator == 1:
+            return _multiples()[int(steps) % (360 // _STEP)]
+        quarters = round(Fraction(degrees) / 90)
+        quarter = _multiples()[quarters * 90 // _STEP % (360 // _STEP)]
+        return SurdAngle(quarter.x, quarter.y, Fraction(degrees) - 90 * quarters)
 
     @property
     def norm(self) -> Surd:
-        """√(x² + y²); raises NotExact where it is no sum of roots."""
+        """√(x² + y²); raises NotExact where it is no sum of roots, or there is a rest."""
+        if self.rest:
+            raise NotExact
         return (self.x * self.x + self.y * self.y).root()
 
     @property
@@ -58,10 +65,14 @@ class SurdAngle:
         x = self.x * other.x - self.y * other.y
         y = self.x * other.y + self.y * other.x
         size = Surd.of(whole_multiple((x, y)))
-        return SurdAngle(x * size, y * size)
+        both = SurdAngle(x * size, y * size)
+        if not (self.rest or other.rest):
+            return both
+        more = SurdAngle.of_degrees(self.rest + other.rest)
+        return replace(both + replace(more, rest=Fraction(0)), rest=more.rest)
 
     def __neg__(self) -> SurdAngle:
-        return SurdAngle(self.x, -self.y)
+        return SurdAngle(self.x, -self.y, -self.rest)
 
     def times(self, factor: Fraction) -> SurdAngle:
         """A whole multiple; raises NotExact for another."""
@@ -76,20 +87,25 @@ class SurdAngle:
     def is_same(self, other: SurdAngle) -> bool:
         """Whether both are one angle, modulo 2π."""
         across = self.x * other.y - self.y * other.x
-        return across.is_zero and (self.x * other.x + self.y * other.y).sign > 0
+        return self.rest == other.rest and across.is_zero and (self.x * other.x + self.y * other.y).sign > 0
 
     def __float__(self) -> float:
         """The angle in radians, greater than -π and at most π."""
-        value = atan2(float(self.y), float(self.x))
-        return pi if self.y.is_zero and self.x.sign < 0 else value
+        value = atan2(float(self.y), float(self.x)) + radians(self.rest)
+        if value > pi or value <= -pi:
+            value -= copysign(2 * pi, value)
+        return pi if not self.rest and self.y.is_zero and self.x.sign < 0 else value
 
     @property
     def node(self) -> Node:
         """The angle as a formula: π/3, arccos(1/3), atan2(4, 3)."""
+        direction = replace(self, rest=Fraction(0))
         for steps, angle in enumerate(_multiples()):
-            if self.is_same(angle):
-                turned = steps if 2 * steps <= len(_multiples()) else steps - len(_multiples())
-                return times(Fraction(turned * _STEP, 180), [(PI, 1)])
+            if direction.is_same(angle):
+                degrees = steps * _STEP + self.rest
+                return times((degrees if degrees <= 180 else degrees - 360) / 180, [(PI, 1)])
+        if self.rest:
+            return total([direction.node, times(self.rest / 180, [(PI, 1)])])
         return min(self._written(), key=lambda node: (_roots(node), cost(node)))
 
     def _written(self) -> Iterator[Node]:
@@ -111,8 +127,8 @@ class SurdAngle:
             yield found if sine.sign > 0 else negated(found)
         if sine.rational is not None:
             angle: Node = Function("asin", (sine if sine.sign > 0 else -sine).node)
-            turned = angle if cosine.sign > 0 else total([PI, negated(angle)])
-            yield turned if sine.sign > 0 else negated(turned)
+            parts = [angle] if cosine.sign > 0 else [PI, negated(angle)]
+            yield total(parts if sine.sign > 0 else [negated(part) for part in parts])
 
 
 def _roots(node: Node) -> int:

@@ -120,6 +120,8 @@ def _of_angle(name: str, value: Exact) -> Surd:
     if not isinstance(value, SurdAngle):
         raise NotExact
     if name == "tan":
+        if value.rest:
+            raise NotExact
         return _quotient_of(value.y, value.x)
     return value.sine if name == "sin" else value.cosine
 

@@ -38,7 +38,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
                 singular configurations and branches of the inverse, as formulas
     inverse_formulas
                 the solutions of inverse kinematics: atan2(y, x) - …, ± arccos(…)
-    target, branch_values
+    target, branch_values, linked_angles
                 the configurations that reach a target in numbers
     inverse_target
                 their steps

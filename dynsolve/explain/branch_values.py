@@ -8,11 +8,12 @@ from fractions import Fraction
 from math import acos, asin, atan2, sqrt
 from typing import Any
 
+from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.surd_angles import SurdAngle
 from dynsolve.algebra.surd_values import Exact, NoValue, Undetermined, exact_value
 from dynsolve.algebra.surds import NotExact
-from dynsolve.notation.build import cost, negated
-from dynsolve.notation.tree import Node, Number, Parenthesized, Symbol
+from dynsolve.notation.build import cost, negated, times, total
+from dynsolve.notation.tree import ZERO, Negative, Node, Number, Product, Quotient, Sum, Symbol
 from dynsolve.notation.tree_values import FUNCTIONS, compile_trees
 from dynsolve.notation.walk import mapped
 
@@ -67,7 +68,8 @@ class BranchValues:
             self.exact[name], self.numbers[name] = value, float(value)
 
     def _set_free(self, name: str, place: float) -> None:
-        self.numbers[name] = self.free[name] = place
+        """Put an angle at a place; several at places that differ, lest they be free only together."""
+        self.numbers[name] = self.free[name] = place * (1 + len(self.free))
         if not place:
             self.exact[name] = SurdAngle.of_degrees(0)
 
@@ -96,10 +98,25 @@ def with_numbers(formula: Node, written: Mapping[str, Node]) -> Node:
     def put(part: Node) -> Node:
         if not isinstance(part, Symbol) or part.name not in written:
             return part
-        node = written[part.name]
-        return node if isinstance(node, Number | Symbol) else Parenthesized(node)
+        return written[part.name]
 
-    return mapped(formula, put)
+    return mapped(formula, lambda part: _folded(put(part)))
+
+
+def _folded(part: Node) -> Node:
+    """A sum or product without the 0 and 1 that numbers have left in it."""
+    match part:
+        case Product(factors):
+            return times(1, [(factor, 1) for factor in factors])
+        case Sum(terms):
+            numbers = [value for term in terms if (value := rational_value(term)) is not None]
+            rest = [term for term in terms if rational_value(term) is None]
+            return total([*rest, times(sum(numbers, Fraction(0)), [])]) if numbers else total(rest)
+        case Negative(argument) if argument == ZERO:
+            return ZERO
+        case Quotient(numerator, denominator) if numerator == ZERO and denominator != ZERO:
+            return ZERO
+    return part
 
 
 def decimal(value: float, digits: int = DIGITS) -> Node:

@@ -14,7 +14,7 @@ from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.target import Configuration, Lost, TargetForms
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import Degrees, Function, Negative, Node, Number, Relation, Symbol, equation
-from dynsolve.notation.walk import walk
+from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities.stages import Stage
 
 _DIGITS = 4
@@ -78,7 +78,7 @@ def _where_from(one: Configuration) -> Prose:
 def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
     """q = its formula ≈ its value"""
     formula, value = one.formulas[name], one.numbers[name]
-    if rational_value(formula) == 0:
+    if rational_value(formula) == 0 or _depends(one, name):
         return equation(Symbol(name), formula)
     shown = [node for node in (formula, decimal(value, _DIGITS)) if not _is_decimal(node) or node != formula]
     if rational_value(formula) is not None:
@@ -88,6 +88,11 @@ def _value(forms: TargetForms, one: Configuration, name: str) -> Node:
             return Relation((Symbol(name), formula, _in_degrees(value)), ("=", "="))
         shown.append(_in_degrees(value))
     return Relation((Symbol(name), *shown), ("≈" if _is_decimal(formula) else "=", *["≈"] * (len(shown) - 1)))
+
+
+def _depends(one: Configuration, name: str) -> bool:
+    """Whether a coordinate is given by one that is free."""
+    return name in one.formulas and bool(names_in(one.formulas[name]) & set(one.free))
 
 
 def _has_function(node: Node) -> bool:
@@ -168,6 +173,8 @@ def _table(forms: TargetForms) -> Table:
 def _cell(forms: TargetForms, one: Configuration, name: str) -> Node | str:
     if name in one.free:
         return "free"
+    if _depends(one, name):
+        return one.formulas[name]
     value = one.numbers[name]
     return _in_degrees(value) if _turns(forms, name) else decimal(value, _DIGITS)
 

@@ -19,7 +19,9 @@ from dynsolve.algebra.surd_values import Exact, exact_value
 from dynsolve.algebra.surds import NotExact
 from dynsolve.derivation.reached import CLOSE, angle_rows, near, same_configuration
 from dynsolve.explain.branch_values import BranchValues, Unreal, branch_values, decimal, number_of, shown
+from dynsolve.explain.linked_angles import linked
 from dynsolve.notation.tree import Node
+from dynsolve.notation.walk import names_in
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Target
 
@@ -109,8 +111,12 @@ class TargetForms:
 
     def reaches(self, q: Mapping[str, float]) -> bool:
         """Whether a configuration gives the task what is wanted."""
+        return near(self._at(q), self.wanted, self.angles)
+
+    def _at(self, q: Mapping[str, float]) -> list[float]:
+        """r(q)"""
         at = {**self.numbers, **q}
-        return near([evaluate(entry, at) for entry in self.r.entries], self.wanted, self.angles)
+        return [evaluate(entry, at) for entry in self.r.entries]
 
     # -- the configurations ------------------------------------------------------------------------
 
@@ -158,14 +164,31 @@ class TargetForms:
             return None
         names = self.robot.ring.names
         unused = {name: 0.0 for name in names if name not in branch}
-        if not all(self.reaches({**unused, **one.numbers}) for one in (found, *others)):
-            return None
-        free = tuple(name for name in names if name in unused or name in found.free)
-        return Configuration(
+        whole = Configuration(
             numbers={name: found.numbers.get(name, 0.0) for name in names},
-            formulas={name: self._formula(name, branch, found, others) for name in names if name not in free},
+            formulas=_constants_first(
+                names, {n: self._formula(n, branch, found, others) for n in branch if n not in found.free}
+            ),
             branches=(number,),
-            free=free,
+            free=tuple(name for name in names if name in unused or name in found.free),
+        )
+        if all(self.reaches({**unused, **one.numbers}) for one in (found, *others)):
+            return whole
+        return self._linked(whole, list(found.free))
+
+    def _linked(self, whole: Configuration, free: Sequence[str]) -> Configuration | None:
+        """The configuration with the second of two free angles given by the first; None where it is not."""
+        if len(free) != 2:
+            return None
+        first, second = free
+        both = linked(self._at, self.wanted, whole.numbers, first, second)
+        if both is None or not self.reaches({**whole.numbers, second: both[0]}):
+            return None
+        return replace(
+            whole,
+            numbers={**whole.numbers, second: both[0]},
+            formulas={**whole.formulas, second: both[1]},
+            free=tuple(name for name in whole.free if name != second),
         )
 
     def _elsewhere(self, branch: Mapping[str, Node], place: float) -> BranchValues:
@@ -216,3 +239,9 @@ class TargetForms:
             if name not in one.free and not low - CLOSE <= value <= high + CLOSE:
                 found.append(name)
         return tuple(found)
+
+
+def _constants_first(names: Sequence[str], formulas: Mapping[str, Node]) -> dict[str, Node]:
+    """The formulas that are numbers, in the order of the coordinates, before those that hold others."""
+    constant = [name for name in names if name in formulas and not names_in(formulas[name]) & set(names)]
+    return {name: formulas[name] for name in dict.fromkeys((*constant, *formulas))}

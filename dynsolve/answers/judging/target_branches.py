@@ -102,8 +102,10 @@ class TargetKey:
         return _Given(values, slack)
 
     def _is(self, one: _Given, key: Configuration) -> bool:
-        return all(
-            abs(gap(kind, one.values[name], key.numbers[name])) <= one.slack[name] * (1 + CLOSE) + CLOSE
+        free = {name: one.values[name] for name in key.free}
+        mine = on_branch(key.formulas, {**self.target.numbers, **free}) if free else key.numbers
+        return mine is not None and all(
+            abs(gap(kind, one.values[name], mine[name])) <= one.slack[name] * (1 + CLOSE) + CLOSE
             for name, kind in self._coordinates
             if name not in key.free
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import atan2, isclose
+from math import atan2, isclose, pi
 
 import pytest
 
@@ -70,6 +70,32 @@ def test_the_sum_of_two_angles_is_one_angle() -> None:
     both = [SurdAngle(Surd.of(x), Surd.of(y)) for x, y in ((2, 1), (3, 1))]
     assert (both[0] + both[1]).is_same(SurdAngle.of_degrees(45))
     assert not (both[0] + both[1]).is_same(SurdAngle.of_degrees(225))
+
+
+# (some degrees, what is added to atan2(4, 3), the sum as it is written)
+SUMS = [
+    ("20deg", "25deg", "atan2(7, -1)"),
+    ("-145deg", "0deg", "atan2(-4, -3) + 7π/36"),
+    ("100deg", "-10deg", "atan2(3, -4)"),
+]
+
+
+@pytest.mark.parametrize(("first", "second", "written"), SUMS)
+def test_degrees_that_have_no_exact_sine_stand_beside_a_direction(
+    first: str, second: str, written: str
+) -> None:
+    one, other = (exact_value(read(text).tree, {}) for text in (first, second))
+    direction = exact_value(Function("atan2", Arguments((read("4").tree, read("3").tree))), {})
+    assert isinstance(one, SurdAngle) and isinstance(other, SurdAngle) and isinstance(direction, SurdAngle)
+    found = one + direction + other
+    assert shown(found.node) == written
+    turns = (float(one) + float(other) + atan2(4, 3) - float(found)) / (2 * pi)
+    assert isclose(turns, round(turns), abs_tol=1e-12)
+    assert (found + -found).is_same(SurdAngle.of_degrees(0))
+
+
+def test_degrees_alone_are_a_part_of_pi() -> None:
+    assert shown(SurdAngle.of_degrees(Fraction(-145)).node) == "-29π/36"
 
 
 @pytest.mark.parametrize(

@@ -88,6 +88,38 @@ def test_a_redundant_arm_has_infinitely_many() -> None:
     assert (found.configurations, found.is_family) == ((), True)
 
 
+WRIST = """
+dh:
+  - {theta: q1*, d: 1, alpha: 90deg}
+  - {theta: q2*, a: 1}
+  - {theta: q3*, alpha: 90deg}
+  - {theta: q4*, d: 1, alpha: -90deg}
+  - {theta: q5*, alpha: 90deg}
+  - {theta: q6*, d: 1/2}
+task: pose"""
+
+
+def test_where_the_axes_of_a_wrist_are_one_line_an_angle_gives_another() -> None:
+    """The hand points down below the elbow: with a vertical forearm q5 = 180°, facing it or turned round."""
+    found = target(WRIST, "[1, 0, 3/2, 1, 0, 0, 0, -1, 0, 0, 0, -1]")
+    assert not found.is_searched
+    one, other = (one for one in found.configurations if one.free)
+    assert one.free == other.free == ("q4",)
+    assert to_python(other.formulas["q1"]) == "pi"
+    assert {name: to_python(formula) for name, formula in one.formulas.items()} == {
+        "q1": "0", "q2": "0", "q3": "pi", "q5": "pi", "q6": "q4"
+    }  # fmt: skip
+    for q4 in (0.0, 0.4, -2.0):
+        assert found.reaches({**one.numbers, "q4": q4, "q6": q4})
+        assert not found.reaches({**one.numbers, "q4": q4, "q6": q4 + 0.1})
+
+
+def test_eight_configurations_of_six_joints() -> None:
+    found = target(WRIST, "[1, 1, 3/2, 1, 0, 0, 0, 1, 0, 0, 0, 1]")
+    assert len(found.configurations) == 8
+    assert all(found.reaches(one.numbers) for one in found.configurations)
+
+
 # (the ranges, which of the two configurations of [1, 2] lie outside: q1 = 36.87°, 90° and q2 = ±90°)
 LIMITS = [
     ("{q1: [0, 45deg]}", [(), ("q1",)]),
