@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
+from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
 from dynsolve.explain.jacobian import ZERO, coordinate_column
@@ -50,7 +51,7 @@ def steps(context: Context) -> Iterator[Step]:
     bodies = context.robot.bodies
     for body in bodies:
         yield _potential(context, body)
-    springs, rotors = _acting_steps(context)
+    springs, rotors = acting_steps(context)
     yield from springs
     yield _total(context, "P", "potential", letters.P, [letters.PS] * len(springs))
     told = False
@@ -64,15 +65,6 @@ def steps(context: Context) -> Iterator[Step]:
         yield _kinetic(context, body)
     yield from rotors
     yield _total(context, "K", "kinetic", letters.K, [letters.KM] * len(rotors))
-
-
-def _acting_steps(context: Context) -> tuple[list[Step], list[Step]]:
-    """The step of the springs and that of the rotors, where there are any; imported where something acts."""
-    if not context.robot.actions:
-        return [], []
-    from dynsolve.explain.actions import rotor_steps, spring_steps
-
-    return list(spring_steps(context)), list(rotor_steps(context))
 
 
 # -- potential energy ------------------------------------------------------------------------------
@@ -167,7 +159,8 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
     bodies = [letters.of_body(name, body) for body in context.robot.bodies]
     why = "The sum over the bodies" if len(bodies) > 1 else "There is only one body"
     if others:
-        why += f", and the part of the {'springs' if name == 'P' else 'rotors'}"
+        why = "The sum over the bodies" if len(bodies) > 1 else "That of the body"
+        why += f", and that of the {'springs' if name == 'P' else 'rotors'}"
     members: list[Node] = [letter, sum_of([*bodies, *others])]
     weightless = name == "P" and context.robot.gravity.is_zero
     if are_counted(context.robot.bodies) and len(bodies) > 1 and not weightless:

@@ -5,12 +5,14 @@ They stand in the place of the energies of bodies, and of the D that is assemble
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from dynsolve.document import Prose
+from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import is_small, spong
+from dynsolve.explain.writing import is_small, listed, spong, sum_of
 from dynsolve.notation.tree import (
     Derivative,
     Letter,
@@ -19,6 +21,7 @@ from dynsolve.notation.tree import (
     Product,
     Row,
     Symbol,
+    Words,
     column,
     equation,
 )
@@ -30,9 +33,23 @@ _QUADRATIC = Product((letters.HALF, letters.transposed_product(letters.QD, lette
 
 
 def energy_steps(context: Context, given: GivenModel) -> Iterator[Step]:
-    """P, then K."""
-    yield _potential(context, given)
-    yield _of_inertia(context, given) if given.D is not None else _kinetic(context, given)
+    """P, then K, each with what springs and rotors add to what is given."""
+    springs, rotors = acting_steps(context)
+    yield from springs
+    yield _with_added(_potential(context, given), letters.P, [letters.PS] * len(springs))
+    yield from rotors
+    kinetic = _of_inertia(context, given) if given.D is not None else _kinetic(context, given)
+    yield _with_added(kinetic, letters.K, [letters.KM] * len(rotors))
+
+
+def _with_added(step: Step, energy: Letter, added: Sequence[Letter]) -> Step:
+    """The step of an energy to which that of springs or of rotors is added."""
+    if not added:
+        return step
+    given = Letter(energy.base, Words("given"), None, energy.style)
+    formula = equation(energy, sum_of([given, *added]))
+    why = (*step.why, " What is not in it is added: ", *listed(added), ".")
+    return replace(step, why=why, formula=formula, working=(), uses=None)
 
 
 def _potential(context: Context, given: GivenModel) -> Step:

@@ -250,6 +250,8 @@ def _dynamics(machine: str) -> Iterator[Line]:
 
 def _actions() -> Iterator[Line]:
     """What acts beside gravity."""
+    given = [Letter(energy.base, Words("given"), None, "script") for energy in (letters.K, letters.P)]
+    yield _line(given, "energies that the problem gives", "J")
     yield _line(letters.PS, "potential energy of the springs", "J")
     yield _line(letters.KM, "kinetic energy of the rotors", "J")
     motor = [(_sub("I", "m"), "moment of inertia"), (_sub("k", "r"), "ratio of the gear")]

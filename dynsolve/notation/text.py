@@ -60,7 +60,7 @@ def read(text: str, *, stars: bool = False, dots: bool = False) -> FormulaText:
 
     With `stars`, a star directly after a name marks a joint variable when what
     follows cannot begin a factor; otherwise every `*` is a product.  With `dots`,
-    `x_dot` and `x_ddot` are the time derivatives of x.
+    `x_dot` and `x_ddot` are the time derivatives of x, and rates may have a sign, sgn(x_dot).
 
     Whole exponents become a `Number` or its `Negative`, x^(1/2) becomes sqrt(x),
     `pi` the symbol of that name.  Raises ReadError with the place and a remedy.
@@ -213,7 +213,7 @@ class _Reader:
 
     def name(self) -> Node:
         token = self.take()
-        if token.text in FUNCTIONS:
+        if token.text in FUNCTIONS or (token.text == "sgn" and self.dots):
             return self.function(token)
         name = normalize(token.text)
         follower = self.token

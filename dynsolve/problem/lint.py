@@ -278,7 +278,6 @@ _USED_BY = {
     "velocity": ("qd",),
     "acceleration": ("qdd",),
     "weights": ("qd", "qdd"),
-    "forces": ("Q", "tau_static"),
     "state": ("qd", "qdd", "Q", "tau_static", *_SPACES),
     "task": ("r", "Jr", "Jr_dot", "det", "qd", "qdd", "singular", "inverse", *_SPACES),
     "reach": ("inverse",),

@@ -75,7 +75,7 @@ def with_questions(
     questions = Questions(
         points=tuple(points),
         task=_task(parsed.task),
-        asked=asked | {"Ac"} if constraints else asked,
+        asked=asked | _brought(loads, constraints),
         constraints=constraints,
         loads=tuple(loads),
         state=State(tuple((name, dots, value) for (name, dots), value in state.items())),
@@ -164,6 +164,11 @@ def _weights(values: CellValues, parsed: ParsedWeights | None) -> Matrix | None:
             values.faults.error(parsed.span, "the matrix of the weights is not positive definite", help)
             return None
     return W
+
+
+def _brought(loads: Sequence[Load], constraints: Sequence[Constraint]) -> frozenset[str]:
+    """What forces and constraints bring without being asked for: it stands in the equations of motion."""
+    return frozenset({*(["Q"] if loads else []), *(["Ac"] if constraints else [])})
 
 
 def _constraint(values: CellValues, robot: Robot, parsed: ParsedConstraint) -> Constraint:

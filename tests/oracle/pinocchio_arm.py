@@ -29,7 +29,7 @@ class Dynamics:
 
 def dynamics(arm: Arm, q: Array, qd: Array, qdd: Array) -> Dynamics:
     """What Pinocchio computes for `arm` at a state."""
-    model, frames, E = _model(arm)
+    model, frames, E = model_of(arm)
     data = model.createData()
     rows, rates, accelerations = E @ q, E @ qd, E @ qdd
     pin.forwardKinematics(model, data, rows, rates)
@@ -58,7 +58,7 @@ def dynamics(arm: Arm, q: Array, qd: Array, qdd: Array) -> Dynamics:
 
 def jacobians(arm: Arm, q: Array, qd: Array) -> tuple[Array, Array]:
     """J of the last frame along the axes of the world, and its time derivative, both 6×n."""
-    model, frames, E = _model(arm)
+    model, frames, E = model_of(arm)
     joint, place = frames[-1]
     end = model.addFrame(pin.Frame("end", joint, 0, place, pin.FrameType.OP_FRAME))
     data = model.createData()
@@ -72,7 +72,7 @@ def jacobians(arm: Arm, q: Array, qd: Array) -> tuple[Array, Array]:
     return found[0] @ E, found[1] @ E
 
 
-def _model(arm: Arm) -> tuple[pin.Model, list[tuple[int, pin.SE3]], Array]:
+def model_of(arm: Arm) -> tuple[pin.Model, list[tuple[int, pin.SE3]], Array]:
     """The model; for each frame of the table its joint and its place on it; and E."""
     model = pin.Model()
     model.gravity.linear = arm.gravity

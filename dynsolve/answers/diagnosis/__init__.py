@@ -9,6 +9,7 @@ explanations one after the other, the nearest first, in the order of the list at
 
     steps            this step done otherwise, from the student's own inputs (`kinematic_steps`: of what
                      exercises ask of the kinematics)
+    action_steps     the same of springs, rotors and friction
     one_place        one factor where another belongs (`factors` has the pairs), a sign, a number,
                      a missing term; `exchanges` names these and makes their words of the mend
     substitution     one symbol, angle or function for another throughout

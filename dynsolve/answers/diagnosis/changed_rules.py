@@ -24,6 +24,10 @@ OF_THE_MATRIX = ("transposed", "rows_swapped")
 """What is said of a matrix itself: of what comes after it, it would be false."""
 
 
+_ACTING = ("Ps", "Km", "friction")
+"""What acts beside gravity, where anything does."""
+
+
 class ChangedDerivation:
     """The key's derivation with the value of one node, or of one kind of node, replaced."""
 
@@ -92,6 +96,7 @@ class DerivationSlips:
             if not body.is_point:
                 yield from (f"I_body{body.name}", f"I{body.name}", f"Kw{body.name}")
             yield from (f"P{body.name}", f"K{body.name}")
+        yield from (name for name in _ACTING if name in self.graph.answer_ring.rules)
         yield from ("P", "K", "L")
         for q in robot.coordinates:
             yield from (f"ddt{q.index}", f"tau{q.index}")

@@ -46,6 +46,10 @@ def variants(robot: Robot, node: str, value: InputValue) -> Iterator[Variant]:
         yield from _OF_BODY[family](robot, robot.bodies[index[0] - 1], value)
     elif family in _OF_COORDINATE:
         yield from _OF_COORDINATE[family](robot, robot.coordinates[index[0] - 1], value)
+    if robot.actions:
+        from dynsolve.answers.diagnosis.action_steps import action_variants
+
+        yield from action_variants(robot, quantity, value)
 
 
 # -- kinematics ------------------------------------------------------------------------------------
@@ -183,7 +187,8 @@ def _linear(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
 
 def _total_potential(robot: Robot, value: InputValue) -> Iterator[Variant]:
     right = value("P")
-    yield -right, slip("gravity_sign")
+    springs = value("Ps") if robot.actions.springs else robot.ring.zero
+    yield springs + springs - right, slip("gravity_sign")
     for body in robot.bodies:
         yield right - value(f"P{body.name}"), slip("body_missing", part=body.name, other="P")
 
@@ -204,12 +209,13 @@ def _total_kinetic(robot: Robot, value: InputValue) -> Iterator[Variant]:
     bodies = robot.bodies
     if not bodies:
         return
-    total = energy.total(robot.ring, tuple(value(f"K{b.name}") for b in bodies))
+    rotors = value("Km") if robot.actions.motors else robot.ring.zero
+    total = energy.total(robot.ring, (*(value(f"K{b.name}") for b in bodies), rotors))
     for b in bodies:
         if len(bodies) > 1:
             yield total - value(f"K{b.name}"), slip("body_missing", part=b.name, other="K")
     yield (
-        energy.total(robot.ring, tuple(value(f"Kv{b.name}") for b in bodies)),
+        energy.total(robot.ring, (*(value(f"Kv{b.name}") for b in bodies), rotors)),
         slip("rotation_missing"),
     )
 
@@ -219,7 +225,8 @@ def _total_kinetic(robot: Robot, value: InputValue) -> Iterator[Variant]:
 
 def _lagrangian(robot: Robot, value: InputValue) -> Iterator[Variant]:
     yield value("K") + value("P"), slip("lagrangian_sum")
-    yield value("K"), slip("gravity_missing")
+    springs = value("Ps") if robot.actions.springs else robot.ring.zero
+    yield value("K") - springs, slip("gravity_missing")
 
 
 def _rate(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
@@ -254,8 +261,9 @@ def _force(robot: Robot, q: Coordinate, value: InputValue) -> Iterator[Variant]:
     rate, dLdq = value(f"ddt{q.index}"), value(f"dLdq{q.index}")
     if dLdq.is_zero:
         return
-    yield rate + dLdq, slip("slope_sign")
-    yield rate, slip("slope_missing")
+    resisted = value("friction")[q.index - 1, 0] if "friction" in robot.actions.kinds else robot.ring.zero
+    yield rate + dLdq + resisted, slip("slope_sign")
+    yield rate + resisted, slip("slope_missing")
 
 
 # -- the vectorized form ---------------------------------------------------------------------------
@@ -281,7 +289,10 @@ def _rows(right: Matrix) -> Iterator[Variant]:
 
 def _gravity(robot: Robot, value: InputValue) -> Iterator[Variant]:
     right = value("g")
-    yield -right, slip("gravity_sign")
+    springs = Matrix.zero(robot.ring, robot.n, 1)
+    if robot.actions.springs:
+        springs = vectorized.gravity_vector(robot, value("Ps"))
+    yield springs + springs - right, slip("gravity_sign")
     yield from _rows(right)
 
 

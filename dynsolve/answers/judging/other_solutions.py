@@ -1,5 +1,9 @@
 """What is right without being the key's.
 
+Forces: those from outside may have been moved over to the side of the motors.
+
+The energy of springs: a constant of it is free, as the zero of height is.
+
 Joint rates and accelerations: every x with Jᵀ (J x - b) = 0 solves J x = b, or comes as near to it as can
 be where nothing does; the key is the one of least norm.  Regressors: where parameters depend on each
 other, many a Y gives one product.  Accelerations of links: gravity may count as an
@@ -8,7 +12,7 @@ acceleration of the base, or as a force of its own.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
 from fractions import Fraction
 
@@ -20,10 +24,11 @@ from dynsolve.answers.judging.answer_values import as_value
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, put_numbers
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.own_parameters import forces_of, multiplies_to
+from dynsolve.derivation import statics
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.rates import wanted_by_accelerations
 from dynsolve.derivation.recursions import is_standard
-from dynsolve.quantities import recursion_families
+from dynsolve.quantities import action_families, families, recursion_families
 from dynsolve.quantities.index import Quantity
 from dynsolve.quantities.model_families import PARAMETERS
 
@@ -33,6 +38,8 @@ class Other(StrEnum):
 
     OF_MANY = "another solution than that of least norm, which is the key"
     WITH_GRAVITY = "right with gravity as an acceleration of the base; in the key it is a force on each link"
+    SPRINGS_FROM_ELSEWHERE = "right; the energy of the springs is counted from elsewhere than in the key"
+    WITHOUT_LOADS = "right with the forces from outside moved over: here τ is the left side, τ + Q the right"
     WITHOUT_GRAVITY = "right with gravity as a force on each link; in the key the base accelerates instead"
     OF_THE_PRODUCT = "these parameters leave Y open; the product is right"
     SAME_CONSTRAINT = "right in another form of the same constraint"
@@ -55,6 +62,10 @@ def other_solution(
         return _with_other_gravity(graph, quantity, rows, compare)
     if node in PARAMETERS:
         return Other.OF_THE_PRODUCT if _multiplies(graph, node, rows) else None
+    if quantity is not None and quantity.family in (families.TAU, families.FORCE):
+        return Other.WITHOUT_LOADS if _is_what_motors_give(graph, quantity, rows, compare) else None
+    if quantity is not None and quantity.family in (families.P, families.L, action_families.PS):
+        return Other.SPRINGS_FROM_ELSEWHERE if _differs_by_springs(graph, quantity, rows[0][0]) else None
     return Other.OF_MANY if _solves(graph, node, rows, compare.values) else None
 
 
@@ -80,6 +91,53 @@ def _with_other_gravity(
     if not right:
         return None
     return Other.WITH_GRAVITY if standard else Other.WITHOUT_GRAVITY
+
+
+def _differs_by_springs(graph: AnswerGraph, quantity: Quantity, written: WrittenEntry) -> bool:
+    """Whether an energy differs from the key by a constant in which every term has a parameter of springs.
+
+    The constant has none of masses or gravity: these have one zero of height for all bodies.
+    """
+    robot, difference = graph.robot, written.value.numerator - graph.key(quantity.rule)
+    if not robot.actions.springs or written.value.divisor is not None:
+        return False
+    own = _parameters(spring.energy for spring in robot.actions.springs)
+    own -= _parameters((*(body.mass for body in robot.bodies), *robot.gravity.entries))
+    symbols = robot.ring.symbol_indices
+    places = [symbols[name, 0] for name in own]
+    return (
+        not difference.is_zero
+        and not robot.ring.depends_on_coordinates(difference)
+        and _parameters([difference]) <= own
+        and all(any(exponents[i] for i in places) for exponents in difference.poly.monoms())
+    )
+
+
+def _parameters(values: Iterable[Expr]) -> set[str]:
+    """The parameters that occur in some values."""
+    found: set[str] = set()
+    for value in values:
+        degrees = value.poly.degrees()
+        found |= {
+            g.name for g in value.ring.generators if degrees[g.index] > 0 and g.name in value.ring.parameters
+        }
+    return found
+
+
+def _is_what_motors_give(
+    graph: AnswerGraph, quantity: Quantity, rows: Sequence[Sequence[WrittenEntry]], compare: EntryComparer
+) -> bool:
+    """Whether forces are D q̈ + C q̇ + friction + g - Q: what is left for the motors."""
+    robot = graph.robot
+    if not robot.questions.loads:
+        return False
+    parts = tuple(graph.key(f"load{i}") for i, _ in enumerate(robot.questions.loads, 1))
+    Q = statics.total(robot, parts)
+    key = graph.key(quantity.rule)
+    forces = (
+        key - Q if isinstance(key, Matrix) else Matrix.column(Q.ring, [key - Q[quantity.index[0] - 1, 0]])
+    )
+    return all(compare(entry, row[0]) is not None for entry, row in zip(forces.entries, rows, strict=True))
 
 
 def _solves(

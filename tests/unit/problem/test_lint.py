@@ -24,7 +24,6 @@ FINDINGS = {
     "gravity-upward": "gravity: «[0, 0, g]»\n" + MASS,
     "gravity-upward in numbers": "gravity: «[0, 0, 9.81]»\n" + MASS,
     "unasked velocity": "«velocity»: [vx, vy]\nfind: [Jr]\n" + PLANAR,
-    "unasked forces": "«forces»: [{link: 1, force: [F, 0, 0]}]\nfind: [tau]\n" + MASS,
     "unasked state": "«state»: {theta1: 0}\nfind: [Jr, det]\n" + PLANAR,
     "unasked task": "«task»: [tip.x]\n" + PLANAR,
     "ambiguous-name c1": body("mass: «c1», link: 1"),
