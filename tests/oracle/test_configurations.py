@@ -9,6 +9,7 @@ Both take nothing but r(q) and the sets from the JSON.
 from __future__ import annotations
 
 import itertools
+import json
 import math
 from collections.abc import Mapping
 from functools import cache
@@ -22,7 +23,7 @@ from tests.support import FUNCTIONS, solve_json
 
 Vector = npt.NDArray[np.float64]
 
-KNOWN = FUNCTIONS | {name: getattr(math, name) for name in ("asin", "acos", "atan2")}
+KNOWN = FUNCTIONS | {name: getattr(math, name) for name in ("asin", "acos", "atan2", "pi")}
 
 POINTS, STARTS, STEPS = 2, 12, 25
 
@@ -79,19 +80,34 @@ class Arm:
         step = 1e-5 * np.eye(len(q))
         return np.array([(self.r(q + h, lengths) - self.r(q - h, lengths)) / 2e-5 for h in step]).T
 
+    @property
+    def angles(self) -> list[bool]:
+        """Which components of the task are sums of joint angles: those without a sine or cosine that turn."""
+        turning = {name for name, turns in zip(self.names, self.turning, strict=True) if turns}
+        return [bool(turning & {*e.co_names}) and not {"sin", "cos"} & {*e.co_names} for e in self.entries]
+
+    def gap(self, q: Vector, r: Vector, lengths: Mapping[str, float]) -> float:
+        """How far r(q) is from r, angles the shortest way round."""
+        off = self.r(q, lengths) - r
+        return float(np.abs(np.where(self.angles, (off + math.pi) % (2 * math.pi) - math.pi, off)).max())
+
+    def configuration(self, formulas: Mapping[str, CodeType], given: Mapping[str, float]) -> Vector:
+        """The values of one branch, each formula after those whose coordinates stand in it."""
+        values, waiting = dict(given), dict(formulas)
+        while waiting:
+            name = next(n for n, f in waiting.items() if not set(f.co_names) & waiting.keys())
+            values[name] = value(waiting.pop(name), values)
+        return np.array([values[name] for name in self.names])
+
     def solutions(self, r: Vector, lengths: Mapping[str, float]) -> list[Vector]:
         """The configurations of the branches at r."""
         found = []
         for branch in self.branches:
-            values = {**lengths, **{f"r{k}": float(entry) for k, entry in enumerate(r, 1)}}
-            waiting = dict(branch)
+            given = {**lengths, **{f"r{k}": float(entry) for k, entry in enumerate(r, 1)}}
             try:
-                while waiting:
-                    name = next(n for n, f in waiting.items() if not set(f.co_names) & waiting.keys())
-                    values[name] = value(waiting.pop(name), values)
+                found.append(self.configuration(branch, given))
             except ValueError:  # beyond reach
                 continue
-            found.append(np.array([values[name] for name in self.names]))
         return found
 
     def newton(self, r: Vector, lengths: Mapping[str, float], draw: np.random.Generator) -> list[Vector]:
@@ -139,6 +155,28 @@ def test_the_branches_are_what_newton_finds(name: str) -> None:
         assert all(np.allclose(this.r(q, lengths), r, atol=1e-8) for q in branches)
         for q in this.newton(r, lengths, draw):
             assert any(this.is_same(q, other) for other in branches)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_what_reaches_numbers_is_what_newton_finds(name: str) -> None:
+    """The same with numbers in the file: what is listed is exact, and the same in decimals."""
+    draw = np.random.default_rng(8)
+    this = arm(name)
+    lengths = {p: round(draw.uniform(0.4, 1.2), 2) for p in this.parameters}
+    r = this.r(draw.uniform(-2, 2, len(this.names)), lengths)
+    texts = [
+        f"{math.degrees(x):.0f}deg" if turns else f"{x:.3f}" for x, turns in zip(r, this.angles, strict=True)
+    ]
+    r = np.array([math.radians(float(t[:-3])) if t.endswith("deg") else float(t) for t in texts])
+    numbers = f"values: {json.dumps(lengths)}\nreach: [{', '.join(texts)}]\n"
+    results = solve_json(f"gravity: none\n{ARMS[name]}\n{numbers}find: [inverse]\n")["results"]
+    listed = [np.array([q[n] for n in this.names]) for q in results["inverse_decimals"]]
+    exact = [this.configuration({n: code(f) for n, f in q.items()}, lengths) for q in results["inverse"]]
+    assert len(listed) == len(exact) > 0
+    for q, same in zip(listed, exact, strict=True):
+        assert this.is_same(q, same) and this.gap(q, r, lengths) < 1e-9
+    for q in this.newton(r, lengths, draw):
+        assert any(this.is_same(q, other) for other in listed)
 
 
 @pytest.mark.parametrize("name", ARMS)
