@@ -157,7 +157,7 @@ class _Explainer:
     def _notes(self, step: Solved, part: Part) -> Iterator[Prose]:
         """When there is a solution, and when there are infinitely many."""
         if part.turn is not None and part.turn.is_wrist:
-            yield from wrist_notes(part, step)
+            yield from wrist_notes(self.formulas, part.turn, step)
             return
         form = self.formulas.form
         one = "; on the boundary, with =, the two solutions are one."

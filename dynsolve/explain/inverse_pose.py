@@ -12,8 +12,8 @@ from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import and_joined, listed
-from dynsolve.notation.tree import Function, Matrix, Node, Number, Symbol, equation
+from dynsolve.explain.writing import and_joined
+from dynsolve.notation.tree import Function, Matrix, Node, Number, Relation, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
@@ -147,13 +147,17 @@ def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[S
     )
 
 
-def wrist_notes(part: Part, step: Solved) -> Iterator[Prose]:
-    """Where a spherical wrist is singular; said with its middle joint."""
-    if isinstance(step, OneLine):
-        others = [Symbol(s.coordinate) for s in part.solved if s is not step]
-        zero = equation(Function("sin", Symbol(step.coordinate)), Number(0))
-        yield (
-            "Where ", zero, " the first and the last axis of the wrist are one line: only the sum of ",
-            *listed(others), ", or their difference, is given then, and one of them is free: infinitely many "
-            "solutions.",
-        )  # fmt: skip
+def wrist_notes(formulas: InverseFormulas, turn: Turn, step: Solved) -> Iterator[Prose]:
+    """Where a spherical wrist is singular; said with its first angle that has two values."""
+    if not isinstance(step, OneLine):
+        return
+    first, middle, last = map(Symbol, turn.names)
+    if len(turn.made[2, 2]) == 1:  # ± the cosine of the angle between the outer axes
+        where = equation(Function("sin", middle), Number(0))
+    else:
+        where = Relation((formulas.form(turn.known[2, 2]), Number(1)), ("= ±",))
+    yield (
+        "Where ", where, " the first and the last axis of the wrist are one line: the wrist is singular. "
+        "Only the sum of ", first, " and ", last, ", or their difference, is given then, and one of them "
+        "is free: infinitely many solutions.",
+    )  # fmt: skip

@@ -19,6 +19,7 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
+    Parenthesized,
     Power,
     Product,
     Quotient,
@@ -61,6 +62,8 @@ def _count(node: Node, known: dict[int, tuple[Node, int]]) -> int:
             return sum(cost(part, known) for part in parts)
         case Negative(argument) | Function(_, argument):
             return cost(argument, known) + 1
+        case Parenthesized(inner):
+            return cost(inner, known)
         case Degrees():
             return 0
     raise TypeError(f"no cost for {type(node).__name__}")

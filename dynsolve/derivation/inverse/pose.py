@@ -96,7 +96,9 @@ class _Block:
         known, definitions = names.turn(H)
         is_wrist = stop - start == 3 and chain.point(0, 3) is not None
         first, last = chain.screws[0].number, chain.screws[-1].number
-        return _Block(chain, known, Turn(first, last, known, chain.product, is_wrist, definitions))
+        return _Block(
+            chain, known, Turn(first, last, chain.names, known, chain.product, is_wrist, definitions)
+        )
 
 
 def _parts(block: _Block, unknowns: Unknowns, names: Names) -> list[Part] | None:
@@ -151,7 +153,7 @@ def _ways(block: _Block, unknowns: Unknowns, names: Names) -> Iterator[Part]:
     if _terms(block.chain.product) > MOST_TERMS:
         return
     turned = tuple(_of_turn(block))
-    solved = search(turned, unknowns, turning=False)
+    solved = search(turned, unknowns)
     if {step.coordinate for step in solved} == set(block.chain.names):
         yield Part(solved, block.turn)
     for point in points:

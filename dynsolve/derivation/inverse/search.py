@@ -20,7 +20,7 @@ from dynsolve.derivation.inverse.equations import (
     turns,
 )
 from dynsolve.derivation.inverse.solving import Part, Solving
-from dynsolve.derivation.inverse.subproblems import Remainder, Solved, recognized
+from dynsolve.derivation.inverse.subproblems import Remainder, Solved, TwoLines, recognized
 from dynsolve.derivation.inverse.unknowns import Unknowns, search_ring
 
 MOST_SYSTEMS = 40
@@ -88,9 +88,13 @@ def search(given: Sequence[System], unknowns: Unknowns, *, turning: bool = True)
     return tuple(steps)
 
 
-def _effort(solved: Solved) -> tuple[int, int]:
-    """What a step costs its reader; a turned equation counts as two terms more."""
-    return solved.rank, solved.size + 2 * sum(turns(e.origin) for e in solved.equations)
+def _effort(solved: Solved) -> tuple[int, bool, int]:
+    """What a step costs its reader; a turned equation counts as two terms more.
+
+    An angle that is always given comes before one that is free somewhere.
+    """
+    may_be_free = isinstance(solved, TwoLines) and solved.may_be_free
+    return solved.rank, may_be_free, solved.size + 2 * sum(turns(e.origin) for e in solved.equations)
 
 
 def _grown(systems: list[System], unknowns: Unknowns) -> list[System]:

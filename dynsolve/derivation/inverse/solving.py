@@ -22,13 +22,14 @@ class Definition:
 class Turn:
     """The pose that is left for joints `first`..`last` (from 1) when the others are taken off.
 
-    `known` (4×4) are its entries as the steps have them, `made` (4×4) the product of the motions
-    of these joints.  `definitions` are those of the entries that are needed; `is_wrist` says that
-    these are three joints that turn about axes through one point.
+    `names` are their coordinates, `known` (4×4) the entries of the pose as the steps have them,
+    `made` (4×4) the product of the motions of these joints.  `definitions` are those of the entries
+    that are needed; `is_wrist` says that these are three joints that turn about axes through one point.
     """
 
     first: int
     last: int
+    names: tuple[str, ...]
     known: Matrix
     made: Matrix
     is_wrist: bool

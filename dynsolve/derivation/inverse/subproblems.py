@@ -21,7 +21,7 @@ from itertools import combinations
 from math import atan2, sqrt
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.positivity import is_nonnegative
+from dynsolve.algebra.positivity import is_nonnegative, is_positive
 from dynsolve.derivation.inverse.equations import Equation
 from dynsolve.derivation.inverse.terms import Harmonic, harmonic, quadratic
 from dynsolve.derivation.inverse.unknowns import Unknowns
@@ -55,6 +55,12 @@ class TwoLines:
         """Whether the lines say that a vector is turned: A' = -B and B' = A, or the other way."""
         (a, b, _), (c, d, _) = self.first, self.second
         return (d == a and c == -b) or (d == -a and c == b)
+
+    @property
+    def may_be_free(self) -> bool:
+        """Whether a vector is turned that may have no length, A² + B²."""
+        a, b, _ = self.first
+        return self.is_rotation and not is_positive(a * a + b * b)
 
     @property
     def determinant(self) -> Expr:

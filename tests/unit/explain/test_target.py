@@ -29,6 +29,10 @@ def target(text: str, reach: str, more: str = "") -> TargetForms:
     return found
 
 
+WRIST = """
+dh: [{theta: q1*, alpha: -90deg}, {theta: q2*, alpha: 90deg}, {theta: q3*}]
+task: pose"""
+
 # (the arm, the target, the configurations)
 EXACT = [
     (TWO, "[1, l1]", "q1: atan2(3, 4), q2: pi/2 | q1: pi/2, q2: -pi/2"),
@@ -36,6 +40,7 @@ EXACT = [
     (UNIT, "[2, 0]", "q1: 0, q2: 0"),
     (UNIT, "[0, 0]", "q2: pi"),
     (ELBOW, "[0, 0, 2]", "q2: pi/6, q3: 2*pi/3 | q2: 5*pi/6, q3: -2*pi/3"),
+    (WRIST, "[0, 0, 0, 0, 0, 1, 0, 1, 0, -1, 0, 0]", "q1: 0, q2: pi/2, q3: 0 | q1: pi, q2: -pi/2, q3: pi"),
     (POLAR, "[3, 4]", "d2: 5, q1: atan2(4, 3) | d2: -5, q1: atan2(-4, -3)"),
     (DIRECTED, "[1, 1, 60deg]", "q1: -pi/3, q2: 5*pi/6, q3: -pi/6 | q1: pi/2, q2: -5*pi/6, q3: 2*pi/3"),
 ]
@@ -155,3 +160,13 @@ def test_a_hint_does_not_tell_the_singular_configurations() -> None:
     for arm in (ELBOW, UNIT):
         text = repr(solve(f"gravity: none\n{arm}\nfind: [singular]\n").hint("singular").blocks[3:])
         assert "case 1" not in text and "likewise" not in text.lower() and "instead of" not in text
+
+
+def test_an_angle_of_a_singular_wrist_is_free() -> None:
+    """Its outer axes are one line: every q1 reaches the target with a q3 of its own."""
+    found = target(WRIST, "[0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]")
+    (one,) = found.configurations
+    assert one.free == ("q1",)
+    assert one.numbers["q2"] == pytest.approx(0)
+    assert to_python(one.formulas["q3"]).startswith("atan2(")
+    assert found.reaches(one.numbers)
