@@ -108,10 +108,11 @@ def solve(
     """Derive a robot's dynamics step by step, verified.
 
     The stages, in order: kinematics, jacobian, task, singular, inverse, rates, inertia,
-    energy, lagrangian, torque, vectorized, parameters, statics, constraints. A robot without
-    masses has none of the dynamics; task, singular, inverse, rates, parameters, statics and
-    constraints are there where a file asks for something of them. With --method newton-euler
-    one stage, newton_euler, leads from the kinematics to the forces.
+    energy, lagrangian, torque, vectorized, parameters, equilibria, task_inertia, statics,
+    constraints. A robot without masses has none of the dynamics; task, singular, inverse, rates,
+    parameters, equilibria, task_inertia, statics and constraints are there where a file asks for
+    something of them. With --method newton-euler one stage, newton_euler, leads from the
+    kinematics to the forces.
     """
     view = _View(_stages(stage, first, last), detail, star, abbreviate, fragment, hint)
     options = {"json": json, "latex": latex, "pdf": pdf, "html": html, "markdown": markdown}

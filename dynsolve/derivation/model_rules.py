@@ -1,7 +1,7 @@
-"""What exercises ask of the equations of motion as rules: parameters and regressors.
+"""What exercises ask of the equations of motion as rules: parameters, linearization, inertia of the task.
 
 A robot has the rules of those stages of which something is asked; the formulas are in
-`regressor`.
+`regressor`, `linearization` and `task_inertia`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation import regressor
+from dynsolve.derivation import linearization, regressor, task_inertia
 from dynsolve.derivation.energy import accelerations
 from dynsolve.derivation.graph import Rule
 from dynsolve.quantities.index import asked_stages
@@ -20,8 +20,13 @@ from dynsolve.robot.model import Robot
 
 def model_rules(robot: Robot) -> Iterator[Rule]:
     """The rules of what is asked of the equations of motion; none of a robot of which nothing is."""
-    if Stage.PARAMETERS in asked_stages(robot.questions):
+    stages = asked_stages(robot.questions)
+    if Stage.PARAMETERS in stages:
         yield from _parameters(robot)
+    if Stage.EQUILIBRIA in stages:
+        yield from _equilibria(robot)
+    if Stage.TASK_INERTIA in stages and robot.has_table:
+        yield Rule("Lambda", ("Jr", "D"), task_inertia.task_inertia)
 
 
 def _parameters(robot: Robot) -> Iterator[Rule]:
@@ -37,3 +42,10 @@ def _parameters(robot: Robot) -> Iterator[Rule]:
     yield Rule("YM", ("D", "aM"), lambda D, a: columns(inertial(D), a))
     yield Rule("ag", ("g",), minimal)
     yield Rule("Yg", ("g", "ag"), columns)
+
+
+def _equilibria(robot: Robot) -> Iterator[Rule]:
+    if robot.questions.model.linearize:
+        friction = ("friction",) if "friction" in robot.actions.kinds else ()
+        yield Rule("linear_A", ("D", "g", *friction), partial(linearization.state_matrix, robot))
+        yield Rule("linear_B", ("D",), partial(linearization.input_matrix, robot))

@@ -98,7 +98,7 @@ SICILIANO = Book(
 LYNCH_PARK = Book(
     name="Lynch and Park",
     full="K. M. Lynch, F. C. Park, Modern Robotics, Cambridge University Press, 2017",
-    sections={"8.2.1": "Classical Formulation"},
+    sections={"8.2.1": "Classical Formulation", "8.6": "Dynamics in the Task Space"},
 )
 
 MURRAY_LI_SASTRY = Book(
@@ -120,7 +120,16 @@ KHALIL_DOMBRE = Book(
     sections={"9.4": "Determination of the Base Inertial Parameters"},
 )
 
-BOOKS = (SPONG, CRAIG, SICILIANO, LYNCH_PARK, MURRAY_LI_SASTRY, KHALIL_DOMBRE)
+SLOTINE_LI = Book(
+    name="Slotine and Li",
+    full="J.-J. E. Slotine, W. Li, Applied Nonlinear Control, Prentice Hall, 1991",
+    sections={
+        "3.1": "Nonlinear Systems and Equilibrium Points",
+        "3.3": "Linearization and Local Stability",
+    },
+)
+
+BOOKS = (SPONG, CRAIG, SICILIANO, LYNCH_PARK, MURRAY_LI_SASTRY, KHALIL_DOMBRE, SLOTINE_LI)
 
 _IN_A_LIST = "Spong et al."
 """What the course's own book is called where no report names it at its start."""

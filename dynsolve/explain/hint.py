@@ -118,6 +118,8 @@ _AT_HAND = {
     Stage.VECTORIZED: "You have the forces, one for each coordinate:",
     Stage.PARAMETERS: "You have the equations of motion, one for each coordinate:",
     Stage.CONSTRAINTS: "You have the forward kinematics, and the matrices of the model:",
+    Stage.EQUILIBRIA: "You have the matrices of the equations of motion:",
+    Stage.TASK_INERTIA: "You have the Jacobian of the task and the inertia matrix:",
     Stage.STATICS: "You have the Jacobian of the end of the arm, and the frames:",
 }
 
@@ -151,6 +153,10 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints[-1:])
         if "lambda" in context.wanted:
             yield from ((letters.D, "D"), (letters.C, "C"), (letters.G, "g"))
+    elif stage is Stage.EQUILIBRIA:
+        yield from ((letters.D, "D"), (letters.G, "g"))
+    elif stage is Stage.TASK_INERTIA:
+        yield from ((letters.J_TASK, "Jr"), (letters.D, "D"))
     elif stage is Stage.STATICS:
         yield from ((letters.JV, "Jv"), (letters.JW, "Jw"))
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints)

@@ -213,6 +213,20 @@ def _parameters(robot: Robot) -> Iterator[Prose]:
     yield ("No parameter stands in Y unless it is known, and nothing that moves in a.",)
 
 
+def _equilibria(robot: Robot) -> Iterator[Prose]:
+    yield ("Differentiate first, then put the equilibrium in.",)
+    yield ("The inverse of D stands before the derivatives of g, with a minus sign.",)
+    if robot.actions.passive:
+        yield ("What no motor drives has no column in B, but its row stays.",)
+
+
+def _task_inertia(robot: Robot) -> Iterator[Prose]:
+    yield ("Where the Jacobian is not square only the whole product has an inverse.",)
+    yield (
+        "Where the Jacobian is square its inverse stands on the right, the transpose of that on the left.",
+    )
+
+
 def _statics(robot: Robot) -> Iterator[Prose]:
     yield (
         "The Jacobian is that of the point at which the force acts, and its transpose stands before the "
@@ -278,5 +292,7 @@ _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.VECTORIZED: _vectorized,
     Stage.PARAMETERS: _parameters,
     Stage.CONSTRAINTS: _constraints,
+    Stage.EQUILIBRIA: _equilibria,
+    Stage.TASK_INERTIA: _task_inertia,
     Stage.STATICS: _statics,
 }

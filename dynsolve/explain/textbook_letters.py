@@ -273,6 +273,16 @@ def _linear() -> Iterator[Line]:
     parts = [(part, (letters.of_part("Y", part), letters.of_part("a", part))) for part in ("M", "g")]
     signs = [letters.REGRESSOR, *(Y for _, (Y, _) in parts)]
     yield _line(signs, "regressor: the factor of the parameters in the forces, in a part of them")
+    near = [(letters.LINEAR_A, "matrix of the state"), (letters.LINEAR_B, "matrix of the inputs")]
+    yield _each(near, " of the motion near the equilibrium")
+    yield _line(letters.bold("q", Words("e")), "the equilibrium")
+    yield _each(
+        [
+            (letters.bold("F"), "factors of the rates in the friction"),
+            (letters.bold("S"), "selects the inputs"),
+        ]
+    )
+    yield _line(letters.TASK_INERTIA, "inertia matrix of the task")
     yield _line([letters.PARAMETERS, *(a for _, (_, a) in parts)], "column of the parameters in these")
 
 

@@ -23,5 +23,12 @@ MODEL_KEYS = (
         "all are unknown",
         remedy="write parameters: {known: [l1, g]}, or the entries of a: {a1: I1 + m2*l1^2, a2: m2*l1}",
     ),
+    Key(
+        "linearize",
+        MapOf(EXPRESSION, "values by coordinate"),
+        "The equilibrium of linear_A and linear_B, where motors hold what they can.",
+        "{theta1: 0, L2: 0}",
+        remedy="write linearize: {q1: 0, q2: 90deg}, the coordinates of the equilibrium",
+    ),
 )
 """The keys, in the order of the documentation."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.names import normalize
@@ -12,6 +12,7 @@ from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.model_keys import KNOWN, MAX_PARAMETERS
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
+from dynsolve.problem.state import ParsedState, read_equilibrium
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, Span, YamlNode
 
 _HELP = PROBLEM["parameters"].help
@@ -23,11 +24,13 @@ class ParsedModelQuestions:
 
     known: tuple[tuple[str, Span], ...] = ()
     parameters: tuple[tuple[str, Cell], ...] = ()
+    linearize: ParsedState | None = None
 
     @property
     def constant(self) -> Iterator[Cell]:
         """The values that are constant."""
         yield from (cell for _, cell in self.parameters)
+        yield from self.linearize.cells.values() if self.linearize else ()
 
 
 NO_MODEL_QUESTIONS = ParsedModelQuestions()
@@ -35,10 +38,11 @@ NO_MODEL_QUESTIONS = ParsedModelQuestions()
 
 
 def read_model_questions(
-    faults: Faults, fields: Fields, coordinates: Collection[str]
+    faults: Faults, fields: Fields, coordinates: Mapping[str, str]
 ) -> ParsedModelQuestions:
     """The keys of a file that ask something of the equations of motion; what is wrong is reported."""
-    return _read_parameters(faults, fields.get("parameters"), coordinates)
+    parameters = _read_parameters(faults, fields.get("parameters"), coordinates)
+    return replace(parameters, linearize=read_equilibrium(faults, fields.get("linearize"), coordinates))
 
 
 def _read_parameters(

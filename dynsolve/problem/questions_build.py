@@ -201,8 +201,10 @@ def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix 
 
 def _model(values: CellValues, robot: Robot, parsed: ParsedModelQuestions) -> ModelQuestions:
     check_model_questions(values.faults, parsed, robot.parameters)
+    at = parsed.linearize.values if parsed.linearize else {}
     return ModelQuestions(
         known=frozenset(name for name, _ in parsed.known),
+        linearize=tuple((name, dots, value) for (name, dots), value in at.items()),
         named=tuple(name for name, _ in parsed.parameters),
         parameters=values.column(cell for _, cell in parsed.parameters) if parsed.parameters else None,
     )

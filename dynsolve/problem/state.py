@@ -52,6 +52,25 @@ def read_state(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) 
     if not isinstance(node, MappingNode):
         faults.error(node.span, "state is a mapping from coordinates to values, or reach", _HELP)
         return None
+    return _read_values(faults, node, kinds)
+
+
+def read_equilibrium(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) -> ParsedState | None:
+    """The values of `linearize`, which are of coordinates alone; None where there are none."""
+    if node is None or isinstance(node, FaultyNode):
+        return None
+    help = PROBLEM["linearize"].help
+    if not isinstance(node, MappingNode):
+        faults.error(node.span, "linearize is a mapping from coordinates to values", help)
+        return None
+    found = _read_values(faults, node, kinds)
+    for name, dots in found.cells:
+        if dots:
+            faults.error(node.span, f"the rate of {name} is 0 in an equilibrium", help)
+    return found
+
+
+def _read_values(faults: Faults, node: MappingNode, kinds: Mapping[str, str]) -> ParsedState:
     cells: dict[tuple[str, int], Cell] = {}
     for key, value in node.entries:
         symbol = _symbol(faults, key, kinds)

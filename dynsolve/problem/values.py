@@ -117,12 +117,11 @@ def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
         trees += (*parsed.model.rates, *parsed.model.slopes)
     trees += [Function("sgn", Symbol(name, 1)) for name in parsed.actions.signs]
     angles = [angle for _, angle in parsed.angles]
-    state = parsed.questions.state
-    if state is None:
-        return build_ring(parsed.table.coordinates, trees, angles, preferred)
-    trees += state.turned
+    states = [state for state in (parsed.questions.state, parsed.questions.model.linearize) if state]
+    for state in states:
+        trees += state.turned
     ring = build_ring(parsed.table.coordinates, trees, angles, preferred)
-    while not _holds(ring, needed := needed_angles(ring, state.values)):
+    while not _holds(ring, needed := [a for s in states for a in needed_angles(ring, s.values)]):
         angles += needed
         ring = build_ring(parsed.table.coordinates, trees, angles, preferred)
     return ring

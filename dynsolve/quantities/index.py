@@ -381,7 +381,7 @@ class Quantities(Mapping[str, Quantity]):
 _OF_LAGRANGE = frozenset({Stage.JACOBIAN, Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE})
 """The stages that lead from the mass centres to τ by the Lagrangian; the recursions need none of them."""
 
-_OF_THE_TASK = {Stage.SINGULAR, Stage.INVERSE, Stage.RATES}
+_OF_THE_TASK = {Stage.SINGULAR, Stage.INVERSE, Stage.RATES, Stage.TASK_INERTIA}
 """The stages that go on from the task."""
 
 

@@ -1,4 +1,4 @@
-"""The families of what an exercise asks of the equations of motion: Y and a.
+"""The families of what an exercise asks of the equations of motion: Y and a, A and B, Λ.
 
 A robot has those of a stage of which something is asked (`quantities.stages`).  To add one,
 see `quantities.families`; its rule stands in `dynsolve.derivation.model_rules`.
@@ -42,6 +42,34 @@ A_GRAVITY = Family(
 
 Y_GRAVITY = Family(
     name="Yg", stage=Stage.PARAMETERS, shape=("n", "any"), letter=of_robot(letters.of_part("Y", "g"))
+)
+
+# -- near an equilibrium ---------------------------------------------------------------------------
+
+LINEAR_A = Family(
+    name="linear_A",
+    stage=Stage.EQUILIBRIA,
+    shape=("any", "any"),
+    letter=of_robot(letters.LINEAR_A),
+    spellings=("A", "Alin"),
+)
+
+LINEAR_B = Family(
+    name="linear_B",
+    stage=Stage.EQUILIBRIA,
+    shape=("any", "any"),
+    letter=of_robot(letters.LINEAR_B),
+    spellings=("Blin",),
+)
+
+# -- at the task -----------------------------------------------------------------------------------
+
+LAMBDA = Family(
+    name="Lambda",
+    stage=Stage.TASK_INERTIA,
+    shape=("m", "m"),
+    letter=of_robot(letters.TASK_INERTIA),
+    spellings=("Mr", "Dr", "Mp"),
 )
 
 PARAMETERS = {Y.name: A.name, Y_INERTIA.name: A_INERTIA.name, Y_GRAVITY.name: A_GRAVITY.name}

@@ -35,6 +35,8 @@ class Stage(StrEnum):
     NEWTON_EULER = "newton_euler", "The Newton-Euler recursions", True
     VECTORIZED = "vectorized", "The vectorized form"
     PARAMETERS = "parameters", "Linear in the parameters", True
+    EQUILIBRIA = "equilibria", "Equilibria and linearization", True
+    TASK_INERTIA = "task_inertia", "Inertia as the task meets it", True
     STATICS = "statics", "Forces from outside, and the torques that hold them", True
     CONSTRAINTS = "constraints", "Constraints", True
 
@@ -62,7 +64,7 @@ class Stage(StrEnum):
         return self in _OF_A_TABLE
 
 
-OF_THE_MODEL = frozenset({Stage.PARAMETERS})
+OF_THE_MODEL = frozenset({Stage.PARAMETERS, Stage.EQUILIBRIA, Stage.TASK_INERTIA})
 """The stages that go on from the equations of motion."""
 
 _OF_MASSES = OF_THE_MODEL | {
@@ -71,7 +73,7 @@ _OF_MASSES = OF_THE_MODEL | {
 
 _OF_A_TABLE = frozenset({
     Stage.FRAMES, Stage.KINEMATICS, Stage.JACOBIAN, Stage.TASK, Stage.SINGULAR, Stage.INVERSE, Stage.RATES,
-    Stage.STATICS, Stage.NEWTON_EULER,
+    Stage.STATICS, Stage.NEWTON_EULER, Stage.TASK_INERTIA,
 })  # fmt: skip
 
 COURSE = tuple(stage for stage in Stage if not stage.asked_for)

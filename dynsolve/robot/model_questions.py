@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.notation.tree import Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,11 +18,18 @@ class ModelQuestions:
 
     `known` are the names of the parameters that do not count as unknown in τ = Y a.  `parameters`
     (p×1) are the entries of a where the exercise gives them, `named` the names that it gives them.
+    `linearize` is an equilibrium: (name, 0, value) of the coordinates that are given.
     """
 
     known: frozenset[str] = frozenset()
     named: tuple[str, ...] = ()
     parameters: Matrix | None = None
+    linearize: tuple[tuple[str, int, Node], ...] = ()
+
+    @property
+    def equilibrium(self) -> dict[tuple[str, int], Node]:
+        """The values of the equilibrium by (name, number of dots)."""
+        return {(name, dots): value for name, dots, value in self.linearize}
 
 
 NO_MODEL_QUESTIONS = ModelQuestions()

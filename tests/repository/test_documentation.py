@@ -53,8 +53,8 @@ def _folder(folder: Path) -> None:
 
 def test_there_are_examples() -> None:
     files = (
-        "rp drawn cart rrp elbow target rates adaptive held driven line answer slips spellings set".split()
-    )
+        "rp drawn cart rrp elbow target rates adaptive balanced held driven line answer slips spellings set"
+    ).split()
     assert {*(f"{name}.yaml" for name in files), "report.md"} == FILES.keys()
     sections = {"Problem file", "Solution JSON", "Answer file", "Verdicts", "Grading", "Commands"}
     assert sections == EXAMPLES.keys()

@@ -1,0 +1,67 @@
+"""The inertia that a force at the task meets: Λ = (J_r D⁻¹ J_rᵀ)⁻¹.
+
+Nothing is inverted on the way.  By the formulas of Cauchy and Binet, and of Jacobi for the minors
+of an adjugate, the minors of J_r adj D J_rᵀ are powers of det D times
+
+    S(A, B) = Σ_{I, J} ± det J_r[A, I] · det D[J', I'] · det J_r[B, J],
+
+over all I and J of as many columns as there are rows in A and B; J' and I' are the others.  With
+these Λ_ij = ± S(without j, without i) / S(all, all).
+
+Lynch, Park, Modern Robotics, section 8.6 (2017); Horn, Johnson, Matrix Analysis, section 0.8.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.fraction_matrix import FractionMatrix, quotient
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.minors import determinant, work
+from dynsolve.algebra.pseudoinverse import part
+from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.linearization import MOST_PRODUCTS, TOO_LARGE
+
+RANK = "the Jacobian of the task has dependent rows"
+
+_Indices = tuple[int, ...]
+
+
+def task_inertia(jacobian: Matrix, D: Matrix) -> Matrix | FractionMatrix | Skipped:
+    """Λ, m×m, for a Jacobian J_r (m×n) of full row rank."""
+    m, n = jacobian.shape
+    if m > n:
+        return Skipped(RANK)
+    if work(D) > MOST_PRODUCTS or work(jacobian @ jacobian.T) > MOST_PRODUCTS:
+        return Skipped(TOO_LARGE)
+    every = tuple(range(m))
+    size = _sum(jacobian, D, every, every)
+    if size.is_zero:
+        return Skipped(RANK)
+
+    def entry(i: int, j: int) -> Expr:
+        value = _sum(jacobian, D, tuple(k for k in every if k != j), tuple(k for k in every if k != i))
+        return value if (i + j) % 2 == 0 else -value
+
+    return quotient(Matrix.of(D.ring, ([entry(i, j) for j in every] for i in every)), size)
+
+
+def _sum(jacobian: Matrix, D: Matrix, A: _Indices, B: _Indices) -> Expr:
+    """S(A, B)"""
+    columns = tuple(range(len(D.rows)))
+    total = D.ring.zero
+    for across in combinations(columns, len(A)):
+        left = determinant(part(jacobian, A, across))
+        for other in () if left.is_zero else combinations(columns, len(B)):
+            right = determinant(part(jacobian, B, other))
+            if not right.is_zero:
+                term = (
+                    left * determinant(part(D, _without(columns, other), _without(columns, across))) * right
+                )
+                total += term if (sum(across) + sum(other)) % 2 == 0 else -term
+    return total
+
+
+def _without(every: _Indices, some: _Indices) -> _Indices:
+    return tuple(k for k in every if k not in some)
