@@ -99,32 +99,28 @@ class Collector:
     def mostly_negative(self, poly: Polynomial) -> bool:
         """Whether a sum reads better with its sign turned: more minus than plus, or as many and one first.
 
-        Of as many a coordinate counts as first: d - l/2 and not l/2 - d.
+        Of as many a coordinate counts as first, d - l/2 and not l/2 - d; a sum with angles stays as
+        it is, c₂ - a c₁ s₂.
         """
         negative = sum(f < 0 for f in poly.values())
         if 2 * negative != len(poly):
             return 2 * negative > len(poly)
-        return self.starts_negative(poly, below=Rank.TRIG)
+        angles = any(self.atoms.ranks[atom][0] >= Rank.TRIG for mono in poly for atom, _ in mono)
+        return not angles and self.starts_negative(poly)
 
-    def starts_negative(self, poly: Polynomial, below: Rank = Rank.RATE) -> bool:
-        """Whether the first term has a minus; the first with a coordinate that has nothing above `below`."""
-        moving = [mono for mono in poly if self._is_moving(mono, below)]
+    def starts_negative(self, poly: Polynomial) -> bool:
+        """Whether the first term has a minus, or the first in which a coordinate stands and no rate."""
+        moving = [mono for mono in poly if self._is_moving(mono)]
         return poly[min(moving or poly, key=self.order)] < 0
 
-    def _is_moving(self, mono: Monomial, below: Rank) -> bool:
-        """Whether a coordinate stands in a term, and nothing that ranks higher."""
+    def _is_moving(self, mono: Monomial) -> bool:
         ranks = {self.atoms.ranks[atom][0] for atom, _ in mono}
-        return Rank.COORDINATE in ranks and max(ranks) < below
+        return Rank.COORDINATE in ranks and max(ranks) < Rank.RATE
 
     def _oriented(self, node: Sum) -> tuple[int, Node]:
-        """(±1, the sum with that sign): as a factor one sum has one orientation, wherever it stands.
-
-        One with angles stays as it is where as many terms are minus as plus: a₂ c₂ - z₃ s₂₃.
-        """
+        """(±1, the sum with that sign): as a factor one sum has one orientation, wherever it stands."""
         terms = {mono: factor for factor, mono in map(self.decompose, node.terms)}
-        even = 2 * sum(f < 0 for f in terms.values()) == len(terms)
-        angles = any(self.atoms.ranks[atom][0] >= Rank.TRIG for mono in terms for atom, _ in mono)
-        if (even and angles) or not self.mostly_negative(terms):
+        if not self.mostly_negative(terms):
             return 1, node
         return -1, total([self.product(-f, m, ()) for m, f in self.ordered(terms)])
 

@@ -145,8 +145,10 @@ def divided(node: Node, by: Node) -> Node | None:
 
 
 def _place(factor: tuple[Node, int]) -> tuple[int, str]:
-    """Lengths and masses first, rates last; between them sines, cosines and sums as they stand."""
+    """Roots of numbers, lengths and masses first, rates last; between them the others as they stand."""
     match factor[0]:
+        case Function("sqrt", Number()):
+            return -1, ""
         case Symbol(_, 0) | Number() | Negative(Number()):
             return 0, ""
         case Symbol(name, dots):

@@ -122,6 +122,11 @@ def test_a_derivative_term_by_term_where_several_factors_move() -> None:
     assert lines("in3140-rp", "ddt1") == lines("spherical-rrp", "ddt2") == [], "terms in another order"
 
 
+def test_the_root_of_a_number_stands_before_the_lengths_of_a_derivative() -> None:
+    tilted = TILTED.replace("Rx", "Ry")
+    assert "√3 l₂" in "".join(lines(tilted, "dLdq2")) and "l₂ √3" not in "".join(lines(tilted, "dLdq2"))
+
+
 def test_the_addition_theorem_of_a_derivative_is_named() -> None:
     sine = "the sine of a sum, s₂ c₂₃ + c₂ s₂₃ = sin(2θ₂ + θ₃)"
     assert lines("elbow-3r", "ddt1")[-1] == lines("elbow-3r", "dLdq2")[-1] == f"With {sine}, and collected:"
