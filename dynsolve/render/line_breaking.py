@@ -103,12 +103,12 @@ class FormulaSplitter:
         self._put(builder, node, 0)
         return list(builder.pieces())
 
-    def chain(self, parts: Sequence[Node]) -> list[Piece]:
-        """`= part = part`, which may be broken at each sign."""
+    def chain(self, parts: Sequence[Node], signs: Sequence[str]) -> list[Piece]:
+        """`= part ≈ part`, which may be broken at each sign."""
         builder = _Builder(self.notation.joined)
-        for part in parts:
+        for sign, part in zip(signs, parts, strict=True):
             builder.gap(RELATION_BREAK)
-            builder.add(self.notation.relation("="), RELATION)
+            builder.add(self.notation.relation(sign), RELATION)
             self._put(builder, part, 0)
         return list(builder.pieces())
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from dynsolve.document import Formula
 from dynsolve.notation.extent import RELATION, Ruler
-from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
+from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
 from dynsolve.render.line_breaking import RELATION_BREAK, FormulaSplitter, Notation, Piece, lines
 from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 
@@ -127,7 +127,7 @@ class Typesetter:
 
     def each(self, nodes: Sequence[Node]) -> list[list[Line]]:
         """The lines of each of several equations."""
-        return [list(self._level(_members(node))) for node in nodes]
+        return [list(self._level(_chained(node))) for node in nodes]
 
     def _entries(self, matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[Line]:
         for lines_ in self._each_entry(matrix, left, formula):
@@ -137,28 +137,28 @@ class Typesetter:
         """`d_12 = ...` for each entry; equal ones in one chain, those that are 0 last."""
         for value, places in entries_by_value(matrix):
             names = [entry_name(i, j, matrix, left, formula) for i, j in places]
-            yield list(self._level([*names, value]))
+            yield list(self._level(equation(*names, value)))
 
     def equations(self, nodes: Sequence[Node]) -> list[Line]:
         """The lines of equations without matrices, level at their first equals sign."""
-        return [line for node in nodes for line in self._level(_members(node))]
+        return [line for node in nodes for line in self._level(_chained(node))]
 
-    def _level(self, members: Sequence[Node]) -> Iterator[Line]:
-        """The lines of a = b = ..., level after a."""
-        name, *rest = members
+    def _level(self, chain: Relation) -> Iterator[Line]:
+        """The lines of a = b ≈ ..., level after a."""
+        name, *rest = chain.parts
         width = self.ruler.width(name)
         room = self.room - width
         if not rest:
             yield Line("", self.notation.text(name), width=width)
-        for i, line in enumerate(lines(self.splitter.chain(rest), room, room - INDENT)):
+        for i, line in enumerate(lines(self.splitter.chain(rest, chain.signs), room, room - INDENT)):
             text, whole = self._text(line), width + sum(piece.width for piece in line)
             before = "" if i else self.notation.text(name)
             yield Line(before, text, i > 0, whole, width)
 
 
-def _members(node: Node) -> Sequence[Node]:
-    """The members of a chain of equations."""
-    return node.parts if isinstance(node, Relation) else [node]
+def _chained(node: Node) -> Relation:
+    """A chain of equations; a formula that is none is a chain of one."""
+    return node if isinstance(node, Relation) else Relation((node,), ())
 
 
 def listed(row: Row) -> Iterator[Node]:

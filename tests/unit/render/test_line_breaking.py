@@ -9,7 +9,7 @@ from dynsolve.document import Formula
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Letter, Matrix, Number, Symbol, equation
+from dynsolve.notation.tree import Letter, Matrix, Number, Relation, Symbol, equation
 from dynsolve.render.latex import latex_notation
 from dynsolve.render.line_breaking import FormulaSplitter, Piece, lines, together
 from dynsolve.render.typesetting import INDENT, Typesetter
@@ -91,3 +91,9 @@ def test_an_optional_formula_whose_matrices_do_not_fit_is_left_out() -> None:
     entry = read("m1*l1 + m2*l2 + m3*l3 + I1 + I2 + I3").tree
     node = equation(Letter("x"), Matrix(((entry, entry),)))
     assert setter(24 - INDENT).set(Formula(node, optional=True)) == []
+
+
+def test_equations_in_one_display_keep_their_signs() -> None:
+    node = Relation((Symbol("q1"), read("2*l1/3").tree, Number(667, 1000)), ("=", "≈"))
+    (line,) = setter(30).equations([node])
+    assert (line.left, line.right.count("="), line.right.count(r"\approx")) == ("q_{1}", 1, 1)
