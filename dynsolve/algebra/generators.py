@@ -67,11 +67,11 @@ def lay_out(plan: RingPlan) -> tuple[Generator, ...]:
     for dots in (2, 1, 0):
         for name in plan.coordinates:
             add("symbol", name=name, dots=dots)
-    for name in plan.symbols:
-        if name not in plan.coordinates:
-            add("symbol", name=name)
     for function in plan.functions:
         add("function", node=function)
+    for name in plan.symbols:  # last, so that further parameters leave the places of the others as they are
+        if name not in plan.coordinates:
+            add("symbol", name=name)
     return tuple(laid)
 
 

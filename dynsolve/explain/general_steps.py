@@ -69,7 +69,7 @@ def general_steps(context: Context) -> Iterator[GeneralStep]:
         yield GeneralStep(_potential(context), _ids(["P"], bodies))
     if robot.has_dynamics and robot.questions.method is Method.LAGRANGE:
         coordinates = [q.index for q in robot.coordinates]
-        yield GeneralStep(_forces(), _ids(["dLdqd", "ddt", "dLdq", "tau"], coordinates))
+        yield GeneralStep(_forces(context), _ids(["dLdqd", "ddt", "dLdq", "tau"], coordinates))
 
 
 def _ids(stems: Sequence[str], names: Sequence[str | int]) -> frozenset[str]:
@@ -233,8 +233,8 @@ def _kinetic(context: Context) -> Step:
     )
 
 
-def _forces() -> Step:
-    """∂L/∂q̇_k, d/dt of it, ∂L/∂q_k, and what they give."""
+def _forces(context: Context) -> Step:
+    """∂L/∂q̇_k, d/dt of it, ∂L/∂q_k, and what they give, with friction where there is any."""
     rate = [Letter("q", index, dots=1) for index in (_I, _J, _K)]
     momentum = letters.partial_derivative(letters.L, rate[2])
     d_kj, d_ij = Letter("d", Row((_K, _J))), Letter("d", Row((_I, _J)))
@@ -245,6 +245,7 @@ def _forces() -> Step:
     slope = letters.partial_derivative(d_ij, coordinate)
     squares = _sum_over(_I, _sum_over(_J, Product((slope, rate[0], rate[1]))))
     coriolis = _sum_over(_I, _sum_over(_J, Product((Letter("c", Row((_I, _J, _K))), rate[0], rate[1]))))
+    resisted = (Letter("tau", Row((Words("f"), _K))),) if "friction" in context.values.rules else ()
     return Step(
         id="forces",
         stage=Stage.TORQUE,
@@ -264,7 +265,7 @@ def _forces() -> Step:
         source=spong("7.3"),
         formula=equation(
             Letter("tau", _K),
-            Sum((letters.time_derivative(momentum), Negative(by_coordinate))),
+            Sum((letters.time_derivative(momentum), Negative(by_coordinate), *resisted)),
         ),
         working=(
             equation(momentum, _sum_over(_J, Product((d_kj, rate[1])))),
@@ -274,7 +275,7 @@ def _forces() -> Step:
                 Sum((Product((letters.HALF, squares)), Negative(g))),
             ),
         ),
-        result=(equation(Letter("tau", _K), Sum((accelerated, coriolis, g))),),
+        result=(equation(Letter("tau", _K), Sum((accelerated, coriolis, *resisted, g))),),
         detail=Detail.BRIEF,
         uses=("L",),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
 from dynsolve.problem.action_keys import DAMPER, FRICTION, MOST_ACTIONS, MOTOR, ROTOR_AXIS, SPRING
@@ -93,6 +93,18 @@ class ParsedActions:
         yield from (cell for cell in cells if cell)
 
     @property
+    def kinds_of_values(self) -> Iterator[tuple[str, Cell]]:
+        """What each constant is, in the words of a message."""
+        kinds = [
+            *(("a coefficient of viscous friction", one.viscous) for one in self.friction),
+            *(("a coefficient of Coulomb friction", one.coulomb) for one in self.friction),
+            *(("a coefficient of viscous friction", one.damping) for one in self.dampers),
+            *(("a stiffness", one.stiffness) for one in self.springs),
+            *(("a moment of inertia", one.inertia) for one in self.motors),
+        ]
+        yield from ((kind, cell) for kind, cell in kinds if cell)
+
+    @property
     def moving(self) -> Iterator[Cell]:
         """The values that hold coordinates."""
         cells = [one.of or one.energy for one in self.springs] + [one.of for one in self.dampers]
@@ -120,6 +132,19 @@ def read_actions(faults: Faults, fields: Fields, rows: int, coordinates: Mapping
     parsed = ParsedActions(friction, springs, dampers, motors, tuple(name for name in names if name))
     forbid(faults, parsed.constant, coordinates, _CONSTANT)
     return parsed
+
+
+_TAKEN = {"springs": ("s", "P_s", "the springs"), "motors": ("m", "K_m", "the rotors")}
+"""The body's name, and what it would call by the same letter as these."""
+
+
+def check_body_names(faults: Faults, fields: Fields, parsed: ParsedActions, bodies: Collection[str]) -> None:
+    """Report a body whose energy would be called as that of the springs, or of the rotors."""
+    for kind in sorted(parsed.kinds & _TAKEN.keys()):
+        name, letter, of = _TAKEN[kind]
+        if name in bodies:
+            message = f"{letter} is the energy of {of}, and a body is called {name}, too"
+            faults.error(fields.key_span(kind), message, "give the body another name")
 
 
 def _coordinate(faults: Faults, node: YamlNode, coordinates: Mapping[str, str], help: str) -> str | None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.accepted_tables import read_accepted_tables
 from dynsolve.problem.actions import KEYS as ACTING
-from dynsolve.problem.actions import NO_ACTIONS, read_actions
+from dynsolve.problem.actions import NO_ACTIONS, check_body_names, read_actions
 from dynsolve.problem.base import NO_BASE, NO_GRAVITY, read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
@@ -147,6 +147,9 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     drawn = DrawnFrames.of(framed.normals, table.coordinates)
     bodies = read_bodies(faults, fields.get("masses"), rows, coordinates, drawn)
     acts = any(key in fields for key in ACTING)
+    actions = read_actions(faults, fields, rows, coordinates) if acts else NO_ACTIONS
+    if acts:
+        check_body_names(faults, fields, actions, [body.name for body in bodies])
     return ParsedFile(
         convention=convention,
         table=table,
@@ -156,7 +159,7 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
         questions=read_questions(faults, fields, rows, coordinates, [body.name for body in bodies], drawn),
         normals=framed.normals,
         model=model,
-        actions=read_actions(faults, fields, rows, coordinates) if acts else NO_ACTIONS,
+        actions=actions,
     )
 
 
