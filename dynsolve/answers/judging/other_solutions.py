@@ -94,7 +94,7 @@ def _with_other_gravity(
 
 
 def _differs_by_springs(graph: AnswerGraph, quantity: Quantity, written: WrittenEntry) -> bool:
-    """Whether an energy differs from the key by a constant in which every term has a parameter of springs.
+    """Whether an energy differs from the key by a constant in which every term has a stiffness.
 
     The constant has none of masses or gravity: these have one zero of height for all bodies.
     """
@@ -104,7 +104,8 @@ def _differs_by_springs(graph: AnswerGraph, quantity: Quantity, written: Written
     own = _parameters(spring.energy for spring in robot.actions.springs)
     own -= _parameters((*(body.mass for body in robot.bodies), *robot.gravity.entries))
     symbols = robot.ring.symbol_indices
-    places = [symbols[name, 0] for name in own]
+    stiff = _parameters(s.law.stiffness if s.law else s.energy for s in robot.actions.springs)
+    places = [symbols[name, 0] for name in stiff & own]
     return (
         not difference.is_zero
         and not robot.ring.depends_on_coordinates(difference)

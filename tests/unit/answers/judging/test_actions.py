@@ -1,0 +1,101 @@
+"""Answers on friction, springs and rotors: what is right, what follows, what may be written otherwise."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.answers.judge import check
+from dynsolve.answers.reading.files import FileReader
+from dynsolve.problem import read_problem
+from tests.unit.answers.hands import judge, judged, verdicts
+
+ARM = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l}]
+masses: [{mass: m, link: 1}]
+friction: {q1: {viscous: fv, coulomb: fc}}
+springs: [{stiffness: k, of: q1, rest: delta}]
+motors: [{turns: q1, inertia: Im, ratio: kr}]
+forces: [{link: 1, force: [0, F, 0]}]
+find: [tau, friction, Ps, Km]
+"""
+LEFT = "(m*l^2 + Im*kr^2)*q1_ddot + m*g*l*cos(q1) + k*(q1 - delta)"
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "verdict"),
+    [
+        ("friction", "fv*q1_dot + fc*sgn(q1_dot)", "correct"),
+        ("friction", "fv*q1_dot - fc*sgn(-q1_dot)", "correct"),
+        ("friction", "fv*q1_dot + fc*sgn(3*q1_dot)", "correct"),
+        ("friction", "fv*q1_dot + fc", "wrong"),
+        ("friction", "fv*q1_dot + fc*sgn(q1)", "wrong"),
+        ("friction1", "fv*q1_dot + fc*sgn(q1_dot)", "correct"),
+        ("Ps", "k*(delta - q1)^2/2", "correct"),
+        ("Km", "Im*kr^2*q1_dot^2/2", "correct"),
+        ("g", "m*g*l*cos(q1) + k*(q1 - delta)", "correct"),
+        ("g", "m*g*l*cos(q1)", "wrong"),
+    ],
+)
+def test_verdicts(name: str, text: str, verdict: str) -> None:
+    vector = name in ("friction", "g")
+    assert judged(ARM, name, [[text]] if vector else text).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("text", "verdict", "note"),
+    [
+        (LEFT + " + fv*q1_dot + fc*sgn(q1_dot)", "correct", ""),
+        (LEFT + " + fv*q1_dot + fc*sgn(q1_dot) - F*l*cos(q1)", "correct", "moved over"),
+        (LEFT + " + fv*q1_dot + fc*sgn(q1_dot) + F*l*cos(q1)", "wrong", ""),
+    ],
+)
+def test_forces_from_outside_may_be_moved_over(text: str, verdict: str, note: str) -> None:
+    found = judged(ARM, "tau1", text)
+    assert found.verdict == verdict
+    assert note in "".join(found.notes)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "verdict"),
+    [
+        ("P", "m*g*l*sin(q1) + k*q1^2/2 - k*delta*q1", "correct"),
+        ("P", "m*g*l*sin(q1) + k*(q1 - delta)^2/2 + k", "correct"),
+        ("P", "m*g*l*sin(q1) + k*(q1 - delta)^2/2 + delta", "wrong"),
+        ("P", "m*g*l*sin(q1) + k*(q1 - delta)^2/2 + m*k", "wrong"),
+        ("P", "m*g*l*sin(q1) + k*(q1 - delta)^2/2 + 1", "wrong"),
+        ("P", "m*g*l*sin(q1) + k*q1^2/2", "wrong"),
+    ],
+)
+def test_a_constant_of_springs_is_free(name: str, text: str, verdict: str) -> None:
+    assert judged(ARM, name, text).verdict == verdict
+
+
+def test_forces_follow_from_friction_that_is_wrong() -> None:
+    answers = {"friction": [["-fv*q1_dot - fc*sgn(q1_dot)"]], "tau1": LEFT + " - fv*q1_dot - fc*sgn(q1_dot)"}
+    assert verdicts(judge(ARM, answers)) | {"tau": ""} == {
+        "friction": "wrong", "tau1": "follows", "tau": "", "Ps": "missing", "Km": "missing",
+    }  # fmt: skip
+
+
+def test_what_is_left_of_the_forces_is_less_the_students_own_friction() -> None:
+    """C q̇ from a wrong τ: with friction of one's own, and with the key's."""
+    tau = LEFT + " + 2*fv*q1_dot"
+    own = {"friction": [["2*fv*q1_dot"]], "tau1": tau, "Cqd": [["0"]]}
+    assert verdicts(judge(ARM, own))["Cqd"] == "correct"
+    none = {"tau1": tau, "Cqd": [["fv*q1_dot - fc*sgn(q1_dot)"]]}
+    assert verdicts(judge(ARM, none))["Cqd"] == "follows"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"$$\tau_f = f_v \dot{q}_1 + f_c \operatorname{sgn}(\dot{q}_1)$$",
+        r"$$\boldsymbol{\tau}_f = f_v \dot q_1 + f_c \mathrm{sgn}(\dot q_1)$$",
+        "friction = fv*q1' + fc*sign(q1')",
+    ],
+)
+def test_the_sign_of_a_rate_is_read_as_people_write_it(text: str) -> None:
+    problem = read_problem(ARM, "own.yaml")
+    found = verdicts(check(problem, FileReader(problem)(text.encode(), "report.md")))
+    assert found["friction"] == "correct"
