@@ -1,6 +1,7 @@
-"""Drawings beside a step, as data: lines, angles and points in a plane, each with its name.
+"""Drawings beside a step, as data: lines, angles and points in a plane with their names; the arm in a pose.
 
-Coordinates are about 1 and y grows upwards; nothing is to scale.  `dynsolve.draw.figure` draws them.
+Coordinates are about 1 and y grows upwards; nothing is to scale.  `dynsolve.draw.figure` draws the
+lines, `dynsolve.draw.arm_figure` the arm.
 """
 
 from __future__ import annotations
@@ -49,3 +50,20 @@ class Figure:
     lines: tuple[FigureLine, ...]
     angles: tuple[FigureAngle, ...] = ()
     points: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ArmArrow:
+    """An arrow at the tip of the arm; `direction` are its three components in the world."""
+
+    name: Node
+    direction: tuple[Node, Node, Node]
+
+
+@dataclass(frozen=True, slots=True)
+class ArmFigure:
+    """The arm where all `zeros` are 0, formulas in the coordinates and parameters, with arrows at its tip."""
+
+    caption: str
+    zeros: tuple[Node, ...]
+    arrows: tuple[ArmArrow, ...] = ()

@@ -9,6 +9,7 @@ From the table to a pose:
     view          how space is laid on paper
     pose          a pose seen from somewhere, and how good that is
     pose_search   the pose and the view in which nothing hides anything
+    held_pose     the same among the poses where some formulas are 0
 
 What is drawn of it:
 
@@ -22,6 +23,7 @@ What is drawn of it:
 Beside a step:
 
     figure        drawings beside a step, of labelled lines and angles
+    arm_figure    the arm in a pose, with arrows at its tip
 
 How it is written down: `svg`, `latex`, and `convert` for PDF and PNG.  What all of it is
 made of: `vectors` (geometry), `paths` (lines and areas with their colours), `occupied` (which

@@ -40,20 +40,20 @@ _SEED = 1955
 
 def best_pose(robot: Robot, numbers: RobotNumbers, orientation: Orientation) -> Pose:
     """The pose and view with the least cost among those tried."""
-    options = _options(robot, orientation)
+    options = options_of(robot, orientation)
     random = Random(_SEED)  # noqa: S311 - the same poses every time are wanted
     remembered: dict[Choice, float] = {}
 
     def cost(choice: Choice) -> float:
         if choice not in remembered:
-            pose = _pose(robot, numbers, orientation, choice)
+            pose = pose_of(robot, numbers, orientation, choice)
             remembered[choice] = round(cost_of(pose, orientation) + taste(robot, pose, choice), 6)
         return remembered[choice]
 
     tried = [tuple(_pick(random, values) for values in options) for _ in range(_SAMPLES)]
     starts = sorted(set(tried), key=lambda choice: (cost(choice), choice))[:_IMPROVED]
-    best = min((_improved(start, options, cost) for start in starts), key=lambda c: (cost(c), c))
-    pose = _pose(robot, numbers, orientation, best)
+    best = min((improved(start, options, cost) for start in starts), key=lambda c: (cost(c), c))
+    pose = pose_of(robot, numbers, orientation, best)
     return replace(pose, skeleton=with_masses(robot, numbers, pose.skeleton))
 
 
@@ -61,13 +61,13 @@ def _pick(random: Random, values: Sequence[float]) -> float:
     return values[int(random.random() * len(values))]
 
 
-def _options(robot: Robot, orientation: Orientation) -> list[tuple[float, ...]]:
+def options_of(robot: Robot, orientation: Orientation) -> list[tuple[float, ...]]:
     """The values that each coordinate, and the view, may take."""
     joints = [_TURNS if q.type is JointType.REVOLUTE else _SLIDES for q in robot.coordinates]
     return joints if orientation.normal else [*joints, _AZIMUTHS, _ELEVATIONS]
 
 
-def _improved(choice: Choice, options: Sequence[Sequence[float]], cost: Callable[[Choice], float]) -> Choice:
+def improved(choice: Choice, options: Sequence[Sequence[float]], cost: Callable[[Choice], float]) -> Choice:
     """The choice after each of its parts has in turn been set to its best value."""
     for _ in range(_ROUNDS):
         before = choice
@@ -79,7 +79,8 @@ def _improved(choice: Choice, options: Sequence[Sequence[float]], cost: Callable
     return choice
 
 
-def _pose(robot: Robot, numbers: RobotNumbers, orientation: Orientation, choice: Choice) -> Pose:
+def pose_of(robot: Robot, numbers: RobotNumbers, orientation: Orientation, choice: Choice) -> Pose:
+    """The robot with these values of its coordinates, seen so."""
     body = skeleton(robot, numbers, choice[: robot.n])
     if orientation.normal:
         view = facing(orientation.normal, orientation.up)

@@ -9,6 +9,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
+from dynsolve.explain.singular_figures import figure_of
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed
 from dynsolve.notation import tree
@@ -131,6 +132,7 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
         source=_LOST if lost else "",
         working=(equation(J, there),) if lost and exact else (),
         result=tuple(equation(name, value) for name, value in zip(names, lost, strict=True)),
+        figure=figure_of(context.robot, _matrix(context), forms.singular[case], names, lost),
         uses=(_matrix(context), f"singular#{case + 1}"),
         hint=(
             "In each case: how great is the rank, and which w is orthogonal to every velocity that the "

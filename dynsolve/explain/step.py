@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from dynsolve.document import Prose, Table
-from dynsolve.document.figures import Figure
+from dynsolve.document.figures import ArmFigure, Figure
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.stages import Stage
 
@@ -65,7 +65,7 @@ class Step:
     result: tuple[Node, ...] = ()
     notes: tuple[Prose, ...] = ()
     table: Table | None = None
-    figure: Figure | None = None
+    figure: Figure | ArmFigure | None = None
     entries: tuple[tuple[Node, ...], ...] = ()
     optional: bool = False
     listed: bool = False

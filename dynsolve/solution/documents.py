@@ -20,7 +20,7 @@ from dynsolve.document import (
     Text,
     Uses,
 )
-from dynsolve.document.figures import Figure
+from dynsolve.document.figures import ArmFigure, Figure
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
 from dynsolve.explain.citations import KHALIL_DOMBRE, cited
@@ -36,8 +36,8 @@ from dynsolve.solution.earlier_results import EarlierResults, labelled_results
 from dynsolve.solution.said_once import SaidOnce
 from dynsolve.solution.summary import summary_blocks
 
-Drawn = Callable[[Figure], Picture]
-"""What makes a picture of a drawing."""
+Drawn = Callable[[Figure | ArmFigure], Picture | None]
+"""What makes a picture of a drawing; none where there is no such pose of the arm."""
 
 CONVENTIONS = {
     "standard": "standard Denavit-Hartenberg (Spong)",
@@ -202,8 +202,8 @@ def step_blocks(
     """
     if detail > Detail.BRIEF and step.why:
         yield Text(step.why)
-    if detail > Detail.BRIEF and step.figure and drawn:
-        yield drawn(step.figure)
+    if detail > Detail.BRIEF and step.figure and drawn and (picture := drawn(step.figure)):
+        yield picture
     if step.table:
         yield Table(step.table.header, step.table.rows)
     if detail > Detail.BRIEF:

@@ -14,10 +14,11 @@ from dynsolve.render.formats import Format
 
 if TYPE_CHECKING:
     from dynsolve.document import Document, Picture
-    from dynsolve.document.figures import Figure
+    from dynsolve.document.figures import ArmFigure, Figure
     from dynsolve.explain.abbreviations import Abbreviate
     from dynsolve.explain.step import Detail
     from dynsolve.notation.printing import Style
+    from dynsolve.problem.model import Problem
     from dynsolve.solution.documents import Drawn
     from dynsolve.solution.dynamics import Dynamics
 
@@ -56,7 +57,7 @@ def report(
         return (dumps(to_json(solution, abbreviate), ensure_ascii=False) + "\n").encode()
     style = report_style(solution, star)
     shown = Detail.FULL if format is Format.HTML else detail
-    drawn = _drawn(style) if format in PICTURED else None
+    drawn = _drawn(solution.problem, style) if format in PICTURED else None
     document = solution_document(solution, shown, stages, Abbreviate(abbreviate), drawn)
     if solution.robot.has_table and format in PICTURED and (stages is None or _SHOWN_IN & set(stages)):
         document = _with_picture(document, solution, star)
@@ -70,13 +71,15 @@ PICTURED = (Format.LATEX, Format.PDF, Format.HTML)
 """The forms that can show the manipulator."""
 
 
-def _drawn(style: Style) -> Drawn:
+def _drawn(problem: Problem, style: Style) -> Drawn:
     """What makes a picture of a step's drawing."""
 
-    def picture(figure: Figure) -> Picture:
+    def picture(figure: Figure | ArmFigure) -> Picture | None:
+        from dynsolve.document.figures import ArmFigure
+        from dynsolve.draw.arm_figure import drawn_arm
         from dynsolve.draw.figure import drawn
 
-        return drawn(figure, style)
+        return drawn_arm(figure, problem, style) if isinstance(figure, ArmFigure) else drawn(figure, style)
 
     return picture
 
