@@ -36,6 +36,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     writing     sentences and pieces of formulas
     configurations
                 singular configurations and branches of the inverse, as formulas
+    singular_figures
+                drawings of singular configurations: the arm there, and what is lost
     inverse_formulas
                 the solutions of inverse kinematics: atan2(y, x) - …, ± arccos(…)
     target, branch_values, linked_angles

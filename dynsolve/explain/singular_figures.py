@@ -44,8 +44,9 @@ def _axes_of_rows(robot: Robot, matrix: str) -> tuple[int | None, ...] | None:
 
 
 def _axis(entry: Node) -> int | None:
-    is_tip = isinstance(entry, Reference) and entry.quantity == TIP and entry.row is not None
-    return entry.row - 1 if is_tip else None
+    if isinstance(entry, Reference) and entry.quantity == TIP and entry.row is not None:
+        return entry.row - 1
+    return None
 
 
 def _motion(w: Matrix, axes: Sequence[int | None]) -> tuple[Node, Node, Node] | None:
