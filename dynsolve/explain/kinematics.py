@@ -211,6 +211,7 @@ def _general(context: Context) -> Step:
         motions = (("x", alpha), ("x", a), ("z", theta), ("z", d))
     product = Product(tuple(_motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
     matrix = Matrix((*rows, (_ZERO, _ZERO, _ZERO, _ONE)))
+    name = Letter("A", i, style="bold")
     return Step(
         id="A",
         stage=STAGE,
@@ -219,8 +220,10 @@ def _general(context: Context) -> Step:
             "The product of the four motions. It is the same for every row; the entries of each row are "
             "put into it.",
         ),
-        formula=equation(Letter("A", i, style="bold"), product, matrix),
+        formula=equation(name, product),
         source=spong("3.2") if context.standard else craig("3.5"),
+        working=(equation(name, matrix),),
+        task=equation(name, product, matrix),
         detail=Detail.BRIEF,
     )
 

@@ -7,7 +7,8 @@ that no page shows whole is given entry by entry.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from html import escape
@@ -32,7 +33,7 @@ from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, equation
 from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
 from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
-from dynsolve.render.page import MarkupPage
+from dynsolve.render.page import MarkupPage, prose_columns
 from dynsolve.render.prose import visible
 from dynsolve.render.references import levels, numbered, with_results
 from dynsolve.render.typesetting import listed
@@ -46,6 +47,7 @@ PAGE = 44.0
 _FINE = 6.0
 _WHOLE = 13.0
 _LEVELS = ("brief", "normal", "full")
+_CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>[.,:;)]+")
 _TALL = ("<mfrac>", "<mtable>", "<munderover>")
 
 
@@ -144,6 +146,10 @@ class _Page(MarkupPage):
         level = heading.level
         yield f'<h{level} dir="auto">{self.words(heading.text)}</h{level}>\n'
 
+    def prose(self, parts: Prose) -> str:
+        """A sentence, in which no line begins with the comma or the stop after a formula."""
+        return _CLOSED_FORMULA.sub(r'<span class="one">\g<0></span>', super().prose(parts))
+
     def text(self, text: Text) -> Iterator[str]:
         yield f'<p class="why" dir="auto">{self.prose(text.parts)}</p>\n'
 
@@ -179,18 +185,18 @@ class _Page(MarkupPage):
         yield f'<p class="note"><strong>Note.</strong> {self.prose(parts)}</p>\n'
 
     def table(self, table: Table) -> Iterator[str]:
-        head = "".join(f"<th>{self.cell(cell)}</th>" for cell in table.header)
-        body = "".join(
-            "<tr>" + "".join(f"<td>{self.cell(cell)}</td>" for cell in cells) + "</tr>"
-            for cells in table.rows
-        )
+        prose = prose_columns(table)
+        head = "".join(self.cells(table.header, prose, "th"))
+        rows = "".join(f"<tr>{''.join(self.cells(row, prose))}</tr>" for row in table.rows)
         yield (
-            f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>\n'
+            f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>\n'
         )
 
-    def cell(self, cell: Inline) -> str:
-        """A cell of a table, in which no formula is broken."""
-        return self.whole(cell) if isinstance(cell, Node) else self.part(cell)
+    def cells(self, cells: Sequence[Inline], prose: Collection[int], tag: str = "td") -> Iterator[str]:
+        """A row of a table; a formula is broken in a column of sentences alone."""
+        for k, cell in enumerate(cells):
+            text = self.whole(cell) if isinstance(cell, Node) and k not in prose else self.part(cell)
+            yield f'<{tag} class="words">{text}</{tag}>' if k in prose else f"<{tag}>{text}</{tag}>"
 
     def picture(self, picture: Picture) -> Iterator[str]:
         caption = self.words(picture.caption)
