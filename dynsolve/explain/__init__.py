@@ -40,7 +40,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
                 drawings of singular configurations: the arm there, and what is lost
     inverse_formulas
                 the solutions of inverse kinematics: atan2(y, x) - …, ± arccos(…)
-    target, branch_values, linked_angles
+    target, branch_values
                 the configurations that reach a target in numbers
     inverse_target
                 their steps

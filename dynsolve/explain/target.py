@@ -17,10 +17,10 @@ from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.surd_values import Exact, exact_value
 from dynsolve.algebra.surds import NotExact
-from dynsolve.derivation.reached import CLOSE, angle_rows, near, same_configuration
+from dynsolve.derivation.reached import CLOSE, angle_rows, gap, near, same_configuration
 from dynsolve.explain.branch_values import BranchValues, Unreal, branch_values, decimal, number_of, shown
-from dynsolve.explain.linked_angles import linked
-from dynsolve.notation.tree import Node
+from dynsolve.notation.build import negated, total
+from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.walk import names_in
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Target
@@ -164,31 +164,15 @@ class TargetForms:
             return None
         names = self.robot.ring.names
         unused = {name: 0.0 for name in names if name not in branch}
-        whole = Configuration(
+        if not all(self.reaches({**unused, **one.numbers}) for one in (found, *others)):
+            return None
+        return Configuration(
             numbers={name: found.numbers.get(name, 0.0) for name in names},
             formulas=_constants_first(
                 names, {n: self._formula(n, branch, found, others) for n in branch if n not in found.free}
             ),
             branches=(number,),
             free=tuple(name for name in names if name in unused or name in found.free),
-        )
-        if all(self.reaches({**unused, **one.numbers}) for one in (found, *others)):
-            return whole
-        return self._linked(whole, list(found.free))
-
-    def _linked(self, whole: Configuration, free: Sequence[str]) -> Configuration | None:
-        """The configuration with the second of two free angles given by the first; None where it is not."""
-        if len(free) != 2:
-            return None
-        first, second = free
-        both = linked(self._at, self.wanted, whole.numbers, first, second)
-        if both is None or not self.reaches({**whole.numbers, second: both[0]}):
-            return None
-        return replace(
-            whole,
-            numbers={**whole.numbers, second: both[0]},
-            formulas={**whole.formulas, second: both[1]},
-            free=tuple(name for name in whole.free if name != second),
         )
 
     def _elsewhere(self, branch: Mapping[str, Node], place: float) -> BranchValues:
@@ -198,11 +182,20 @@ class TargetForms:
     def _formula(
         self, name: str, branch: Mapping[str, Node], found: BranchValues, others: Sequence[BranchValues]
     ) -> Node:
-        """The exact value of a coordinate that does not change with those that are free, else its formula."""
-        changes = any(abs(other.numbers[name] - found.numbers[name]) > CLOSE for other in others)
-        if changes:
-            found = replace(found, exact={})
-        return shown(name, branch, found, self.written)
+        """A coordinate as a formula: its exact value, or what it is beside an angle that is free.
+
+        Where a wrist is singular only the sum or the difference of two angles matters: q₆ = q₄ + c.
+        """
+        kind = dict(self.robot.ring.coordinates)[name]
+        moves = [gap(kind, other.numbers[name], found.numbers[name]) for other in others]
+        if all(abs(move) < CLOSE for move in moves):
+            return shown(name, branch, found, self.written)
+        for sign in (1, -1):
+            turns = [gap(kind, move, sign * place) for move, place in zip(moves, _OTHER_PLACES, strict=True)]
+            if name in found.exact and len(found.free) == 1 and all(abs(turn) < CLOSE for turn in turns):
+                first = Symbol(next(iter(found.free)))
+                return total([first if sign > 0 else negated(first), found.exact[name].node])
+        return shown(name, branch, replace(found, exact={}), self.written)
 
     @cached_property
     def _found(self) -> Found | None:
