@@ -38,9 +38,13 @@ _SAMPLES, _IMPROVED, _ROUNDS = 260, 3, 3
 _SEED = 1955
 
 
-def best_pose(robot: Robot, numbers: RobotNumbers, orientation: Orientation) -> Pose:
-    """The pose and view with the least cost among those tried."""
+def best_pose(
+    robot: Robot, numbers: RobotNumbers, orientation: Orientation, q: Sequence[float] | None = None
+) -> Pose:
+    """The pose and view with the least cost among those tried; with `q` the best view of that pose."""
     options = options_of(robot, orientation)
+    if q is not None:
+        options = [*((value,) for value in q), *options[robot.n :]]
     random = Random(_SEED)  # noqa: S311 - the same poses every time are wanted
     remembered: dict[Choice, float] = {}
 

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
+from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.draw import annotate, paths
-from dynsolve.draw.drawn_lengths import numbers
+from dynsolve.draw.drawn_lengths import RobotNumbers, numbers
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimension, row_lengths
 from dynsolve.draw.occupied import Box, Taken, bounds
@@ -23,6 +24,8 @@ from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType
 
 MARGIN = 14.0
+SLIDE = 0.9
+"""How far out a slide is drawn whose letter stands in a drawing."""
 
 _STAR = Style(star=True, decimal=True)
 _PLAIN = Style(decimal=True)
@@ -45,7 +48,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     robot = problem.robot
     values = numbers(problem)
     world = orientation(robot, values)
-    pose = best_pose(robot, values, world)
+    pose = best_pose(robot, values, world, as_drawn(problem, values))
     body = solids(pose.parts, pose.view, world.up)
     notes = annotate.Notes(_STAR if star else _PLAIN, Taken())
     notes.taken.add(body)
@@ -65,6 +68,21 @@ def scene(problem: Problem, star: bool = True) -> Scene:
         framed(paths, labels),
         notes.style,
     )
+
+
+def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:
+    """The pose of the drawing that a table was found from, in picture lengths; None of a table."""
+    if problem.normals is None:
+        return None
+    robot = problem.robot
+    others = dict.fromkeys(problem.normals.drawing.ring.parameters, values.unit)
+    slides = {q.name: SLIDE * values.unit for q in robot.coordinates if q.type is JointType.PRISMATIC}
+    try:
+        drawn = drawn_coordinates(problem.normals, {**others, **values.values, **slides})
+    except (ValueError, ZeroDivisionError):
+        return None
+    units = (values.unit if q.type is JointType.PRISMATIC else 1.0 for q in robot.coordinates)
+    return [drawn[q.name] / unit for q, unit in zip(robot.coordinates, units, strict=True)]
 
 
 def _center_lengths(pose: Pose) -> list[Length]:
