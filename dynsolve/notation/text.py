@@ -6,7 +6,7 @@ A tokenizer and a recursive descent over this grammar; nothing is ever evaluated
     term     = factor {("*" | "/") factor}
     factor   = {sign} power
     power    = atom [("^" | "**") factor]            the exponent is a whole number, or 1/2
-    atom     = number | degrees | name | function "(" sum ")" | "(" sum ")"
+    atom     = number | degrees | name | function "(" sum ")" | "atan2" "(" sum "," sum ")" | "(" sum ")"
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ from dynsolve.notation import mistakes
 from dynsolve.notation.characters import SUPERSCRIPT_DIGITS
 from dynsolve.notation.limits import MAX_EXPONENT, MAX_LENGTH, MAX_NESTING, check_size
 from dynsolve.notation.names import normalize
-from dynsolve.notation.tokens import FUNCTIONS, FormulaToken, rational, tokens
+from dynsolve.notation.tokens import ARCS, FUNCTIONS, FormulaToken, rational, tokens
 from dynsolve.notation.tree import (
+    Arguments,
     Degrees,
     Function,
     Negative,
@@ -55,12 +56,13 @@ class FormulaText:
     names: tuple[Name, ...]
 
 
-def read(text: str, *, stars: bool = False, dots: bool = False) -> FormulaText:
+def read(text: str, *, stars: bool = False, dots: bool = False, arcs: bool = False) -> FormulaText:
     """Read a formula in plain text.
 
     With `stars`, a star directly after a name marks a joint variable when what
     follows cannot begin a factor; otherwise every `*` is a product.  With `dots`,
     `x_dot` and `x_ddot` are the time derivatives of x, and rates may have a sign, sgn(x_dot).
+    With `arcs` there are also acos, asin, atan and atan2(y, x).
 
     Whole exponents become a `Number` or its `Negative`, x^(1/2) becomes sqrt(x),
     `pi` the symbol of that name.  Raises ReadError with the place and a remedy.
@@ -75,7 +77,7 @@ def read(text: str, *, stars: bool = False, dots: bool = False) -> FormulaText:
             1,
             "name parts of it with symbols of their own",
         )
-    reader = _Reader(text, stars, dots)
+    reader = _Reader(text, stars, dots, arcs)
     tree = reader.formula()
     check_size(tree, len(text))
     return FormulaText(tree, tuple(reader.names))
@@ -84,10 +86,10 @@ def read(text: str, *, stars: bool = False, dots: bool = False) -> FormulaText:
 class _Reader:
     """The descent: `token` is the one that is looked at, `before` the last one taken."""
 
-    __slots__ = ("text", "stars", "dots", "names", "tokens", "position", "token", "before", "nesting")
+    __slots__ = ("text", "stars", "dots", "arcs", "names", "tokens", "position", "token", "before", "nesting")
 
-    def __init__(self, text: str, stars: bool, dots: bool) -> None:
-        self.text, self.stars, self.dots = text, stars, dots
+    def __init__(self, text: str, stars: bool, dots: bool, arcs: bool) -> None:
+        self.text, self.stars, self.dots, self.arcs = text, stars, dots, arcs
         self.names: list[Name] = []
         self.tokens = tokens(text)
         self.position = 0
@@ -213,7 +215,8 @@ class _Reader:
 
     def name(self) -> Node:
         token = self.take()
-        if token.text in FUNCTIONS or (token.text == "sgn" and self.dots):
+        more = (token.text == "sgn" and self.dots) or (token.text in ARCS and self.arcs)
+        if more or token.text in FUNCTIONS:
             return self.function(token)
         name = normalize(token.text)
         follower = self.token
@@ -249,8 +252,22 @@ class _Reader:
         exponent = self.function_power(name) if sign.kind in ("raised", "^") else None
         if self.token.kind != "(":
             raise mistakes.no_argument(self.text, name, self.token)
-        node = Function(name.text, self.parentheses())
+        node = Function(name.text, self.two_arguments(name) if name.text == "atan2" else self.parentheses())
         return node if exponent is None else _power(node, exponent, sign)
+
+    def two_arguments(self, name: FormulaToken) -> Node:
+        """`(y, x)`"""
+        opening = self.take()
+        y = self.sum()
+        if self.token.kind != ",":
+            length = name.end - name.start
+            raise ReadError(f"{name.text} has two arguments", name.start, length, "write atan2(y, x)")
+        self.take()
+        x = self.sum()
+        if self.token.kind != ")":
+            raise mistakes.unclosed(self.text, opening, self.token)
+        self.take()
+        return Arguments((y, x))
 
     def function_power(self, name: FormulaToken) -> Fraction:
         value = self.exponent()

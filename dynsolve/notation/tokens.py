@@ -13,6 +13,9 @@ from dynsolve.notation.limits import MAX_DIGITS
 FUNCTIONS = ("sin", "cos", "tan", "sqrt")
 """The functions of a formula."""
 
+ARCS = ("acos", "asin", "atan", "atan2")
+"""The functions that give angles, where a formula may have them."""
+
 _GREEK = "".join(SPELLED)
 _NUMBER = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 _TOKEN = re.compile(

@@ -43,10 +43,12 @@ def made_cell(what: str, text: str, start: int = 0) -> Cell:
     return Cell(what, reading.tree, reading.names, "", start)
 
 
-def read_cell(faults: Faults, node: YamlNode | None, what: str, *, stars: bool = False) -> Cell | None:
+def read_cell(
+    faults: Faults, node: YamlNode | None, what: str, *, stars: bool = False, arcs: bool = False
+) -> Cell | None:
     """The expression of a node, None (reported) where it cannot be read.
 
-    `stars` says that a joint variable may be marked here.
+    `stars` says that a joint variable may be marked here, `arcs` that it may hold acos, atan2 and the like.
     """
     if node is None or isinstance(node, FaultyNode):
         return None
@@ -58,13 +60,15 @@ def read_cell(faults: Faults, node: YamlNode | None, what: str, *, stars: bool =
     if not node.text.strip():
         faults.error(node.span, f"{what} has no value", "write one, or delete the key")
         return None
-    return read_text(faults, node.text, node.start, what, stars=stars)
+    return read_text(faults, node.text, node.start, what, stars=stars, arcs=arcs)
 
 
-def read_text(faults: Faults, text: str, start: int, what: str, *, stars: bool = False) -> Cell | None:
+def read_text(
+    faults: Faults, text: str, start: int, what: str, *, stars: bool = False, arcs: bool = False
+) -> Cell | None:
     """The expression that stands at character `start` of the file, None (reported) where it is unreadable."""
     try:
-        reading = read(text, stars=stars)
+        reading = read(text, stars=stars, arcs=arcs)
     except ReadError as error:
         if stars or not _report_star(faults, text, start, what):
             at = start + error.offset

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from dynsolve.notation.tree import Symbol
 from dynsolve.problem.cells import Cell, forbid, read_angle, read_cell
@@ -11,7 +11,7 @@ from dynsolve.problem.fields import describe, did_you_mean, items
 from dynsolve.problem.kinematic_keys import MAX_TASK
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, Span, YamlNode
+from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,13 +34,15 @@ NO_REACH = ParsedReach()
 def read_reach(faults: Faults, node: YamlNode | None, coordinates: Collection[str]) -> ParsedReach:
     """The values under `reach`; what is wrong with one is reported."""
     help = PROBLEM["reach"].help
-    listed = items(faults, node, "reach", help)
+    listed = list(_rejoined(faults, items(faults, node, "reach", help)))
     if node is None or isinstance(node, FaultyNode):
         return NO_REACH
     if len(listed) > MAX_TASK:
         faults.error(node.span, f"{len(listed)} values; at most {MAX_TASK} are read", "leave some out")
         return NO_REACH
-    cells = tuple(read_cell(faults, item, f"value {i} of reach") for i, item in enumerate(listed, 1))
+    cells = tuple(
+        read_cell(faults, item, f"value {i} of reach", arcs=True) for i, item in enumerate(listed, 1)
+    )
     known = tuple(cell for cell in cells if cell)
     names: set[str] = set()
     for cell in known:
@@ -52,6 +54,17 @@ def read_reach(faults: Faults, node: YamlNode | None, coordinates: Collection[st
         else:
             names.add(cell.tree.name)
     return ParsedReach(known, node.span) if len(known) == len(cells) else NO_REACH
+
+
+def _rejoined(faults: Faults, listed: Sequence[YamlNode]) -> Iterator[YamlNode]:
+    """The items, those that a comma inside parentheses has cut made one again: atan2(4, 3)."""
+    waiting = list(listed)
+    while waiting:
+        node = waiting.pop(0)
+        while isinstance(node, ScalarNode) and waiting and node.text.count("(") > node.text.count(")"):
+            end = waiting.pop(0).span[1]
+            node = replace(node, text=faults.source.text[node.start : end])
+        yield node
 
 
 def check_reach(faults: Faults, reach: ParsedReach, rows: int) -> None:

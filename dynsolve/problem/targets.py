@@ -12,9 +12,10 @@ from operator import mul
 from dynsolve.algebra.angles import angle_from_tree
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tokens import ARCS
+from dynsolve.notation.tree import Function, Node
 from dynsolve.notation.tree_values import evaluate
-from dynsolve.notation.walk import names_in
+from dynsolve.notation.walk import names_in, walk
 from dynsolve.problem.cells import Cell, read_angle
 from dynsolve.problem.reach import ParsedLimits, ParsedReach
 from dynsolve.problem.source import Faults
@@ -58,7 +59,8 @@ class TargetBuilder:
             return None
         for number, cell in enumerate(reach.cells):
             if number < len(angles) and angles[number]:
-                read_angle(self.faults, cell)
+                if not _has_arcs(cell.tree):
+                    read_angle(self.faults, cell)
             elif _is_angle(cell.tree):
                 help = "write a number: an angle is asked for where the task has a sum of joint angles"
                 self.faults.error(cell.span, f"{cell.what} is a length, not an angle", help)
@@ -124,6 +126,11 @@ def _off_rotation(R: Sequence[Sequence[float]]) -> float:
 
 def _symbol(name: str) -> Node:
     return read(name).tree
+
+
+def _has_arcs(node: Node) -> bool:
+    """Whether an angle of a known sine, cosine or direction stands in a formula."""
+    return any(isinstance(part, Function) and part.name in ARCS for part in walk(node))
 
 
 def _is_angle(node: Node) -> bool:

@@ -83,6 +83,7 @@ FAULTS = {
     "a bare angle": ("task: [theta1 + theta2]\nreach: [«1.2»]\nfind: [inverse]", "stands as an angle", "deg"),
     "an angle for a length": ("reach: [«30deg», 1]\nfind: [inverse]", "a length, not an angle", "a number"),
     "a coordinate to reach": ("reach: [1, 2*«theta1»]", "contains the coordinate", "numbers and parameters"),
+    "one argument": ("task: [theta1]\nreach: [«atan2»(1)]\nfind: [inverse]", "two arguments", "atan2(y, x)"),
     "no numbers to reach": ("reach: [px, py]\nstate: «reach»\nfind: [inverse]", "the numbers", "reach:"),
     "a weight of no coordinate": ("weights: {«theta3»: 2}", "no coordinate", "theta"),
     "a weight that moves": ("weights: {theta1: «theta2»}", "contains the coordinate", "parameters"),
