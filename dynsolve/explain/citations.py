@@ -76,6 +76,7 @@ CRAIG = Book(
     sections={
         "3.4": "Convention for Affixing Frames to Links",
         "3.5": "Manipulator Kinematics",
+        "4.6": "Pieper's Solution When Three Axes Intersect",
         "5.6": "Velocity Propagation from Link to Link",
         "5.7": "Jacobians",
         "6.5": "Iterative Newton-Euler Dynamic Formulation",

@@ -106,7 +106,7 @@ _AT_HAND = {
     Stage.JACOBIAN: "You have the frames of the forward kinematics:",
     Stage.TASK: "You have the frames of the forward kinematics:",
     Stage.SINGULAR: "You have the Jacobian of the task:",
-    Stage.INVERSE: "You have the task as a function of the joint variables:",
+    Stage.INVERSE: "You have what is to be reached as a function of the joint variables:",
     Stage.RATES: "You have the Jacobian of the task:",
     Stage.INERTIA: "You have the frames of the forward kinematics, and what the problem says of each body:",
     Stage.ENERGY: (
@@ -132,7 +132,9 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
     elif stage is Stage.SINGULAR:
         yield letters.J_TASK, "Jr"
     elif stage is Stage.INVERSE:
-        yield letters.TASK, "r"
+        last = len(robot.joints)
+        is_pose = robot.questions.task is not None and robot.questions.task.is_pose
+        yield (letters.H(robot, last), f"H{last}") if is_pose else (letters.TASK, "r")
     elif stage is Stage.RATES:
         given = (kinematic_families.JR, kinematic_families.JR_DOT)
         for quantity in quantities(robot).values():

@@ -263,7 +263,7 @@ def _origin(origins: Sequence[Origin]) -> Prose:
             return (f"{which} ", *places, f" of the rotation{verb} no other unknown. ")
         case Squared():
             return ("Turning a vector does not change its length: in the sum of the squares the other angles "
-                    "drop out. ",)  # fmt: skip
+                    "drop out, and one joint gives it its length (Paden-Kahan subproblem 3). ",)  # fmt: skip
         case Turned(_, _, name):
             return ("Turned back by ", Symbol(name), ", the components have this angle on the left alone. ")
 
@@ -272,6 +272,9 @@ def _form(step: Solved) -> Prose:
     """What kind of equation it is."""
     unknown = Symbol(step.coordinate)
     match step:
+        case TwoLines() if step.is_rotation:
+            return ("Two equations in the sine and the cosine of ", unknown, " give the angle: one joint "
+                    "turns a vector to where it is to be (Paden-Kahan subproblem 1).")  # fmt: skip
         case TwoLines():
             return ("Two equations in the sine and the cosine of ", unknown, " give the angle.")
         case OneLine() if step.value.is_zero:

@@ -8,7 +8,7 @@ from dynsolve.algebra.matrix import Matrix as Values
 from dynsolve.derivation.inverse.solving import FixedPoint, Part, Turn
 from dynsolve.derivation.inverse.subproblems import OneLine, Solved
 from dynsolve.document import Prose
-from dynsolve.explain.citations import spong
+from dynsolve.explain.citations import craig, spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.explain.step import Detail, Step
@@ -48,6 +48,8 @@ def introduction(
     """What the steps of a part of the solution start from: a rotation that is left, a point."""
     if part.turn is not None:
         yield _turn(formulas, part.turn, number, before)
+    if part.parallel:
+        yield _parallel(part.parallel, number)
     if part.point is not None:
         yield _point(formulas, part, part.point, number)
 
@@ -68,7 +70,6 @@ def _point(formulas: InverseFormulas, part: Part, point: FixedPoint, number: int
         source=spong("3.3.2"),
         detail=Detail.NORMAL,
         uses=("inverse_task", *((f"inverse_turn_{number}",) if part.turn else ())),
-        is_task=False,
     )
 
 
@@ -85,20 +86,27 @@ def _called(point: FixedPoint) -> str:
 
 
 def _why_point(point: FixedPoint, what: str) -> Prose:
-    seen = "Fixed in the base, it is seen from the hand by the pose" if point.from_hand else (
-        "Fixed in the hand, it is given by the pose"
-    )  # fmt: skip
-    alone = ", and only the other joints move it."
+    seen = "It is fixed in the hand, and the pose says where it is"
+    if point.from_hand:
+        seen = "It is fixed in the base, and the pose says where the hand sees it"
+    alone = ". Only the other joints move it"
     match point.last - point.first + 1:
         case 0:
             return ("Every joint moves it.",)
         case 1:
-            return (f"Joint {point.first} turns about its axis and does not move this point. {seen}{alone}",)
+            return (f"Joint {point.first} turns about its axis and does not move this point. {seen}{alone}.",)
         case _:
             return (
                 f"The axes of joints {_numbers(point)} meet in one point, which these joints do not move. "
-                f"{seen}{alone}",
+                f"{seen}{alone}{_decoupled(point)}",
             )
+
+
+def _decoupled(point: FixedPoint) -> str:
+    """What the centre of a wrist is good for."""
+    if point.last - point.first < 2 or point.from_hand:
+        return "."
+    return " to its place, and the wrist then turns the hand: position and rotation are decoupled."
 
 
 def _numbers(told: FixedPoint | Turn) -> str:
@@ -117,6 +125,22 @@ def _meaning(meant: dict[str, Node], node: Node) -> Node:
 
 def _form(formulas: InverseFormulas, values: Values) -> Matrix:
     return Matrix(tuple(tuple(map(formulas.form, row)) for row in values.rows))
+
+
+def _parallel(joints: tuple[int, ...], number: int) -> Step:
+    """What joints with parallel axes leave alone."""
+    named = and_joined([str(k) for k in joints])
+    return Step(
+        id=f"inverse_parallel_{number}",
+        stage=STAGE,
+        title="Parallel axes",
+        why=(
+            f"The axes of joints {named} are parallel. In that direction these joints move nothing, and they "
+            "turn nothing out of it: what is seen along it holds the others alone, and these come first.",
+        ),
+        source=craig("4.6"),
+        uses=(),
+    )
 
 
 # -- a rotation ------------------------------------------------------------------------------------
@@ -143,7 +167,6 @@ def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[S
         result=tuple(values) or (equation(_U, known, made),),
         listed=True,
         uses=("inverse_task", *(f"inverse_{step.coordinate}" for step in before)),
-        is_task=False,
     )
 
 

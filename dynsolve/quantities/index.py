@@ -79,7 +79,7 @@ class Owners:
         """Whether there are quantities of a family: those of the course, and of what is asked."""
         if family.stage is Stage.CONSTRAINTS and not self.constraints:
             return False
-        if self.is_twist and family is kinematic_families.R:
+        if self.is_twist and family in (kinematic_families.R, kinematic_families.R_ENTRY):
             return False
         if family.brought_by and family.brought_by not in self.actions:
             return False

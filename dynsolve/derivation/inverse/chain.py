@@ -52,6 +52,17 @@ class Chain:
         """Z_1 C_1 ... Z_n, 4×4."""
         return self.before(len(self.screws))
 
+    @property
+    def parallel(self) -> tuple[int, ...]:
+        """The numbers of the longest run of three or more joints that turn about parallel axes."""
+        runs: list[tuple[int, ...]] = [()]
+        for k, screw in enumerate(self.screws):
+            is_parallel = k > 0 and not any(self.between[k - 1][i, 2].poly for i in (0, 1))
+            goes_on = runs[-1] and is_parallel and screw.is_revolute
+            runs.append((*(runs[-1] if goes_on else ()), *((screw.number,) if screw.is_revolute else ())))
+        longest = max(runs, key=len)
+        return longest if len(longest) > 2 else ()
+
     def before(self, start: int) -> Matrix:
         """Z_1 C_1 ... C_start, 4×4: from the first frame to that before screw `start` (from 0)."""
         found = Matrix.identity(self.screws[0].motion.ring, 4)

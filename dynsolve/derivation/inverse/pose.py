@@ -159,7 +159,7 @@ def _ways(block: _Block, unknowns: Unknowns, names: Names) -> Iterator[Part]:
     for point in points:
         solved = search([_of_point(point), *turned], unknowns)
         if solved:
-            yield Part(solved, block.turn, point)
+            yield Part(solved, block.turn, point, block.chain.parallel)
 
 
 def _terms(made: Matrix) -> int:

@@ -56,11 +56,16 @@ class FixedPoint:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """Steps that are taken from the same equations, with what is known for them by name."""
+    """Steps that are taken from the same equations, with what is known for them by name.
+
+    `parallel` are joints (numbers from 1) with parallel axes, where the equations are those that do
+    not notice them.
+    """
 
     solved: tuple[Solved, ...]
     turn: Turn | None = None
     point: FixedPoint | None = None
+    parallel: tuple[int, ...] = ()
 
     @property
     def definitions(self) -> tuple[Definition, ...]:
