@@ -1,4 +1,4 @@
-"""Steps of the inverse kinematics of a pose: what they begin with, what is said where it is singular, hints."""
+"""Steps of the inverse kinematics of a pose: what they begin with, where it is singular, hints."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ BEGINNINGS = [
 @pytest.mark.parametrize(("table", "beginnings", "said"), BEGINNINGS)
 def test_what_the_steps_start_from(table: str, beginnings: list[str], said: str) -> None:
     steps = told(table)
-    found = [name for name in steps if name.split("_")[1] in ("point", "turn", "parallel")]
+    found = [name for name in steps if name.startswith(("inverse_point", "inverse_turn", "inverse_parallel"))]
     assert found == [f"inverse_{name}" for name in beginnings]
     assert said in words(steps[found[0]])
 
