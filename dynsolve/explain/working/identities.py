@@ -72,8 +72,14 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
         return None
     if ring.reduce(difference):
         return None
-    angles = _as_they_stand(ring, before, without_sums) or _of_basic_angles(ring, difference)
+    angles = _squared(ring, before, without_sums, difference)
     return (*(_pythagoras(angle_node(angle, ring.names)) for angle in angles), *additions)
+
+
+def _squared(ring: Ring, before: Node, after: Node, difference: fmpq_mpoly) -> list[Angle]:
+    """The angles of which s² + c² = 1 is used on the way to an equal line."""
+    basic = _of_basic_angles(ring, difference)
+    return _as_they_stand(ring, before, after) or basic if basic else []
 
 
 def _of_basic_angles(ring: Ring, difference: fmpq_mpoly) -> list[Angle]:
@@ -85,10 +91,10 @@ def _of_basic_angles(ring: Ring, difference: fmpq_mpoly) -> list[Angle]:
 def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:
     """The angles whose s² + c² = 1 alone leads from one line to the other: θ₃, and not θ₂ and θ₂ + θ₃.
 
-    Each angle that stands in the lines is put for one of the ring; none where these are too few.
+    One of the ring is put for each angle; none where these are too few, or nothing is exchanged.
     """
     angles = list(dict.fromkeys(angle for tree in (before, after) for angle in _angles(tree) if angle.terms))
-    if len(angles) > len(ring.pairs):
+    if len(angles) > len(ring.pairs) or {pair.angle for pair in ring.pairs}.issuperset(angles):
         return []
     stand_in = dict(zip(angles, ring.pairs, strict=False))
 
