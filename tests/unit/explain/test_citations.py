@@ -12,7 +12,7 @@ from functools import lru_cache
 import pytest
 
 import dynsolve
-from dynsolve.document import Document, Formula, Text
+from dynsolve.document import Document, Text
 from dynsolve.explain.citations import BOOKS, CRAIG, LYNCH_PARK, SPONG, spong
 from dynsolve.explain.step import Detail, Step
 from dynsolve.render.references import formulas
@@ -98,10 +98,12 @@ def test_each_book_that_is_cited_is_named_once_in_full(problem: str, books: list
     assert not any("2006" in source or "Spong" in source for source in shown)
 
 
-def test_no_book_is_named_where_nothing_is_cited() -> None:
-    document = solution_document(dynsolve.solve("planar-2r"), Detail.BRIEF)
-    assert not any(formula.source for formula in formulas(document.blocks) if isinstance(formula, Formula))
-    assert SPONG.full not in opening(document)
+@pytest.mark.parametrize("detail", Detail)
+def test_a_book_is_named_where_it_is_cited_and_no_other(detail: Detail) -> None:
+    document = solution_document(dynsolve.solve("planar-2r"), detail)
+    sources = {formula.source for formula in formulas(document.blocks) if formula.source}
+    assert sources and all(source.startswith("§") for source in sources)
+    assert [book for book in BOOKS if book.full in opening(document)] == [SPONG]
 
 
 def test_json_names_the_book_with_each_section() -> None:
