@@ -147,7 +147,8 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
 def _lost_words(context: Context) -> Prose:
     w = Letter("w", style="bold")
     task = context.robot.questions.task
-    what = "A force" if task is None or task.is_default else "A force or moment"
+    is_force = _matrix(context) != "J" and (task is None or task.is_default)
+    what = "A force" if is_force else "A force and a moment"
     return (" Every velocity that the joints can give is orthogonal to ", w, ": motion along ", w,
             f" is lost. {what} along ", w, " needs no torque of the joints.")  # fmt: skip
 

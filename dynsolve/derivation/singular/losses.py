@@ -16,7 +16,7 @@ from itertools import combinations
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant, minors
+from dynsolve.algebra.minors import determinant, minors, work
 from dynsolve.algebra.trig_factor import trig_factors
 from dynsolve.derivation.singular.conditions import Condition
 
@@ -26,8 +26,11 @@ Direction = tuple[Expr, ...]
 LONGEST = 40
 """A direction with more terms is not shown."""
 
-MOST_ROWS = 4
-"""Of a Jacobian with more rows the rank alone is found."""
+MOST_SEARCHED = 4
+"""Of a Jacobian with more rows not every direction is looked at."""
+
+MOST_WORK = 2_500
+"""The products of terms that a direction of such a Jacobian may take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +51,7 @@ def loss(jacobian: Matrix, conditions: Sequence[Condition], greatest: int) -> Lo
     columns = jacobian.shape[1]
     held = Matrix.of(jacobian.ring, (flat[i : i + columns] for i in range(0, len(flat), columns)))
     rank = next(k for k in range(greatest - 1, -1, -1) if k == 0 or _has_rank(held, k, conditions))
-    directions = tuple(_directions(held, rank, conditions)) if len(held.rows) <= MOST_ROWS else ()
+    directions = tuple(_directions(held, rank, conditions))
     is_short = all(sum(map(len, direction)) <= LONGEST for direction in directions)
     return Loss(rank, directions if is_short else (), held)
 
@@ -70,20 +73,47 @@ def _directions(matrix: Matrix, rank: int, conditions: Sequence[Condition]) -> I
 def _direction(
     matrix: Matrix, base: Sequence[int], row: int, conditions: Sequence[Condition]
 ) -> Direction | None:
-    """The shortest w in which the rows of a base and one more stand, that one with a factor that is not 0."""
+    """The shortest w in which the rows of a base and one more stand, that one with a factor that is not 0.
+
+    Of a matrix with many rows it is the one that is found with the least work.
+    """
     rows = sorted((*base, row))
+    choices = [_Minors(matrix, rows, columns) for columns in combinations(range(matrix.shape[1]), len(base))]
+    is_large = len(matrix.rows) > MOST_SEARCHED
+    if is_large:
+        choices = sorted((m for m in choices if m.work <= MOST_WORK), key=lambda minors: minors.work)
     found: list[Direction] = []
-    for columns in combinations(range(matrix.shape[1]), len(base)):
-        cofactors = []
-        for k, left_out in enumerate(rows):
-            part = Matrix.of(matrix.ring, ([matrix[i, j] for j in columns] for i in rows if i != left_out))
-            minor = determinant(part)
-            cofactors.append(minor if k % 2 == 0 else -minor)
-        values = dict(zip(rows, _reduced(cofactors, conditions), strict=True))
+    for choice in choices:
+        values = dict(zip(rows, _reduced(choice.cofactors(), conditions), strict=True))
         if not values[row].is_zero:
             zero = matrix.ring.zero
             found.append(_without_shared(tuple(values.get(i, zero) for i in range(len(matrix.rows)))))
+            if is_large:
+                break
     return min(found, key=lambda direction: sum(map(len, direction)), default=None)
+
+
+@dataclass(frozen=True, slots=True)
+class _Minors:
+    """The minors of k + 1 rows and k columns that leave out one row each."""
+
+    matrix: Matrix
+    rows: Sequence[int]
+    columns: Sequence[int]
+
+    def _without(self, left_out: int) -> Matrix:
+        kept = (i for i in self.rows if i != left_out)
+        return Matrix.of(self.matrix.ring, ([self.matrix[i, j] for j in self.columns] for i in kept))
+
+    @property
+    def work(self) -> int:
+        """The products of terms that they may come to."""
+        return sum(work(self._without(row)) for row in self.rows)
+
+    def cofactors(self) -> list[Expr]:
+        """The minors with alternating signs, by the row that is left out."""
+        minors = [determinant(self._without(row)) for row in self.rows]
+        return [minor if k % 2 == 0 else -minor for k, minor in enumerate(minors)]
 
 
 def _reduced(values: Sequence[Expr], conditions: Sequence[Condition]) -> tuple[Expr, ...]:
