@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import sqlite3
 from collections.abc import Mapping
 from contextlib import closing
@@ -25,6 +26,11 @@ LIBRARY = [path for path in ALL_PROBLEMS if "\nmasses:" in path.read_text(encodi
 """The problems of the library that have dynamics; the others ask for kinematics alone."""
 
 STEMS = frozenset(path.stem for path in LIBRARY)
+
+ACTING = frozenset(
+    path.stem for path in LIBRARY if re.search(r"^(friction|springs|motors):", path.read_text("utf-8"), re.M)
+)
+"""Those on which more than gravity acts."""
 
 COURSE_DOCUMENT = ROOT / "tests" / "golden" / "answers" / "dynamics-overview.md"
 TEXTBOOKS = sorted((ROOT / "tests" / "golden" / "textbooks").glob("*.yaml"))

@@ -12,8 +12,8 @@ from dynsolve.derivation.link_frame import quadratic_energy
 from dynsolve.robot.model import Robot
 
 
-def action_rules(robot: Robot) -> Iterator[Rule]:
-    """The rules of the textbook: the energies of springs and rotors, and friction."""
+def energy_rules(robot: Robot) -> Iterator[Rule]:
+    """The textbook's energies of springs and rotors."""
     kinds = robot.actions.kinds
     if "springs" in kinds:
         yield Rule("Ps", (), partial(actions.spring_energy, robot))
@@ -21,8 +21,11 @@ def action_rules(robot: Robot) -> Iterator[Rule]:
         last = max(motor.carrier for motor in robot.actions.motors)
         inputs = frame_names(last) if last else ()
         yield Rule("Km", inputs, partial(actions.rotor_energy, robot))
-    if "friction" in kinds:
-        yield Rule("friction", (), partial(actions.friction, robot))
+
+
+def friction_rule(robot: Robot) -> Rule:
+    """The dissipative terms."""
+    return Rule("friction", (), partial(actions.friction, robot))
 
 
 def rotor_rules(robot: Robot) -> Iterator[Rule]:

@@ -43,7 +43,8 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
     if robot.has_dynamics:
         for body in robot.bodies:
             yield from _body(robot, body)
-        yield from _actions(robot)
+        if robot.actions:
+            yield from _acting_energies(robot)
         yield from _energies(robot)
         yield from _euler_lagrange(robot)
         yield from _vectorized(robot)
@@ -77,12 +78,11 @@ def _asked_of_kinematics(robot: Robot) -> Iterator[Rule]:
         yield from rate_rules(robot)
 
 
-def _actions(robot: Robot) -> Iterator[Rule]:
-    """What acts beside gravity; it is imported where something does."""
-    if robot.actions:
-        from dynsolve.derivation.action_rules import action_rules
+def _acting_energies(robot: Robot) -> Iterator[Rule]:
+    """The energies of springs and rotors; imported where something acts beside gravity."""
+    from dynsolve.derivation.action_rules import energy_rules
 
-        yield from action_rules(robot)
+    yield from energy_rules(robot)
 
 
 def _rotors(robot: Robot) -> Iterator[Rule]:
@@ -183,6 +183,10 @@ def _energies(robot: Robot) -> Iterator[Rule]:
 
 def _euler_lagrange(robot: Robot) -> Iterator[Rule]:
     resisted = _friction(robot)
+    if resisted:
+        from dynsolve.derivation.action_rules import friction_rule
+
+        yield friction_rule(robot)
     for q in robot.coordinates:
         k = q.index
         yield Rule(f"dLdqd{k}", ("L",), partial(euler_lagrange.momentum, k=k - 1))

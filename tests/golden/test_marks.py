@@ -35,7 +35,8 @@ def _key(stem: str) -> dict[str, Any]:
     names = ("Jv", "Jw", "P", "K", "L", "tau", "D", "C", "g")
     transforms = {f"A{i}": matrix for i, matrix in enumerate(results["A"], 1)}
     bodies = {f"K{body['name']}": body["K"] for body in results["bodies"]}
-    return transforms | bodies | {name: results[name] for name in names}
+    acting = {name: results[name] for name in ("Ps", "Km", "friction") if name in results}
+    return transforms | bodies | acting | {name: results[name] for name in names}
 
 
 @cache

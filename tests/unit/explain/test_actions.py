@@ -1,0 +1,91 @@
+"""What is printed of friction, springs, motors and passive coordinates: steps, terms, the closing step."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pytest
+
+import dynsolve
+from dynsolve.notation.tree import Node
+from dynsolve.notation.unicode import to_unicode
+
+ACTING = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+friction: {q1: {viscous: b1, coulomb: c1}}
+springs: [{stiffness: k, of: q2 - q1, rest: delta}]
+dampers: [{damping: b, of: q2 - q1}]
+motors: [{turns: q1, inertia: J1, ratio: n1}, {turns: q2, inertia: J2, ratio: n2, carrier: 1}]
+passive: [q2]
+forces: [{link: 2, force: [F, 0, 0]}]
+"""
+
+
+@lru_cache
+def solution(problem: str) -> dynsolve.Solution:
+    return dynsolve.solve(problem)
+
+
+def shown(node: Node, problem: str = ACTING) -> str:
+    return " ".join(to_unicode(node, solution(problem).style).split())
+
+
+def step(id: str, problem: str = ACTING):
+    (found,) = (one for one in solution(problem).steps if one.id == id)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("id", "formula"),
+    [
+        ("Ps", "P_s = ½ k (q₂ - q₁ - δ)²"),
+        ("P", "𝒫 = P₁ + P₂ + P_s = -Σᵢ₌₁² mᵢ 𝐠₀ᵀ r_ci + P_s"),
+        ("Km", "K_m = Σᵢ₌₁² ½ I_mi (k_ri q̇ₖ + zᵀ ω_link)²"),
+        ("friction", "τ_fk = ∂ℛ/∂q̇ₖ + f_ck sgn(q̇ₖ)"),
+        ("tau1", "τ₁ = d/dt (∂𝓛/∂q̇₁) - ∂𝓛/∂q₁ + τ_f1"),
+        ("Cqd", "C q̇ + 𝐠 = τ - D q̈ - τ_f"),
+        ("model", "D q̈ + C q̇ + τ_f + 𝐠 = τ + Q"),
+    ],
+)
+def test_each_stands_in_the_formula_of_its_step(id: str, formula: str) -> None:
+    found = step(id).formula
+    assert found is not None
+    assert shown(found) == formula
+
+
+@pytest.mark.parametrize(
+    ("id", "working"),
+    [
+        ("Km", "K_m = ½ J₁ (n₁ q̇₁)² + ½ J₂ (n₂ q̇₂ + q̇₁)²"),
+        ("friction", "ℛ = ½ b₁ q̇₁² + ½ b (q̇₂ - q̇₁)²"),
+    ],
+)
+def test_what_the_problem_gives_is_put_in(id: str, working: str) -> None:
+    assert shown(step(id).working[0]) == working
+
+
+def test_a_passive_coordinate_has_no_drive() -> None:
+    words = "".join(part if isinstance(part, str) else shown(part) for part in step("tau2").why)
+    assert "no motor drives: its torque τ₂ = 0" in words
+    assert "No motor drives q₂: τ₂ = 0." in "".join(
+        part if isinstance(part, str) else shown(part) for part in step("model").why
+    )
+
+
+def test_the_terms_of_a_force_say_what_they_are() -> None:
+    table = step("terms").table
+    assert table is not None
+    assert [row[2] for row in table.rows if row[2] not in ("inertial", "coupling inertia")] == [
+        "Coriolis", "centrifugal", "friction", "gravity and spring",
+        "centrifugal", "friction", "gravity and spring",
+    ]  # fmt: skip
+
+
+def test_a_robot_on_which_nothing_acts_has_none_of_it() -> None:
+    plain = ACTING.split("friction:")[0]
+    assert not {"Ps", "Km", "friction", "Dm"} & {one.id for one in solution(plain).steps}
+    formula = step("model", plain).formula
+    assert formula is not None
+    assert shown(formula, plain) == "D q̈ + C q̇ + 𝐠 = τ"
