@@ -13,6 +13,7 @@ Arrows run one way, from the first of these files to the last:
 - `parameter_span`: combinations of unknown parameters over the fractions in known ones;
 - `fraction_matrix`, `pseudoinverse`, `spans`: matrices of fractions, systems of linear
   equations, spaces;
+- `inequality`: inequalities between parameters that follow from others;
 - `minors`, `trig_factor`, `positivity`: determinants, factors in sines and cosines, what
   is positive by its form;
 - `surds`, `surd_angles`, `surd_values`: sums of square roots, angles with such sines and cosines,

@@ -19,7 +19,8 @@ answer got its verdict is decided, in this order, by
     unwritten                what is asked for and not written by itself          missing
 
 A Denavit-Hartenberg table is judged as a whole, by the mechanism that it describes: `table_verdict`;
-sets of configurations are held in numbers: `configuration_verdict`.
+sets of configurations are held in numbers: `configuration_verdict`; of what is said of matrices
+each is an entry: `definite_verdict`.
 
 and `verdict` has the records of all that is said.  `sandbox` runs this within limits of
 time and memory, `public` is `dynsolve.check`.

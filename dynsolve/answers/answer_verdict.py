@@ -17,6 +17,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from dynsolve.algebra.fraction import RationalExpr
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.diagnosis.wrong_entry import WrongEntry
@@ -31,7 +32,7 @@ from dynsolve.problem.model import Problem
 
 ROUNDED = "rounded"
 NOT_FROM_OWN = "not_from_own"
-NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's"
+NOT_CHRISTOFFEL = "C q̇ is right; this is another choice of C than Christoffel's, with which Ḋ - 2C is {}"
 FROM_NOTHING = "it is what follows from {}, where next to nothing is right"
 UNAFFECTED = "tau is unaffected"
 LONGER = "these are {} parameters; {} are enough"
@@ -105,7 +106,8 @@ class AnswerJudge:
             notes.append(compared.other)
         notes += self._fewer(base.name)
         if base.name == "C" and not self._is_christoffel(compared.answer_value):
-            notes.append(NOT_CHRISTOFFEL)
+            is_skew = self._is_skew(compared.answer_value)
+            notes.append(NOT_CHRISTOFFEL.format(("not " if not is_skew else "") + "skew-symmetric"))
         entries = tuple(EntryVerdict(index, Verdict.CORRECT) for index, _, _ in _entries(base.name, compared))
         return replace(base, verdict=Verdict.CORRECT, notes=tuple(notes), entries=entries)
 
@@ -122,6 +124,17 @@ class AnswerJudge:
         assert value.rows is not None
         key = self.hand_in.answer_ring.key("C")
         return same(value.rows, tuple(tuple(RationalExpr(entry) for entry in row) for row in key.rows))
+
+    def _is_skew(self, value: AnswerValue) -> bool:
+        """Whether Ḋ - 2C is skew-symmetric; of any right C only q̇ᵀ (Ḋ - 2C) q̇ is 0."""
+        assert value.rows is not None
+        ring = self.hand_in.answer_ring.ring
+        if any(entry.divisor is not None for row in value.rows for entry in row):
+            return False
+        rate: Matrix = self.hand_in.answer_ring.key("D").map(ring.time_derivative)
+        C = Matrix.of(ring, ([entry.numerator for entry in row] for row in value.rows))
+        N = rate - C.scale(ring.constant(2))
+        return (N + N.T).is_zero
 
     # -- follows, or wrong -------------------------------------------------------------------------
 

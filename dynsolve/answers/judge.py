@@ -17,6 +17,7 @@ from functools import cached_property
 
 from dynsolve.answers.answer_verdict import AnswerJudge
 from dynsolve.answers.configuration_verdict import judged_set
+from dynsolve.answers.definite_verdict import judged_verdicts
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.factors import FactorPairs
@@ -164,6 +165,12 @@ class Judge:
         answers |= {
             answer.name: judged_set(self.checker.configurations, answer, self._marks_of(answer.name))
             for answer in sets
+        }
+        answers |= {
+            answer.name: judged_verdicts(
+                self.problem.robot, self.checker.key, answer, self._marks_of(answer.name)
+            )
+            for answer in self.submission.verdicts
         }
         assembled = self.hand_in.assembled_coriolis
         if assembled is not None:

@@ -88,6 +88,21 @@ class ConfigurationAnswer:
 
 
 @dataclass(frozen=True, slots=True)
+class VerdictAnswer:
+    """What was said of matrices: (name, `yes`, `no` or `if`) of each, without a name of the only one.
+
+    `fault` says why it could not be read, `expected` what to write.
+    """
+
+    name: str
+    place: Place
+    text: str
+    words: tuple[tuple[str, str], ...] = ()
+    fault: str = ""
+    expected: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class NotRecognized:
     """An equation that is no answer; `why` says what kept it from being one.
 
@@ -118,3 +133,4 @@ class Submission:
     faults: tuple[Finding, ...] = ()
     left_alone: tuple[NotRecognized, ...] = ()
     configurations: tuple[ConfigurationAnswer, ...] = ()
+    verdicts: tuple[VerdictAnswer, ...] = ()

@@ -19,6 +19,8 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     task_inertia    the inertia that a force at the task meets: likewise
     regressor       7.5.3 τ = Y a, with a of minimal length: likewise
     statics         4.10  forces from outside, the torques that hold them: likewise
+    definite        7.5   whether a matrix can be an inertia matrix: likewise; `smallest` takes its minors
+                          to their smallest values
 
 What hangs together how:
 
@@ -54,6 +56,7 @@ And the independent check, which shares no formula with any of these:
     model_check     Y a against τ, its length against the rank of numbers
     static_check    generalized forces and holding torques, against the power of the forces
     mechanism_check models without a table, by virtual work, or by Lagrange's equations on numbers
+    definite_check  whether matrices are positive definite, by elimination on numbers
     hyper_dual      numbers that carry first and second derivatives, for that
 
 A rule takes exact values and returns an exact value, and does nothing else: what a

@@ -61,6 +61,10 @@ def course_rules(robot: Robot) -> Iterator[Rule]:
         from dynsolve.derivation.constraint_rules import constraint_rules
 
         yield from constraint_rules(robot)
+    if robot.questions.candidates:
+        from dynsolve.derivation.definite import definite_rules
+
+        yield from definite_rules(robot)
     if Stage.STATICS in asked:
         from dynsolve.derivation.static_rules import static_rules
 

@@ -37,6 +37,9 @@ TOLERANCE = 1e-9
 
 METHOD = "recursive Newton-Euler"
 
+ON_NUMBERS = "elimination on numbers"
+"""What is held of matrices that stand in the place of a robot."""
+
 _NEGLIGIBLE = 1e-4
 """The part of what moves freely below which a result is rounding."""
 
@@ -99,6 +102,8 @@ def _way(robot: Robot) -> _Way:
     """The computation that suits a robot: the recursion for an arm, another for a model without a table."""
     if robot.has_table:
         return _Way(METHOD, _of_arm)
+    if not robot.has_dynamics:
+        return _Way(ON_NUMBERS, _of_mechanism)
     from dynsolve.derivation.mechanism_check import BY_BODIES, BY_ENERGIES
 
     return _Way(BY_BODIES if robot.given is None else BY_ENERGIES, _of_mechanism)
@@ -146,8 +151,6 @@ class _Independent:
 def _errors(arm: Arm, acting: ActingForces, ours: Results) -> Iterator[tuple[str, float]]:
     """(name, relative error) of each result of an arm."""
     yield from _kinematic_errors(arm, ours)
-    if "D" not in ours:
-        return
 
     def forces(qd: Sequence[float], qdd: Sequence[float], has_gravity: bool) -> list[float]:
         return inverse_dynamics(arm, qd, qdd, arm.gravity if has_gravity else ZERO)
@@ -157,7 +160,9 @@ def _errors(arm: Arm, acting: ActingForces, ours: Results) -> Iterator[tuple[str
 
 
 def _dynamic_errors(state: _Independent, ours: Results) -> Iterator[tuple[str, float]]:
-    """The errors of D, C q̇, friction, g, τ and the energies."""
+    """The errors of D, C q̇, friction, g, τ and the energies, where there are any."""
+    if "D" not in ours:
+        return
     acting = state.acting
     n = len(state.qd)
     still = [0.0] * n

@@ -41,6 +41,9 @@ def of_problem(robot: Robot, style: Style) -> Iterator[Line]:
 def problem_names(robot: Robot) -> Iterator[Line]:
     """The coordinates, and the parameters by what they are."""
     yield from _coordinates(robot)
+    candidates = [one.name for one in robot.questions.candidates if robot.given is None]
+    if candidates:
+        yield _named(candidates, "matrices that are to be judged", "")
     known = roles(robot)
     for role in Role:
         units = dict.fromkeys(unit for own, unit in known.values() if own is role)

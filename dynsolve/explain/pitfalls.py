@@ -241,6 +241,11 @@ def _statics(robot: Robot) -> Iterator[Prose]:
         yield ("The torques that hold a force are the opposite of what the force does to the joints.",)
 
 
+def _definite(robot: Robot) -> Iterator[Prose]:
+    yield ("A positive determinant alone is not enough: every leading minor must be positive.",)
+    yield ("Take each minor where it is smallest: its sines and cosines may be 0, 1 and -1 there.",)
+
+
 def _of_type(robot: Robot, kind: JointType) -> list[Node]:
     return [Symbol(q.name) for q in robot.coordinates if q.type is kind]
 
@@ -295,4 +300,5 @@ _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.EQUILIBRIA: _equilibria,
     Stage.TASK_INERTIA: _task_inertia,
     Stage.STATICS: _statics,
+    Stage.DEFINITE: _definite,
 }

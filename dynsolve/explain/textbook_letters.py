@@ -155,6 +155,7 @@ def _questions(robot: Robot) -> Iterator[Line]:
     free = [(letters.bold("Z"), "rates that the constraints leave free"), (letters.bold("v"), "their sizes")]
     if robot.questions.constraints:
         yield _each(free)
+    yield _line(Letter("Delta", _K), "leading minor k of a matrix: the determinant of its first k rows")
     yield _line(letters.TAU_STATIC, "forces and torques that hold the arm at rest")
 
 

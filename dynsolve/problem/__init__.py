@@ -13,6 +13,7 @@
                      drawn_places   points of a drawing, in the frames of their links
                      bodies         `masses`
                      mechanism      `model`: bodies by their positions, or given energies
+                     candidates     `candidates`, `assume`, `chain`
                      rate_cells     an expression in which rates may stand: x', x_dot
                      base           `gravity`, `base`
                      places         a point of a link: `center`, `at`
@@ -40,6 +41,8 @@
                      positions      where the points of links are
                      build          joints and bodies
                      body_values    the mass and the tensor of a body
+                     candidates_build
+                                    matrices that are to be judged
                      mechanism_build
                                     bodies by their positions, given energies
                      targets        `reach` and `limits` with numbers
@@ -50,7 +53,7 @@
 
 `reader` goes this way; each step reports what it finds and goes on with what is sound.
 Which keys there are is said once, in `specification`, `action_keys`, `kinematic_keys`, `constraint_keys`,
-`mechanism_keys` and `model_keys` (in terms of `kinds` and `value_kinds`); from there come
+`mechanism_keys`, `definite_keys` and `model_keys` (in terms of `kinds` and `value_kinds`); from there come
 the reader's keys, the JSON Schema (`schema`), the file of `dynsolve new` and the tables of
 the documentation (`documentation`).  `lint` finds what is no fault but deserves a look,
 `library` the problems that come with dynsolve.

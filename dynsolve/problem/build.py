@@ -13,6 +13,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.actions import NO_ACTIONS
 from dynsolve.problem.bodies import ParsedBody, ParsedShape
 from dynsolve.problem.body_values import mass_value, tensor_value
+from dynsolve.problem.candidates_build import candidates
 from dynsolve.problem.mechanism_build import given_model, placed_bodies
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.positions import PlaceBuilder
@@ -76,6 +77,9 @@ def build_robot(
     known_loads = [one for one in loads if one]
     is_drawn = parsed.normals is not None
     robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn, written)
+    if parsed.candidates is not None:
+        judged = candidates(values, parsed.candidates, given.D if given else None)
+        robot = replace(robot, questions=replace(robot.questions, candidates=judged))
     return None if faults.errors else robot
 
 

@@ -49,14 +49,15 @@ def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercis
     find = _read_find(faults, fields.get("find"), names)
     marks = _read_marks(faults, fields.get("marks"), names)
     return Exercise(
-        find=find or FIND,
+        find=find or (("definite",) if parsed.is_of_matrices else FIND),
         marks=marks,
         values=values,
         written=written,
         units=_read_units(faults, fields.get("units")),
         asked=frozenset(
             name for name in (*find, *marks) if names is not None and names[name].family.stage.asked_for
-        ),
+        )
+        or frozenset(("definite",) if parsed.is_of_matrices else ()),
     )
 
 

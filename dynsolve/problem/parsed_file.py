@@ -9,6 +9,7 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.problem.actions import NO_ACTIONS, ParsedActions
 from dynsolve.problem.base import ParsedBase
 from dynsolve.problem.bodies import ParsedBody
+from dynsolve.problem.candidates import ParsedCandidates
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.mechanism import ParsedModel
 from dynsolve.problem.questions import ParsedQuestions
@@ -35,12 +36,28 @@ class ParsedFile:
     actions: ParsedActions = NO_ACTIONS
     model: ParsedModel | None = None
     """In the place of a table and its bodies: a mechanism by positions, or given energies."""
+    candidates: ParsedCandidates | None = None
+    """Matrices to be judged, alone or beside a model, and what is assumed of their parameters."""
+
+    @property
+    def has_matrices(self) -> bool:
+        """Whether there are matrices to be judged: candidates, or the D of a model."""
+        if self.candidates is None:
+            return False
+        return bool(self.candidates.matrices) or (self.model is not None and self.model.D is not None)
+
+    @property
+    def is_of_matrices(self) -> bool:
+        """Whether matrices stand in the place of a robot."""
+        return self.candidates is not None and self.model is None and not self.table.rows
 
     @property
     def sound(self) -> bool:
         """Whether nothing of the table, its bodies or the model was reported."""
-        if self.model is not None:
-            return not self.model.faulty
+        if self.candidates is not None and self.candidates.faulty:
+            return False
+        if self.model is not None or self.is_of_matrices:
+            return self.model is None or not self.model.faulty
         return self.table.sound and not any(body.faulty for body in self.bodies)
 
     @property
@@ -66,6 +83,8 @@ class ParsedFile:
             constraints=len(self.questions.constraints),
             rates=self.questions.rates,
             actions=self.actions.kinds,
+            has_matrices=self.has_matrices,
+            has_robot=not self.is_of_matrices,
         )
 
     @property
@@ -89,6 +108,8 @@ class ParsedFile:
                 yield from body.axes.rotation.entries
         if self.model:
             yield from self.model.moving
+        if self.candidates:
+            yield from self.candidates.moving
         yield from self.questions.moving
         yield from self.actions.moving
 
@@ -102,6 +123,8 @@ class ParsedFile:
             yield from body.values
         if self.model:
             yield from self.model.constant
+        if self.candidates:
+            yield from self.candidates.constant
         yield from self.gravity or ()
         yield from self.base.move or ()
         if self.base.rotation:
@@ -131,6 +154,8 @@ class ParsedFile:
             yield from body.values
         if self.model:
             yield from self.model.cells
+        if self.candidates:
+            yield from (*self.candidates.moving, *self.candidates.constant)
         yield from self.gravity or ()
         yield from self.base.move or ()
         yield from self.questions.constant

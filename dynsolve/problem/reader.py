@@ -8,6 +8,7 @@ what is sound; the errors are raised together at the end.
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,13 +19,14 @@ from dynsolve.problem.actions import NO_ACTIONS, check_body_names, read_actions
 from dynsolve.problem.base import NO_BASE, NO_GRAVITY, read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
+from dynsolve.problem.candidates import ParsedCandidates, read_candidates
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.drawing import read_drawing
 from dynsolve.problem.drawn_places import DrawnFrames
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.fields import Fields, describe, free_text, word
 from dynsolve.problem.framing import Framed, from_drawing
-from dynsolve.problem.mechanism import ParsedModel, read_model
+from dynsolve.problem.mechanism import ParsedModel, read_model, read_types
 from dynsolve.problem.model import FilePlace, Problem
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.questions import read_questions
@@ -140,8 +142,9 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     )
     convention = Convention(named or "standard")
     model = _model(faults, fields) if "model" in fields else None
-    framed = Framed(DHTable((), model.coordinates), NO_BASE) if model else _framed(faults, fields, convention)
+    framed = _framed(faults, fields, convention, model)
     table = framed.table
+    candidates = _candidates(faults, fields, dict(table.coordinates))
     coordinates = dict(table.coordinates)
     rows = len(table.rows)
     drawn = DrawnFrames.of(framed.normals, table.coordinates)
@@ -160,13 +163,28 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
         normals=framed.normals,
         model=model,
         actions=actions,
+        candidates=candidates,
     )
+
+
+def _of_matrices(faults: Faults, fields: Fields) -> dict[str, str]:
+    """The coordinates of candidates, with their types; keys that need a robot are reported."""
+    for key in OF_A_TABLE:
+        if key in fields and key != "coordinates":
+            message = f"`{key}` stands beside `candidates`, which are of no robot"
+            faults.error(fields.key_span(key), message, "delete it, or delete `candidates`")
+    example = "write coordinates: {q1: revolute, q2: prismatic}"
+    if "coordinates" not in fields:
+        faults.error(fields.key_span("candidates"), "the candidates have no `coordinates`", example)
+    return read_types(faults, fields.get("coordinates"), example)
 
 
 def _gravity(
     faults: Faults, fields: Fields, table: DHTable, model: ParsedModel | None
 ) -> tuple[Cell, ...] | None:
     """The acceleration of gravity, which acts on bodies: a model that is given without them has none."""
+    if "candidates" in fields and model is None:
+        return NO_GRAVITY
     if model is None or model.bodies or model.faulty:
         return read_gravity(faults, fields, table.names)
     if "gravity" in fields:
@@ -184,8 +202,19 @@ def _model(faults: Faults, fields: Fields) -> ParsedModel:
     return read_model(faults, fields.get("model"))
 
 
-def _framed(faults: Faults, fields: Fields, convention: Convention) -> Framed:
-    """The table and the base: as they are given, or found from a drawing."""
+def _candidates(faults: Faults, fields: Fields, coordinates: Mapping[str, str]) -> ParsedCandidates | None:
+    """Matrices in the place of a robot, or what is assumed of the D of a model; None without either."""
+    if "candidates" not in fields and not ("model" in fields and ("assume" in fields or "find" in fields)):
+        return None
+    return read_candidates(faults, fields, coordinates)
+
+
+def _framed(faults: Faults, fields: Fields, convention: Convention, model: ParsedModel | None) -> Framed:
+    """The table and the base: as they are given, or found from a drawing; of a model the coordinates."""
+    if model is not None:
+        return Framed(DHTable((), model.coordinates), NO_BASE)
+    if "candidates" in fields:
+        return Framed(DHTable((), tuple(_of_matrices(faults, fields).items())), NO_BASE)
     if "axes" in fields:
         return from_drawing(faults, read_drawing(faults, fields), convention)
     for key in DRAWING:

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from dynsolve.problem.action_keys import ACTION_KEYS
 from dynsolve.problem.constraint_keys import CONSTRAINT_KEYS
+from dynsolve.problem.definite_keys import DEFINITE_KEYS
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shared, Word
 from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
 from dynsolve.problem.mechanism_keys import COORDINATES, model, placed_body
@@ -310,6 +311,7 @@ PROBLEM = Keyed(
             active=True,
             remedy="a body is written {mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}",
         ),
+        *DEFINITE_KEYS,
         *ACTION_KEYS,
         *KINEMATIC_KEYS,
         *MODEL_KEYS,
@@ -343,6 +345,6 @@ PROBLEM = Keyed(
             active=True,
         ),
     ),
-    one_of=("dh", "axes", "model"),
+    one_of=("dh", "axes", "model", "candidates"),
 )
 """The keys of a problem file, in the order of the documentation."""

@@ -9,6 +9,8 @@
                 those of what exercises ask of the kinematics: points, tasks
     constraint_families
                 those of constraints
+    definite_families
+                what is asked of matrices
     recursion_families
                 those of the Newton-Euler recursions
     model_families

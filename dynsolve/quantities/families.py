@@ -18,6 +18,7 @@ from dynsolve.notation.tree import Node, Product, Symbol
 from dynsolve.quantities import (
     action_families,
     constraint_families,
+    definite_families,
     kinematic_families,
     letters,
     model_families,
@@ -508,9 +509,13 @@ _ASKED_OF_STATICS = static_families.FAMILIES
 
 _CONSTRAINTS = constraint_families.FAMILIES
 
+# -- what an exercise asks of matrices -------------------------------------------------------------
+
+_ASKED_OF_MATRICES = definite_families.FAMILIES
+
 _GROUPS = (
     _ASKED_OF_KINEMATICS, _ENERGIES_OF_ACTIONS, _FRICTION, _ROTORS, _RECURSIONS, _ASKED_OF_MODEL,
-    _ASKED_OF_STATICS, _CONSTRAINTS,
+    _ASKED_OF_STATICS, _CONSTRAINTS, _ASKED_OF_MATRICES,
 )  # fmt: skip
 """The families that have a file of their own."""
 

@@ -52,6 +52,8 @@ class Kind(Enum):
     """Where something holds: alternatives, each of equations that hold together."""
     BRANCHES = "branches"
     """Solutions: alternatives, each an expression for every coordinate."""
+    VERDICTS = "verdicts"
+    """Yes, no or if, of each of some matrices by its name."""
     SPAN = "span"
     """A space, by a matrix whose columns span it."""
 

@@ -36,7 +36,8 @@ class Owners:
     `stages` are those of which something is asked, `task_rows` the components of the task, and
     `task_names` what else each of them is called where the task is a function r(q), which a twist is
     not.  `rates` says whether its velocity, and its acceleration, is given; `actions` what acts beside
-    gravity: friction, springs, motors.
+    gravity: friction, springs, motors.  `has_matrices` says that there are matrices to be judged, and
+    without `has_robot` there is nothing else.
     """
 
     rows: int
@@ -52,6 +53,8 @@ class Owners:
     constraints: int = 0
     rates: frozenset[str] = frozenset()
     actions: frozenset[str] = frozenset()
+    has_matrices: bool = False
+    has_robot: bool = True
 
     @staticmethod
     def of(robot: Robot) -> Owners:
@@ -73,6 +76,8 @@ class Owners:
             constraints=len(asked.constraints),
             rates=given_rates(asked),
             actions=robot.actions.kinds,
+            has_matrices=bool(asked.candidates),
+            has_robot=robot.has_table or robot.has_dynamics,
         )
 
     def has(self, family: Family) -> bool:
@@ -86,6 +91,8 @@ class Owners:
         if family in _FROM_RATES and _FROM_RATES[family] not in self.rates:
             return False
         if not self.rows and family.stage.needs_table:
+            return False
+        if not (self.has_matrices if family.stage is Stage.DEFINITE else self.has_robot):
             return False
         return not family.stage.asked_for or family.stage in self.stages
 

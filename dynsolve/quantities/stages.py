@@ -37,6 +37,7 @@ class Stage(StrEnum):
     PARAMETERS = "parameters", "Linear in the parameters", True
     EQUILIBRIA = "equilibria", "Equilibria and linearization", True
     TASK_INERTIA = "task_inertia", "Inertia as the task meets it", True
+    DEFINITE = "definite", "Inertia matrices: symmetric, positive definite", True
     STATICS = "statics", "Forces from outside, and the torques that hold them", True
     CONSTRAINTS = "constraints", "Constraints", True
 

@@ -2,9 +2,9 @@
 
 `model`: a `Robot` with its coordinates, its joints (the rows of a Denavit-Hartenberg table)
 and its bodies.  `mechanism`: bodies by their positions, and given energies, in the place of a
-table.  `questions`: what an exercise asks around this model, `model_questions` of its equations
-of motion.  `actions`: what acts beside gravity, friction, springs, motors.  `constraints`: what every
-motion keeps.  `shapes`: uniform
+table.  `candidates`: matrices that are to be judged.  `questions`: what an exercise asks around
+this model, `model_questions` of its equations of motion.  `actions`: what acts beside gravity,
+friction, springs, motors.  `constraints`: what every motion keeps.  `shapes`: uniform
 bodies and their inertia.  `geometry`: rotations about axes, and where the ends of a link
 are.  `parallel`: the sums of joint angles in which formulas about parallel axes are short.
 `dimensions`: what every symbol is measured in, by its role; `units`: how dimensions and

@@ -14,6 +14,7 @@ from enum import StrEnum
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation.tree import Node, Reference
 from dynsolve.notation.walk import walk
+from dynsolve.robot.candidates import Candidate
 from dynsolve.robot.constraints import Constraint
 from dynsolve.robot.model_questions import NO_MODEL_QUESTIONS, ModelQuestions
 
@@ -161,7 +162,8 @@ class Questions:
     `limits` are the ranges of coordinates.  `state_is_reached` says that the state is still to be the one
     configuration within the limits that reaches the target.  `weights` (n×n) are those of the rates where
     many do, `weighs_by_inertia` says that they are D.  `method` is the way to τ.  `model` is what is
-    asked of the equations of motion, `constraints` are what every motion keeps at 0.
+    asked of the equations of motion, `constraints` are what every motion keeps at 0,
+    `candidates` matrices that are to be judged.
     """
 
     points: tuple[NamedPoint, ...] = ()
@@ -182,6 +184,7 @@ class Questions:
     weights: Matrix | None = None
     weighs_by_inertia: bool = False
     model: ModelQuestions = NO_MODEL_QUESTIONS
+    candidates: tuple[Candidate, ...] = ()
 
     @property
     def reached(self) -> tuple[str, ...]:

@@ -34,6 +34,12 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
     linear = [name for name in linear_names(wanted) if name in values.rules]
     verify_linear(robot, {name: forms(name) for name in linear}, states)
     _verify_configurations(robot, values, forms, wanted)
+    if "definite" in wanted:
+        from dynsolve.derivation.definite_check import verify_definite
+
+        for candidate, found in zip(robot.questions.candidates, values["definite"], strict=True):
+            if not isinstance(found, Skipped):
+                verify_definite(robot, candidate, found, states)
 
 
 def _verify_constraints(robot: Robot, forms: Forms, wanted: frozenset[str], states: int) -> None:

@@ -249,7 +249,8 @@ def _closing(solution: Dynamics) -> Iterator[Block]:
     if not solution.robot.has_dynamics:
         if not any(stage.asked_for for stage in stages_of(solution.robot)):
             yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
-        how = f"the last frame and the Jacobian by the outward half of {how}"
+        if solution.robot.has_table:
+            how = f"the last frame and the Jacobian by the outward half of {how}"
     told = f"Verified: {how} at {verification.states} random states, "
     told += f"relative error {verification.max_relative_error:.1e}."
     if solution.robot.questions.asked:

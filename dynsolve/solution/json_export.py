@@ -31,6 +31,7 @@ from dynsolve.solution.numbers.given import Given
 from dynsolve.solution.numbers.results import Numbers, State, Valued
 from dynsolve.solution.numbers.rounding import DIGITS
 from dynsolve.solution.table_export import table_results
+from dynsolve.solution.verdict_export import verdict_results
 
 if TYPE_CHECKING:
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
@@ -120,6 +121,8 @@ class _Exporter:
                 return {"skipped": self.solution.values[quantity.rule].why}
             case Kind.EQUATIONS:
                 return [[f"{self.python.text(e)} = 0" for e in one] for one in self.configurations.singular]
+            case Kind.VERDICTS:
+                return verdict_results(self.solution, self.python, self.unicode)
             case Kind.BRANCHES:
                 return branch_results(self.configurations, self.python)
         form = self.forms(quantity.rule)

@@ -30,7 +30,9 @@ from tests.support import ROOT
 PAGE = (ROOT / "problems" / "README.md").read_text(encoding="utf-8")
 FILES = files(PAGE)
 SECTIONS = sections(PAGE)
-PROBLEMS = [block for block in blocks(PAGE, "yaml") if re.search("^(?:dh|model):", block, re.MULTILINE)]
+PROBLEMS = [
+    block for block in blocks(PAGE, "yaml") if re.search("^(?:dh|model|candidates):", block, re.MULTILINE)
+]
 EXAMPLES = {name: found for name, section in SECTIONS.items() if (found := examples(section))}
 
 
@@ -53,7 +55,8 @@ def _folder(folder: Path) -> None:
 
 def test_there_are_examples() -> None:
     files = (
-        "rp drawn cart rrp elbow target rates adaptive balanced held driven line answer slips spellings set"
+        "rp drawn cart candidates rrp elbow target rates adaptive balanced held driven line answer slips "
+        "spellings set"
     ).split()
     assert {*(f"{name}.yaml" for name in files), "report.md"} == FILES.keys()
     sections = {"Problem file", "Solution JSON", "Answer file", "Verdicts", "Grading", "Commands"}

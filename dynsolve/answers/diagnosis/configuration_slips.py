@@ -1,4 +1,7 @@
-"""What is said of sets of configurations that are wrong; `{number}` counts the branch or alternative."""
+"""What is said of sets of configurations, and of verdicts on matrices, that are wrong.
+
+`{number}` counts the branch or alternative, or is the name of the matrix.
+"""
 
 from __future__ import annotations
 
@@ -30,6 +33,22 @@ _SLIPS = (
          "Put such a configuration into the Jacobian."),
     Slip("condition_never_holds", "a case", "No configuration was found at which alternative {number} holds.",
          "Its equations must hold together."),
+    Slip("is_definite", "a verdict", "{number} can be an inertia matrix.",
+         "Look for the smallest value of each leading minor, under what is assumed."),
+    Slip("definite_if", "a verdict", "Whether {number} is positive definite depends on its parameters.",
+         "Take each leading minor at its smallest value over the coordinates."),
+    Slip("refused_asymmetric", "a verdict", "{number} is not symmetric.", "Compare the entries across the "
+         "diagonal."),
+    Slip("refused_not_periodic", "a verdict", "In {number} an angle stands outside of sines and cosines.",
+         "After a full turn the matrix must be the same."),
+    Slip("refused_length_in_sine", "a verdict", "In {number} a length stands in a sine or cosine.",
+         "Sines and cosines are of angles."),
+    Slip("refused_degree", "a verdict", "In {number} a length stands in a higher power than the second.",
+         "Moments of inertia are masses times squares of distances."),
+    Slip("refused_base", "a verdict", "{number} depends on the coordinate of the base.",
+         "The kinetic energy is the same wherever the first coordinate stands."),
+    Slip("refused_indefinite", "a verdict", "{number} is not positive definite.",
+         "Look at the determinant where a sine or cosine is 0, 1 or -1."),
     Slip("foreign_name", "a name", "A name stands in it that has no meaning here.",
          "Write it in the coordinates and parameters of the problem."),
 )  # fmt: skip

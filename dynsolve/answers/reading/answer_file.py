@@ -19,6 +19,7 @@ from dynsolve.answers.reading.given_values import read_value
 from dynsolve.answers.reading.limits import MAX_ANSWERS
 from dynsolve.answers.reading.placed_text import PlacedText
 from dynsolve.answers.reading.sources import Source
+from dynsolve.answers.reading.verdicts import read_verdicts
 from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode
 from dynsolve.errors import Finding
 
@@ -68,6 +69,10 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
     for entry in file.answers[:MAX_ANSWERS]:
         if entry.value is not None:
             place = source.place(entry.at, len(entry.key))
+            if (verdicts := reader.vocabulary.verdicts_named(entry.key)) is not None:
+                text = source.text if entry.node is not None else entry.value.text
+                read_verdicts(reader, verdicts, place, text, entry.node)
+                continue
             if (configurations := reader.vocabulary.set_named(entry.key)) is not None:
                 text = source.text if entry.node is not None else entry.value.text
                 takes_x_first = file.takes_x_first

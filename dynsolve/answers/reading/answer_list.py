@@ -11,7 +11,7 @@ from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, 
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vector_entries import Entry, VectorEntries
 from dynsolve.answers.reading.vocabulary import Vocabulary
-from dynsolve.answers.submission import Answer, ConfigurationAnswer, NotRecognized
+from dynsolve.answers.submission import Answer, ConfigurationAnswer, NotRecognized, VerdictAnswer
 from dynsolve.errors import ReadError
 from dynsolve.notation.unicode import UnicodePrinter
 
@@ -70,6 +70,7 @@ class AnswerList:
     not_recognized: list[NotRecognized] = field(default_factory=list)
     left_alone: list[NotRecognized] = field(default_factory=list)
     configurations: list[ConfigurationAnswer] = field(default_factory=list)
+    verdicts: list[VerdictAnswer] = field(default_factory=list)
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
     _asides: list[tuple[tuple[str, ...], NotRecognized]] = field(default_factory=list)

@@ -66,6 +66,7 @@ class FileReader:
             tuple(faults),
             tuple(reader.found.left_alone),
             tuple(reader.found.configurations),
+            tuple(reader.found.verdicts),
         )
 
 

@@ -201,6 +201,11 @@ class Vocabulary:
             found if found and self.quantities[found].family.kind in (Kind.EQUATIONS, Kind.BRANCHES) else None
         )
 
+    def verdicts_named(self, name: str) -> str | None:
+        """The answer of that name that is a verdict on matrices; None for any other."""
+        found = self.quantities.canonical(name)
+        return found if found and self.quantities[found].family.kind is Kind.VERDICTS else None
+
     def shape(self, name: str) -> Shape:
         """Rows and columns of an answer; None for a scalar, and for what is none."""
         quantity = self.quantities.get(name)

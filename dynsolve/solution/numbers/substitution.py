@@ -13,6 +13,7 @@ from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
@@ -30,6 +31,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.tree_values import sign
 from dynsolve.notation.walk import mapped
 from dynsolve.robot.actions import Actions, Spring
+from dynsolve.robot.candidates import Candidate
 from dynsolve.robot.mechanism import BodyTurn, GivenModel
 from dynsolve.robot.model import Body, Joint, Robot
 from dynsolve.robot.questions import Load, Questions, State
@@ -198,10 +200,16 @@ def _questions(questions: Questions, put: Substitution) -> Questions:
         task=task and replace(task, entries=tuple(replaced(entry, put.values) for entry in task.entries)),
         loads=tuple(_load(load, put) for load in questions.loads),
         state=State(tuple(values)),
+        candidates=tuple(_candidate(one, put) for one in questions.candidates),
         velocity=questions.velocity and put.matrix(questions.velocity),
         acceleration=questions.acceleration and put.matrix(questions.acceleration),
         weights=questions.weights and put.matrix(questions.weights),
     )
+
+
+def _candidate(candidate: Candidate, put: Substitution) -> Candidate:
+    assumed = tuple(Bound(put(bound.value), bound.is_strict) for bound in candidate.assumed)
+    return replace(candidate, matrix=put.matrix(candidate.matrix), assumed=assumed)
 
 
 def _load(load: Load, put: Substitution) -> Load:

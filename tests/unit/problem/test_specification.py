@@ -17,6 +17,7 @@ from dynsolve.problem.specification import BODY, DRAWING, PROBLEM, ROW, dimensio
 from dynsolve.robot.shapes import KINDS
 from tests.unit.problem.marked import RP, errors
 
+MATRICES = ("candidates", "assume", "chain")
 VALIDATOR = jsonschema.Draft202012Validator(schema())
 
 
@@ -41,7 +42,7 @@ def test_what_new_writes_has_every_key_and_its_meaning() -> None:
 
 
 def test_what_new_writes_as_a_comment_can_be_uncommented() -> None:
-    beside_a_table = [name for name in PROBLEM.names if name not in (*DRAWING, "model")]
+    beside_a_table = [name for name in PROBLEM.names if name not in (*DRAWING, "model", *MATRICES)]
     whole = re.sub(rf"^# (?=(?:{'|'.join(beside_a_table)}):)", "", template(), flags=re.MULTILINE)
     assert list(yaml.safe_load(whole)) == beside_a_table
     whole = whole.replace("find: [tau, D, C, g]", "find: [tau, D, C, g, pP, r, inverse, Q, qd, qdd]")
@@ -53,6 +54,11 @@ def test_the_examples_of_a_drawing_hold_in_the_place_of_a_table() -> None:
     whole = "\n".join(f"{name}: {PROBLEM[name].example}" for name in DRAWING)
     holds(whole)
     assert not lint_text(whole)
+
+
+def test_the_examples_of_candidates_hold_in_the_place_of_a_table() -> None:
+    keys = "".join(f"{name}: {PROBLEM[name].example}\n" for name in MATRICES)
+    holds(f"coordinates: {{q1: revolute, q2: revolute}}\n{keys}")
 
 
 def test_the_example_of_a_model_holds_in_the_place_of_a_table() -> None:

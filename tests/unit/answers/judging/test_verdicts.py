@@ -168,7 +168,7 @@ def test_any_C_with_the_same_product_is_correct() -> None:
     other = [["0", f"{H}*(2*q1_dot + q2_dot)"], [f"-{H}*q1_dot", "0"]]
     answer = judged(ELBOW, "C", other)
     assert answer.verdict == "correct"
-    assert answer.notes == (NOT_CHRISTOFFEL,)
+    assert answer.notes == (NOT_CHRISTOFFEL.format("not skew-symmetric"),)
     assert [e.index for e in answer.entries] == [(1,), (2,)]
 
 

@@ -1,0 +1,148 @@
+"""Inequalities between polynomials in parameters that follow from given ones, proved exactly.
+
+A polynomial is positive where it is a sum of products of what is assumed positive, of squares
+and of positive numbers (the certificates of Handelman and Krivine).  Which sum it is, is a
+system of linear equations with non-negative unknowns, solved by the simplex method on rational
+numbers; what is not found in this way is not said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.rationals import fraction
+
+Exponents = tuple[int, ...]
+Polynomial = dict[Exponents, Fraction]
+
+MOST_PRODUCTS = 120
+"""So many products of assumptions are tried."""
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """`value` > 0 where it is strict, else ≥ 0."""
+
+    value: Expr
+    is_strict: bool = True
+
+
+def follows(bound: Bound, assumed: Sequence[Bound]) -> bool:
+    """Whether an inequality follows from others, as a sum of their products.
+
+    >>> from dynsolve.algebra.build import build_ring
+    >>> from dynsolve.notation.tree import Symbol
+    >>> ring = build_ring([], [Symbol("a"), Symbol("b")])
+    >>> a, b = ring.symbol("a"), ring.symbol("b")
+    >>> follows(Bound(a * a - b * b), [Bound(a - b), Bound(b)]), follows(Bound(a - b), [Bound(b)])
+    (True, False)
+    """
+    if bound.value.is_number:
+        return bound.value.number > 0 or (not bound.is_strict and bound.value.is_zero)
+    products = list(_products(bound.value, assumed))
+    return _is_sum(_polynomial(bound.value), products, bound.is_strict)
+
+
+def _polynomial(value: Expr) -> Polynomial:
+    return {tuple(map(int, e)): fraction(f) for e, f in value.poly.to_dict().items()}
+
+
+def _degree(value: Expr) -> int:
+    return max((sum(map(int, e)) for e in value.poly.monoms()), default=0)
+
+
+def _products(target: Expr, assumed: Sequence[Bound]) -> Iterator[tuple[Polynomial, bool]]:
+    """Products of assumptions and squares up to the largest degree, and whether each is above 0."""
+    ring = target.ring
+    most = max([_degree(target), *(_degree(bound.value) for bound in assumed)])
+    degrees = target.poly.degrees()
+    used = {i for bound in assumed for i, d in enumerate(bound.value.poly.degrees()) if d > 0}
+    squares = [ring.generator(i) ** 2 for i, d in enumerate(degrees) if d > 0 or i in used]
+    given = (bound for bound in assumed if not bound.value.is_number)
+    factors = list(dict.fromkeys([*given, *(Bound(square, False) for square in squares)]))
+    found: dict[Expr, bool] = {ring.one: True}
+    waiting = [(Bound(ring.one), 0)]
+    for product, first in waiting:
+        for k in range(first, len(factors)):
+            factor = factors[k]
+            if _degree(product.value) + _degree(factor.value) > most or len(found) >= MOST_PRODUCTS:
+                continue
+            made = Bound(product.value * factor.value, product.is_strict and factor.is_strict)
+            if made.value not in found:
+                waiting.append((made, k))
+            found[made.value] = found.get(made.value, False) or made.is_strict
+    return ((_polynomial(value), is_strict) for value, is_strict in found.items())
+
+
+def _is_sum(
+    target: Mapping[Exponents, Fraction], products: Sequence[tuple[Polynomial, bool]], is_strict: bool
+) -> bool:
+    """Whether the target is Σ λ_j p_j with λ_j ≥ 0; where it is to be strict, with a strict p_j in it."""
+    rows = sorted({e for p, _ in products for e in p} | target.keys())
+    right = [target.get(e, Fraction(0)) for e in rows]
+    columns = [[p.get(e, Fraction(0)) for e in rows] for p, _ in products]
+    gain = [Fraction(int(strict)) for _, strict in products]
+    best = _Simplex(columns, right).maximum(gain)
+    return best is not None and (best > 0 or not is_strict)
+
+
+class _Simplex:
+    """Σ λ_j column_j = right with λ ≥ 0, by Bland's rule, which never circles."""
+
+    def __init__(self, columns: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> None:
+        self.width = len(columns)
+        signs = [-1 if value < 0 else 1 for value in right]
+        self.rows = [
+            [sign * column[i] for column in columns] + [Fraction(int(i == k)) for k in range(len(right))]
+            + [sign * right[i]]
+            for i, sign in enumerate(signs)
+        ]  # fmt: skip
+        self.basis = [self.width + i for i in range(len(right))]
+
+    def maximum(self, gain: Sequence[Fraction]) -> Fraction | None:
+        """The largest Σ gain_j λ_j, 1 where there is none; None where the equations have no solution."""
+        slack = len(self.rows)
+        if self._improve([Fraction(0)] * self.width + [Fraction(-1)] * slack, self.width + slack) != 0:
+            return None
+        self._leave_slack()
+        best = self._improve([*gain, *[Fraction(0)] * slack], self.width)
+        return Fraction(1) if best is None else best
+
+    def _improve(self, gain: Sequence[Fraction], width: int) -> Fraction | None:
+        """The largest value over the first `width` columns; None where it grows without end."""
+        while True:
+            costs = [gain[j] for j in self.basis]
+            entering = next((j for j in range(width) if self._worth(gain, costs, j) > 0), None)
+            if entering is None:
+                return sum((c * row[-1] for c, row in zip(costs, self.rows, strict=True)), Fraction(0))
+            ratios = [
+                (row[-1] / row[entering], self.basis[i], i)
+                for i, row in enumerate(self.rows)
+                if row[entering] > 0
+            ]
+            if not ratios:
+                return None
+            self._pivot(min(ratios)[2], entering)
+
+    def _worth(self, gain: Sequence[Fraction], costs: Sequence[Fraction], j: int) -> Fraction:
+        return gain[j] - sum((c * row[j] for c, row in zip(costs, self.rows, strict=True) if c), Fraction(0))
+
+    def _leave_slack(self) -> None:
+        """Take the slack out of the basis; a row that cannot is 0 = 0."""
+        for i, j in enumerate(self.basis):
+            if j >= self.width:
+                entering = next((k for k in range(self.width) if self.rows[i][k]), None)
+                if entering is not None:
+                    self._pivot(i, entering)
+
+    def _pivot(self, i: int, entering: int) -> None:
+        head = self.rows[i][entering]
+        self.rows[i] = [x / head for x in self.rows[i]]
+        for k, row in enumerate(self.rows):
+            if k != i and row[entering]:
+                factor = row[entering]
+                self.rows[k] = [x - factor * y for x, y in zip(row, self.rows[i], strict=True)]
+        self.basis[i] = entering
