@@ -89,3 +89,28 @@ def test_a_factorization_is_right_where_c_qd_is(name: str) -> None:
     assert str(judged(GIVEN, "C", FACTORIZATIONS[name]).verdict) == "correct"
     wrong = [[f"2*({entry})" for entry in row] for row in FACTORIZATIONS[name]]
     assert str(judged(GIVEN, "C", wrong).verdict) == "wrong"
+
+
+CONSTANT = """
+model:
+  coordinates: {x: prismatic, y: prismatic, z: prismatic}
+  D: [[m, 0, 0], [0, m, 0], [0, 0, m]]
+"""
+OTHERS: dict[str, tuple[list[list[str]], str]] = {
+    "a cross product": (
+        [["0", "z_dot", "-y_dot"], ["-z_dot", "0", "x_dot"], ["y_dot", "-x_dot", "0"]],
+        "with which Ḋ - 2C is skew-symmetric",
+    ),
+    "a row": (
+        [["y_dot", "-x_dot", "0"], ["0", "0", "0"], ["0", "0", "0"]],
+        "with which Ḋ - 2C is not skew-symmetric",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_of_another_factorization_it_is_said_whether_it_is_skew(name: str) -> None:
+    C, note = OTHERS[name]
+    answer = judged(CONSTANT, "C", C)
+    assert str(answer.verdict) == "correct"
+    assert any(note in one for one in answer.notes)
