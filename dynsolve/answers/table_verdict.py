@@ -29,6 +29,8 @@ Rows = tuple[tuple[tree.Node, ...], ...]
 Cell = tuple[int, int]
 """Row and column, from 0."""
 ROUNDED = "rounded"
+HELD = "compared as a mechanism, in numbers at several values of its letters"
+"""What is said of a right table that is not the key's cell by cell: equality is not proved term by term."""
 
 
 class TableJudge:
@@ -83,13 +85,14 @@ class TableJudge:
             return replace(base, verdict=Verdict.CORRECT, entries=tuple(_entries(rows, {})))
         if isinstance(found, Mismatch):
             return self._mismatched(base, rows, table, found)
-        return self._agreed(base, rows, found)
+        return self._agreed(base, rows, table, found)
 
-    def _agreed(self, base: JudgedAnswer, rows: Rows, found: Agreement) -> JudgedAnswer:
+    def _agreed(self, base: JudgedAnswer, rows: Rows, table: Table, found: Agreement) -> JudgedAnswer:
         notes = [counted(q) for q in found.coordinates if not q.is_the_keys]
         if self.problem.accepted.strict and notes:
             return _wrong(base, rows, {}, slip("dh_sense", yours="; ".join(notes)))
         notes += [ROUNDED] * found.is_rounded
+        notes += [HELD] * (not self.comparer.is_the_keys(table))
         entries = tuple(_entries(rows, {}))
         return replace(base, verdict=Verdict.CORRECT, notes=(*base.notes, *notes), entries=entries)
 
