@@ -74,6 +74,12 @@ class TableJudge:
         if not isinstance(answer.node, tree.Matrix):
             return replace(base, fault=answer.fault or "this is no table", expected=answer.expected)
         rows = answer.node.rows
+        if self.problem.robot.is_tree:
+            fault, help = (
+                "the links of this robot branch, which a table handed in does not say",
+                "a person has to look at this",
+            )
+            return replace(base, fault=fault, expected=help)
         try:
             table = read_table(rows, self.problem.robot.coordinates)
             found = self.comparer(table)

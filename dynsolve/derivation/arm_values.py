@@ -68,6 +68,7 @@ def arm_at(robot: Robot, values: Mapping[str, float]) -> Arm:
     home = tuple(numbers.row(joint, [0.0] * robot.n) for joint in robot.joints)
     base = (numbers.rotation(robot.base_rotation), numbers.vector(robot.base_position))
     return Arm(
+        starts=tuple(joint.parent for joint in robot.joints) if robot.is_tree else (),
         rows=rows,
         masses=tuple(numbers.mass(body, home, base[0]) for body in robot.bodies),
         base=base,
@@ -129,7 +130,8 @@ class RobotValues:
         axes = self.rotation(body.axes.rotation)
         if body.axes.kind is not AxesKind.LINK:
             link = base
-            for motion in (motion for row in home[: body.link] for motion in row if motion.turns):
+            rows = (home[joint.index - 1] for joint in self.robot.path(body.link))
+            for motion in (motion for row in rows for motion in row if motion.turns):
                 link = times(link, elementary(motion.axis, motion.amount))
             axes = times(transposed(link), times(base, axes))
         inertia = times(times(axes, self.rotation(body.inertia)), transposed(axes))

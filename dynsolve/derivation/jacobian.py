@@ -2,7 +2,7 @@
 
 Spong, Hutchinson, Vidyasagar, section 4.6: for a revolute joint the column is
 z × (p - o) over z, for a prismatic one z over 0, where z and o belong to the frame
-the joint turns about: i-1 in the standard convention, i in the modified one.
+the joint turns about: that where the row starts, i-1, in the standard convention, i in the modified one.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dynsolve.robot.model import Convention, Joint, JointType, Robot
 
 def joint_frame(robot: Robot, joint: Joint) -> int:
     """The number of the frame whose z axis the joint turns about or slides along."""
-    return joint.index - 1 if robot.convention is Convention.STANDARD else joint.index
+    return joint.parent if robot.convention is Convention.STANDARD else joint.index
 
 
 def linear_jacobian(robot: Robot, frames: Sequence[Matrix], point: Matrix, link: int) -> Matrix:
@@ -44,12 +44,12 @@ def angular_jacobian(robot: Robot, frames: Sequence[Matrix], link: int) -> Matri
 def _by_coordinate(
     robot: Robot, frames: Sequence[Matrix], link: int, column: Callable[[Joint, Matrix], Matrix]
 ) -> Matrix:
-    """The columns of the joints up to `link`, summed up by coordinate; those of later joints are zero.
+    """The columns of the joints that carry `link`, summed up by coordinate; those of others are zero.
 
     Where a joint variable is Σ rate·q_k, the joint's column counts for each q_k with that rate.
     """
     columns = [Matrix.zero(robot.ring, 3, 1)] * robot.n
-    for joint in robot.joints[:link]:
+    for joint in robot.path(link):
         if joint.type is None:
             continue
         moved = column(joint, frames[joint_frame(robot, joint)])

@@ -54,11 +54,11 @@ class LinkJacobian:
 
 
 def link_jacobians(robot: Robot) -> Iterator[LinkJacobian]:
-    """The Jacobians of frames 1, 2, ..., each from the one before."""
-    jacobian = LinkJacobian(Matrix.zero(robot.ring, 3, robot.n), Matrix.zero(robot.ring, 3, robot.n))
+    """The Jacobians of frames 1, 2, ..., each from that of the frame where its row starts."""
+    found = [LinkJacobian(Matrix.zero(robot.ring, 3, robot.n), Matrix.zero(robot.ring, 3, robot.n))]
     for joint in robot.joints:
-        jacobian = _next(robot, joint, jacobian)
-        yield jacobian
+        found.append(_next(robot, joint, found[joint.parent]))
+    yield from found[1:]
 
 
 def _next(robot: Robot, joint: Joint, before: LinkJacobian) -> LinkJacobian:

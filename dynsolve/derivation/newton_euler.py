@@ -64,7 +64,7 @@ class Rotor:
 
 @dataclass(frozen=True, slots=True)
 class Arm:
-    """A robot with numbers in it, at a state q, q̇, q̈."""
+    """A robot with numbers in it, at a state q, q̇, q̈; `starts` are the frames that its rows start from."""
 
     rows: tuple[tuple[Motion, ...], ...]
     masses: tuple[Mass, ...]
@@ -73,6 +73,11 @@ class Arm:
     qd: tuple[float, ...]
     qdd: tuple[float, ...]
     rotors: tuple[Rotor, ...] = ()
+    starts: tuple[int, ...] = ()
+
+    def start(self, row: int) -> int:
+        """The frame that a row, counted from 1, starts from: the one before where nothing else is said."""
+        return self.starts[row - 1] if self.starts else row - 1
 
     @property
     def n(self) -> int:
@@ -137,10 +142,9 @@ def outwards(
     arm: Arm, qd: Sequence[float], qdd: Sequence[float], lift: Vector
 ) -> tuple[list[MovingFrame], list[list[_Axis]]]:
     """Frames 0..m, and the axes of each row; the base accelerates with `lift`."""
-    frame = MovingFrame(*arm.base, dv=lift)
-    frames, axes = [frame], []
-    for row in arm.rows:
-        moving = []
+    frames, axes = [MovingFrame(*arm.base, dv=lift)], []
+    for number, row in enumerate(arm.rows, 1):
+        frame, moving = frames[arm.start(number)], []
         for motion in row:
             if motion.rates:
                 moving.append(_Axis(motion, column(frame.R, 2), frame.o))
@@ -181,18 +185,18 @@ def held_by_joints(
 
     The rates q̇ and q̈ are those that the frames move with: a rotor spins with them on its link.
     """
-    held: list[tuple[Vector, Vector]] = []
-    force, moment = ZERO, ZERO
+    held = [(ZERO, ZERO)] * (len(arm.rows) + 1)
+    for mass in arm.masses:
+        force, moment = held[mass.link]
+        f, m = _wrench(mass, frames[mass.link])
+        held[mass.link] = plus(force, f), plus(moment, m)
+    for rotor in arm.rotors:
+        force, moment = held[rotor.link]
+        held[rotor.link] = force, plus(moment, _spun(rotor, frames[rotor.link], qd, qdd)[0])
     for link in range(len(arm.rows), 0, -1):
-        for mass in arm.masses:
-            if mass.link == link:
-                f, m = _wrench(mass, frames[link])
-                force, moment = plus(force, f), plus(moment, m)
-        for rotor in arm.rotors:
-            if rotor.link == link:
-                moment = plus(moment, _spun(rotor, frames[link], qd, qdd)[0])
-        held.append((force, moment))
-    return held[::-1]
+        force, moment = held[arm.start(link)]
+        held[arm.start(link)] = plus(force, held[link][0]), plus(moment, held[link][1])
+    return held[1:]
 
 
 def _wrench(mass: Mass, frame: MovingFrame) -> tuple[Vector, Vector]:

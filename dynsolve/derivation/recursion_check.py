@@ -74,10 +74,11 @@ class _Links:
         self._lifted = outwards(self.arm, self.arm.qd, self.arm.qdd, scaled(self.arm.gravity, -1.0))[0]
         self._held = held_by_joints(self.arm, self._lifted, self.arm.qd, self.arm.qdd)
         modified = self.robot.convention is Convention.MODIFIED
+        joints = self.robot.joints
         at_rest = outwards(self.arm, self.arm.qd, self.arm.qdd, ZERO)[0]
         self._frames = self._lifted if modified else at_rest
-        self._about = 0 if modified else -1
-        """Whose origin the moments are about, from the link's own."""
+        self._about = [joint.index if modified else joint.parent for joint in joints]
+        """The frame, for each link, whose origin its moment is about."""
 
     def value(self, name: str) -> Vector:
         """A result along the axes of its link's frame."""
@@ -101,7 +102,7 @@ class _Links:
         force, moment = self._held[link - 1]
         if family is families.FL:
             return force
-        return minus(moment, cross(self._frames[link + self._about].o, force))
+        return minus(moment, cross(self._frames[self._about[link - 1]].o, force))
 
 
 def _gap(mine: Any, theirs: Sequence[float]) -> float:

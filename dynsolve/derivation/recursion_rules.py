@@ -40,7 +40,7 @@ def recursion_rules(robot: Robot) -> Iterator[Rule]:
 
 def _outwards(robot: Robot, joint: Joint) -> Iterator[Rule]:
     """ω, ω̇ and a of one frame, from those of the frame before; frame 0 is at rest."""
-    i, before = joint.index, joint.index - 1
+    i, before = joint.index, joint.parent
     base = recursions.base_motion(robot)
 
     def angular_velocity(A: Matrix, w: Matrix = base.w) -> Matrix:
@@ -51,7 +51,7 @@ def _outwards(robot: Robot, joint: Joint) -> Iterator[Rule]:
 
     yield Rule(f"wl{i}", (f"A{i}", *_of_frame(before, "wl")), angular_velocity)
     yield Rule(f"wdl{i}", (f"A{i}", f"wl{i}", *_of_frame(before, "wdl")), angular_acceleration)
-    yield Rule(f"al{i}", _motion(i), partial(_acceleration, robot, joint, None))
+    yield Rule(f"al{i}", _motion(joint), partial(_acceleration, robot, joint, None))
 
 
 def _acceleration(
@@ -61,9 +61,10 @@ def _acceleration(
     return recursions.total(recursions.acceleration_parts(robot, step, w, dw, beyond), robot)
 
 
-def _motion(i: int) -> tuple[str, ...]:
-    """What the accelerations of link i are made of."""
-    return (f"A{i}", f"wl{i}", f"wdl{i}", *_of_frame(i - 1, "wl", "wdl", "al"))
+def _motion(joint: Joint) -> tuple[str, ...]:
+    """What the accelerations of a joint's link are made of."""
+    i = joint.index
+    return (f"A{i}", f"wl{i}", f"wdl{i}", *_of_frame(joint.parent, "wl", "wdl", "al"))
 
 
 def _of_frame(i: int, *stems: str) -> tuple[str, ...]:
@@ -75,7 +76,8 @@ def _center(robot: Robot, body: Body) -> Rule:
     """a_c: by the way from the origin before in the standard convention, else from the frame's own origin."""
     i, name = body.link, f"acl{body.name}"
     if recursions.is_standard(robot):
-        return Rule(name, _motion(i), partial(_acceleration, robot, robot.joints[i - 1], body.center))
+        joint = robot.joints[i - 1]
+        return Rule(name, _motion(joint), partial(_acceleration, robot, joint, body.center))
 
     def from_own_origin(a: Matrix, w: Matrix, dw: Matrix) -> Matrix:
         return recursions.total((a, *recursions.turning_parts(w, dw, body.center)), robot)

@@ -102,7 +102,7 @@ def _kinematics(robot: Robot) -> Iterator[Rule]:
     for joint in robot.joints:
         i = joint.index
         yield Rule(f"A{i}", (), partial(kinematics.dh_matrix, robot, joint))
-        yield Rule(f"H{i}", (f"H{i - 1}", f"A{i}"), kinematics.frame)
+        yield Rule(f"H{i}", (f"H{joint.parent}", f"A{i}"), kinematics.frame)
 
 
 def _end_jacobian(robot: Robot) -> Iterator[Rule]:

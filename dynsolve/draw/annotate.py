@@ -207,7 +207,7 @@ def masses(pose: Pose, notes: Notes) -> None:
 
 def _is_on_link(center: Point, pose: Pose) -> bool:
     """Whether a mass centre is seen on a link."""
-    ways = [pose.skeleton.path, *pose.parts.links]
+    ways = [*((leg.foot, leg.head, leg.end) for leg in pose.skeleton.legs), *pose.parts.links]
     lines = ((pose.view.point(a), pose.view.point(b)) for way in ways for a, b in pairwise(way))
     return any(point_to_segment(center, a, b) < 2 * TUBE for a, b in lines)
 

@@ -124,11 +124,18 @@ def _ground(pose: Skeleton, joints: Sequence[JointBody], view: View, up: Vector)
 
 
 def _links(pose: Skeleton, joints: Sequence[JointBody], ground: Vector) -> tuple[tuple[Vector, ...], ...]:
-    """The way from the ground to the first part, and from each part to the next, or to the end."""
+    """The way from the ground to the first part, and from each part to the next, or to the end.
+
+    A row that starts from an earlier frame ends the way before it and begins one there.
+    """
     centers = {part.row: part.center for part in joints}
-    way = [ground]
+    way, end = [ground], ground
     links = []
     for row, leg in enumerate(pose.legs, 1):
+        if row > 1 and distance(leg.start, end) > NEAR:
+            links.append(straightened(way))
+            way = [leg.start]
+        end = leg.end
         way.append(leg.foot)
         if row in centers:
             way.append(centers[row])
@@ -136,7 +143,7 @@ def _links(pose: Skeleton, joints: Sequence[JointBody], ground: Vector) -> tuple
             way = [centers[row]]
         way += [leg.head, leg.end]
     links.append(straightened(way))
-    return tuple(links)
+    return tuple(link for link in links if len(link) > 1)
 
 
 def straightened(way: Sequence[Vector]) -> tuple[Vector, ...]:

@@ -94,10 +94,9 @@ class Skeleton:
 
 def skeleton(robot: Robot, numbers: RobotNumbers, q: Sequence[float]) -> Skeleton:
     """The robot with these values of its coordinates, in radians and picture lengths; without masses."""
-    frame = base_frame(numbers)
-    frames, legs = [frame], []
+    frames, legs = [base_frame(numbers)], []
     for joint in robot.joints:
-        leg, frame = _leg(robot, numbers, joint, q, frame)
+        leg, frame = _leg(robot, numbers, joint, q, frames[joint.parent])
         legs.append(leg)
         frames.append(frame)
     return Skeleton(tuple(frames), tuple(legs), _path(legs))

@@ -226,5 +226,7 @@ def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
     if not robot.has_table:
         turning = frozenset(q.name for q in robot.coordinates if q.type is JointType.REVOLUTE)
         return [turning] if len(turning) > 1 else []
-    turns = [Turn(joint.theta, joint.alpha, joint.variable == "theta") for joint in robot.joints]
+    turns = [
+        Turn(joint.theta, joint.alpha, joint.variable == "theta", joint.parent) for joint in robot.joints
+    ]
     return parallel_groups(turns, robot.ring.names, robot.convention is Convention.MODIFIED)

@@ -263,7 +263,8 @@ def _right_frame(context: Context, link: int) -> Iterator[Prose]:
     if context.standard:
         if link > 1 and joints[link - 1].type:
             yield (
-                f"Frame {link} is the one to take, not frame {link - 1}, which is not fixed in link {link}.",
+                f"Frame {link} is the one to take, not frame {joints[link - 1].parent}, which is not "
+                f"fixed in link {link}.",
             )
     elif link < len(joints) and joints[link].type:
         yield (

@@ -114,7 +114,7 @@ def coordinate_column(context: Context, k: int, link: int, point: Node) -> tuple
     """(J_v, J_ω) of coordinate k (from 0) in letters, None where no joint up to `link` moves with it."""
     terms = [
         (rate, column_letters(context, joint, point))
-        for joint in context.robot.joints[:link]
+        for joint in context.robot.path(link)
         for i, rate in joint.rates
         if i == k
     ]

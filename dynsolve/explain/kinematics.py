@@ -58,6 +58,9 @@ def table_of(context: Context) -> Table:
             Letter("a", Words("i-1")),
             Letter("alpha", Words("i-1")),
         )
+    if context.robot.is_tree:
+        rows = ((str(joint.index), str(joint.parent), *joint.written) for joint in context.robot.joints)
+        return Table((header[0], "from", *header[1:]), tuple(rows))
     return Table(header, tuple((str(joint.index), *joint.written) for joint in context.robot.joints))
 
 
@@ -124,6 +127,11 @@ def _kinds(context: Context) -> Prose:
 
 def _table_notes(context: Context) -> Iterator[Prose]:
     robot = context.robot
+    if robot.is_tree:
+        yield (
+            "The links branch: a row starts from the frame in the column `from`, which takes the place of "
+            "frame i-1.",
+        )
     fixed = [str(joint.index) for joint in robot.joints if joint.type is None]
     if len(fixed) == 1:
         yield (f"Row {fixed[0]} has no star: a fixed frame, which keeps its place in the frame before it.",)
@@ -278,23 +286,25 @@ def _folded(context: Context, joint: Joint) -> Iterator[Node]:
 def _frame(context: Context, i: int) -> Step:
     robot = context.robot
     last = i == len(robot.joints)
-    A, before, H = context.form(f"A{i}"), context.form(f"H{i - 1}"), context.form(f"H{i}")
+    start = robot.joints[i - 1].parent
+    A, before, H = context.form(f"A{i}"), context.form(f"H{start}"), context.form(f"H{i}")
     name = letters.H(robot, i)
     detail = Detail.BRIEF if last else Detail.NORMAL
-    if i == 1 and not letters.has_base(robot):
+    if start == 0 and not letters.has_base(robot):
+        which = "The first frame" if i == 1 else f"Frame {i}"
         return Step(
-            id="H1",
+            id=f"H{i}",
             stage=STAGE,
-            title="Frame 1 seen from the base",
-            why=("The first frame is seen from frame 0 itself, so no product is needed.",),
+            title=f"Frame {i} seen from the base",
+            why=(f"{which} is seen from frame 0 itself, so no product is needed.",),
             source=_products(context),
-            result=(equation(name, letters.A(1), H),),
+            result=(equation(name, letters.A(i), H),),
             detail=detail,
         )
-    chain = [letters.A(j) for j in range(1, i + 1)]
+    chain = [letters.A(joint.index) for joint in robot.path(i)]
     if letters.has_base(robot):
         chain = [letters.H(robot, 0), *chain]
-    working = Product((letters.H(robot, i - 1), letters.A(i)))
+    working = Product((letters.H(robot, start), letters.A(i)))
     members: list[Node] = [name, working]
     if is_small(A, before):
         members.append(Product((before, A)))
@@ -306,7 +316,7 @@ def _frame(context: Context, i: int) -> Step:
         formula=equation(name, Product(tuple(chain))) if last or len(chain) > 2 else None,
         source=_products(context),
         working=(equation(*members),),
-        concluding=product_named(context, *(context.values[key] for key in (f"H{i - 1}", f"A{i}", f"H{i}"))),
+        concluding=product_named(context, *(context.values[key] for key in (f"H{start}", f"A{i}", f"H{i}"))),
         result=(equation(name, H),),
         task=equation(name, working) if i > 1 else None,
         detail=detail,

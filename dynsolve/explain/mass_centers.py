@@ -38,7 +38,7 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
     frame = Letter("r", letters.rc(body).sub, Number(link), "bold")
     at_origin = body.center.is_zero
     why: Prose = (f"The mass centre of {name_of(body)} ", *_where(context, body), ".")
-    if not any(joint.type for joint in context.robot.joints[:link]):
+    if not any(joint.type for joint in context.robot.path(link)):
         why += (" No joint comes before that link, so the body belongs to the ground and does not move.",)
     formula: Node = equation(r, Sum((Product((letters.R(context.robot, link), frame)), letters.o(link))))
     working: tuple[Node, ...] = ()
@@ -121,14 +121,15 @@ def _part_of_the_way(body: Body) -> Node | None:
 def _measured(context: Context, body: Body) -> tuple[Node, ...]:
     """A centre in its frame, from the ends of the link where it is given so: in letters, then in values."""
     robot, link = context.robot, body.link
-    if not (context.standard or link < len(robot.joints)):
+    after = robot.links_after(link)
+    if not (context.standard or len(after) == 1):
         return ()
-    row = robot.joints[link - 1 if context.standard else link]
+    row = robot.joints[link - 1 if context.standard else after[0] - 1]
     ring = robot.ring
     sine, cosine = ring.sin(row.alpha), ring.cos(row.alpha)
     across = row.d * sine if context.standard else -(row.d * sine)
     length = algebra.Matrix.column(ring, (row.a, across, row.d * cosine))  # from the near to the far end
-    other_end = link - 1 if context.standard else link + 1
+    other_end = row.parent if context.standard else row.index
     between = Parenthesized(Sum((letters.o(other_end), Negative(letters.o(link)))))
     way = Product((Transpose(letters.R(robot, link)), between))
     if is_given_by(body, "near") and context.standard and not length.is_zero:

@@ -51,7 +51,7 @@ def _torque(context: Context, q: Coordinate) -> Step:
     terms: list[Node] = []
     for joint, rate in context.robot.joints_of(q):
         held = letters.in_link("n" if joint.type is JointType.REVOLUTE else "f", joint.index)
-        term: Node = Product((Transpose(held), LinkNames.of(joint.index, context.standard).axis))
+        term: Node = Product((Transpose(held), LinkNames.of(context.robot, joint.index).axis))
         if abs(rate) != 1:
             term = Product((number(abs(rate)), term))
         terms.append(Negative(term) if rate < 0 else term)

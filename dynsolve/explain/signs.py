@@ -100,7 +100,9 @@ def _own(robot: Robot, style: Style) -> Iterator[str]:
 
 def shorthands(robot: Robot, style: Style) -> Iterator[Function]:
     """What the style writes as s_1 and c_12: sines and cosines of angles, and of sums in parallel joints."""
-    turns = [Turn(joint.theta, joint.alpha, joint.variable == "theta") for joint in robot.joints]
+    turns = [
+        Turn(joint.theta, joint.alpha, joint.variable == "theta", joint.parent) for joint in robot.joints
+    ]
     modified = robot.convention is Convention.MODIFIED
     for group in parallel_groups(turns, robot.ring.names, modified):
         members = [Symbol(q.name) for q in robot.coordinates if q.name in group]

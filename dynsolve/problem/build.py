@@ -100,6 +100,7 @@ def _joint(values: CellValues, parsed: ParsedFile, row: DHRow) -> Joint | None:
         variable=row.variable,
         rates=tuple(sorted((order.index(name), rate) for name, rate in row.rates.items())),
         written=(theta, d_cell, a_cell, alpha),
+        branch=row.branch,
     )
 
 

@@ -46,6 +46,9 @@ ROW = Keyed(
         ),
         Key("a", EXPRESSION, "a, the way along x. Constant.", "l1", "0"),
         Key("alpha", EXPRESSION, "α, the turn about x. Constant.", "90deg", "0"),
+        Key(
+            "from", LINK, "The row whose frame it starts from, 0 for the base: a tree.", "1", "the row before"
+        ),
     )
 )
 

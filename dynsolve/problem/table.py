@@ -18,7 +18,9 @@ from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import MAX_ROWS, PROBLEM, ROW
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 
-COLUMNS = ROW.names
+START = "from"
+"""The key of a row that says which frame it starts from."""
+COLUMNS = tuple(name for name in ROW.names if name != START)
 _KINDS = {"theta": "revolute", "d": "prismatic"}
 _EXAMPLE = PROBLEM["dh"].help
 
@@ -34,6 +36,8 @@ class DHRow:
     variable: str | None
     rates: Mapping[str, Fraction]
     faulty: bool
+    branch: int | None = None
+    """The frame that it starts from, where that is not the one before."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +65,7 @@ class _Raw:
     span: Span
     cells: Mapping[str, Cell]
     faulty: bool
+    branch: int | None = None
 
     def names(self, column: str) -> tuple[Name, ...]:
         return self.cells[column].names if column in self.cells else ()
@@ -100,8 +105,10 @@ def _read_cells(faults: Faults, node: YamlNode, index: int) -> _Raw:
     """The four columns of a row; a missing one is 0."""
     before = len(faults.errors)
     cells: dict[str, Cell] = {}
+    branch = None
     if isinstance(node, MappingNode):
-        fields = Fields(faults, node, COLUMNS, f"row {index} of the table")
+        fields = Fields(faults, node, ROW.names, f"row {index} of the table")
+        branch = _read_start(faults, fields, index)
         for column in COLUMNS:
             what = f"{column} of row {index}"
             if column not in fields:
@@ -110,7 +117,22 @@ def _read_cells(faults: Faults, node: YamlNode, index: int) -> _Raw:
                 cells[column] = cell
     elif not isinstance(node, FaultyNode):
         faults.error(node.span, f"row {index} is not a mapping but {describe(node)}", _EXAMPLE)
-    return _Raw(node.span, cells, len(faults.errors) > before or len(cells) < len(COLUMNS))
+    return _Raw(node.span, cells, len(faults.errors) > before or len(cells) < len(COLUMNS), branch)
+
+
+def _read_start(faults: Faults, fields: Fields, index: int) -> int | None:
+    """The frame that a row starts from, None for the one before; one that is not before it is reported."""
+    node = fields.get(START)
+    if START not in fields or isinstance(node, FaultyNode):
+        return None
+    text = node.text.strip() if isinstance(node, ScalarNode) else ""
+    if not (text.isdecimal() and int(text) < index):
+        what = f"frames 0 to {index - 1}" if index > 1 else "frame 0"
+        start = describe(node) if node and not text else text
+        help = "write from: 0 for the base, or the number of an earlier row"
+        faults.error(fields.span_of(START), f"row {index} starts from {start}, which is none of {what}", help)
+        return None
+    return None if int(text) == index - 1 else int(text)
 
 
 def _stars(raw: list[_Raw]) -> list[_Star]:
@@ -201,7 +223,7 @@ def _row(faults: Faults, index: int, raw: _Raw, coordinates: dict[str, str], mod
     angles = {column: read_angle(faults, cells[column]) for column in columns}
     known = {column: angle for column, angle in angles.items() if angle is not None}
     faulty = raw.faulty or len(faults.errors) > before
-    return DHRow(index, raw.span, cells, known, variable, rates, faulty)
+    return DHRow(index, raw.span, cells, known, variable, rates, faulty, raw.branch)
 
 
 def _check_unstarred(faults: Faults, cells: Mapping[str, Cell], coordinates: dict[str, str]) -> set[str]:

@@ -107,7 +107,7 @@ def _check_angles(faults: Faults, parsed: ParsedFile, ring: Ring) -> None:
 
 def _ring(parsed: ParsedFile, cells: list[Cell]) -> Ring:
     turns = [
-        Turn(row.angles["theta"], row.angles["alpha"], row.variable == "theta")
+        Turn(row.angles["theta"], row.angles["alpha"], row.variable == "theta", row.branch)
         for row in parsed.table.rows
         if len(row.angles) == 2
     ]

@@ -418,14 +418,15 @@ def asked_stages(questions: Questions) -> frozenset[Stage]:
 
 
 def stages_of(robot: Robot) -> tuple[Stage, ...]:
-    """The stages of a robot's solution, in their order."""
-    asked = asked_stages(robot.questions)
+    """The stages of a robot's solution that are told, in their order."""
     passed_over = _OF_LAGRANGE if robot.questions.method is Method.NEWTON_EULER else frozenset()
-    return tuple(
-        stage
-        for stage in Stage
-        if (stage in asked if stage.asked_for else _belongs(stage, robot)) and stage not in passed_over
-    )
+    return tuple(stage for stage in derived_stages(robot) if stage not in passed_over)
+
+
+def derived_stages(robot: Robot) -> tuple[Stage, ...]:
+    """The stages that a robot's results belong to, also those that another method passes over."""
+    asked = asked_stages(robot.questions)
+    return tuple(stage for stage in Stage if (stage in asked if stage.asked_for else _belongs(stage, robot)))
 
 
 def _belongs(stage: Stage, robot: Robot) -> bool:

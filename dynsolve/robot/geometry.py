@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
-from dynsolve.robot.model import Convention, Joint, Robot
+from dynsolve.robot.model import Convention, Joint, Robot, path_to
 from dynsolve.robot.parallel import moving_part
 
 
@@ -52,7 +52,7 @@ def is_rotation(matrix: Matrix) -> tuple[bool, bool]:
 def last_origin(robot: Robot) -> Matrix:
     """The origin of the last frame in the world, 3×1, by the elementary motions of the table."""
     ring, rotation, origin = robot.ring, robot.base_rotation, robot.base_position
-    for joint in robot.joints:
+    for joint in robot.path(len(robot.joints)):
         about_z, about_x = elementary(ring, "z", joint.theta), elementary(ring, "x", joint.alpha)
         along_z = Matrix.column(ring, (ring.zero, ring.zero, joint.d))
         along_x = Matrix.column(ring, (joint.a, ring.zero, ring.zero))
@@ -92,11 +92,13 @@ class Links:
     def far_end(self, link: int) -> Matrix | None:
         """The far end of link i in frame i, 3×1; None where a modified table ends before it.
 
-        Standard: o_i = 0.  Modified: o_{i+1} = (a, -d sin α, d cos α) of row i + 1.
+        Standard: o_i = 0.  Modified: o_{i+1} = (a, -d sin α, d cos α) of the row that follows; of several
+        there is no one end.
         """
         if not self.modified:
             return self.origin()
-        return self._step(self.joints[link]) if link < len(self.joints) else None
+        following = [joint for joint in self.joints if joint.parent == link]
+        return self._step(following[0]) if len(following) == 1 else None
 
     def origin(self) -> Matrix:
         """0, 3×1."""
@@ -115,7 +117,7 @@ class Links:
     def rotation_at_rest(self, link: int) -> Matrix:
         """The axes of frame i seen from frame 0 at q = 0, 3×3."""
         rotation = Matrix.identity(self.ring, 3)
-        for joint in self.joints[:link]:
+        for joint in path_to(self.joints, link):
             theta: Angle = joint.theta - moving_part(joint.theta, self.coordinates)
             about_z = elementary(self.ring, "z", theta)
             about_x = elementary(self.ring, "x", joint.alpha)

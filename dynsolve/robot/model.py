@@ -9,6 +9,7 @@ A `Robot` knows no file and no printing.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
@@ -70,10 +71,10 @@ class Coordinate:
 class Joint:
     """One row of the table: the step from frame i-1 to frame i; `index` i counts from 1.
 
-    `variable` is "theta" or "d" where that column holds the joint variable, None
-    for a fixed frame.  The joint variable is Σ rate·q_k plus a constant:
-    `rates` holds (index of the coordinate from 0, rate).  `written` are the four
-    columns θ, d, a, α as they stand in the table.
+    `branch` is the frame that it starts from, where that is not the one before: a tree.  `variable` is
+    "theta" or "d" where that column holds the joint variable, None for a fixed frame.  The joint
+    variable is Σ rate·q_k plus a constant: `rates` holds (index of the coordinate from 0, rate).
+    `written` are the four columns θ, d, a, α as they stand in the table.
     """
 
     index: int
@@ -84,11 +85,27 @@ class Joint:
     variable: str | None
     rates: tuple[tuple[int, Fraction], ...]
     written: tuple[Node, Node, Node, Node]
+    branch: int | None = None
+
+    @property
+    def parent(self) -> int:
+        """The frame that the row starts from."""
+        return self.index - 1 if self.branch is None else self.branch
 
     @property
     def type(self) -> JointType | None:
         """Revolute, prismatic, or None for a fixed frame."""
         return {"theta": JointType.REVOLUTE, "d": JointType.PRISMATIC, None: None}[self.variable]
+
+
+def path_to(joints: Sequence[Joint], link: int) -> tuple[Joint, ...]:
+    """The joints between the base and a frame, the first one first."""
+    found: list[Joint] = []
+    while link:
+        joint = joints[link - 1]
+        found.append(joint)
+        link = joint.parent
+    return tuple(reversed(found))
 
 
 class AxesKind(Enum):
@@ -189,7 +206,16 @@ class Robot:
 
     def links_after(self, link: int) -> tuple[int, ...]:
         """The frames that start at a frame."""
-        return tuple(joint.index for joint in self.joints if joint.index - 1 == link)
+        return tuple(joint.index for joint in self.joints if joint.parent == link)
+
+    def path(self, link: int) -> tuple[Joint, ...]:
+        """The joints between the base and a frame, the first one first."""
+        return path_to(self.joints, link)
+
+    @property
+    def is_tree(self) -> bool:
+        """Whether some row starts from another frame than the one before."""
+        return any(joint.parent != joint.index - 1 for joint in self.joints)
 
     def joints_of(self, q: Coordinate) -> tuple[tuple[Joint, Fraction], ...]:
         """The joints that a coordinate moves, each with the rate of its variable."""

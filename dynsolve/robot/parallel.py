@@ -16,7 +16,7 @@ values: the choice of basic angles may be unlucky, it cannot be wrong.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import cos, radians, sin, sqrt
 
 from dynsolve.algebra.angles import Angle, Atom, names_of
@@ -28,11 +28,15 @@ Rotation = tuple[tuple[float, float, float], ...]
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """The rotation of a row of the table: its θ and α; `revolute` where θ holds the joint variable."""
+    """The rotation of a row of the table: its θ and α; `revolute` where θ holds the joint variable.
+
+    `start` is the frame that the row starts from, the one before where it is None.
+    """
 
     theta: Angle
     alpha: Angle
     revolute: bool
+    start: int | None = None
 
 
 def absolute_angles(turns: Sequence[Turn], coordinates: Collection[str], modified: bool) -> list[Angle]:
@@ -64,22 +68,34 @@ def parallel_groups(
 def _runs(turns: Sequence[Turn], coordinates: Collection[str], modified: bool) -> list[list[Angle]]:
     """The absolute angles, a list for each run of parallel revolute axes."""
     runs: list[list[Angle]] = []
-    between: Rotation | None = None
-    for turn in turns:
+    ends: list[_End] = [_End()]
+    for row, turn in enumerate(turns):
+        end = ends[row if turn.start is None else turn.start]
         before, after = _constant_rotations(turn, coordinates, modified)
-        if between is not None:
-            between = _times(between, before)
+        between = None if end.between is None else _times(end.between, before)
+        run, absolute = end.run, end.absolute
         if turn.revolute:
-            own = turn.theta
             sign = _sign(between) if between is not None else 0
             if sign:
-                runs[-1].append(own + runs[-1][-1] * sign)
+                absolute = turn.theta + absolute * sign
             else:
-                runs.append([own])
+                run, absolute = len(runs), turn.theta
+                runs.append([])
+            runs[run].append(absolute)
             between = after
         elif between is not None:
             between = _times(between, after)
+        ends.append(_End(between, run, absolute))
     return runs
+
+
+@dataclass(frozen=True, slots=True)
+class _End:
+    """What a row goes on from: the rotation since the last revolute axis, its run, its absolute angle."""
+
+    between: Rotation | None = None
+    run: int = 0
+    absolute: Angle = field(default_factory=Angle.zero)
 
 
 def moving_part(angle: Angle, coordinates: Collection[str]) -> Angle:

@@ -22,7 +22,7 @@ from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Kind, Owner
-from dynsolve.quantities.index import Quantity, quantities, stages_of
+from dynsolve.quantities.index import Quantity, derived_stages, quantities
 from dynsolve.robot.model import Robot
 from dynsolve.solution.branch_export import beside_branches, branch_results
 from dynsolve.solution.dynamics import Dynamics
@@ -200,7 +200,7 @@ class _Exporter:
 
 def _exported(robot: Robot) -> Iterator[Family]:
     """The families that `results` has, in their order."""
-    stages, has = stages_of(robot), quantities(robot).owners.has
+    stages, has = derived_stages(robot), quantities(robot).owners.has
     return (family for family in FAMILIES if family.json and family.stage in stages and has(family))
 
 

@@ -16,6 +16,7 @@ STEMS = {
     "cylindrical-rpp",
     "elastic-joint",
     "elbow-3r",
+    "five-bar",
     "in3140-rp",
     "inf3480-painting-rrp",
     "inf3480-ppr",

@@ -24,6 +24,7 @@ SAME = {
     "spong-elbow-remote": "planar-2r-remote",
     "spong-cartesian": "cartesian-pp",
     "craig-6-5-rp": "rp-vertical",
+    "spong-five-bar-trick": "five-bar",
 }
 """Robots of the textbooks that stand in the library too."""
 CASES = PUBLISHED + [

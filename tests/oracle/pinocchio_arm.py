@@ -5,6 +5,7 @@ With q_rows = E q, the model in the coordinates is D = Eᵀ M E, tau = Eᵀ tau_
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,9 +77,11 @@ def model_of(arm: Arm) -> tuple[pin.Model, list[tuple[int, pin.SE3]], Array]:
     """The model; for each frame of the table its joint and its place on it; and E."""
     model = pin.Model()
     model.gravity.linear = arm.gravity
-    joint, place = 0, pin.SE3(arm.base)
-    frames, E = [], []
-    for index, row in enumerate(arm.rows):
+    starts: dict[int, tuple[int, pin.SE3]] = {0: (0, pin.SE3(arm.base))}
+    E = []
+    for index in _depth_first(arm, 0):
+        row = arm.rows[index]
+        joint, place = starts[row.start]
         place = place * pin.SE3(row.before)
         if row.kind != "fixed":
             kind = pin.JointModelRZ() if row.kind == "revolute" else pin.JointModelPZ()
@@ -86,7 +89,8 @@ def model_of(arm: Arm) -> tuple[pin.Model, list[tuple[int, pin.SE3]], Array]:
             place = pin.SE3.Identity()
             E.append(row.rates)
         place = place * pin.SE3(row.after)
-        frames.append((joint, place))
+        starts[index + 1] = (joint, place)
+    frames = [starts[index + 1] for index in range(len(arm.rows))]
     for body in arm.masses:
         joint, place = frames[body.link - 1]
         if joint:
@@ -96,3 +100,11 @@ def model_of(arm: Arm) -> tuple[pin.Model, list[tuple[int, pin.SE3]], Array]:
             )  # the constructor refuses a tensor that no real body has; exercises do not
             model.appendBodyToJoint(joint, inertia, place)
     return model, frames, np.array(E).reshape(-1, len(arm.coordinates))
+
+
+def _depth_first(arm: Arm, frame: int) -> Iterator[int]:
+    """The rows that start from a frame, from 0, each with what follows it: the order that Pinocchio wants."""
+    for index, row in enumerate(arm.rows):
+        if row.start == frame:
+            yield index
+            yield from _depth_first(arm, index + 1)

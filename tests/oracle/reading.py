@@ -11,7 +11,7 @@ import keyword
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +44,7 @@ class Row:
     after: Array
     kind: str  # "revolute", "prismatic" or "fixed"
     rates: Array  # the joint's variable is rates · q
+    start: int  # the frame that it starts from
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,7 @@ def coordinates_of(problem: Mapping[str, Any]) -> tuple[str, ...]:
 def parameters_of(problem: Mapping[str, Any]) -> set[str]:
     """Every symbol that is no coordinate."""
     texts = [str(problem.get("gravity", "g")), str(problem.get("base", ""))]
-    texts += [str(cell) for row in problem["dh"] for cell in row.values()]
+    texts += [str(cell) for row in problem["dh"] for key, cell in row.items() if key != "from"]
     texts += [leaf for body in problem.get("masses") or [] for leaf in _leaves(body)]
     names = {name for text in texts for name in NAME.findall(spell(text))}
     return names - KNOWN - set(coordinates_of(problem)) - _WORDS
@@ -159,7 +160,11 @@ def row_of(row: Mapping[str, Any], names: Sequence[str], modified: bool, values:
     along_z = transformation(rotation("z", theta), (0, 0, d))
     along_x = transformation(rotation("x", alpha), (a, 0, 0))
     kind = {"theta": "revolute", "d": "prismatic", "": "fixed"}["".join(starred)]
-    return Row(along_x, along_z, kind, rates) if modified else Row(np.eye(4), along_z @ along_x, kind, rates)
+    return (
+        Row(along_x, along_z, kind, rates, 0)
+        if modified
+        else Row(np.eye(4), along_z @ along_x, kind, rates, 0)
+    )
 
 
 def at_rest(rows: Sequence[Row]) -> Array:
@@ -174,7 +179,10 @@ def read(problem: Mapping[str, Any], values: Mapping[str, float]) -> Arm:
     """The robot of a problem file with `values` for its symbols."""
     names = coordinates_of(problem)
     modified = problem.get("convention", "standard") == "modified"
-    rows = tuple(row_of(row, names, modified, values) for row in problem["dh"])
+    rows = tuple(
+        replace(row_of(row, names, modified, values), start=int(row.get("from", place)))
+        for place, row in enumerate(problem["dh"])
+    )
     masses = tuple(
         _mass(body, str(body.get("name", place)), rows, modified, {**values, **dict.fromkeys(names, 0.0)})
         for place, body in enumerate(problem.get("masses") or [], start=1)
@@ -196,7 +204,7 @@ def _mass(
     near, far = _ends(rows, link, modified)
     mass = value(body["mass"], values)
     center = _point(body.get("center", "tip"), near, far, values)
-    R = _axes(body.get("axes"), at_rest(rows[:link])[:3, :3], values)
+    R = _axes(body.get("axes"), at_rest(_path(rows, link))[:3, :3], values)
     if "inertia" in body:
         tensor = _tensor(body["inertia"], values)
     else:
@@ -208,11 +216,16 @@ def _mass(
     return Mass(name, mass, link, center, R @ tensor @ R.T)
 
 
+def _path(rows: Sequence[Row], link: int) -> list[Row]:
+    """The rows between the base and a frame."""
+    return [*_path(rows, rows[link - 1].start), rows[link - 1]] if link else []
+
+
 def _ends(rows: Sequence[Row], link: int, modified: bool) -> tuple[Array, Array | None]:
     """The near and the far end of a link, in its own frame."""
     if not modified:
         return np.linalg.inv(at_rest([rows[link - 1]]))[:3, 3], np.zeros(3)
-    after = rows[link : link + 1]
+    after = [row for row in rows if row.start == link]
     return np.zeros(3), at_rest(after)[:3, 3] if after and after[0].kind != "prismatic" else None
 
 

@@ -68,7 +68,7 @@ def _dh(robot: Robot, joint: Joint, value: InputValue) -> Iterator[Variant]:
 
 def _frame(robot: Robot, joint: Joint, value: InputValue) -> Iterator[Variant]:
     if joint.index > 1:
-        yield value(f"A{joint.index}") @ value(f"H{joint.index - 1}"), slip("order")
+        yield value(f"A{joint.index}") @ value(f"H{joint.parent}"), slip("order")
 
 
 def _center(robot: Robot, body: Body, value: InputValue) -> Iterator[Variant]:
@@ -122,7 +122,7 @@ def _angular_jacobian(robot: Robot, body: Body, value: InputValue) -> Iterator[V
 def _all_turn(robot: Robot, frames: list[Matrix], link: int) -> Matrix:
     """J_ω with an axis for prismatic joints too."""
     columns = [Matrix.zero(robot.ring, 3, 1)] * robot.n
-    for joint in robot.joints[:link]:
+    for joint in robot.path(link):
         if joint.type is not None:
             z = kinematics.axis(frames[jacobian.joint_frame(robot, joint)])
             for k, rate in joint.rates:

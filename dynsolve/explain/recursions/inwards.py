@@ -41,9 +41,7 @@ def _nothing_follows(context: Context, i: int) -> Prose:
 
 
 def _inertial(context: Context, body: Body) -> Node:
-    return formulas.inertial_force(
-        BodyNames.of(body, context.standard), context.mass(body), is_heavy(context)
-    )
+    return formulas.inertial_force(BodyNames.of(context.robot, body), context.mass(body), is_heavy(context))
 
 
 def _inertial_value(context: Context, body: Body) -> Matrix:
@@ -76,7 +74,7 @@ def _forces(context: Context, i: int, bodies: Sequence[Body]) -> Iterator[Part]:
     """The terms of f_i, each with its value."""
     for j in context.robot.links_after(i):
         R = rotation(context.values[f"A{j}"])
-        yield formulas.passed_on(LinkNames.of(j, context.standard), "f"), R @ context.values[f"fl{j}"]
+        yield formulas.passed_on(LinkNames.of(context.robot, j), "f"), R @ context.values[f"fl{j}"]
     for body in bodies:
         yield _inertial(context, body), _inertial_value(context, body)
 
@@ -118,12 +116,12 @@ def _moment(context: Context, joint: Joint) -> Step:
 def _moments(context: Context, joint: Joint) -> Iterator[Part]:
     """The terms of n_i, each with its value."""
     robot, values, i = context.robot, context.values, joint.index
-    link = LinkNames.of(i, context.standard)
+    link = LinkNames.of(context.robot, i)
     for j in robot.links_after(i):
         A: Matrix = values[f"A{j}"]
         reach = recursions.lever(values[f"A{i}"]) if context.standard else origin(A)
         force = cross(reach, rotation(A) @ values[f"fl{j}"])
-        named = formulas.moment_of_next(link, LinkNames.of(j, context.standard))
+        named = formulas.moment_of_next(link, LinkNames.of(context.robot, j))
         yield from zip(named, (rotation(A) @ values[f"nl{j}"], force), strict=True)
     for body in robot.bodies_on(i):
         yield from _of_body(context, joint, body)
@@ -140,7 +138,7 @@ def _of_body(context: Context, joint: Joint, body: Body) -> Iterator[Part]:
     if not body.is_point:
         tensor, w, dw = tensor_value(context, body), values[f"wl{i}"], values[f"wdl{i}"]
         found += [tensor @ dw, cross(w, tensor @ w)]
-    names = BodyNames.of(body, context.standard)
+    names = BodyNames.of(context.robot, body)
     yield from zip(
         formulas.moment_of_body(names, _inertial(context, body), body.is_point), found, strict=True
     )

@@ -53,7 +53,7 @@ def links_step(context: Context) -> Step:
 
 def _known(context: Context, joint: Joint) -> Iterator[Node]:
     """The rotation, the lever, the joint's axis, gravity, and the bodies of a link."""
-    robot, link = context.robot, LinkNames.of(joint.index, context.standard)
+    robot, link = context.robot, LinkNames.of(context.robot, joint.index)
     A: Matrix = context.values[f"A{joint.index}"]
     yield equation(link.R, context.show(rotation(A)))
     yield equation(link.lever, context.show(recursions.lever(A) if context.standard else origin(A)))
@@ -63,7 +63,7 @@ def _known(context: Context, joint: Joint) -> Iterator[Node]:
         H: Matrix = context.values[f"H{joint.index}"]
         yield equation(link.gravity, context.show(rotation(H).T @ robot.gravity))
     for body in robot.bodies_on(joint.index):
-        names = BodyNames.of(body, context.standard)
+        names = BodyNames.of(context.robot, body)
         if context.standard:
             yield equation(names.lever, context.show(recursions.lever(A) + body.center))
         else:

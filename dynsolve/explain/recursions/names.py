@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from dynsolve.notation.tree import Letter, Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Body
+from dynsolve.robot.model import Body, Convention, Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,9 +21,10 @@ class LinkNames:
     standard: bool
 
     @staticmethod
-    def of(link: int, standard: bool) -> LinkNames:
+    def of(robot: Robot, link: int) -> LinkNames:
         """Those of one link."""
-        return LinkNames(Number(link), Number(link - 1), standard)
+        before = robot.joints[link - 1].parent
+        return LinkNames(Number(link), Number(before), robot.convention is Convention.STANDARD)
 
     @staticmethod
     def general(standard: bool) -> LinkNames:
@@ -69,9 +70,9 @@ class BodyNames:
     link: LinkNames
 
     @staticmethod
-    def of(body: Body, standard: bool) -> BodyNames:
+    def of(robot: Robot, body: Body) -> BodyNames:
         """Those of one body."""
-        return BodyNames(letters.index_of(body.name), LinkNames.of(body.link, standard))
+        return BodyNames(letters.index_of(body.name), LinkNames.of(robot, body.link))
 
     def _at_center(self, base: str) -> Letter:
         return letters.bold(base, Row((Words("c"), self.index)), self.link.i)

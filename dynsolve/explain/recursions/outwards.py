@@ -66,7 +66,7 @@ def _rate(context: Context, joint: Joint, dots: int) -> Node:
 
 
 def _angular_velocity(context: Context, joint: Joint) -> Step:
-    i, link = joint.index, LinkNames.of(joint.index, context.standard)
+    i, link = joint.index, LinkNames.of(context.robot, joint.index)
     rates = _rates(context, joint, JointType.REVOLUTE)
     terms = formulas.angular_velocity(link, rates and rates[0])
     return Step(
@@ -84,21 +84,21 @@ def _angular_velocity(context: Context, joint: Joint) -> Step:
 def _turning_why(joint: Joint) -> str:
     i = joint.index
     if joint.type is JointType.REVOLUTE:
-        if i == 1:
+        if not joint.parent:
             return "The base does not turn; the link turns about its joint."
-        return f"Link {i} turns with link {i - 1}, and about its own joint."
-    still = "the base, which does not turn" if i == 1 else f"link {i - 1}"
+        return f"Link {i} turns with link {joint.parent}, and about its own joint."
+    still = f"link {joint.parent}" if joint.parent else "the base, which does not turn"
     how = "Its joint slides: the link turns with" if joint.type else "The link is fixed to"
     return f"{how} {still}."
 
 
 def _with_matrices(context: Context, joint: Joint, link: LinkNames) -> tuple[Node, ...]:
     """The formula of ω with this robot's matrices, where there is anything to work out."""
-    i = joint.index
-    if i == 1:
+    if not joint.parent:
         return ()
-    A: Matrix = context.values[f"A{i}"]
-    terms: list[Node] = [Product((Transpose(context.show(rotation(A))), context.form(f"wl{i - 1}")))]
+    A: Matrix = context.values[f"A{joint.index}"]
+    before = context.form(f"wl{joint.parent}")
+    terms: list[Node] = [Product((Transpose(context.show(rotation(A))), before))]
     rates = _rates(context, joint, JointType.REVOLUTE)
     if rates is not None:
         terms.append(Product((context.show(recursions.joint_axis(context.robot, A)), rates[0])))
@@ -106,12 +106,14 @@ def _with_matrices(context: Context, joint: Joint, link: LinkNames) -> tuple[Nod
 
 
 def _angular_acceleration(context: Context, joint: Joint) -> Step:
-    i, link, values = joint.index, LinkNames.of(joint.index, context.standard), context.values
+    i, link, values = joint.index, LinkNames.of(context.robot, joint.index), context.values
     rates = _rates(context, joint, JointType.REVOLUTE)
     terms = formulas.angular_acceleration(link, rates)
     why = "The joint adds nothing; that of the link before is turned into the frame."
     A: Matrix = values[f"A{i}"]
-    before = values[f"wdl{i - 1}"] if i > 1 else recursions.base_motion(context.robot).dw
+    before = recursions.base_motion(context.robot).dw
+    if joint.parent:
+        before = values[f"wdl{joint.parent}"]
     parts = [rotation(A).T @ before]
     if rates is not None:
         first, second = (recursions.joint_rate(context.robot, joint, A, dots) for dots in (1, 2))
@@ -135,14 +137,14 @@ def _angular_acceleration(context: Context, joint: Joint) -> Step:
 
 
 def _acceleration(context: Context, joint: Joint) -> Step:
-    i, link = joint.index, LinkNames.of(joint.index, context.standard)
+    i, link = joint.index, LinkNames.of(context.robot, joint.index)
     terms = formulas.acceleration(link, link.lever, _rates(context, joint, JointType.PRISMATIC))
     lines = lines_of(context, list(zip(terms, _carried(context, joint, None), strict=True)))
     return Step(
         id=f"al{i}",
         stage=STAGE,
         title=f"Link {i}, outwards: acceleration of its origin",
-        why=(_carried_why(joint), *_base_why(context, i)),
+        why=(_carried_why(joint), *_base_why(context, joint)),
         formula=equation(link.vector("a"), sum_of(terms)),
         source=source_of(context),
         lines=lines,
@@ -158,13 +160,14 @@ def _carried_why(joint: Joint) -> str:
     return f"{made}."
 
 
-def _base_why(context: Context, i: int) -> Prose:
-    if i > 1:
+def _base_why(context: Context, joint: Joint) -> Prose:
+    if joint.parent:
         return ()
     if context.standard:
         return (" The base is at rest.",)
     given = equation(
-        LinkNames.of(1, standard=False).vector_before("a"), context.show(recursions.lift(context.robot))
+        LinkNames.of(context.robot, joint.index).vector_before("a"),
+        context.show(recursions.lift(context.robot)),
     )
     return (" The base accelerates by ", given, ", which stands for gravity.")
 
@@ -173,14 +176,14 @@ def _carried(context: Context, joint: Joint, beyond: Matrix | None) -> tuple[Mat
     """The values of the terms of an acceleration."""
     i, values = joint.index, context.values
     before = recursions.base_motion(context.robot)
-    if i > 1:
-        before = recursions.Motion(*(values[f"{stem}{i - 1}"] for stem in ("wl", "wdl", "al")))
+    if joint.parent:
+        before = recursions.Motion(*(values[f"{stem}{joint.parent}"] for stem in ("wl", "wdl", "al")))
     step = recursions.Step(joint, values[f"A{i}"], before)
     return recursions.acceleration_parts(context.robot, step, values[f"wl{i}"], values[f"wdl{i}"], beyond)
 
 
 def _center_acceleration(context: Context, body: Body) -> Step:
-    joint, names = context.robot.joints[body.link - 1], BodyNames.of(body, context.standard)
+    joint, names = context.robot.joints[body.link - 1], BodyNames.of(context.robot, body)
     terms = formulas.center_acceleration(names, _rates(context, joint, JointType.PRISMATIC))
     if context.standard:
         why = "As for an origin, with the way from the origin before to the mass centre."

@@ -117,7 +117,7 @@ def _moves_with(context: Context, joint: Joint, pose: Pose) -> bool:
 def _at_joint(context: Context, joint: Joint, pose: Pose) -> str:
     """Whether what follows a joint goes on, or back, on the way from the joint before; "" for others."""
     robot = context.robot
-    before = [j for j in robot.joints if j.index < joint.index and j.type is JointType.REVOLUTE]
+    before = [j for j in robot.path(joint.index)[:-1] if j.type is JointType.REVOLUTE]
     bodies = [body for body in robot.bodies if body.link >= joint.index]
     if not before or not bodies:
         return ""
