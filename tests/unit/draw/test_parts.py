@@ -35,13 +35,14 @@ def test_frames_are_where_the_product_of_the_A_puts_them(path: Path) -> None:
     state = dict(values.values) | {c.name: x for c, x in zip(robot.coordinates, q, strict=True)}
     scaled = [c.name for c in robot.coordinates if c.type.value == "prismatic"]
     state |= {name: state[name] * values.unit for name in scaled}
-    H = base_transform(robot)
+    frames = [base_transform(robot)]
     pose = skeleton(robot, values, q)
     named = all(
         "Number" not in repr(joint.written[1:3]).replace("Number(p=0, q=1)", "") for joint in robot.joints
     )
     for joint, found in zip(robot.joints, pose.frames[1:], strict=True):
-        H = frame(H, dh_matrix(robot, joint))
+        H = frame(frames[joint.parent], dh_matrix(robot, joint))
+        frames.append(H)
         turned_to = [[robot.ring.evaluate(H[i, j], state) for i in range(3)] for j in range(3)]
         for column, axis in zip(turned_to, found.axes, strict=True):
             assert axis == pytest.approx(column, abs=1e-9)
