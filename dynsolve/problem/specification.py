@@ -22,7 +22,18 @@ from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Plain, Shar
 from dynsolve.problem.kinematic_keys import KINEMATIC_KEYS
 from dynsolve.problem.mechanism_keys import COORDINATES, model, placed_body
 from dynsolve.problem.model_keys import MODEL_KEYS
-from dynsolve.problem.value_kinds import EXPRESSION, LINK, MATRIX, NAME, NUMBER, PLACE, ROTATION, TEXT, VECTOR
+from dynsolve.problem.value_kinds import (
+    EXPRESSION,
+    FRAME,
+    LINK,
+    MATRIX,
+    NAME,
+    NUMBER,
+    PLACE,
+    ROTATION,
+    TEXT,
+    VECTOR,
+)
 from dynsolve.robot.model import Convention
 from dynsolve.robot.shapes import AXES, KINDS
 
@@ -47,7 +58,11 @@ ROW = Keyed(
         Key("a", EXPRESSION, "a, the way along x. Constant.", "l1", "0"),
         Key("alpha", EXPRESSION, "α, the turn about x. Constant.", "90deg", "0"),
         Key(
-            "from", LINK, "The row whose frame it starts from, 0 for the base: a tree.", "1", "the row before"
+            "from",
+            FRAME,
+            "The row whose frame it starts from, 0 for the base: a tree.",
+            "1",
+            "the row before",
         ),
     )
 )
