@@ -47,10 +47,15 @@ def unbalanced(robot: Robot, gravity: Matrix) -> str:
     return ""
 
 
+def curvature(robot: Robot, gravity: Matrix) -> Matrix:
+    """∂g/∂q, n×n: the second derivatives of the potential energy."""
+    ring = robot.ring
+    return Matrix.of(ring, ([ring.diff(g, k) for k in range(robot.n)] for g in gravity.entries))
+
+
 def stiffness(robot: Robot, gravity: Matrix) -> Matrix:
     """∂g/∂q at the equilibrium, n×n."""
-    ring, at = robot.ring, at_equilibrium(robot)
-    return Matrix.of(ring, ([at(ring.diff(g, k)) for k in range(robot.n)] for g in gravity.entries))
+    return at_equilibrium(robot).matrix(curvature(robot, gravity))
 
 
 def damping(robot: Robot, friction: Matrix | None) -> Matrix:

@@ -8,14 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from typing import TYPE_CHECKING
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation import linearization, regressor, task_inertia
 from dynsolve.derivation.energy import accelerations
-from dynsolve.derivation.graph import Rule
+from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.quantities.index import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
+
+if TYPE_CHECKING:
+    from dynsolve.derivation.equilibria import Equilibria
 
 
 def model_rules(robot: Robot) -> Iterator[Rule]:
@@ -45,7 +49,15 @@ def _parameters(robot: Robot) -> Iterator[Rule]:
 
 
 def _equilibria(robot: Robot) -> Iterator[Rule]:
+    yield Rule("equilibria", ("g",), partial(_where_in_balance, robot))
     if robot.questions.model.linearize:
         friction = ("friction",) if "friction" in robot.actions.kinds else ()
         yield Rule("linear_A", ("D", "g", *friction), partial(linearization.state_matrix, robot))
         yield Rule("linear_B", ("D",), partial(linearization.input_matrix, robot))
+
+
+def _where_in_balance(robot: Robot, gravity: Matrix) -> Equilibria | Skipped:
+    """The equilibria; what finds them is imported when they are asked for."""
+    from dynsolve.derivation.equilibria import equilibria
+
+    return equilibria(robot, gravity)

@@ -127,6 +127,7 @@ SLOTINE_LI = Book(
     sections={
         "3.1": "Nonlinear Systems and Equilibrium Points",
         "3.3": "Linearization and Local Stability",
+        "3.4": "Lyapunov's Direct Method",
     },
 )
 

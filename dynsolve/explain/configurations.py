@@ -51,6 +51,18 @@ class ConfigurationForms:
         return tuple(tuple(map(self.condition, one)) for one in self.singular_set.alternatives)
 
     @cached_property
+    def equilibria(self) -> tuple[tuple[Node, ...], ...]:
+        """The equilibria: alternatives of expressions that are 0 together; none where they are too long."""
+        found = self.values["equilibria"]
+        if isinstance(found, Skipped):
+            return ()
+        return tuple(tuple(map(self.condition, one)) for one in found.alternatives)
+
+    def alternatives(self, name: str) -> tuple[tuple[Node, ...], ...]:
+        """The alternatives of a set of equations, by its name."""
+        return self.equilibria if name == "equilibria" else self.singular
+
+    @cached_property
     def lost(self) -> tuple[tuple[Matrix, ...], ...]:
         """At each alternative the directions that are lost, each a column."""
         if self.singular_set is None:

@@ -1,4 +1,4 @@
-"""Steps of equilibria: the equations of motion near one, linear."""
+"""Steps of equilibria: where nothing moves, how stable that is, the motion near one of them, linear."""
 
 from __future__ import annotations
 
@@ -6,13 +6,16 @@ from collections.abc import Iterator
 
 from dynsolve.algebra.minors import determinant
 from dynsolve.derivation import linearization
+from dynsolve.derivation.equilibria import Equilibria, Point, Stability
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.explain.citations import SLOTINE_LI
+from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import listed, side_by_side
+from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.writing import is_small, listed, side_by_side
 from dynsolve.notation.tree import (
+    Degrees,
     Matrix,
     Negative,
     Node,
@@ -37,12 +40,100 @@ _ZERO, _ONE = letters.bold("0"), letters.bold("E")
 
 
 def steps(context: Context) -> Iterator[Step]:
-    """A and B of the motion near an equilibrium."""
+    """The equilibria with their stability; A and B of the motion near one."""
     wanted = context.wanted
+    if "equilibria" in wanted:
+        yield from _equilibria(context)
     if "linear_A" in wanted:
         yield _state_matrix(context)
     if "linear_B" in wanted:
         yield _input_matrix(context)
+
+
+# -- where nothing moves ---------------------------------------------------------------------------
+
+
+def _equilibria(context: Context) -> Iterator[Step]:
+    robot, found = context.robot, context.values["equilibria"]
+    if isinstance(found, Skipped):
+        yield _skipped("equilibria", found)
+        return
+    shown = ConfigurationForms(robot, context.values)
+    held = robot.questions.model.inputs_given
+    why: Prose = ("In an equilibrium rates and accelerations are 0, and of the equations of motion ",
+                  letters.G, " is left. ")  # fmt: skip
+    if held:
+        passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
+        why = (*why, "Motors hold the others; what has none must be in balance: ", *listed(passive), ". ")
+    rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
+    lines = (Line(("Combined, without factors that are never 0",), rows),) if rows else ()
+    cases = shown.equilibria
+    result: tuple[Node, ...] = tuple(_together(one) for one in cases if one)
+    if not cases:
+        notes: tuple[Prose, ...] = (("No configuration makes all of them 0: there is no equilibrium.",),)
+    elif not cases[0]:
+        notes = (("Nothing is left to be 0: every configuration is an equilibrium.",),)
+    else:
+        notes = (("Coordinates that do not occur are free.",),)
+    yield Step(
+        id="equilibria",
+        stage=STAGE,
+        title="Where nothing moves",
+        why=why,
+        formula=equation(letters.G, Number(0)),
+        source=SLOTINE_LI.section("3.1"),
+        working=(equation(letters.G, context.form("g")),) if is_small(context.form("g")) else (),
+        lines=lines,
+        result=result,
+        listed=len(result) > 1,
+        notes=notes,
+        detail=Detail.BRIEF,
+    )
+    if any(points for points in found.points):
+        yield _stability(context, found)
+
+
+def _stability(context: Context, found: Equilibria) -> Step:
+    second = linearization.curvature(context.robot, context.values["g"])
+    shown = context.show(second)
+    told = [_point(context, point) for points in found.points for point in points]
+    return Step(
+        id="equilibria_stability",
+        stage=STAGE,
+        title="How stable they are",
+        why=("Where the potential energy has a strict minimum, all second derivatives being positive "
+             "together, the equilibrium is stable; where it falls in some direction, it is not.",),
+        source=SLOTINE_LI.section("3.4"),
+        working=(equation(_DG, shown),) if is_small(shown) else (),
+        notes=tuple(told),
+        uses=("equilibria",),
+    )  # fmt: skip
+
+
+def _point(context: Context, point: Point) -> Prose:
+    """At q₁ = -90°, q₂ = 0: stable."""
+    quarters = {(0, 1): Number(0), (1, 0): Degrees(90), (0, -1): Degrees(180), (-1, 0): Negative(Degrees(90))}
+    at = [
+        equation(Symbol(pair.angle.terms[0][0][0][0]), quarters[sine, cosine])
+        for pair, sine, cosine in point.values
+    ]
+    said = {
+        Stability.STABLE: "stable",
+        Stability.UNSTABLE: "not stable",
+        Stability.UNDECIDED: "second derivatives do not decide for all values of the parameters",
+    }[point.stability]
+    free = [Symbol(context.robot.coordinates[k].name) for k in point.neutral]
+    along: Prose = (", but for ", *listed(free), ", along which nothing changes") if free else ()
+    where: Prose = ("At ", side_by_side(at)) if at else ("There",)
+    return (*where, f": {said}", *along, ".")
+
+
+def _together(conditions: tuple[Node, ...]) -> Node:
+    """Equations that hold together, in one line."""
+    return side_by_side([equation(value, Number(0)) for value in conditions])
+
+
+# -- near one of them ------------------------------------------------------------------------------
 
 
 def _at(context: Context) -> Prose:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dynsolve.problem.kinds import Key, ListOf, MapOf, OneOf
+from dynsolve.problem.kinds import Key, ListOf, MapOf, OneOf, Word
 from dynsolve.problem.value_kinds import EXPRESSION, NAME
 
 KNOWN = "known"
 """The key of `parameters` that names parameters which do not count as unknown."""
 
 MAX_PARAMETERS = 60
+
+INPUTS = Word(("given",))
 
 MODEL_KEYS = (
     Key(
@@ -22,6 +24,14 @@ MODEL_KEYS = (
         "{known: [L1, g]}",
         "all are unknown",
         remedy="write parameters: {known: [l1, g]}, or the entries of a: {a1: I1 + m2*l1^2, a2: m2*l1}",
+    ),
+    Key(
+        "inputs",
+        INPUTS,
+        "Whether motors hold their coordinates in equilibria, and only what is passive must be in balance.",
+        "given",
+        "no motor holds anything",
+        remedy="write inputs: given",
     ),
     Key(
         "linearize",

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from dynsolve.errors import ReadError
 from dynsolve.notation.names import normalize
 from dynsolve.problem.cells import Cell, forbid, read_cell
-from dynsolve.problem.fields import Fields, describe, did_you_mean, items
-from dynsolve.problem.model_keys import KNOWN, MAX_PARAMETERS
+from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
+from dynsolve.problem.model_keys import INPUTS, KNOWN, MAX_PARAMETERS
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.state import ParsedState, read_equilibrium
@@ -25,6 +25,7 @@ class ParsedModelQuestions:
     known: tuple[tuple[str, Span], ...] = ()
     parameters: tuple[tuple[str, Cell], ...] = ()
     linearize: ParsedState | None = None
+    inputs_given: bool = False
 
     @property
     def constant(self) -> Iterator[Cell]:
@@ -42,7 +43,9 @@ def read_model_questions(
 ) -> ParsedModelQuestions:
     """The keys of a file that ask something of the equations of motion; what is wrong is reported."""
     parameters = _read_parameters(faults, fields.get("parameters"), coordinates)
-    return replace(parameters, linearize=read_equilibrium(faults, fields.get("linearize"), coordinates))
+    given = word(faults, fields.get("inputs"), INPUTS.choices, "inputs", PROBLEM["inputs"].help)
+    equilibrium = read_equilibrium(faults, fields.get("linearize"), coordinates)
+    return replace(parameters, linearize=equilibrium, inputs_given=given is not None)
 
 
 def _read_parameters(

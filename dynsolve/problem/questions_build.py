@@ -204,6 +204,7 @@ def _model(values: CellValues, robot: Robot, parsed: ParsedModelQuestions) -> Mo
     at = parsed.linearize.values if parsed.linearize else {}
     return ModelQuestions(
         known=frozenset(name for name, _ in parsed.known),
+        inputs_given=parsed.inputs_given,
         linearize=tuple((name, dots, value) for (name, dots), value in at.items()),
         named=tuple(name for name, _ in parsed.parameters),
         parameters=values.column(cell for _, cell in parsed.parameters) if parsed.parameters else None,

@@ -7,7 +7,7 @@ see `quantities.families`; its rule stands in `dynsolve.derivation.model_rules`.
 from __future__ import annotations
 
 from dynsolve.quantities import letters
-from dynsolve.quantities.family import Family, of_robot
+from dynsolve.quantities.family import Family, Kind, of_robot
 from dynsolve.quantities.stages import Stage
 
 # -- linear in the parameters ----------------------------------------------------------------------
@@ -45,6 +45,10 @@ Y_GRAVITY = Family(
 )
 
 # -- near an equilibrium ---------------------------------------------------------------------------
+
+EQUILIBRIA = Family(
+    name="equilibria", stage=Stage.EQUILIBRIA, kind=Kind.EQUATIONS, spellings=("equilibrium",)
+)
 
 LINEAR_A = Family(
     name="linear_A",

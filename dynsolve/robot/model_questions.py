@@ -18,13 +18,15 @@ class ModelQuestions:
 
     `known` are the names of the parameters that do not count as unknown in τ = Y a.  `parameters`
     (p×1) are the entries of a where the exercise gives them, `named` the names that it gives them.
-    `linearize` is an equilibrium: (name, 0, value) of the coordinates that are given.
+    `inputs_given` says that motors hold their coordinates in equilibria.  `linearize` is one of
+    these: (name, 0, value) of the coordinates that are given.
     """
 
     known: frozenset[str] = frozenset()
     named: tuple[str, ...] = ()
     parameters: Matrix | None = None
     linearize: tuple[tuple[str, int, Node], ...] = ()
+    inputs_given: bool = False
 
     @property
     def equilibrium(self) -> dict[tuple[str, int], Node]:

@@ -12,6 +12,8 @@
     reached_state   the state that reaches a target
     branch_export   branches of the inverse kinematics as JSON has them
     verdict_export  verdicts on matrices as JSON has them
+    stability_export
+                    the stability of equilibria as JSON has it
     table_export    the Denavit-Hartenberg table as JSON has it
     documents       a solution as a document: stages, steps, numbers
     earlier_results which of the equations before it a step uses

@@ -33,6 +33,7 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
     verify_model(robot, {name: forms(name) for name in model}, states)
     linear = [name for name in linear_names(wanted) if name in values.rules]
     verify_linear(robot, {name: forms(name) for name in linear}, states)
+    _verify_equilibria(robot, values, forms, wanted)
     _verify_configurations(robot, values, forms, wanted)
     if "definite" in wanted:
         from dynsolve.derivation.definite_check import verify_definite
@@ -66,6 +67,18 @@ def skipped(robot: Robot, values: Derivation) -> Iterator[tuple[str, str]]:
         value = values[name]
         if isinstance(value, Skipped):
             yield name, value.why
+
+
+def _verify_equilibria(robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str]) -> None:
+    """Hold the equilibria, as printed, in numbers."""
+    if "equilibria" not in wanted:
+        return
+    from dynsolve.derivation.equilibrium_check import Case, verify_equilibria
+    from dynsolve.explain.configurations import ConfigurationForms
+
+    shown = ConfigurationForms(robot, values).equilibria
+    cases = [Case(*case) for case in zip(shown, values["equilibria"].points, strict=True)]
+    verify_equilibria(robot, forms("g"), cases)
 
 
 def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str]) -> None:

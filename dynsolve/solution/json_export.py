@@ -110,6 +110,10 @@ class _Exporter:
                     _fill(results.setdefault("euler_lagrange", equations), family.json, values)
         results.setdefault("bodies", bodies)
         results |= {quantity.name: self.value(quantity) for quantity in _asked(robot)}
+        if isinstance(results.get("equilibria"), list):
+            from dynsolve.solution.stability_export import stability
+
+            results["equilibria_stability"] = stability(self.solution.values["equilibria"])
         if "inverse" in results:
             results |= dict(beside_branches(self.configurations, self.unicode))
         return results | dict(table_results(self.solution, self.python))
@@ -120,7 +124,8 @@ class _Exporter:
             case Kind.EQUATIONS | Kind.BRANCHES if isinstance(self.solution.values[quantity.rule], Skipped):
                 return {"skipped": self.solution.values[quantity.rule].why}
             case Kind.EQUATIONS:
-                return [[f"{self.python.text(e)} = 0" for e in one] for one in self.configurations.singular]
+                found = self.configurations.alternatives(quantity.rule)
+                return [[f"{self.python.text(e)} = 0" for e in one] for one in found]
             case Kind.VERDICTS:
                 return verdict_results(self.solution, self.python, self.unicode)
             case Kind.BRANCHES:

@@ -55,8 +55,8 @@ def _folder(folder: Path) -> None:
 
 def test_there_are_examples() -> None:
     files = (
-        "rp drawn cart candidates rrp elbow target wrist rates adaptive balanced held driven line answer "
-        "slips spellings set"
+        "rp drawn cart candidates rrp elbow target wrist rates adaptive hanging balanced held driven line "
+        "answer slips spellings set"
     ).split()
     assert {*(f"{name}.yaml" for name in files), "report.md"} == FILES.keys()
     sections = {"Problem file", "Solution JSON", "Answer file", "Verdicts", "Grading", "Commands"}

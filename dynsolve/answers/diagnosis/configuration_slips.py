@@ -49,6 +49,10 @@ _SLIPS = (
          "The kinetic energy is the same wherever the first coordinate stands."),
     Slip("refused_indefinite", "a verdict", "{number} is not positive definite.",
          "Look at the determinant where a sine or cosine is 0, 1 or -1."),
+    Slip("equilibria_missing", "a case", "There are further equilibria.",
+         "Every choice of one factor of each force that is 0 is a case."),
+    Slip("no_equilibrium", "a case", "Where alternative {number} holds, gravity or a spring moves something.",
+         "Put such a configuration into g(q), row by row."),
     Slip("foreign_name", "a name", "A name stands in it that has no meaning here.",
          "Write it in the coordinates and parameters of the problem."),
 )  # fmt: skip

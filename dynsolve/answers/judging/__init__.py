@@ -12,6 +12,7 @@ graph                         which answers lead to which, by which routes
 entry_comparison              whether two scalars are equal
 key_comparison                an answer compared with the key, entry by entry
 other_solutions               rates that are right, though not those of least norm
+equilibria                    sets of equilibria, in numbers
 own_parameters                the parameters a of τ = Y a that the student has chosen
 model_routes                  ways to a regressor, for the key's parameters or the student's
 spans                         vectors that span a space

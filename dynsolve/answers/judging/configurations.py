@@ -14,6 +14,7 @@ from functools import cached_property
 from math import pi
 
 from dynsolve.answers.judging.branches import BranchKey
+from dynsolve.answers.judging.equilibria import EquilibriumKey
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
 from dynsolve.answers.judging.target_branches import TargetKey
 from dynsolve.answers.submission import ConfigurationAnswer, Part
@@ -56,11 +57,13 @@ class ConfigurationKey:
             return SetVerdict(False, "foreign_name")
         if answer.name == "inverse":
             return self._branches.verdict(answer.alternatives)
+        if answer.name == "equilibria":
+            return self._equilibria.verdict(answer.alternatives)
         return self._equations(answer.alternatives)
 
     def is_skipped(self, name: str) -> bool:
         """Whether the key has no set of that name, because it would be too long."""
-        return isinstance(self.values[name], Skipped) and name == "singular"
+        return isinstance(self.values[name], Skipped) and name in ("singular", "equilibria")
 
     @cached_property
     def _branches(self) -> BranchKey | TargetKey:
@@ -68,6 +71,10 @@ class ConfigurationKey:
             return TargetKey(self.shown.target, self.exact, self.robot.questions.all_branches)
         (task,) = self.values.rules["inverse"].inputs
         return BranchKey(self.robot, self.values[task], self.forms(task), self.shown, self.numbers)
+
+    @cached_property
+    def _equilibria(self) -> EquilibriumKey:
+        return EquilibriumKey(self.robot, self.forms("g"), self.shown.equilibria, self.numbers)
 
     def _known(self, answer: ConfigurationAnswer) -> bool:
         """Whether every name in an answer has a value here."""

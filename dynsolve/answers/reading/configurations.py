@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from itertools import islice
+from itertools import islice, pairwise, product
 
 from dynsolve.answers.reading import yaml_values
 from dynsolve.answers.reading.displays import chain
@@ -92,11 +92,17 @@ _Item = tuple[tuple[str, str], ...]
 def _alternatives(text: str, root: YamlNode, kind: Kind, names: Sequence[str]) -> Iterator[_Item]:
     items = yaml_values.items_of(text, root) if root.style == "list" else [root]
     if kind is Kind.BRANCHES:
-        if root.style not in ("list", "mapping") and _NONE.fullmatch(yaml_values.word(text, root)):
+        if _is_none(text, root):
             return
         if items and all(item.style not in ("list", "mapping") for item in items):
             items = [root]
+    if kind is Kind.EQUATIONS and len(items) == 1 and _is_none(text, items[0]):
+        return
     for item in items:
+        if kind is Kind.EQUATIONS and item.style == "mapping":
+            for chosen in _combinations(text, item):
+                yield from _signed(chosen)
+            continue
         parts = tuple(_branch(text, item, names)) if kind is Kind.BRANCHES else tuple(_together(text, item))
         yield from _signed(parts)
 
@@ -114,12 +120,30 @@ def _branch(text: str, node: YamlNode, names: Sequence[str]) -> Iterator[tuple[s
         yield name, yaml_values.word(text, item)
 
 
+def _is_none(text: str, node: YamlNode) -> bool:
+    return node.style not in ("list", "mapping") and bool(_NONE.fullmatch(yaml_values.word(text, node)))
+
+
+def _combinations(text: str, node: YamlNode) -> Iterator[_Item]:
+    """{q1: [pi/2, -pi/2], q2: 0}: every choice of a value of each coordinate, as equations."""
+    choices = []
+    for name, value in node.entries():
+        items = yaml_values.items_of(text, value) if value.style == "list" else [value]
+        left = yaml_values.word(text, name)
+        choices.append([("", f"{left} = {yaml_values.word(text, item)}") for item in items])
+    yield from product(*choices)
+
+
 def _together(text: str, node: YamlNode) -> Iterator[tuple[str, str]]:
     """Equations that hold together."""
     items = yaml_values.items_of(text, node) if node.style == "list" else [node]
     for item in items:
         for part in _AND.split(yaml_values.word(text, item)):
-            yield "", part
+            members = part.split("=")
+            for left, right in pairwise(members) if len(members) > 2 else ():
+                yield "", f"{left}={right}"
+            if len(members) <= 2:
+                yield "", part
 
 
 def _signed(parts: _Item) -> Iterator[_Item]:

@@ -1,0 +1,92 @@
+"""Verdicts on equilibria: sets of equations, held in numbers against gravity and springs.
+
+At every point of the key's set the student's must hold, and at every point of the student's
+nothing may move.  An angle counts modulo 2π where the forces have that period in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from math import pi, remainder
+
+from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
+from dynsolve.answers.submission import Part
+from dynsolve.derivation.configuration_check import NO_VALUE
+from dynsolve.derivation.equilibrium_check import in_balance, is_zero, starts, zero_near
+from dynsolve.derivation.reached import CLOSE
+from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import Program, compile_trees
+from dynsolve.notation.walk import names_in
+from dynsolve.robot.model import JointType, Robot
+
+
+class EquilibriumKey:
+    """The equilibria of one problem: its g, the key's alternatives, and the numbers that it gives."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        gravity: Node,
+        alternatives: Sequence[Sequence[Node]],
+        numbers: Mapping[str, float],
+    ) -> None:
+        self.robot, self.gravity, self.alternatives, self.numbers = robot, gravity, alternatives, numbers
+
+    def verdict(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
+        """Whether a set is that of the key."""
+        theirs = [
+            [(compile_trees([part.node]), self._is_periodic(part.node)) for part in one] for one in given
+        ]
+        for conditions in self.alternatives:
+            for q in self._points(tuple(conditions)):
+                if not any(all(_holds(program, q, turns) for program, turns in one) for one in theirs):
+                    return SetVerdict(False, "equilibria_missing")
+        for number, one in enumerate(given, 1):
+            points = list(self._points(tuple(part.node for part in one)))
+            if not points:
+                return SetVerdict(False, "condition_never_holds", number)
+            if not all(is_zero(self._forces, q) for q in points):
+                return SetVerdict(False, "no_equilibrium", number)
+        return RIGHT
+
+    @cached_property
+    def _forces(self) -> Program:
+        return in_balance(self.robot, self.gravity)
+
+    def _points(self, conditions: tuple[Node, ...]) -> Iterator[dict[str, float]]:
+        """Configurations at which everything is 0; any at all where there is no condition."""
+        program = compile_trees(list(conditions))
+        for start in starts(self.robot, self.numbers):
+            found = zero_near(self.robot, program, start) if conditions else start
+            if found is not None:
+                yield found
+
+    @cached_property
+    def _periodic(self) -> frozenset[str]:
+        """The angles in which the forces have the period 2π."""
+        program = compile_trees([self.gravity])
+        at = next(starts(self.robot, self.numbers))
+        turning = (q.name for q in self.robot.coordinates if q.type is JointType.REVOLUTE)
+        return frozenset(
+            name
+            for name in turning
+            if all(
+                abs(a - b) < CLOSE
+                for (a,), (b,) in zip(
+                    program.run(at)[0], program.run({**at, name: at[name] + 2 * pi})[0], strict=True
+                )
+            )
+        )
+
+    def _is_periodic(self, node: Node) -> bool:
+        """Whether the coordinates in it are all angles that count modulo 2π."""
+        return names_in(node) & {q.name for q in self.robot.coordinates} <= self._periodic
+
+
+def _holds(program: Program, q: Mapping[str, float], turns: bool) -> bool:
+    try:
+        (value,) = program.run(q)
+    except NO_VALUE:
+        return False
+    return bool(abs(remainder(value, 2 * pi) if turns else value) < CLOSE)

@@ -1,0 +1,141 @@
+"""Equilibria and their stability, compared with numbers.
+
+At points of each case, found by Newton's method, gravity and springs must move nothing; every
+zero that the same method finds of the forces themselves must lie in one of the cases; and at
+the points whose stability is told, differences of the forces decide whether the energy rises
+in every direction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import atan2, pi
+from random import Random
+
+from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.configuration_check import NO_VALUE
+from dynsolve.derivation.equilibria import Point, Stability
+from dynsolve.derivation.linear_check import solved
+from dynsolve.derivation.reached import CLOSE
+from dynsolve.derivation.verification import SEED
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Matrix, Node
+from dynsolve.notation.tree_values import Program, compile_trees
+from dynsolve.robot.model import JointType, Robot
+
+STATES = 8
+"""So many configurations are started from, and as many half a turn away."""
+
+_STEP = 1e-5
+_NEAR = 1e-6
+_NEWTON_STEPS = 60
+_TINY = 1e-12
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """Expressions that are 0 together, and the points among them whose stability is told."""
+
+    zeros: tuple[Node, ...]
+    points: tuple[Point, ...]
+
+
+def starts(robot: Robot, numbers: Mapping[str, float] | None = None) -> Iterator[dict[str, float]]:
+    """Random configurations with values for the parameters, each also half a turn away."""
+    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
+    turning = [q.name for q in robot.coordinates if q.type is JointType.REVOLUTE]
+    for _ in range(STATES):
+        values = {**draw_values(robot, random, lambda found: None)[0], **(numbers or {})}
+        yield values
+        yield {**values, **{name: values[name] + pi for name in turning}}
+
+
+def in_balance(robot: Robot, gravity: Node) -> Program:
+    """The forces that must be 0: those of all coordinates, or of the passive ones alone."""
+    assert isinstance(gravity, Matrix)
+    wanted = robot.actions.passive if robot.questions.model.inputs_given else range(robot.n)
+    return compile_trees([gravity.rows[k][0] for k in wanted])
+
+
+def is_zero(program: Program, at: Mapping[str, float]) -> bool:
+    """Whether everything is 0."""
+    return all(abs(value) < CLOSE for value in program.run(at))
+
+
+def zero_near(robot: Robot, zeros: Program, start: Mapping[str, float]) -> dict[str, float] | None:
+    """A configuration near `start` at which everything is 0, by Newton's method; None where none is found.
+
+    Each step is the shortest that solves the linear equations, which may be fewer than the
+    coordinates, or repeat each other: Jᵀ (J Jᵀ + ε)⁻¹ f.
+    """
+    at, names = dict(start), [q.name for q in robot.coordinates]
+    try:
+        for _ in range(_NEWTON_STEPS):
+            f = zeros.run(at)
+            if max(map(abs, f)) < CLOSE**2:
+                return at
+            moved = [zeros.run({**at, name: at[name] + _STEP}) for name in names]
+            J = [[(m[k] - value) / _STEP for m in moved] for k, value in enumerate(f)]
+            squares = [
+                [
+                    sum(a * b for a, b in zip(row, other, strict=True)) + _TINY * (i == j)
+                    for j, other in enumerate(J)
+                ]
+                for i, row in enumerate(J)
+            ]
+            along = solved(squares, f)
+            for k, name in enumerate(names):
+                at[name] -= sum(x * row[k] for x, row in zip(along, J, strict=True))
+    except NO_VALUE:
+        return None
+    return None
+
+
+def verify_equilibria(robot: Robot, gravity: Node, cases: Sequence[Case]) -> None:
+    """Compare the cases with the forces.
+
+    Raises VerificationError where an equilibrium is none, one is missing, or its stability is another.
+    """
+    forces = in_balance(robot, gravity)
+    programs = [compile_trees(list(case.zeros)) for case in cases]
+    for start in starts(robot):
+        for program, case in zip(programs, cases, strict=True):
+            at = zero_near(robot, program, start) if case.zeros else start
+            if at is not None and not is_zero(forces, at):
+                raise VerificationError("something moves in an equilibrium; this is a fault of dynsolve")
+        found = zero_near(robot, forces, start)
+        if found is not None and not any(is_zero(program, found) for program in programs):
+            raise VerificationError("an equilibrium is missing; this is a fault of dynsolve")
+    whole = compile_trees([gravity])
+    for program, case in zip(programs, cases, strict=True):
+        for point in case.points:
+            _verify_stability(robot, whole, program, point)
+
+
+def _verify_stability(robot: Robot, gravity: Program, zeros: Program, point: Point) -> None:
+    for start in starts(robot):
+        turned = {pair.angle.terms[0][0][0][0]: atan2(s, c) for pair, s, c in point.values}
+        at = zero_near(robot, zeros, {**start, **turned})
+        if at is None or any(abs(at[name] - angle) > _NEAR for name, angle in turned.items()):
+            continue
+        rising = _rises(robot, gravity, at, point)
+        told = point.stability
+        if told is not Stability.UNDECIDED and rising is not (told is Stability.STABLE):
+            raise VerificationError("the stability told is another; this is a fault of dynsolve")
+
+
+def _rises(robot: Robot, gravity: Program, at: Mapping[str, float], point: Point) -> bool:
+    """Whether the energy rises but along what is neutral: elimination leaves positive pivots."""
+    rest = [q for q in robot.coordinates if q.index - 1 not in point.neutral]
+    rows = []
+    for q in rest:
+        ahead, behind = (gravity.run({**at, q.name: at[q.name] + step})[0] for step in (_STEP, -_STEP))
+        rows.append([(ahead[k.index - 1][0] - behind[k.index - 1][0]) / (2 * _STEP) for k in rest])
+    for k, row in enumerate(rows):
+        if row[k] <= 0:
+            return False
+        for other in rows[k + 1 :]:
+            factor = other[k] / row[k]
+            other[:] = [a - factor * b for a, b in zip(other, row, strict=True)]
+    return True

@@ -1,0 +1,82 @@
+"""Equilibria handed in: in other forms, in part, and wrong; read from files as students write them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import dynsolve
+
+ARM = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+find: [equilibria]
+"""
+POLE = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, theta: revolute}
+  bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + l*sin(theta), l*cos(theta), 0]}]
+find: [equilibria]
+"""
+MASSES = """
+gravity: none
+model:
+  coordinates: {q1: prismatic, q2: prismatic, q3: prismatic}
+  bodies: [{mass: m1, at: [q1, 0, 0]}, {mass: m2, at: [q2, 0, 0]}, {mass: m3, at: [q3, 0, 0]}]
+springs: [{stiffness: k1, of: q1 - q2}, {stiffness: k2, of: q2 - q3}]
+find: [equilibria]
+"""
+ELASTIC = """
+gravity: [0, -g, 0]
+base: Rz(-90deg)
+dh: [{theta: q1*, a: l}]
+masses: [{mass: m, link: 1}]
+motors: [{turns: q2*, inertia: J}]
+springs: [{stiffness: k, of: q1 - q2}]
+passive: [q1]
+find: [equilibria]
+"""
+HELD = ELASTIC.replace("find:", "inputs: given\nfind:")
+LIFT = "dh: [{d: d1*}]\nmasses: [{mass: m, link: 1}]\nfind: [equilibria]\n"
+FLAT = "gravity: none\ndh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\nfind: [equilibria]\n"
+
+
+@pytest.mark.parametrize(
+    ("problem", "written", "code"),
+    [
+        (ARM, '["cos(q1) = 0 and sin(q2) = 0"]', ""),
+        (ARM, '["cos(q1) = 0 and cos(q1 + q2) = 0"]', ""),
+        (ARM, "{q1: [pi/2, -pi/2], q2: [0, pi]}", ""),
+        (ARM, "{q1: ±pi/2, q2: [0, -pi]}", ""),
+        (ARM, "[{q1: 90deg, q2: [0, pi]}, {q1: 270deg, q2: [0, pi]}]", ""),
+        (ARM, "{q1: -pi/2, q2: 0}", "equilibria_missing"),
+        (ARM, "{q1: [pi/2, -pi/2], q2: [0, pi/2]}", "equilibria_missing"),
+        (ARM, '["cos(q1) = 0"]', "no_equilibrium"),
+        (ARM, '["cos(q1) = 0 and sin(q2) = 0", "sin(q1) = 0"]', "no_equilibrium"),
+        (ARM, '["cos(q1) = 2"]', "equilibria_missing"),
+        (POLE, "[sin(theta) = 0]", ""),
+        (POLE, "[theta = 0, theta = pi]", ""),
+        (POLE, "[theta = k*pi]", ""),
+        (POLE, '["theta = 0 and x = 0", "theta = pi and x = 0"]', "equilibria_missing"),
+        (MASSES, "[q1 = q2 = q3]", ""),
+        (MASSES, '["q1 = q2 and q2 = q3"]', ""),
+        (MASSES, "[q1 = q2]", "no_equilibrium"),
+        (ELASTIC, '["sin(q1) = 0 and q1 = q2"]', ""),
+        (ELASTIC, '["sin(q1) = 0 and sin(q2) = 0"]', "no_equilibrium"),
+        (HELD, "[m*g*l*sin(q1) + k*(q1 - q2) = 0]", ""),
+        (HELD, '["sin(q1) = 0 and q1 = q2"]', "equilibria_missing"),
+        (LIFT, "none", ""),
+        (LIFT, "[d1 = 0]", "no_equilibrium"),
+        (FLAT, "[q1 = 0]", "equilibria_missing"),
+    ],
+)
+def test_verdicts(problem: str, written: str, code: str, tmp_path: Path) -> None:
+    (tmp_path / "problem.yaml").write_text(problem, encoding="utf-8")
+    (tmp_path / "answer.yaml").write_text(f"answers:\n  equilibria: {written}\n", encoding="utf-8")
+    report = dynsolve.check(tmp_path / "problem.yaml", tmp_path / "answer.yaml")
+    (found,) = report.answers
+    assert str(found.verdict) == ("wrong" if code else "correct"), found
+    assert [one.code for one in found.diagnosis] == ([code] if code else [])
