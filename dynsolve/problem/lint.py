@@ -63,6 +63,7 @@ def unused_value(reading: Reading) -> Iterator[Finding]:
     known = set(robot.parameters)
     for coordinate in robot.coordinates:
         known |= {coordinate.name, coordinate.velocity, coordinate.acceleration}
+    known |= {name.name for cell in reading.parsed.questions.targeted for name in cell.names}
     for what in ("values", "units"):
         node = reading.fields.get(what)
         for key, _ in node.entries if isinstance(node, MappingNode) else ():

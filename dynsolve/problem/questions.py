@@ -111,6 +111,13 @@ class ParsedQuestions:
             yield from rates.cells if rates else ()
 
     @property
+    def targeted(self) -> Iterator[Cell]:
+        """The values that are to be reached, and the ends of joint ranges."""
+        yield from self.reach.cells
+        for one in self.limits:
+            yield from (one.low, one.high)
+
+    @property
     def rotations(self) -> Iterator[ParsedRotation]:
         """Every rotation that is given."""
         yield from (load.rotation for load in self.loads if load.rotation)

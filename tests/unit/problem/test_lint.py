@@ -80,3 +80,8 @@ def test_the_library_and_the_textbooks_are_clean(path: Path) -> None:
 )
 def test_what_is_usual_is_left_alone(text: str) -> None:
     assert lint_text(text) == ()
+
+
+def test_a_value_that_only_reach_and_limits_use_is_used() -> None:
+    text = "values: {a: 1, b: 90deg}\nreach: [a, 1]\nlimits: {theta1: [0, b]}\nfind: [inverse]\n" + PLANAR
+    assert not lint_text(text.replace("l1", "1").replace("l2", "1"))
