@@ -69,9 +69,9 @@ def unused_value(reading: Reading) -> Iterator[Finding]:
         for key, _ in node.entries if isinstance(node, MappingNode) else ():
             if key.decoded not in known and _normal(key.decoded) not in known:
                 message = (
-                    f"{key.decoded} has {'a value' if what == 'values' else 'a unit'} but occurs nowhere"
+                    f"{key.decoded} has {'a value' if what == 'values' else 'a unit'} but is not used"
                 )
-                yield _finding(reading, key.span, message, "delete it, or mend its spelling", "unused-value")
+                yield _finding(reading, key.span, message, "delete it, or correct its spelling", "unused-value")
 
 
 def _normal(name: str) -> str:
@@ -95,7 +95,7 @@ def ambiguous_name(reading: Reading) -> Iterator[Finding]:
         if shorthand and _is_made_of(shorthand[1].replace("_", ""), digits):
             meaning = f"the {'sine' if name[0] == 's' else 'cosine'} of a joint angle"
         if meaning:
-            message = f"an answer could not tell {name} from {meaning}"
+            message = f"in an answer {name} could also mean {meaning}"
             yield _finding(reading, span, message, "give the parameter another name", "ambiguous-name")
 
 
@@ -137,7 +137,7 @@ def similar_names(reading: Reading) -> Iterator[Finding]:
         other = first.setdefault(_folded(name), name)
         if other != name:
             message = f"{name} and {other} are hard to tell apart"
-            help = "if they are one thing, spell it in one way; if not, give one another name"
+            help = "if they are the same, use one spelling; if not, rename one of them"
             yield _finding(reading, span, message, help, "similar-names")
 
 
@@ -151,7 +151,7 @@ def yaml_word(reading: Reading) -> Iterator[Finding]:
     """A word that YAML knows as a value, which here is a symbol."""
     for name, span in _symbols(reading).items():
         if name.lower() in _YAML_WORDS:
-            message = f"{name} is read as a symbol of that name"
+            message = f"{name} is read as the name of a symbol"
             yield _finding(reading, span, message, "leave the key out for its default", "yaml-word")
 
 
@@ -161,7 +161,7 @@ def unstarred(reading: Reading) -> Iterator[Finding]:
         cell = row.cells["theta"]
         for name in cell.names:
             if not name.star and split(name.name)[0] in ("theta", "q") and split(name.name)[1]:
-                message = f"{name.name} is a constant here: it has no star"
+                message = f"{name.name} has no star, so it is a constant"
                 help = f"a joint variable is written {name.name}*"
                 yield _finding(reading, cell.span_of(name), message, help, "unstarred")
 
@@ -214,7 +214,7 @@ def no_tool_row(reading: Reading) -> Iterator[Finding]:
     robot = reading.problem.robot
     if robot.ends_in_a_joint:
         last = len(robot.joints)
-        message = f"the table ends at joint {last}: H{last} and the Jacobian are of a point on its axis"
+        message = f"the table ends at joint {last}, so H{last} and the Jacobian belong to a point on its axis"
         help = "for the end of the arm, add a fixed row: {theta: 0, d: 0, a: l, alpha: 0} with its length"
         cell = reading.parsed.table.rows[-1].cells["theta"]
         yield _finding(reading, _span(reading, cell), message, help, "no-tool-row")
@@ -231,7 +231,7 @@ def ground_body(reading: Reading) -> Iterator[Finding]:
     for body, parsed in _bodies(reading):
         if moving and body.link < moving[0]:
             message = f"link {body.link} belongs to the ground: no joint moves body {body.name}"
-            yield _finding(reading, parsed, message, f"links after joint row {moving[0]} move", "ground-body")
+            yield _finding(reading, parsed, message, f"the links that move are those from row {moving[0]} on", "ground-body")
 
 
 def no_effect(reading: Reading) -> Iterator[Finding]:
@@ -263,8 +263,8 @@ def unphysical(reading: Reading) -> Iterator[Finding]:
         elif len(numbers) == 3 and all(numbers) and 2 * max(numbers) > sum(numbers):
             what = "one is larger than the sum of the others"
         if what:
-            message = f"no body has the moments of body {body.name}: {what}"
-            yield _finding(reading, span, message, "I_xx + I_yy ≥ I_zz, and so in every order", "unphysical")
+            message = f"body {body.name} cannot have these moments of inertia: {what}"
+            yield _finding(reading, span, message, "none may exceed the sum of the other two", "unphysical")
 
 
 def _bodies(reading: Reading) -> Iterator[tuple[Body, Span]]:
