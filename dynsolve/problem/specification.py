@@ -248,7 +248,7 @@ PROBLEM = Keyed(
         Key(
             "dh",
             ROWS,
-            "The Denavit-Hartenberg table, a row a frame; missing columns are 0.",
+            "The Denavit-Hartenberg table, one row per frame; missing columns are 0.",
             "\n- {theta: theta1* + 90deg, d: L1,  a: 0, alpha: 90deg}"
             "\n- {theta: 0,               d: L2*, a: 0, alpha: 0}",
             "must be given, or `axes`, or `model`",

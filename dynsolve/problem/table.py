@@ -84,9 +84,9 @@ class _Star:
 def read_table(faults: Faults, fields: Fields, modified: bool) -> DHTable:
     """The table under `dh:` with the order of `coordinates:`; everything wrong with it is reported."""
     if "dh" not in fields:
-        help = f"add `dh:` with a row a frame; {_EXAMPLE}; or the joint axes of a drawing with `axes:`"
+        help = f"add `dh:` with one row per frame; {_EXAMPLE}; or the joint axes of a drawing with `axes:`"
         faults.error((0, 0), "the file has no `dh` table", help)
-    nodes = items(faults, fields.get("dh"), "dh", f"a row a frame; {_EXAMPLE}")
+    nodes = items(faults, fields.get("dh"), "dh", f"one row per frame; {_EXAMPLE}")
     if len(nodes) > MAX_ROWS:
         faults.error(
             fields.key_span("dh"), f"{len(nodes)} rows; at most {MAX_ROWS} are read", "leave some out"
