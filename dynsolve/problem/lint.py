@@ -68,10 +68,10 @@ def unused_value(reading: Reading) -> Iterator[Finding]:
         node = reading.fields.get(what)
         for key, _ in node.entries if isinstance(node, MappingNode) else ():
             if key.decoded not in known and _normal(key.decoded) not in known:
-                message = (
-                    f"{key.decoded} has {'a value' if what == 'values' else 'a unit'} but is not used"
+                message = f"{key.decoded} has {'a value' if what == 'values' else 'a unit'} but is not used"
+                yield _finding(
+                    reading, key.span, message, "delete it, or correct its spelling", "unused-value"
                 )
-                yield _finding(reading, key.span, message, "delete it, or correct its spelling", "unused-value")
 
 
 def _normal(name: str) -> str:
@@ -231,7 +231,13 @@ def ground_body(reading: Reading) -> Iterator[Finding]:
     for body, parsed in _bodies(reading):
         if moving and body.link < moving[0]:
             message = f"link {body.link} belongs to the ground: no joint moves body {body.name}"
-            yield _finding(reading, parsed, message, f"the links that move are those from row {moving[0]} on", "ground-body")
+            yield _finding(
+                reading,
+                parsed,
+                message,
+                f"the links that move are those from row {moving[0]} on",
+                "ground-body",
+            )
 
 
 def no_effect(reading: Reading) -> Iterator[Finding]:
