@@ -255,7 +255,8 @@ def _origin(origins: Sequence[Origin]) -> Prose:
             which = "Coordinate" if len(origins) == 1 else "Coordinates"
             axes = listed(["xyz"[o.index] for o in origins if isinstance(o, OfPoint)])
             verb = " has" if len(origins) == 1 else " have"
-            return (f"{which} ", *axes, f" of the point{verb} no other unknown. ")
+            seen = _seen(origins[0].joint)
+            return (f"{which} ", *axes, f" of the point{seen}{verb} no other unknown. ")
         case OfTurn():
             which = "Entry" if len(origins) == 1 else "Entries"
             places = listed([f"({o.row + 1}, {o.column + 1})" for o in origins if isinstance(o, OfTurn)])
@@ -266,6 +267,11 @@ def _origin(origins: Sequence[Origin]) -> Prose:
                     "drop out, and one joint gives it its length (Paden-Kahan subproblem 3). ",)  # fmt: skip
         case Turned(_, _, name):
             return ("Turned back by ", Symbol(name), ", the components have this angle on the left alone. ")
+
+
+def _seen(joint: int) -> str:
+    """From where a point is seen that is not seen from where the arm begins."""
+    return f", seen from the frame before joint {joint}," if joint else ""
 
 
 def _form(step: Solved) -> Prose:

@@ -78,6 +78,15 @@ class Chain:
             found = found @ step @ screw.motion
         return found
 
+    @property
+    def is_oblique(self) -> bool:
+        """Whether a step between two axes turns by anything but right angles."""
+        return any(
+            not entry.is_zero and not (entry * entry - entry.ring.one).is_zero
+            for step in self.between
+            for entry in step.block(0, 3, 0, 3).entries
+        )
+
     def point(self, start: int, stop: int) -> tuple[Matrix, Matrix] | None:
         """A point that screws start..stop-1 do not move: on all their axes; None where there is none.
 

@@ -29,9 +29,13 @@ class Given:
 
 @dataclass(frozen=True, slots=True)
 class OfPoint:
-    """Coordinate `index` (from 0) of a point that some joints do not move."""
+    """Coordinate `index` (from 0) of a point that some joints do not move.
+
+    It is seen from the frame before joint `joint` (from 1); 0 is where the arm begins.
+    """
 
     index: int
+    joint: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -147,7 +147,7 @@ def _ways(block: _Block, unknowns: Unknowns, names: Names) -> Iterator[Part]:
     for point in points:
         if _terms(point.made) > MOST_TERMS:
             continue
-        solved = search([_of_point(point)], unknowns)
+        solved = search(list(_of_point(block, point)), unknowns)
         if {step.coordinate for step in solved} == set(_moving(block, point)):
             yield Part(solved, block.turn, point)
     if _terms(block.chain.product) > MOST_TERMS:
@@ -157,7 +157,7 @@ def _ways(block: _Block, unknowns: Unknowns, names: Names) -> Iterator[Part]:
     if {step.coordinate for step in solved} == set(block.chain.names):
         yield Part(solved, block.turn)
     for point in points:
-        solved = search([_of_point(point), *turned], unknowns)
+        solved = search([*_of_point(block, point), *turned], unknowns)
         if solved:
             yield Part(solved, block.turn, point, block.chain.parallel)
 
@@ -186,10 +186,27 @@ def _moving(block: _Block, point: FixedPoint) -> Iterator[str]:
             yield screw.coordinate
 
 
-def _of_point(point: FixedPoint) -> System:
-    """The coordinates of a point, from the pose and from the joints that move it."""
+def _of_point(block: _Block, point: FixedPoint) -> Iterator[System]:
+    """The coordinates of a point, from the pose and from the joints that move it.
+
+    Where axes are at angles that are not right, it is also seen from the frames on the way to it:
+    turning its components about one axis does not lead to the next.
+    """
     rows = zip(point.known.entries, point.made.entries, strict=True)
-    return tuple(Equation(known, made, OfPoint(k)) for k, (known, made) in enumerate(rows))
+    yield tuple(Equation(known, made, OfPoint(k)) for k, (known, made) in enumerate(rows))
+    if point.from_hand or not block.chain.is_oblique:
+        return
+    first = block.chain.screws[0].number
+    for passed in range(1, point.first - first):
+        back = inverse(block.chain.before(passed))
+        seen = (back @ _with_one(values) for values in (point.known, point.made))
+        rows = zip(*(values.entries[:3] for values in seen), strict=True)
+        yield tuple(Equation(known, made, OfPoint(k, first + passed)) for k, (known, made) in enumerate(rows))
+
+
+def _with_one(point: Matrix) -> Matrix:
+    """(x, y, z, 1) of a point."""
+    return Matrix(point.ring, (*point.rows, (point.ring.one,)))
 
 
 def _of_turn(block: _Block) -> Iterator[System]:

@@ -66,6 +66,12 @@ ARMS = {
         "q1 q3 q2, q5 q4 q6",
         8,
     ),
+    # the second axis at any angle to the first: the height along the first is seen from the second
+    "tilted": (
+        "{theta: q1*, d: d1, alpha: tilt}, {theta: q2*, a: a2}, {theta: q3*, alpha: 90deg}, " + WRIST,
+        "q3 q1 q2, q4 q5 q6",
+        8,
+    ),
     # axes 3 to 5 meet: what is behind and before them comes first
     "middle": (
         "{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, a: a2}, {theta: q3*, alpha: 90deg}, "
