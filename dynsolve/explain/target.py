@@ -111,10 +111,10 @@ class TargetForms:
 
     def reaches(self, q: Mapping[str, float]) -> bool:
         """Whether a configuration gives the task what is wanted."""
-        return near(self._at(q), self.wanted, self.angles)
+        return near(self.task_at(q), self.wanted, self.angles)
 
-    def _at(self, q: Mapping[str, float]) -> list[float]:
-        """r(q)"""
+    def task_at(self, q: Mapping[str, float]) -> list[float]:
+        """r(q), with the numbers of the target for the parameters."""
         at = {**self.numbers, **q}
         return [evaluate(entry, at) for entry in self.r.entries]
 

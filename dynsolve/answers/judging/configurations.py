@@ -12,11 +12,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from math import pi
+from typing import TYPE_CHECKING
 
 from dynsolve.answers.judging.branches import BranchKey
 from dynsolve.answers.judging.equilibria import EquilibriumKey
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
-from dynsolve.answers.judging.target_branches import TargetKey
 from dynsolve.answers.submission import ConfigurationAnswer, Part
 from dynsolve.derivation.configuration_check import (
     NO_VALUE,
@@ -31,6 +31,9 @@ from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.notation.walk import names_in
 from dynsolve.robot.model import JointType, Robot
+
+if TYPE_CHECKING:
+    from dynsolve.answers.judging.target_branches import TargetKey
 
 
 class ConfigurationKey:
@@ -68,6 +71,8 @@ class ConfigurationKey:
     @cached_property
     def _branches(self) -> BranchKey | TargetKey:
         if self.shown.target is not None:
+            from dynsolve.answers.judging.target_branches import TargetKey
+
             return TargetKey(self.shown.target, self.exact, self.robot.questions.all_branches)
         (task,) = self.values.rules["inverse"].inputs
         return BranchKey(self.robot, self.values[task], self.forms(task), self.shown, self.numbers)

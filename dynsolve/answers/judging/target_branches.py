@@ -27,10 +27,12 @@ IN_DEGREES = "in_degrees"
 
 @dataclass(frozen=True, slots=True)
 class _Given:
-    """A configuration of the student's with what its decimals may be off."""
+    """A configuration of the student's, with what its decimals may bring the coordinates and r(q) off."""
 
     values: Mapping[str, float]
     slack: Mapping[str, float]
+    task: Sequence[float]
+    task_slack: Sequence[float]
 
     @property
     def is_rounded(self) -> bool:
@@ -73,8 +75,9 @@ class TargetKey:
             if one is None:
                 return SetVerdict(False, "branch_not_real", number)
             place = next((i for i, key in enumerate(keys) if self._is(one, key)), None)
-            if place is None and not self.target.reaches(one.values):
-                return SetVerdict(False, "target_missed" if keys else "out_of_reach", number)
+            if place is None and not self._reaches(one):
+                is_near = bool(keys) or self.target.is_family
+                return SetVerdict(False, "target_missed" if is_near else "out_of_reach", number)
             is_rounded = is_rounded or one.is_rounded
             met |= set() if place is None else {place}
         is_incomplete = len(met) < len(keys)
@@ -94,12 +97,27 @@ class TargetKey:
         values = on_branch(in_order(branch), at)
         if values is None:
             return None
-        slack = dict.fromkeys(values, 0.0)
+        slack, task = dict.fromkeys(values, 0.0), self.target.task_at(values)
+        task_slack = [0.0] * len(task)
         for moved in _moved(branch, self.exact):
             there = on_branch(in_order(moved), at)
+            if there is None:
+                continue
             for name, kind in self._coordinates:
-                slack[name] += abs(gap(kind, there[name], values[name])) if there is not None else 0.0
-        return _Given(values, slack)
+                slack[name] += abs(gap(kind, there[name], values[name]))
+            off = zip(task_slack, self.target.task_at(there), task, strict=True)
+            task_slack = [total + abs(a - b) for total, a, b in off]
+        return _Given(values, slack, task, task_slack)
+
+    def _reaches(self, one: _Given) -> bool:
+        """Whether r(q) is the target; where configurations do not stand alone, as near as decimals say."""
+        if not self.target.is_family:
+            return self.target.reaches(one.values)
+        rows = zip(one.task, self.target.wanted, one.task_slack, self.target.angles, strict=True)
+        return all(
+            abs(gap("revolute" if is_angle else "", a, b)) <= slack * (1 + CLOSE) + CLOSE
+            for a, b, slack, is_angle in rows
+        )
 
     def _is(self, one: _Given, key: Configuration) -> bool:
         free = {name: one.values[name] for name in key.free}

@@ -68,3 +68,26 @@ def test_a_free_coordinate_may_be_left_out_or_be_anything() -> None:
     for value in ("[{q2: pi}]", "[{q1: 0.3, q2: pi}]"):
         (answer,) = check(read, FileReader(read)(f"answers:\n  inverse: {value}\n", "answer.yaml")).answers
         assert answer.verdict == "correct", value
+
+
+THREE_LINKS = """
+gravity: none
+dh: [{theta: q1*, a: 1}, {theta: q2*, a: 1}, {theta: q3*, a: 1}]
+reach: [1, 1]
+find: [inverse]
+"""
+# (a configuration, the verdict, the notes or the slip); with q1 = 0 two links lead from (1, 0) to (1, 1)
+REDUNDANT = [
+    ("[{q1: 0, q2: pi/6, q3: 2*pi/3}]", "correct", []),
+    ("[{q1: 1.823, q2: -0.902, q3: -1.791}]", "correct", ["rounded"]),
+    ("[{q1: 1.823, q2: -0.902, q3: -1.781}]", "wrong", ["target_missed"]),
+    ("[]", "wrong", ["is_reachable"]),
+]
+
+
+@pytest.mark.parametrize(("value", "verdict", "said"), REDUNDANT)
+def test_of_infinitely_many_any_is_right(value: str, verdict: str, said: list[str]) -> None:
+    read = read_problem(THREE_LINKS, "own.yaml")
+    (answer,) = check(read, FileReader(read)(f"answers:\n  inverse: {value}\n", "answer.yaml")).answers
+    assert answer.verdict == verdict, (answer.fault, answer.diagnosis)
+    assert (list(answer.notes) if verdict == "correct" else [one.code for one in answer.diagnosis]) == said
