@@ -139,7 +139,7 @@ def _together(text: str, node: YamlNode) -> Iterator[tuple[str, str]]:
     items = yaml_values.items_of(text, node) if node.style == "list" else [node]
     for item in items:
         for part in _AND.split(yaml_values.word(text, item)):
-            members = part.split("=")
+            members = [part] if _OR.search(part) else part.split("=")
             for left, right in pairwise(members) if len(members) > 2 else ():
                 yield "", f"{left}={right}"
             if len(members) <= 2:
@@ -153,7 +153,7 @@ def _signed(parts: _Item) -> Iterator[_Item]:
         if len(choices) == 1 and (found := _MULTIPLE.search(text)):
             choices = [text[: found.start()] + f"{factor}*" + text[found.end() :] for factor in (0, 1)]
         if len(choices) > 1:
-            before = text.split("=")[0] if "=" in text else ""
+            before = choices[0].split("=")[0] if "=" in choices[0] else ""
             for choice in choices:
                 whole = choice if "=" in choice or not before else f"{before}= {choice}"
                 yield from _signed((*parts[:index], (name, whole), *parts[index + 1 :]))

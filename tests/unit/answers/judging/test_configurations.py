@@ -106,6 +106,9 @@ SETS = [
     (TWO_LINKS, "[q2 = 0, q2 = pi]", "correct", ""),
     (TWO_LINKS, "[q2 = 0 or q2 = 180deg]", "correct", ""),
     (TWO_LINKS, "[q2 = k*pi]", "correct", ""),
+    (TWO_LINKS, "[q2 = 0 or 180deg]", "correct", ""),
+    (TWO_LINKS, "{q2: [0, pi]}", "correct", ""),
+    (TWO_LINKS, "{q1: 0}", "wrong", "configurations_missing"),
     (TWO_LINKS, "[q2 = 0]", "wrong", "configurations_missing"),
     (TWO_LINKS, "[cos(q2) = 0]", "wrong", "configurations_missing"),
     (TWO_LINKS, "[sin(q2) = 0, sin(q1) = 0]", "wrong", "not_singular"),
@@ -126,7 +129,7 @@ def test_sets(problem: str, value: str, verdict: str, code: str) -> None:
     assert [one.code for one in answer.diagnosis] == ([code] if code else [])
 
 
-@pytest.mark.parametrize("value", ["[sin(q2 = 0]", "{q1: 0}", "[x7 = 0]", "[a = b = c]"])
+@pytest.mark.parametrize("value", ["[sin(q2 = 0]", "{x7: 0}", "[x7 = 0]", "[a = b = c]", "[0 or q2 = = 1]"])
 def test_what_cannot_be_read_says_why(value: str) -> None:
     answer = judged(TWO_LINKS, "singular", value)
     assert answer.verdict == "unreadable"
