@@ -204,15 +204,22 @@ class _Explainer:
             id=_id_of_branches(self.forms),
             stage=STAGE,
             title="The solution" if count == 1 else f"The {count} solutions",
-            why=(*why, ", each put into r(q) to see that it gives the task. A coordinate that stands in a "
-                 "formula is that of the same line."),
+            why=(*why, f", each put into {self._task} to see that it gives what is asked. A coordinate that "
+                 "stands in a formula is that of the same line."),
             table=table,
             notes=tuple(self._free_coordinates()),
             detail=Detail.BRIEF,
             uses=tuple(f"inverse_{name}" for name in names),
-            hint=("Put every choice among these into r(q): those that give the task are the solutions.",),
+            hint=(f"Put every choice among these into {self._task}: those that give what is asked are the "
+                  "solutions.",),
             hint_title="The solutions",
         )  # fmt: skip
+
+    @property
+    def _task(self) -> str:
+        """What is to have given values."""
+        task = self.context.robot.questions.task
+        return "H(q)" if task is not None and task.is_pose else "r(q)"
 
     def _rows(self) -> Iterator[tuple[Node | str, ...]]:
         """A branch a row: formulas that are short, and of the others which of their two is meant."""

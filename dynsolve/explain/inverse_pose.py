@@ -38,8 +38,18 @@ def pose_task(context: Context) -> Step:
         formula=equation(frame, Matrix((*rows, last))),
         source=spong("3.3.1"),
         uses=(f"H{len(context.robot.joints)}",),
+        notes=tuple(_few_joints(context.robot.n)),
         is_task=False,
     )  # fmt: skip
+
+
+def _few_joints(count: int) -> Iterator[Prose]:
+    """What an arm with fewer than six joints cannot do."""
+    if count < 6:
+        yield (
+            f"With {count} joint{'s' * (count > 1)} only some poses are reached: the equations below give the "
+            "joint variables, and the others hold where the pose is one of these.",
+        )
 
 
 def introduction(
