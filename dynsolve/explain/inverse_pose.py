@@ -47,7 +47,7 @@ def _few_joints(count: int) -> Iterator[Prose]:
     """What an arm with fewer than six joints cannot do."""
     if count < 6:
         yield (
-            f"With {count} joint{'s' * (count > 1)} only some poses are reached: the equations below give the "
+            f"With {count} joint{'s' * (count > 1)} only some poses are reached: the equations give the "
             "joint variables, and the others hold where the pose is one of these.",
         )
 
