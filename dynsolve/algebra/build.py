@@ -33,6 +33,11 @@ def with_symbols(ring: Ring, names: Iterable[str]) -> Ring:
     return ring_of(ring.coordinates, replace(ring.plan, symbols=(*ring.plan.symbols, *names)))
 
 
+def with_references(ring: Ring, names: Iterable[str]) -> Ring:
+    """A ring with the first and second derivatives of further names as symbols."""
+    return ring_of(ring.coordinates, replace(ring.plan, references=tuple(names)))
+
+
 def ring_of(coordinates: Sequence[tuple[str, str]], plan: RingPlan) -> Ring:
     """The ring of a plan, with the relations of its roots and denominators."""
     while True:

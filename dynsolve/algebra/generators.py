@@ -65,7 +65,7 @@ def lay_out(plan: RingPlan) -> tuple[Generator, ...]:
     if plan.constants.generator_degrees is not None:
         add("constant", angle=Angle((), plan.constants.generator_degrees))
     for dots in (2, 1, 0):
-        for name in plan.coordinates:
+        for name in (*plan.coordinates, *(plan.references if dots else ())):
             add("symbol", name=name, dots=dots)
     for function in plan.functions:
         add("function", node=function)

@@ -24,6 +24,7 @@ class RingPlan:
     `fixed` are the atoms of the other angles with the rate that is basic; `inverses` so
     many generators are set aside for 1 / a denominator; `functions` are those that are
     generators of their own; `signed` are symbols that may be negative, as no length or mass is.
+    `references` are names of which the first and second derivatives alone are symbols.
     """
 
     coordinates: tuple[str, ...]
@@ -36,6 +37,7 @@ class RingPlan:
     inverses: int
     functions: tuple[Function, ...] = ()
     signed: tuple[str, ...] = ()
+    references: tuple[str, ...] = ()
 
     @property
     def basic_angles(self) -> tuple[Angle, ...]:

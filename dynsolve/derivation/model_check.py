@@ -20,6 +20,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import compile_trees
 from dynsolve.quantities.model_families import PARAMETERS
 from dynsolve.robot.model import Robot
+from dynsolve.robot.model_questions import reference
 
 TOLERANCE = 1e-8
 """The largest error of Y a, relative to its largest terms."""
@@ -44,6 +45,31 @@ def model_names(wanted: frozenset[str]) -> tuple[str, ...]:
         if a in wanted:
             found += [name for name in (Y, a, FORCES[Y]) if name in wanted]
     return tuple(dict.fromkeys(found))
+
+
+def verify_references(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
+    """Compare Y_r a with D q̈_r + C q̇_r + g, as they are printed, for reference rates of their own.
+
+    Raises VerificationError where they differ.
+    """
+    program = compile_trees([results[name] for name in ("Yr", "a", "D", "C", "g")])
+    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
+    names = [reference(q.name) for q in robot.coordinates]
+    for _ in range(states):
+        own = {f"{name}_{dots}": random.uniform(-1.5, 1.5) for name in names for dots in ("dot", "ddot")}
+        _, (Y, a, D, C, g) = draw_values(
+            robot, random, lambda values, own=own: program.run({**values, **own})
+        )
+        forces = [
+            sum(
+                d * own[f"{name}_ddot"] + c * own[f"{name}_dot"]
+                for d, c, name in zip(*rows, names, strict=True)
+            )
+            + weight
+            for *rows, (weight,) in zip(D, C, g, strict=True)
+        ]
+        if not _is_product(Y, a, forces):
+            raise VerificationError("Yr a differs from D q̈_r + C q̇_r + g; this is a fault of dynsolve")
 
 
 def verify_model(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:

@@ -44,6 +44,9 @@ def _parameters(robot: Robot) -> Iterator[Rule]:
 
     yield Rule("aM", ("D",), lambda D: minimal(inertial(D)))
     yield Rule("YM", ("D", "aM"), lambda D, a: columns(inertial(D), a))
+    if robot.ring.plan.references:
+        forces = partial(regressor.reference_forces, robot)
+        yield Rule("Yr", ("D", "C", "g", "a"), lambda D, C, g, a: columns(forces(D, C, g), a))
     yield Rule("ag", ("g",), minimal)
     yield Rule("Yg", ("g", "ag"), columns)
 

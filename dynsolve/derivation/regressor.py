@@ -34,6 +34,7 @@ from dynsolve.algebra.ring import Ring
 from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.robot.model import Robot
+from dynsolve.robot.model_questions import reference
 
 Split = Sequence[Sequence[tuple[Expr, Vector]]]
 """Each force as a sum of (what moves) · (a vector of parameters)."""
@@ -94,6 +95,16 @@ def minimal_parameters(robot: Robot, forces: Matrix) -> Matrix | Skipped:
         range(len(chosen)), key=lambda k: _place(robot.ring, [row[k].numerator for row in columns])
     )
     return Matrix.column(robot.ring, [expression(robot.ring, chosen[k]) for k in order])
+
+
+def reference_forces(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Matrix:
+    """D q̈_r + C q̇_r + g, n×1: linear in the reference rates, as adaptive control needs it."""
+    ring = robot.ring
+    rates, accelerations = (
+        Matrix.column(ring, [ring.symbol(reference(q.name), dots) for q in robot.coordinates])
+        for dots in (1, 2)
+    )
+    return D @ accelerations + C @ rates + gravity
 
 
 def combinations(

@@ -128,6 +128,7 @@ SLOTINE_LI = Book(
         "3.1": "Nonlinear Systems and Equilibrium Points",
         "3.3": "Linearization and Local Stability",
         "3.4": "Lyapunov's Direct Method",
+        "9.2": "Adaptive Robot Trajectory Control",
     },
 )
 

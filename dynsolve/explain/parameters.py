@@ -12,12 +12,12 @@ from dynsolve.derivation.energy import accelerations
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.regressor import combinations
 from dynsolve.document import Prose
-from dynsolve.explain.citations import spong
+from dynsolve.explain.citations import SLOTINE_LI, spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import side_by_side
 from dynsolve.notation.build import times, total
-from dynsolve.notation.tree import Letter, Node, Number, Product, Symbol, equation
+from dynsolve.notation.tree import Letter, Node, Number, Product, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
@@ -56,6 +56,8 @@ def steps(context: Context) -> Iterator[Step]:
             yield _parameters(context, linear)
         if linear.Y in wanted:
             yield _regressor(context, linear)
+    if "Yr" in wanted:
+        yield _with_references(context)
 
 
 def _forces(context: Context, linear: _Linear) -> Matrix:
@@ -176,3 +178,28 @@ def _regressor(context: Context, linear: _Linear) -> Step:
         result=(equation(linear.Y_letter, context.form(linear.Y)),),
         detail=Detail.BRIEF,
     )
+
+
+def _with_references(context: Context) -> Step:
+    value = context.values["Yr"]
+    if isinstance(value, Skipped):
+        return Step("Yr", STAGE, "Not derived", (value.why.capitalize() + ".",), detail=Detail.BRIEF)
+    rates, accelerations = (letters.bold("q", Symbol("r"), dots=dots) for dots in (1, 2))
+    Y = letters.of_part("Y", "r")
+    return Step(
+        id="Yr",
+        stage=STAGE,
+        title="The regressor with reference rates",
+        why=("Adaptive control puts reference rates ", rates, " and accelerations ", accelerations,
+             " in the place of the arm's own where these are multiplied by ", letters.D, " and ", letters.C,
+             "; the rates inside ", letters.C, " stay. The parameters are the same."),
+        formula=equation(
+            Sum((Product((letters.D, accelerations)), Product((letters.C, rates)), letters.G)),
+            Product((Y, letters.PARAMETERS)),
+        ),
+        source=SLOTINE_LI.section("9.2"),
+        result=(equation(Y, context.form("Yr")),),
+        notes=(("Here the choice of ", letters.C, " counts: with that of Christoffel ",
+                Row((letters.rate(letters.D), Words(" - 2"), letters.C)), " is skew-symmetric."),),
+        detail=Detail.BRIEF,
+    )  # fmt: skip

@@ -272,7 +272,8 @@ def _actions() -> Iterator[Line]:
 def _linear() -> Iterator[Line]:
     """The letters of the equations of motion, linear in the parameters."""
     parts = [(part, (letters.of_part("Y", part), letters.of_part("a", part))) for part in ("M", "g")]
-    signs = [letters.REGRESSOR, *(Y for _, (Y, _) in parts)]
+    signs = [letters.REGRESSOR, *(Y for _, (Y, _) in parts), letters.of_part("Y", "r")]
+    yield _line(letters.bold("q", Symbol("r")), "reference of the coordinates, of which there are rates")
     yield _line(signs, "regressor: the factor of the parameters in the forces, in a part of them")
     near = [(letters.LINEAR_A, "matrix of the state"), (letters.LINEAR_B, "matrix of the inputs")]
     yield _each(near, " of the motion near the equilibrium")

@@ -23,6 +23,7 @@ from dynsolve.problem.table import COLUMNS, DHRow
 from dynsolve.problem.values import CellValues, evaluate
 from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
+from dynsolve.robot.model_questions import reference
 from dynsolve.robot.shapes import AXES, KINDS, Shape
 
 HOLD_FORCES = frozenset({"lambda"})
@@ -37,7 +38,8 @@ def build_robot(
     `asked` are the answers asked for that a derivation has only where they are, `written` its `values`.
     """
     inputs = tuple(q.force for q in parsed.coordinates) if asked & HOLD_FORCES else ()
-    values = evaluate(faults, parsed, inputs)
+    references = tuple(reference(q.name) for q in parsed.coordinates) if "Yr" in asked else ()
+    values = evaluate(faults, parsed, inputs, references)
     if values is None:
         return None
     ring = values.ring

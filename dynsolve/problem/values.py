@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.at_state import needed_angles
-from dynsolve.algebra.build import build_ring, with_symbols
+from dynsolve.algebra.build import build_ring, with_references, with_symbols
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
@@ -69,8 +69,12 @@ class CellValues:
         return None
 
 
-def evaluate(faults: Faults, parsed: ParsedFile, inputs: Iterable[str] = ()) -> CellValues | None:
+def evaluate(
+    faults: Faults, parsed: ParsedFile, inputs: Iterable[str] = (), references: tuple[str, ...] = ()
+) -> CellValues | None:
     """The ring that holds everything in the file, and `inputs`; None (reported) where there is none.
+
+    Of `references` it holds the first and second derivatives.
 
     Cells that no ring can hold are reported one by one and left out.
     """
@@ -92,6 +96,8 @@ def evaluate(faults: Faults, parsed: ParsedFile, inputs: Iterable[str] = ()) -> 
             return None
     if inputs:
         ring = with_symbols(ring, inputs)
+    if references:
+        ring = with_references(ring, references)
     _check_angles(faults, parsed, ring)
     return CellValues(faults, ring, frozenset(left_out))
 

@@ -44,6 +44,10 @@ Y_GRAVITY = Family(
     name="Yg", stage=Stage.PARAMETERS, shape=("n", "any"), letter=of_robot(letters.of_part("Y", "g"))
 )
 
+Y_REFERENCE = Family(
+    name="Yr", stage=Stage.PARAMETERS, shape=("n", "any"), letter=of_robot(letters.of_part("Y", "r"))
+)
+
 # -- near an equilibrium ---------------------------------------------------------------------------
 
 EQUILIBRIA = Family(
@@ -78,6 +82,9 @@ LAMBDA = Family(
 
 PARAMETERS = {Y.name: A.name, Y_INERTIA.name: A_INERTIA.name, Y_GRAVITY.name: A_GRAVITY.name}
 """The parameters that each regressor belongs to, by name."""
+
+REFERENCE = Y_REFERENCE.name
+"""The regressor with reference rates, which belongs to the parameters of all forces."""
 
 REGRESSORS = {a: Y for Y, a in PARAMETERS.items()}
 """The regressor that each column of parameters belongs to, by name."""

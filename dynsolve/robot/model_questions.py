@@ -12,6 +12,15 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation.tree import Node
 
 
+def reference(name: str) -> str:
+    """The name of the reference of a coordinate, of which q̇_r and q̈_r are rates: q1r.
+
+    >>> reference("theta1")
+    'theta1r'
+    """
+    return f"{name}r"
+
+
 @dataclass(frozen=True, slots=True)
 class ModelQuestions:
     """What is asked of the model.

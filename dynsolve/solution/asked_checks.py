@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.kinematic_check import checked_names, verify_kinematics
 from dynsolve.derivation.linear_check import linear_names, verify_linear
-from dynsolve.derivation.model_check import model_names, verify_model
+from dynsolve.derivation.model_check import model_names, verify_model, verify_references
 from dynsolve.derivation.rate_check import rate_names, verify_rates
 from dynsolve.derivation.static_check import verify_statics
 from dynsolve.explain.forms import Forms
@@ -31,6 +31,8 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
     _verify_recursions(robot, forms, wanted, states)
     model = [name for name in model_names(wanted) if name in values.rules]
     verify_model(robot, {name: forms(name) for name in model}, states)
+    if "Yr" in wanted:
+        verify_references(robot, {name: forms(name) for name in ("Yr", "a", "D", "C", "g")}, states)
     linear = [name for name in linear_names(wanted) if name in values.rules]
     verify_linear(robot, {name: forms(name) for name in linear}, states)
     _verify_equilibria(robot, values, forms, wanted)

@@ -390,8 +390,8 @@ def _of_fractions(wrong: WrongEntry) -> Iterator[Diagnosis]:
 
 def _agree(changed: Any, own: Any, key: Any) -> bool:
     """Whether a slip changes nothing that is right, entry by entry: what it changes is as it was written."""
-    if not isinstance(changed, Matrix) or not isinstance(own, Matrix):
-        return True
+    if not isinstance(changed, Matrix) or not isinstance(own, Matrix) or changed.shape != own.shape:
+        return True  # parameters may be as many as the student chose
     entries = zip(changed.entries, own.entries, key.entries, strict=True)
     return all(new in (right, mine) for new, mine, right in entries)
 

@@ -26,7 +26,7 @@ from dynsolve.derivation import vectorized
 from dynsolve.derivation.energy import velocities
 from dynsolve.quantities import action_families, families
 from dynsolve.quantities.index import Quantities, quantities
-from dynsolve.quantities.model_families import PARAMETERS
+from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
 from dynsolve.robot.model import Body, Robot
 
 _STATED = (families.H0, families.A, families.I_BODY, action_families.PS, action_families.FRICTION)
@@ -86,7 +86,7 @@ class AnswerGraph:
         """The key's value of a node; at the student's own zero of height, for own parameters a."""
         if node in self.parameters:
             return self.parameters[node]
-        if PARAMETERS.get(node) in self.parameters:
+        if (PARAMETERS.get(node) or (node == REFERENCE and PARAMETERS["Y"])) in self.parameters:
             return self._own_regressor(node)
         value = self.answer_ring.key(node)
         if self.zero_potential is None:
@@ -131,7 +131,7 @@ class AnswerGraph:
             case "D" | "Cqd" | "g":
                 found = self._routes_of_model(node)
                 return tuple(r for r in found if "tau" not in r.inputs) if assembled else found
-            case _ if node in PARAMETERS:
+            case _ if node in PARAMETERS or node == REFERENCE:
                 return tuple(model_routes(self, quantity))
             case "C" | "christoffel":
                 return (Route(("D",), self._symbols if node == "christoffel" else self._coriolis_matrix),)

@@ -26,7 +26,7 @@ from dynsolve.answers.judging.own_parameters import as_matrix, own_parameters
 from dynsolve.answers.judging.zero_height import potential_at_zero_height
 from dynsolve.answers.submission import Answer
 from dynsolve.notation import tree
-from dynsolve.quantities.model_families import PARAMETERS, REGRESSORS
+from dynsolve.quantities.model_families import PARAMETERS, REFERENCE, REGRESSORS
 
 Chain = list[AnswerValue]
 """The members of one equation."""
@@ -61,7 +61,7 @@ class ComparedHandIn:
 
     def _own_parameters(self) -> Mapping[str, Matrix]:
         """The parameters a of τ = Y a that the student chose."""
-        asked = PARAMETERS.keys() | REGRESSORS.keys()
+        asked = PARAMETERS.keys() | REGRESSORS.keys() | {REFERENCE}
         if not self.chains.keys() & asked:
             return {}
         values = {name: last(self.chains[name]) for name in self.chains.keys() & asked}

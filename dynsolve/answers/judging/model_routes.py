@@ -11,7 +11,7 @@ from dynsolve.answers.judging.route import Route
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.errors import AlgebraError
 from dynsolve.quantities.index import Quantity
-from dynsolve.quantities.model_families import PARAMETERS
+from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
 
 if TYPE_CHECKING:
     from dynsolve.answers.judging.graph import AnswerGraph
@@ -19,16 +19,15 @@ if TYPE_CHECKING:
 
 def model_routes(graph: AnswerGraph, quantity: Quantity) -> Iterator[Route]:
     """The routes to a regressor, none to other quantities."""
-    parameters = PARAMETERS.get(quantity.rule)
-    if parameters is None:
+    if quantity.rule not in (*PARAMETERS, REFERENCE):
         return
     rule: Rule = graph.answer_ring.rules[quantity.rule]
-    forces, _ = rule.inputs
+    *forces, parameters = rule.inputs
 
-    def by_key(value: Any) -> Matrix | FractionMatrix:
-        return _found(rule.compute(value, graph.key(parameters)))
+    def by_key(*values: Any) -> Matrix | FractionMatrix:
+        return _found(rule.compute(*values, graph.key(parameters)))
 
-    yield Route((forces,), by_key, linear=False)
+    yield Route(tuple(forces), by_key, linear=False)
     yield Route(rule.inputs, lambda *values: _found(rule.compute(*values)), linear=False)
 
 

@@ -23,14 +23,14 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_values import as_value
 from dynsolve.answers.judging.entry_comparison import EntryComparer, WrittenEntry, put_numbers
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.own_parameters import forces_of, multiplies_to
+from dynsolve.answers.judging.own_parameters import forces_of, multiplies_to, other_references
 from dynsolve.derivation import statics
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.derivation.rates import wanted_by_accelerations
 from dynsolve.derivation.recursions import is_standard
 from dynsolve.quantities import action_families, families, recursion_families
 from dynsolve.quantities.index import Quantity
-from dynsolve.quantities.model_families import PARAMETERS
+from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
 
 
 class Other(StrEnum):
@@ -41,6 +41,7 @@ class Other(StrEnum):
     SPRINGS_FROM_ELSEWHERE = "right; the energy of the springs is counted from elsewhere than in the key"
     WITHOUT_LOADS = "right with the forces from outside moved over: here τ is the left side, τ + Q the right"
     WITHOUT_GRAVITY = "right with gravity as a force on each link; in the key the base accelerates instead"
+    OF_C = "right with another choice of C than Christoffel's"
     OF_THE_PRODUCT = "these parameters leave Y open; the product is right"
     SAME_CONSTRAINT = "right in another form of the same constraint"
     ON_CONSTRAINT = "right where the constraint holds; that was held in numbers, at several states"
@@ -66,6 +67,8 @@ def other_solution(
         return Other.WITHOUT_LOADS if _is_what_motors_give(graph, quantity, rows, compare) else None
     if quantity is not None and quantity.family in (families.P, families.L, action_families.PS):
         return Other.SPRINGS_FROM_ELSEWHERE if _differs_by_springs(graph, quantity, rows[0][0]) else None
+    if node == REFERENCE:
+        return Other.OF_C if _refers(graph, rows) else None
     return Other.OF_MANY if _solves(graph, node, rows, compare.values) else None
 
 
@@ -76,6 +79,14 @@ def _multiplies(graph: AnswerGraph, node: str, rows: Sequence[Sequence[WrittenEn
     entries = tuple(tuple(entry.value for entry in row) for row in rows)
     Y = as_value(entries, forces)
     return parameters is not None and isinstance(Y, Matrix) and multiplies_to(Y, parameters, forces)
+
+
+def _refers(graph: AnswerGraph, rows: Sequence[Sequence[WrittenEntry]]) -> bool:
+    """Whether Y_r a holds another C that is as good."""
+    parameters = graph.key("a")
+    Y = as_value(tuple(tuple(entry.value for entry in row) for row in rows), parameters)
+    is_fit = isinstance(Y, Matrix) and Y.shape[1] == len(parameters.rows)
+    return is_fit and other_references(graph.robot, Y @ parameters, graph.key)
 
 
 def _with_other_gravity(

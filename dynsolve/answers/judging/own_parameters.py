@@ -14,13 +14,14 @@ from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.answer_values import AnswerValue, as_value
-from dynsolve.derivation.energy import accelerations
+from dynsolve.derivation.energy import accelerations, velocities
 from dynsolve.derivation.graph import Skipped
-from dynsolve.derivation.regressor import missing, parameters_for
+from dynsolve.derivation.regressor import missing, parameters_for, reference_forces
 from dynsolve.errors import AlgebraError
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.quantities.model_families import PARAMETERS, REGRESSORS
+from dynsolve.quantities.model_families import PARAMETERS, REFERENCE, REGRESSORS
 from dynsolve.robot.model import Robot
+from dynsolve.robot.model_questions import reference
 
 
 def forces_of(robot: Robot, regressor: str, value: Callable[[str], Any]) -> Matrix:
@@ -48,7 +49,7 @@ def as_matrix(value: AnswerValue, name: str) -> Matrix | None:
     if name in REGRESSORS and len(rows) == 1:
         rows = tuple((entry,) for entry in rows[0])
     found = as_value(rows, Matrix.of(rows[0][0].ring, ()))
-    return found if isinstance(found, Matrix) and (name in PARAMETERS or found.shape[1] == 1) else None
+    return found if isinstance(found, Matrix) and (name not in REGRESSORS or found.shape[1] == 1) else None
 
 
 def wrong_parameters(robot: Robot, forces: Matrix, written: Matrix) -> str:
@@ -89,7 +90,24 @@ def own_parameters(answer_ring: AnswerRing, written: Mapping[str, Matrix]) -> di
         chosen = _chosen(robot, forces, written.get(Y), written.get(a))
         if chosen is not None:
             found[a] = chosen
+    if REFERENCE in written and "a" not in found and REFERENCE in answer_ring.rules and is_free(robot, "a"):
+        forces = reference_forces(robot, *map(answer_ring.key, ("D", "C", "g")))
+        chosen = _chosen(robot, forces, written[REFERENCE], None)
+        return found if chosen is None else {**found, "a": chosen}
     return found
+
+
+def other_references(robot: Robot, forces: Matrix, value: Callable[[str], Any]) -> bool:
+    """Whether forces are D q̈_r + C q̇_r + g with any C whose C q̇ is right and Ḋ - 2C skew."""
+    ring, D = robot.ring, value("D")
+    names = [reference(q.name) for q in robot.coordinates]
+    C = Matrix.of(ring, ([ring.coefficient(force, name, 1) for name in names] for force in forces.entries))
+    skew = D.map(ring.time_derivative) - C - C
+    return (
+        reference_forces(robot, D, C, value("g")) == forces
+        and C @ velocities(robot) == value("Cqd")
+        and (skew + skew.T).is_zero
+    )
 
 
 def _chosen(robot: Robot, forces: Matrix, Y: Matrix | None, a: Matrix | None) -> Matrix | None:

@@ -21,6 +21,7 @@ from dynsolve.quantities.family import Kind
 from dynsolve.quantities.index import Quantities, Shape, quantities
 from dynsolve.quantities.spelling import key, open_index, subscripts
 from dynsolve.robot.model import Coordinate, JointType
+from dynsolve.robot.model_questions import reference
 
 _VECTORS = ("q", "theta", "Theta")
 _RUNNING = re.compile(r"(?:[vwcml]|omega|lin|rot)?[ijkn]{1,3}(?:-?1)?")
@@ -95,6 +96,10 @@ class Vocabulary:
         if name in self.others:
             return Meaning(self.others[name])
         return self._shorthand(name)
+
+    def is_reference(self, name: str) -> bool:
+        """Whether a name is the reference of a coordinate, of which there are rates."""
+        return name in self.others and name in {reference(q.name) for q in self.coordinates}
 
     def bare_symbol(self, text: str) -> Symbol | None:
         """The symbol of the problem that a name without scripts always is, None for other names."""
@@ -235,6 +240,8 @@ def vocabulary(problem: Problem) -> Vocabulary:
     others: dict[str, Symbol] = {"pi": Symbol("pi")}
     spoken = subscripts(coordinates)
     _add_derivatives(others, symbols, spoken)
+    if robot.ring.plan.references:
+        _add_references(others, symbols, coordinates)
     masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
     return Vocabulary(coordinates, symbols, others, quantities(robot), masses, solves, subscripts=spoken)
 
@@ -255,6 +262,19 @@ def _add_derivatives(
             for spelling, dots in spellings(name):
                 if spelling not in symbols:
                     others.setdefault(spelling, Symbol(q.name, dots))
+
+
+def _add_references(
+    others: dict[str, Symbol], symbols: dict[str, Symbol], coordinates: tuple[Coordinate, ...]
+) -> None:
+    """Every spelling of the reference rates: q1r_dot, qr1_dot, and q_1r under dots."""
+    for q in coordinates:
+        base, _ = split(q.name)
+        index = key(q.name)[len(base) :]
+        for name in (reference(q.name), f"{base}r{index}", f"q{q.index}r", f"qr{q.index}"):
+            for spelling, dots in spellings(name):
+                if spelling not in symbols:
+                    others.setdefault(spelling, Symbol(reference(q.name), dots))
 
 
 def spellings(name: str) -> list[tuple[str, int]]:

@@ -37,7 +37,7 @@ def _rate(node: Node, vocabulary: Vocabulary) -> Node | None:
         case Number() | Degrees():
             return ZERO
         case Symbol(name, dots):
-            if vocabulary.coordinate(node) is None:
+            if vocabulary.coordinate(node) is None and not vocabulary.is_reference(name):
                 return None
             return Symbol(name, dots + 1) if dots < 2 else None
         case Negative(argument):

@@ -114,3 +114,46 @@ def test_given_parameters_are_judged_entry_by_entry() -> None:
         ["0", "q1_ddot + q2_ddot", SECOND, "0", "g*cos(q1 + q2)"],
     ]
     assert judged(given, "Y", Y).verdict == "correct"
+
+
+REFERENCES = ARM.replace("find: [tau, Y, a]", "find: [Yr, a]")
+WITH_REFERENCES: Text = [
+    ["q1r_ddot", "cos(q2)*(2*q1r_ddot + q2r_ddot) - sin(q2)*(q2_dot*q1r_dot + (q1_dot + q2_dot)*q2r_dot)",
+     "q2r_ddot", "g*cos(q1)", "g*cos(q1 + q2)"],
+    ["0", "cos(q2)*q1r_ddot + sin(q2)*q1_dot*q1r_dot", "q1r_ddot + q2r_ddot", "0", "g*cos(q1 + q2)"],
+]  # fmt: skip
+
+
+def test_reference_rates() -> None:
+    found = judge(REFERENCES, {"Yr": WITH_REFERENCES, "a": SPONG_A})
+    assert verdicts(found) == {"Yr": "correct", "a": "correct"}
+    assert judged(REFERENCES, "Yr", WITH_REFERENCES).verdict == "correct"
+
+
+def test_another_c_that_keeps_the_product_but_is_not_skew_is_wrong() -> None:
+    other = put(
+        WITH_REFERENCES, 0, 1, "cos(q2)*(2*q1r_ddot + q2r_ddot) - sin(q2)*(2*q1_dot + q2_dot)*q2r_dot"
+    )
+    found = judged(REFERENCES, "Yr", other, a=SPONG_A)
+    assert found.verdict == "wrong"
+
+
+def test_another_skew_c_is_right() -> None:
+    """With S skew and S q̇ = 0, C + S is as good as C: three coordinates have such an S."""
+    problem = """
+gravity: none
+dh: [{d: d1*, alpha: 90deg}, {theta: 90deg, d: d2*, alpha: 90deg}, {d: d3*}]
+masses: [{mass: m, link: 3, center: origin}]
+find: [Yr, a]
+"""
+    plain: Text = [["d1r_ddot"], ["d2r_ddot"], ["d3r_ddot"]]
+    turned: Text = [
+        ["d1r_ddot + d3_dot*d2r_dot - d2_dot*d3r_dot"],
+        ["d2r_ddot - d3_dot*d1r_dot + d1_dot*d3r_dot"],
+        ["d3r_ddot + d2_dot*d1r_dot - d1_dot*d2r_dot"],
+    ]
+    assert judged(problem, "Yr", plain, a=[["m"]]).verdict == "correct"
+    found = judged(problem, "Yr", turned, a=[["m"]])
+    assert found.verdict == "correct"
+    assert found.notes == ("right with another choice of C than Christoffel's",)
+    assert judged(problem, "Yr", put(turned, 0, 0, "d1r_ddot + d2_dot*d3r_dot"), a=[["m"]]).verdict == "wrong"
