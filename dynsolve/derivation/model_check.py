@@ -9,6 +9,7 @@ factorization with fewer columns gives that table.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from math import pi
 from random import Random
 from typing import Any
@@ -17,7 +18,7 @@ from dynsolve.derivation.arm_values import draw_values
 from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
-from dynsolve.notation.tree_values import compile_trees
+from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.quantities.model_families import PARAMETERS
 from dynsolve.robot.model import Robot
 from dynsolve.robot.model_questions import reference
@@ -57,9 +58,7 @@ def verify_references(robot: Robot, results: Mapping[str, Node], states: int = 5
     names = [reference(q.name) for q in robot.coordinates]
     for _ in range(states):
         own = {f"{name}_{dots}": random.uniform(-1.5, 1.5) for name in names for dots in ("dot", "ddot")}
-        _, (Y, a, D, C, g) = draw_values(
-            robot, random, lambda values, own=own: program.run({**values, **own})
-        )
+        _, (Y, a, D, C, g) = draw_values(robot, random, partial(_run, program, own))
         forces = [
             sum(
                 d * own[f"{name}_ddot"] + c * own[f"{name}_dot"]
@@ -70,6 +69,10 @@ def verify_references(robot: Robot, results: Mapping[str, Node], states: int = 5
         ]
         if not _is_product(Y, a, forces):
             raise VerificationError("Yr a differs from D q̈_r + C q̇_r + g; this is a fault of dynsolve")
+
+
+def _run(program: Program, more: Mapping[str, float], values: Mapping[str, float]) -> list[Any]:
+    return program.run({**values, **more})
 
 
 def verify_model(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
