@@ -11,7 +11,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.slips import slip
 from dynsolve.answers.verdict import Diagnosis
-from dynsolve.derivation import actions
+from dynsolve.derivation import actions, vectorized
 from dynsolve.derivation.kinematics import frame_names
 from dynsolve.quantities import action_families, families
 from dynsolve.quantities.family import Family
@@ -58,6 +58,17 @@ def _spring_energy(robot: Robot, twice: Callable[[Expr, Expr, Expr], Expr]) -> E
         energy = spring.energy if law is None else twice(law.stiffness, law.of, law.rest) / 2
         total = total + energy
     return total
+
+
+def _without_springs(robot: Robot, value: InputValue) -> Iterator[Variant]:
+    """g = ∂P/∂q without the forces of the springs."""
+    if robot.actions.springs:
+        yield value("g") - vectorized.gravity_vector(robot, value("Ps")), slip("springs_missing")
+
+
+def _lagrangian(robot: Robot, value: InputValue) -> Iterator[Variant]:
+    if robot.actions.springs:
+        yield value("K") - value("P") + value("Ps"), slip("springs_missing")
 
 
 def _potential(robot: Robot, value: InputValue) -> Iterator[Variant]:
@@ -122,13 +133,14 @@ def _friction(robot: Robot, value: InputValue) -> Iterator[Variant]:
 
 
 def _resisted(robot: Robot, k: int, value: InputValue) -> Iterator[Variant]:
-    if "friction" not in robot.actions.kinds:
-        return
-    friction: Expr = value("friction")[k - 1, 0]
-    driven = value(f"ddt{k}") - value(f"dLdq{k}")
+    """A force without friction, with friction of the wrong sign, without springs."""
+    ring, driven = robot.ring, value(f"ddt{k}") - value(f"dLdq{k}")
+    friction: Expr = value("friction")[k - 1, 0] if "friction" in robot.actions.kinds else ring.zero
     if not friction.is_zero:
         yield driven, slip("friction_missing")
         yield driven - friction, slip("friction_sign")
+    if robot.actions.springs and not (held := ring.diff(value("Ps"), k - 1)).is_zero:
+        yield driven + friction - held, slip("springs_missing")
 
 
 _OF_ROBOT: dict[Family, Callable[[Robot, InputValue], Iterator[Variant]]] = {
@@ -137,4 +149,6 @@ _OF_ROBOT: dict[Family, Callable[[Robot, InputValue], Iterator[Variant]]] = {
     action_families.FRICTION: _friction,
     families.P: _potential,
     families.K: _kinetic,
+    families.L: _lagrangian,
+    families.G: _without_springs,
 }
