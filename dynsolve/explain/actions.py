@@ -14,7 +14,7 @@ from dynsolve.derivation.kinematics import frame_names
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.citations import siciliano
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed, side_by_side, sum_of
 from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import (
@@ -205,6 +205,7 @@ def friction_steps(context: Context) -> Iterator[Step]:
         working=tuple(_dissipation(context)),
         result=(equation(letters.FRICTION, context.form("friction")),),
         entries=tuple((letters.friction(q.index),) for q in robot.coordinates),
+        detail=Detail.BRIEF,
     )
 
 
