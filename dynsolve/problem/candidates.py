@@ -83,7 +83,7 @@ def _read_matrices(
             at = key.start + error.offset
             faults.error((at, at + error.length), error.message, error.help)
             continue
-        rows = read_square(faults, value, name, n, CANDIDATES.help)
+        rows = read_square(faults, value, name, n, CANDIDATES.help) if n else None
         if rows is not None:
             yield name, rows
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -11,7 +11,7 @@ from dynsolve.errors import ReadError
 from dynsolve.notation.names import normalize
 from dynsolve.notation.text import Name
 from dynsolve.problem.cells import Cell, made_cell, read_angle, read_cell
-from dynsolve.problem.fields import Fields, describe, did_you_mean, items
+from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
 from dynsolve.problem.linear import NotLinear, linear_rates
 from dynsolve.problem.motor_coordinates import motor_coordinates
 from dynsolve.problem.source import Faults
@@ -177,7 +177,7 @@ def _ordered(faults: Faults, fields: Fields, kinds: dict[str, str], whole: bool)
         return kinds
     example = f"write coordinates: [{', '.join(kinds)}]"
     order: dict[str, str] = {}
-    for item in items(faults, fields.get("coordinates"), "coordinates", example):
+    for item in _listed(faults, fields.get("coordinates"), kinds, example):
         name = coordinate_name(faults, item, example)
         if name is None:
             continue
@@ -192,6 +192,20 @@ def _ordered(faults: Faults, fields: Fields, kinds: dict[str, str], whole: bool)
     if missing and order:
         faults.error(fields.key_span("coordinates"), f"coordinates leaves out {', '.join(missing)}", example)
     return order | {name: kinds[name] for name in missing}
+
+
+def _listed(faults: Faults, node: YamlNode | None, kinds: dict[str, str], example: str) -> Iterator[YamlNode]:
+    """The names of a list, or those of a mapping to their types, which are compared with the table's."""
+    if not isinstance(node, MappingNode):
+        yield from items(faults, node, "coordinates", example)
+        return
+    for key, value in node.entries:
+        kind = word(faults, value, tuple(_KINDS.values()), f"the type of {key.decoded}")
+        own = kinds.get(key.decoded.removesuffix("*"))
+        if kind is not None and own is not None and kind != own:
+            message = f"{key.decoded} is {own} in the table, and {kind} here"
+            faults.error(value.span, message, "a star in theta makes it revolute, in d prismatic")
+        yield key
 
 
 def coordinate_name(faults: Faults, node: YamlNode, example: str) -> str | None:

@@ -10,14 +10,18 @@ from tests.oracle.reading import load
 from tests.support import ALL_PROBLEMS, LIBRARY, solve_json
 
 STEMS = {
+    "ball-and-beam",
     "box-cylinder-rod-sphere",
     "cartesian-pp",
+    "cart-pole",
     "crustcrawler-2r",
     "cylindrical-rpp",
     "elastic-joint",
     "elbow-3r",
     "five-bar",
+    "furuta-pendulum",
     "in3140-rp",
+    "inertia-candidates",
     "inf3480-painting-rrp",
     "inf3480-ppr",
     "inf3480-rpr",
@@ -32,6 +36,7 @@ STEMS = {
     "planar-2r-remote",
     "planar-3r-redundant",
     "planar-rrp-task",
+    "pr-factorizations",
     "puma560",
     "puma560-first3",
     "rp-vertical",

@@ -12,9 +12,7 @@ import pytest
 from tests.oracle.mechanism import torques
 from tests.support import ROOT, assert_close, numbers, solve_json
 
-FILES = [
-    p for p in sorted((ROOT / "tests" / "golden" / "models").glob("*.yaml")) if "candidates" not in p.stem
-]
+FILES = sorted((ROOT / "tests" / "golden" / "models").glob("*.yaml"))
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

@@ -10,7 +10,7 @@ from dynsolve.answers.verdict import JudgedAnswer
 from dynsolve.problem import Problem, load, read_problem
 from tests.support import ROOT
 
-EXAM = load(ROOT / "tests" / "golden" / "models" / "sapienza-2019-04-candidates.yaml")
+EXAM = load(ROOT / "problems" / "inertia-candidates.yaml")
 ONE = read_problem("model:\n  coordinates: {q: revolute}\n  D: [[a + b*cos(q)]]\nfind: [definite]\n")
 
 

@@ -16,7 +16,7 @@ from dynsolve.render.formats import Format
 from dynsolve.solution.reports import report
 from tests.support import ROOT, solve_json
 
-EXAM = ROOT / "tests" / "golden" / "models" / "sapienza-2019-04-candidates.yaml"
+EXAM = ROOT / "problems" / "inertia-candidates.yaml"
 
 
 def file(matrix: str, assume: str = "[]", more: str = "") -> str:

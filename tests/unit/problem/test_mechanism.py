@@ -99,3 +99,34 @@ def test_a_turn_may_be_divided_by_a_length() -> None:
     ).robot.bodies
     by_x, by_th = body_.turns[0].rates.entries
     assert -by_x * by_x.ring.symbol("R") == by_th == by_x.ring.one
+
+
+ONE = "candidates: {M: [[a]]}\ncoordinates: {x: prismatic}\n"
+TWO = "coordinates: {x: prismatic, q: revolute}\n"
+
+CANDIDATES = {
+    "no coordinates": ("«candidates»: {M: [[a]]}", "no `coordinates`", "{q1: revolute"),
+    "of another size": (f"{TWO}candidates: {{M: «[[a]]»}}", "1 rows, not 2", "Ma"),
+    "beside a table": (f"{ONE}«dh»: [{{d: x*}}]", "beside `candidates`", "delete"),
+    "no inequality": (f"{ONE}assume: [«a»]", "no inequality", "a1 > a2"),
+    "of no candidate": (f"{ONE}assume: {{«N»: [a > 0]}}", "no candidate N", "by its name"),
+    "of a coordinate": (f"{ONE}assume: [«x» > 0]", "the coordinate x", "parameters"),
+    "another answer": (f"{ONE}find: [«D»]", "no answer of this problem", "answers"),
+}
+
+
+@pytest.mark.parametrize("name", CANDIDATES)
+def test_a_fault_of_candidates_is_told_at_its_place(name: str) -> None:
+    marked, message, remedy = CANDIDATES[name]
+    text, wanted = unmarked(marked)
+    found = errors(text)
+    assert places(found) == wanted
+    assert message in found[0].message
+    assert remedy in found[0].help
+
+
+def test_coordinates_of_a_table_may_be_given_with_their_types() -> None:
+    text = "dh: [{theta: q1*, a: l1}, {d: d2*}]\ncoordinates: {d2: prismatic, q1: revolute}\n"
+    assert [q.name for q in read_problem(text).robot.coordinates] == ["d2", "q1"]
+    wrong, wanted = unmarked(text.replace("q1: revolute", "q1: «prismatic»"))
+    assert places(errors(wrong)) == wanted
