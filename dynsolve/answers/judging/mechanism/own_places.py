@@ -178,8 +178,10 @@ class OwnPlaces:
     def base(self) -> Displacement | None:
         """The student's frame 0 seen from the key's; None where they are one."""
         match = self.found.matches[0]
-        if self.modified and (self.table[0].constants[2:] != self._first_of_key()):
+        if self.modified and self.table[0].constants[2] != self.key.joints[0].written[2]:
             raise NotExact
+        if any(abs(abs(m.base[2][2]) - 1) > _TOLERANCE for m in self.found.matches):
+            raise NotExact  # z_0 is neither along the key's nor against it
         R = elementary(self.ring, "z", Angle((), self._turn()))
         if match.is_turned_over:
             R = R @ elementary(self.ring, "x", _HALF_TURN)
@@ -192,9 +194,6 @@ class OwnPlaces:
     def start(self) -> Displacement:
         """The student's frame 0 seen from the key's."""
         return self.base or Displacement(Matrix.identity(self.ring, 3), Matrix.zero(self.ring, 3, 1))
-
-    def _first_of_key(self) -> tuple[Node, ...]:
-        return tuple(self.key.joints[0].written[2:])
 
     def _length(self, values: Sequence[float]) -> Node:
         """The sum of lengths of the tables that has these values at the draws of the letters."""

@@ -143,6 +143,13 @@ springs: [{stiffness: k, of: q2 - q1, rest: delta}]
 motors: [{turns: q2, inertia: Im, ratio: kr}]
 find: [DH, D, g]
 """
+CRAIG = """
+convention: modified
+gravity: [0, -g, 0]
+dh: [{theta: q1*}, {theta: q2*, a: l1}, {a: l2}]
+masses: [{mass: m1, link: 1, center: [lc1, 0, 0]}, {mass: m2, link: 2, center: [lc2, 0, 0]}]
+find: [DH, D, g]
+"""
 OTHER: dict[str, tuple[str, list[list[str]], dict[str, tuple[int, float]]]] = {
     # problem, table, the key's coordinates in the student's: q = sense q' + shift
     "axes from the base": (
@@ -154,6 +161,9 @@ OTHER: dict[str, tuple[str, list[list[str]], dict[str, tuple[int, float]]]] = {
         REMOTE, [["p1", "0", "l1", "180deg"], ["p1 - p2 + 90deg", "0", "l2", "0"]], {"p2": (1, -pi / 2)}),
     "springs, friction and a motor": (
         SPRUNG, [["q1", "0", "l1", "180deg"], ["q2 + 90deg", "0", "l2", "0"]], {"q2": (-1, -pi / 2)}),
+    "the modified convention, z_1 turned over": (
+        CRAIG, [["q1", "0", "0", "180deg"], ["q2", "0", "l1", "180deg"], ["0", "0", "l2", "0"]],
+        {"q1": (-1, 0)}),
     "a task and forces": (
         LOADED, [["q1", "h", "0", "-90deg"], ["q2 - 90deg", "0", "l2", "0"], ["q3", "0", "l3", "180deg"]],
         {"q2": (-1, pi / 2), "q3": (-1, 0)}),
