@@ -126,9 +126,9 @@ class Matching:
         return tuple(sorted(islice(ways, _MOST_WAYS), key=self._changes)) or self.deepest
 
     def _changes(self, match: Match) -> tuple[int, bool]:
-        """How many joints are counted otherwise, frame 0 turned being one more; whether it is."""
+        """How many joints are counted otherwise, and frame 0 turned or turned over; whether it is."""
         joints = zip(match.senses, match.offsets, self.key.joints, strict=True)
-        turned = abs(match.turn) > _SEEN
+        turned = match.is_turned_over or abs(match.turn) > _SEEN
         changed = sum(sense < 0 or is_seen(offset, joint.turns) for sense, offset, joint in joints)
         return turned + changed, turned
 
