@@ -8,7 +8,8 @@ from dynsolve.notation.tree import Node
 from dynsolve.problem.cells import read_cell
 from dynsolve.problem.fields import Fields, describe, items, word
 from dynsolve.problem.source import Faults
-from dynsolve.problem.specification import MAX_ROWS, PROBLEM, ROW, STRICT
+from dynsolve.problem.specification import MAX_ROWS, PROBLEM, STRICT
+from dynsolve.problem.table import COLUMNS
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, YamlNode
 
 Table = tuple[tuple[Node, ...], ...]
@@ -47,7 +48,7 @@ def _read_table(faults: Faults, node: YamlNode, number: int) -> Table | None:
 def _read_row(faults: Faults, node: YamlNode, index: int) -> tuple[Node, ...] | None:
     if isinstance(node, FaultyNode):
         return None
-    columns = ROW.names
+    columns = COLUMNS
     if not isinstance(node, ListNode) or len(node.items) != len(columns):
         found = f"{len(node.items)} cells" if isinstance(node, ListNode) else describe(node)
         faults.error(node.span, f"row {index} of this table is [θ, d, a, α], not {found}", _HELP)
