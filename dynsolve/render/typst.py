@@ -125,7 +125,7 @@ class _Page(TypesetPage):
     def block(self, block: Block) -> Iterator[str]:
         """One block; the last display stays on the page of the sentences that follow it."""
         if block is self.last_display:
-            yield "#block(sticky: true)["
+            yield "#block(sticky: true, width: 100%)["
             yield from super().block(block)
             yield "]"
         else:
