@@ -141,6 +141,14 @@ def _questions(robot: Robot) -> Iterator[Line]:
         yield _line(letters.bold("r"), "from the point of a given tensor to its mass centre", "m")
     yield _line(letters.J_TASK, "Jacobian of the task; with + its pseudoinverse", "", ("J", "bold", "r^"))
     yield _line(letters.WEIGHTS, "weights of the joint rates")
+    yield _line(Letter("N", style="script"), "null space of a matrix")
+    if "rangespace" in robot.questions.asked:  # else a dissipation function has this letter
+        yield _line(Letter("R", style="script"), "range space of a matrix")
+    at = [
+        (_numbered("p"), "position of a point"),
+        (Letter("p", _I, _I, "bold"), "the same in its link's frame"),
+    ]
+    yield _each(at, "", "m")
     yield _line([letters.bold("w"), _numbered("w")], "direction that is lost where the arm is singular")
     yield _line(
         [Letter(name) for name in CONSTANTS_OF_SOLUTIONS], "constants of a solution, given where they stand"
