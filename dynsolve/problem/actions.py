@@ -138,8 +138,14 @@ _TAKEN = {"springs": ("s", "P_s", "the springs"), "motors": ("m", "K_m", "the ro
 """The body's name, and what it would call by the same letter as these."""
 
 
-def check_body_names(faults: Faults, fields: Fields, parsed: ParsedActions, bodies: Collection[str]) -> None:
-    """Report a body whose energy would be called as that of the springs, or of the rotors."""
+def check_bodies(
+    faults: Faults, fields: Fields, parsed: ParsedActions, bodies: Collection[str], has_mass: bool
+) -> None:
+    """Report that nothing has mass, and a body whose energy would be called as that of springs or rotors."""
+    if not has_mass:
+        key = next(key for key in KEYS if key in fields)
+        message = f"`{key}` stands in the equations of motion, and nothing has mass"
+        faults.error(fields.key_span(key), message, "give the bodies under `masses`")
     for kind in sorted(parsed.kinds & _TAKEN.keys()):
         name, letter, of = _TAKEN[kind]
         if name in bodies:

@@ -15,7 +15,7 @@ from pathlib import Path
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.accepted_tables import read_accepted_tables
 from dynsolve.problem.actions import KEYS as ACTING
-from dynsolve.problem.actions import NO_ACTIONS, check_body_names, read_actions
+from dynsolve.problem.actions import NO_ACTIONS, check_bodies, read_actions
 from dynsolve.problem.base import NO_BASE, NO_GRAVITY, read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
@@ -152,7 +152,8 @@ def _parsed(faults: Faults, fields: Fields) -> ParsedFile:
     acts = any(key in fields for key in ACTING)
     actions = read_actions(faults, fields, rows, coordinates) if acts else NO_ACTIONS
     if acts:
-        check_body_names(faults, fields, actions, [body.name for body in bodies])
+        has_mass = bool(bodies) or model is not None
+        check_bodies(faults, fields, actions, [body.name for body in bodies], has_mass)
     return ParsedFile(
         convention=convention,
         table=table,

@@ -103,6 +103,24 @@ def test_faults(marked: str, message: str, help: str) -> None:
     assert message in found[0].message and help in found[0].help
 
 
+@pytest.mark.parametrize(
+    ("marked", "message"),
+    [
+        ("dh: [{theta: q1*}]\n«friction»: {q1: f}", "nothing has mass"),
+        ("dh: [{theta: q1*}]\nmasses: [{mass: m, name: s, link: 1}]\n«springs»: [{energy: k*q1^2}]", "P_s"),
+        (
+            "dh: [{theta: q1*}]\nmasses: [{mass: m, name: m, link: 1}]\n«motors»: [{turns: q1, inertia: J}]",
+            "K_m",
+        ),
+    ],
+)
+def test_what_must_be_there_beside_them(marked: str, message: str) -> None:
+    text, underlined = unmarked(marked)
+    found = errors(text)
+    assert places(found) == underlined
+    assert message in found[0].message
+
+
 def test_of_each_there_are_at_most_twenty() -> None:
     (found,) = errors(ARM + f"dampers: [{', '.join(['{damping: b, of: q1}'] * 21)}]")
     assert "21 dampers; at most 20 are read" in found.message
