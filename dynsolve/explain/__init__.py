@@ -52,6 +52,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     recursions  the Newton-Euler recursions, link by link
     actions     what acts beside gravity: springs, rotors, friction
     acting      where their steps are imported, of robots that have any
+    density     a rod whose density varies, by integration
     terms       what each term of a force is: inertial, centrifugal, Coriolis, friction, gravity
     sanity      checks that a person can do on the finished model
     closing     the step of D q̈ + C q̇ + g = τ

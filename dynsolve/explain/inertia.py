@@ -12,6 +12,7 @@ from dynsolve.derivation import inertia
 from dynsolve.document import Prose
 from dynsolve.explain.citations import LYNCH_PARK
 from dynsolve.explain.context import Context
+from dynsolve.explain.density import density_step
 from dynsolve.explain.mass_centers import is_given_by, mass_center_step
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.step import Detail, Step
@@ -65,6 +66,8 @@ def steps(context: Context) -> Iterator[Step]:
     )
     placed = not context.robot.has_table
     for body in bodies:
+        if body.density is not None:
+            yield density_step(context, body, body.density)
         yield (
             center_step(context, body)
             if placed
@@ -115,7 +118,9 @@ def _tensor(context: Context, body: Body) -> Step:
         tensor = Letter("I", Row((letters.index_of(body.name), Words(","), Words("given"))), None, "bold")
         about = f"the origin of frame {body.link}" if body.about == "origin" else "the near end of its link"
     formula, working, why = _shape(context, body)
-    if body.shape is None or not body.shape.formulas:
+    if body.density is not None:
+        why = (f"That of {name_of(body)}, found above: nothing across the rod, and the same on both sides.",)
+    elif body.shape is None or not body.shape.formulas:
         why = (f"The tensor of {name_of(body)} is given, about {about}, along the axes of its own frame.",)
     return Step(
         id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",

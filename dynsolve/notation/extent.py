@@ -18,6 +18,7 @@ from dynsolve.notation.tree import (
     Derivative,
     Entry,
     Function,
+    Integral,
     Letter,
     Matrix,
     Negative,
@@ -149,6 +150,9 @@ class Ruler:
             case BigSum(body, index, lower, upper):
                 under = max(self.index(index) + self.index(lower) + 0.7, self.index(upper), _SUM_SIGN)
                 return under + _THIN + self._factor(body)
+            case Integral(body, variable, lower, upper):
+                bounds = max(self.index(lower), self.index(upper))
+                return _SUM_SIGN + bounds + self._factor(body) + 2 * _THIN + 0.6 + self.width(variable)
             case Parenthesized(argument):
                 return self.width(argument) + 2 * TALL_PARENTHESIS
             case Relation(parts):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.printing import PLAIN, Style, decimal_text
-from dynsolve.notation.tree import BigSum, Degrees, Node, Words
+from dynsolve.notation.tree import BigSum, Degrees, Integral, Node, Words
 
 _DOTS = ("", r"\dot", r"\ddot", r"\dddot")
 _STYLES = {"bold": r"\mathbf", "script": r"\mathcal", "upright": r"\mathrm"}
@@ -121,6 +121,10 @@ class LatexPrinter(FormulaPrinter):
 
     def _words(self, node: Words) -> str:
         return rf"\text{{{escaped(node.text)}}}"
+
+    def _integral(self, node: Integral) -> str:
+        sign = self._scripted(r"\int", self.text(node.lower), self.text(node.upper))
+        return rf"{sign} {self._summand(node.body)} \, \mathrm{{d}} {self.text(node.variable)}"
 
     def _big_sum(self, node: BigSum) -> str:
         below = f"{self.text(node.index)}={self.text(node.lower)}"

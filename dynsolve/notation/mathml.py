@@ -12,7 +12,7 @@ from html import escape
 from dynsolve.notation.characters import GREEK, script_letter
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.printing import PLAIN, Style, decimal_text
-from dynsolve.notation.tree import BigSum, Degrees, Function, Node, Number, Words
+from dynsolve.notation.tree import BigSum, Degrees, Function, Integral, Node, Number, Words
 
 MINUS = '<mo form="prefix">\u2212</mo>'
 """The minus of a negative; between two terms it is another."""
@@ -134,6 +134,11 @@ class MathMLPrinter(FormulaPrinter):
     def _words(self, node: Words) -> str:
         text = escape(node.text).replace(" ", "\u00a0")
         return f"<mtext>{text}</mtext>"
+
+    def _integral(self, node: Integral) -> str:
+        bounds = self._one(self.text(node.lower)) + self._one(self.text(node.upper))
+        variable = f'<mspace width="0.17em"/><mi mathvariant="normal">d</mi>{self.text(node.variable)}'
+        return f"<msubsup><mo>∫</mo>{bounds}</msubsup>{self._summand(node.body)}{variable}"
 
     def _big_sum(self, node: BigSum) -> str:
         under = row(f"{self.text(node.index)}<mo>=</mo>{self.text(node.lower)}")

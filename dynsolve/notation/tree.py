@@ -222,6 +222,16 @@ class BigSum(Node):
 
 
 @node_class
+class Integral(Node):
+    """∫_lower^upper body d(variable)"""
+
+    body: Node
+    variable: Node
+    lower: Node
+    upper: Node
+
+
+@node_class
 class Parenthesized(Node):
     """(argument), where the parentheses are wanted though no rule of precedence asks for them."""
 

@@ -11,6 +11,7 @@ from dynsolve.notation.tree import (
     BigSum,
     Degrees,
     Function,
+    Integral,
     Node,
     Parenthesized,
     Row,
@@ -109,6 +110,10 @@ class TypstPrinter(FormulaPrinter):
         for part in map(self.text, node.parts):
             text += part if not text or '"' in (text[-1], part[0]) else " " + part
         return text
+
+    def _integral(self, node: Integral) -> str:
+        sign = self._scripted("integral", self.text(node.lower), self.text(node.upper))
+        return f"{sign} {self._summand(node.body)} dif {self.text(node.variable)}"
 
     def _big_sum(self, node: BigSum) -> str:
         below = f"{self.text(node.index)} = {self.text(node.lower)}"

@@ -33,6 +33,7 @@ from dynsolve.notation.tree import (
     Degrees,
     Derivative,
     Function,
+    Integral,
     Letter,
     Negative,
     Node,
@@ -214,6 +215,10 @@ class UnicodePrinter(FormulaPrinter):
 
     def _words(self, node: Words) -> str:
         return printable(node.text)
+
+    def _integral(self, node: Integral) -> str:
+        sign = self._scripted("∫", self._index(node.lower), self._index(node.upper))
+        return f"{sign} {self._summand(node.body)} d{self.text(node.variable)}"
 
     def _big_sum(self, node: BigSum) -> str:
         below = f"{self._index(node.index)}={self._index(node.lower)}"

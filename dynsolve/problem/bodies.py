@@ -7,7 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+from dynsolve.notation.tree import Node, Number
 from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix
+from dynsolve.problem.density import cell_of, line_density
 from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
@@ -26,7 +28,7 @@ from dynsolve.problem.specification import (
 )
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, MappingNode, ScalarNode, Span, YamlNode
 from dynsolve.robot.model import AxesKind
-from dynsolve.robot.shapes import AXES, KINDS
+from dynsolve.robot.shapes import AXES, KINDS, LineDensity
 
 _NAME = re.compile(r"[A-Za-uxyzXYZ]?[0-9]*")
 _EXAMPLE = PROBLEM["masses"].help
@@ -41,6 +43,7 @@ class ParsedShape:
     span: Span
     dimensions: Mapping[str, Cell]
     axis: str = ""
+    density: Cell | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +84,7 @@ class ParsedBody:
     about: str
     axes: ParsedAxes | None
     faulty: bool
+    density: LineDensity | None = None
 
     @property
     def is_point(self) -> bool:
@@ -143,10 +147,11 @@ def _read_body(
             faults.error(node.span, f"body {index} is not a mapping but {describe(node)}", _EXAMPLE)
         return None
     fields = Fields(faults, node, BODY.names, f"body {index}")
-    for key in BODY.required:
-        if fields.lacks(key.name):
-            faults.error(node.span, f"body {index} has no `{key.name}`", f"add {key.help}")
     shape = _read_shape(faults, fields.get("shape"), f"body {index}")
+    varies = shape is not None and shape.density is not None
+    for name in ("link",) if varies else ("mass", "link"):
+        if fields.lacks(name):
+            faults.error(node.span, f"body {index} has no `{name}`", f"add {BODY[name].help}")
     tensor = read_tensor(faults, fields.get("inertia"), f"body {index}")
     link = read_link(faults, fields.get("link"), rows, "whose bodies do not move")
     parsed = ParsedBody(
@@ -156,13 +161,15 @@ def _read_body(
         name=read_name(faults, fields.get("name"), index),
         mass=read_cell(faults, fields.get("mass"), f"the mass of body {index}"),
         link=link,
-        center=drawn.place(faults, _read_center(faults, fields, index), link),
+        center=None if varies else drawn.place(faults, _read_center(faults, fields, index), link),
         shape=shape,
         tensor=tensor,
         about=_read_about(faults, fields, index),
         axes=_in_drawn_pose(_read_axes(faults, fields.get("axes"), index, coordinates), link, drawn),
         faulty=False,
     )
+    if varies:
+        parsed = _integrated(faults, parsed)
     forbid(
         faults,
         (*parsed.values, *parsed.turns),
@@ -170,6 +177,35 @@ def _read_body(
         "it is constant in the link: joint variables stand in the table",
     )
     return replace(parsed, faulty=len(faults.errors) > before)
+
+
+def _integrated(faults: Faults, parsed: ParsedBody) -> ParsedBody:
+    """A rod with a density: its mass, centre and tensor follow; a key that would say them too is reported."""
+    shape = parsed.shape
+    assert shape is not None
+    assert shape.density is not None
+    for key in ("mass", "center", "inertia"):
+        if key in parsed.fields:
+            message = f"body {parsed.index} has a density, from which its {key} follows"
+            faults.error(parsed.fields.key_span(key), message, f"delete {key}, or the density")
+    found = line_density(faults, shape.density, shape.dimensions["length"], shape.axis)
+    if found is None:
+        return parsed
+    where = AXES.index(found.axis)
+
+    def cell(tree: Node) -> Cell:
+        return cell_of(shape.density, f"the density of body {parsed.index}", tree)
+
+    zero, across = cell(Number(0)), cell(found.across)
+    place = tuple(cell(found.center) if k == where else zero for k in range(3))
+    rows = tuple(tuple(across if i == j != where else None for j in range(3)) for i in range(3))
+    return replace(
+        parsed,
+        mass=cell(found.mass),
+        center=ParsedPlace("near", shape.density.span, place),
+        tensor=ParsedTensor(shape.density.span, rows, listed=False),
+        density=found,
+    )
 
 
 def read_name(faults: Faults, node: YamlNode | None, index: int) -> str:
@@ -278,7 +314,10 @@ def _read_dimensions(
     found = {key: cell for key, cell in cells.items() if cell}
     if len(found) < len(lengths) or axis is None:
         return None
-    return ParsedShape(kind, span, found, axis)
+    density = (
+        read_cell(faults, fields.get("density"), f"the density of {body}") if "density" in fields else None
+    )
+    return ParsedShape(kind, span, found, axis, density)
 
 
 def read_tensor(faults: Faults, node: YamlNode | None, body: str) -> ParsedTensor | None:

@@ -140,9 +140,12 @@ class BodyBuilder:
             about=parsed.about,
             about_point=about,
             center_written=written,
+            density=parsed.density,
         )
 
     def _written(self, parsed: ParsedBody) -> str:
+        if parsed.density is not None:  # the centre follows from it, and counts from the near end
+            return "near"
         if parsed.center is None or "center" not in parsed.fields:
             return "tip"
         return self.faults.source.text[slice(*parsed.center.span)]

@@ -106,6 +106,8 @@ def dimensions(shape: str) -> Keyed:
     keys = [Key(name, EXPRESSION, example="...", required=True) for name in kind.keys]
     if kind.has_axis:
         keys.append(Key("axis", AXIS, "The axis in the body-attached frame.", "x"))
+    if kind.varies:
+        keys.append(Key("density", EXPRESSION, "The mass per length, a polynomial in x.", "rho0*(1 + x/l)"))
     return Keyed(tuple(keys))
 
 
@@ -127,9 +129,9 @@ BODY = Keyed(
         Key(
             "mass",
             EXPRESSION,
-            "A symbol, a number or an expression.",
+            "A symbol, a number or an expression; it follows where a shape has a density.",
             "m1",
-            required=True,
+            "must be given, or a `density`",
             remedy="mass: m1",
         ),
         Key(

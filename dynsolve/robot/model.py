@@ -22,7 +22,7 @@ from dynsolve.notation.tree import Node
 from dynsolve.robot.actions import NOTHING_ACTS, Actions
 from dynsolve.robot.mechanism import BodyTurn, GivenModel
 from dynsolve.robot.questions import Questions
-from dynsolve.robot.shapes import Shape
+from dynsolve.robot.shapes import LineDensity, Shape
 
 
 class Convention(Enum):
@@ -137,6 +137,7 @@ class Body:
     `center` is the mass centre in frame `link` (3×1).  `inertia` is the tensor in
     the body-attached frame (3×3, kg m²), about `about_point` (3×1 in frame `link`)
     or, where that is None, about the mass centre.  A point mass has inertia None.
+    `density` is that of a rod whose mass, centre and tensor follow from it.
     `center_written` and `about` say how the file gave them (`tip`, `midpoint`,
     `origin`, ...), for the explanation.  A body of a mechanism by positions has link 0, a
     centre in the world that is a function of the coordinates, and `turns`.
@@ -152,6 +153,7 @@ class Body:
     about: str = "center"
     about_point: Matrix | None = None
     center_written: str = ""
+    density: LineDensity | None = None
     turns: tuple[BodyTurn, ...] = ()
 
     @property

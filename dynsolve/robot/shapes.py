@@ -38,7 +38,7 @@ class ShapeKind:
     `dimensions` are (key in the file, letter in the formulas).  `moments` are
     I_xx, I_yy, I_zz about the mass centre with the body's own axis along z.
     `has_axis` says whether the file may turn that axis, `along_link` whether it
-    lies along the link by default.
+    lies along the link by default, `varies` whether it may have a density.
     """
 
     name: str
@@ -46,6 +46,7 @@ class ShapeKind:
     moments: tuple[str, str, str] | None
     has_axis: bool = False
     along_link: bool = False
+    varies: bool = False
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -85,6 +86,7 @@ KINDS: Mapping[str, ShapeKind] = {
             ("m*l^2/12", "m*l^2/12", "0"),
             has_axis=True,
             along_link=True,
+            varies=True,
         ),
         ShapeKind("disk", (("radius", "r"),), ("m*r^2/4", "m*r^2/4", "m*r^2/2"), has_axis=True),
         ShapeKind("sphere", (("radius", "r"),), ("2*m*r^2/5",) * 3),
@@ -92,6 +94,24 @@ KINDS: Mapping[str, ShapeKind] = {
     )
 }
 """Every shape by its name."""
+
+
+@dataclass(frozen=True, slots=True)
+class LineDensity:
+    """A rod whose mass per length varies: ρ(x), x from its near end, along `axis` of the body's frame.
+
+    As formulas: its length, the integrals M_0 = ∫ ρ dx, M_1 = ∫ ρ x dx and M_2 = ∫ ρ x² dx over it, the place
+    M_1/M_0 of the mass centre, and the moment M_2 - M_1²/M_0 across the rod about it.
+    """
+
+    density: Node
+    length: Node
+    axis: str
+    mass: Node
+    first: Node
+    second: Node
+    center: Node
+    across: Node
 
 
 @dataclass(frozen=True, slots=True)

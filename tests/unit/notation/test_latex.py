@@ -13,6 +13,7 @@ from dynsolve.notation.tree import (
     Cross,
     Degrees,
     Derivative,
+    Integral,
     Letter,
     Matrix,
     Negative,
@@ -93,6 +94,10 @@ TEXTBOOK = [
         r"\frac{d}{dt} \left( \frac{\partial \mathcal{L}}{\partial \dot{\theta}_{1}} \right)",
     ),
     (Derivative(Symbol("x"), t, total=True), r"\frac{dx}{dt}"),
+    (
+        Integral(Product((Symbol("rho"), Symbol("x"))), Symbol("x"), Number(0), Symbol("l")),
+        r"\int_{0}^{l} \rho x \, \mathrm{d} x",
+    ),
     (BigSum(Product((Letter("m", i), Symbol("g"))), i, Number(1), Letter("n")), r"\sum_{i=1}^{n} m_{i} g"),
     (
         Matrix(((Number(1), Symbol("a")), (Number(0), Number(1)))),

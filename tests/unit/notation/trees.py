@@ -51,6 +51,7 @@ ONE_OF_EACH: list[tuple[Node, tuple[Node, ...]]] = [
     (tree.Derivative(A, B), (A, B)),
     (tree.Derivative(None, B, total=True), (B,)),
     (tree.BigSum(A, B, TWO, C), (A, B, TWO, C)),
+    (tree.Integral(A, B, TWO, C), (A, B, TWO, C)),
     (tree.Parenthesized(A), (A,)),
     (tree.Relation((A, B, C), ("=", "≈")), (A, B, C)),
 ]
