@@ -181,20 +181,20 @@ def _read_body(
 
 def _integrated(faults: Faults, parsed: ParsedBody) -> ParsedBody:
     """A rod with a density: its mass, centre and tensor follow; a key that would say them too is reported."""
-    shape = parsed.shape
+    shape, density = parsed.shape, parsed.shape and parsed.shape.density
     assert shape is not None
-    assert shape.density is not None
+    assert density is not None
     for key in ("mass", "center", "inertia"):
         if key in parsed.fields:
             message = f"body {parsed.index} has a density, from which its {key} follows"
             faults.error(parsed.fields.key_span(key), message, f"delete {key}, or the density")
-    found = line_density(faults, shape.density, shape.dimensions["length"], shape.axis)
+    found = line_density(faults, density, shape.dimensions["length"], shape.axis)
     if found is None:
         return parsed
     where = AXES.index(found.axis)
 
     def cell(tree: Node) -> Cell:
-        return cell_of(shape.density, f"the density of body {parsed.index}", tree)
+        return cell_of(density, f"the density of body {parsed.index}", tree)
 
     zero, across = cell(Number(0)), cell(found.across)
     place = tuple(cell(found.center) if k == where else zero for k in range(3))
@@ -202,8 +202,8 @@ def _integrated(faults: Faults, parsed: ParsedBody) -> ParsedBody:
     return replace(
         parsed,
         mass=cell(found.mass),
-        center=ParsedPlace("near", shape.density.span, place),
-        tensor=ParsedTensor(shape.density.span, rows, listed=False),
+        center=ParsedPlace("near", density.span, place),
+        tensor=ParsedTensor(density.span, rows, listed=False),
         density=found,
     )
 
