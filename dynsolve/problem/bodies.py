@@ -181,8 +181,9 @@ def _read_body(
 
 def _integrated(faults: Faults, parsed: ParsedBody) -> ParsedBody:
     """A rod with a density: its mass, centre and tensor follow; a key that would say them too is reported."""
-    shape, density = parsed.shape, parsed.shape and parsed.shape.density
+    shape = parsed.shape
     assert shape is not None
+    density = shape.density
     assert density is not None
     for key in ("mass", "center", "inertia"):
         if key in parsed.fields:
