@@ -19,7 +19,7 @@ def judged_set(key: ConfigurationKey, answer: ConfigurationAnswer, of: Fraction)
     if answer.name not in key.values:
         return replace(base, fault=f"{answer.name} is not asked for in this problem")
     if key.is_skipped(answer.name):
-        return replace(base, fault=f"{answer.name} is too long to be derived here; a person must judge it")
+        return replace(base, fault=f"{answer.name} could not be derived here; a person must judge it")
     found = key.verdict(answer)
     if not found.is_right:
         slip = SET_SLIPS[found.code].told(number=str(found.number))

@@ -66,20 +66,18 @@ def inverse(robot: Robot, r: Matrix) -> Inverse | NoClosedForm | Skipped:
     from dynsolve.derivation.inverse.pose import solve_pose
     from dynsolve.derivation.inverse.search import solve_task
 
-    lacking = _without_number(robot, r)
-    if lacking:
-        return Skipped(f"reach has numbers, and {lacking} has none: give it one under values")
     task, names = robot.questions.task, robot.questions.reached
     is_pose = task is not None and task.is_pose
     solving = solve_pose(robot, r, names) if is_pose else solve_task(r, names)
     found = None if solving is None else branches(solving)
     if solving is None or found is None:
-        return Skipped("no closed form was found") if robot.questions.target is None else NoClosedForm()
+        has_target = robot.questions.target is not None and not without_number(robot, r)
+        return NoClosedForm() if has_target else Skipped("no closed form was found")
     return Inverse(solving, found)
 
 
-def _without_number(robot: Robot, r: Matrix) -> str:
-    """The first parameter of the task that has no number, where the task is to be one."""
+def without_number(robot: Robot, r: Matrix) -> str:
+    """The first parameter of the task that has no number where the target has; nothing where all have."""
     if robot.questions.target is None:
         return ""
     at = dict.fromkeys((*robot.ring.names, *dict(robot.questions.target.numbers)), 0.0)

@@ -11,7 +11,7 @@ from dynsolve.algebra.positivity import is_positive
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.trig_factor import trig_factors
-from dynsolve.derivation.configurations import Inverse
+from dynsolve.derivation.configurations import Inverse, without_number
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.inverse.subproblems import Solved
 from dynsolve.derivation.singular.conditions import Condition
@@ -112,10 +112,18 @@ class ConfigurationForms:
         found = self.values["inverse"]
         return found if isinstance(found, Inverse) else None
 
+    @property
+    def without_number(self) -> str:
+        """The first parameter that has no number, where `reach` has them; nothing where all have."""
+        (task,) = self.values.rules["inverse"].inputs
+        return without_number(self.robot, self.values[task])
+
     @cached_property
     def target(self) -> TargetForms | None:
         """What reaches the numbers of `reach`; None where it has none."""
         if self.robot.questions.target is None or isinstance(self.values["inverse"], Skipped):
+            return None
+        if self.without_number:
             return None
         from dynsolve.explain.target import TargetForms
 

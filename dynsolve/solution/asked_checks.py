@@ -69,6 +69,12 @@ def skipped(robot: Robot, values: Derivation) -> Iterator[tuple[str, str]]:
         value = values[name]
         if isinstance(value, Skipped):
             yield name, value.why
+        elif name == "inverse" and robot.questions.target is not None:
+            from dynsolve.explain.configurations import ConfigurationForms
+
+            lacking = ConfigurationForms(robot, values).without_number
+            if lacking:
+                yield "inverse in numbers", f"{lacking} has none; give it one under values"
 
 
 def _verify_equilibria(robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str]) -> None:

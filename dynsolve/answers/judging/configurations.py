@@ -66,6 +66,8 @@ class ConfigurationKey:
 
     def is_skipped(self, name: str) -> bool:
         """Whether the key has no set of that name, because it would be too long."""
+        if name == "inverse" and self.robot.questions.target is not None:
+            return self.shown.target is None
         return isinstance(self.values[name], Skipped) and name in ("singular", "equilibria")
 
     @cached_property

@@ -175,3 +175,12 @@ def test_an_angle_of_a_singular_wrist_is_free() -> None:
     assert one.numbers["q2"] == pytest.approx(0)
     assert to_python(one.formulas["q3"]) == "-q1"
     assert found.reaches(one.numbers)
+
+
+def test_without_numbers_for_the_lengths_the_branches_are_those_of_names() -> None:
+    text = "gravity: none\ndh: [{theta: q1*, a: a1}, {theta: q2*, a: a2}]\nreach: [1, 1]\nfind: [inverse]\n"
+    found = solve(text)
+    results = found.to_json()["results"]
+    assert [set(branch) for branch in results["inverse"]] == [{"q1", "q2"}] * 2
+    assert "r1" in results["inverse"][0]["q1"] and "inverse_decimals" not in results
+    assert "a1 has none" in found.warnings[0].message
