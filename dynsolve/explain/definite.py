@@ -15,6 +15,7 @@ from dynsolve.explain.forms import Forms
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Symbol, equation
+from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.candidates import Candidate
 
@@ -31,7 +32,7 @@ def steps(context: Context) -> Iterator[Step]:
 
 
 def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped) -> Step:
-    name = Symbol(candidate.name)
+    name = Symbol(candidate.name) if context.robot.given is None else letters.D
     if isinstance(found, Skipped):
         return Step(
             id=f"definite_{candidate.name}",

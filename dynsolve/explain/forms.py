@@ -225,7 +225,7 @@ def parallel_coordinates(robot: Robot) -> list[frozenset[str]]:
     """The coordinates of joints that turn about parallel axes, whose angles add up; without joints, all."""
     if not robot.has_table:
         turning = frozenset(q.name for q in robot.coordinates if q.type is JointType.REVOLUTE)
-        return [turning] if len(turning) > 1 else []
+        return [turning] if turning else []
     turns = [
         Turn(joint.theta, joint.alpha, joint.variable == "theta", joint.parent) for joint in robot.joints
     ]

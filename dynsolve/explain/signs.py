@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from itertools import chain, combinations, product
 
+from dynsolve.explain.forms import parallel_coordinates
 from dynsolve.explain.style import shown_digits, style_of
 from dynsolve.notation.printing import Sign, Style, shorthand
 from dynsolve.notation.tree import Function, Letter, Node, Number, Sum, Symbol
@@ -25,8 +26,7 @@ from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.index import stages_of
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Convention, Robot
-from dynsolve.robot.parallel import Turn, parallel_groups
+from dynsolve.robot.model import Robot
 
 ALTERNATIVES: dict[tuple[str, int], str] = {
     ("c", 2): "C",
@@ -100,11 +100,7 @@ def _own(robot: Robot, style: Style) -> Iterator[str]:
 
 def shorthands(robot: Robot, style: Style) -> Iterator[Function]:
     """What the style writes as s_1 and c_12: sines and cosines of angles, and of sums in parallel joints."""
-    turns = [
-        Turn(joint.theta, joint.alpha, joint.variable == "theta", joint.parent) for joint in robot.joints
-    ]
-    modified = robot.convention is Convention.MODIFIED
-    for group in parallel_groups(turns, robot.ring.names, modified):
+    for group in parallel_coordinates(robot):
         members = [Symbol(q.name) for q in robot.coordinates if q.name in group]
         sizes = range(1, len(members) + 1)
         for chosen in chain.from_iterable(combinations(members, size) for size in sizes):
