@@ -65,18 +65,13 @@ def _in_ring(remainder: Remainder, carry: Transfer) -> Remainder:
     )
 
 
-def search(given: Sequence[System], unknowns: Unknowns, *, turning: bool = True) -> tuple[Solved, ...]:
-    """The steps from some systems to the unknowns, each the simplest there is, as far as they lead.
-
-    Systems are only turned where `turning`.
-    """
+def search(given: Sequence[System], unknowns: Unknowns) -> tuple[Solved, ...]:
+    """The steps from some systems to the unknowns, each the simplest there is, as far as they lead."""
     systems = list(given)
     sums: list[Equation] = []
     steps: list[Solved] = []
     while unknowns.names:
-        systems = [tuple(arranged(e, unknowns) for e in s) for s in systems]
-        if turning:
-            systems = _grown(systems, unknowns)
+        systems = _grown([tuple(arranged(e, unknowns) for e in s) for s in systems], unknowns)
         added = [tuple(_sums(system)) for system in systems]
         best = min(_solvable(systems, added, sums, unknowns), key=_effort, default=None)
         if best is None:
