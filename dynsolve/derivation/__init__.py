@@ -15,6 +15,7 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     rates           4.9, 4.11   det J, q̇ and q̈ for those of the task: likewise
     constraints     A_c q̇ = 0 and its multipliers (Murray, Li, Sastry 6.1): likewise
     recursions      7.6   Newton-Euler in link frames: ω, ω̇, accelerations, f, n: likewise
+    balance         conditions on the parameters for gravity to move nothing: likewise
     equilibria      where gravity and springs move nothing, and how stable that is: likewise
     linearization   the motion near an equilibrium: likewise
     task_inertia    the inertia that a force at the task meets: likewise
@@ -53,6 +54,7 @@ And the independent check, which shares no formula with any of these:
     rate_check      determinants, rates and accelerations, against elimination on numbers
     constraint_check constraints against the motion of the arm, the multipliers against elimination
     recursion_check the recursions in the links' frames, against those on numbers
+    balance_check   these conditions put in
     equilibrium_check
                     equilibria put in, looked for, and their stability, by differences
     linear_check    linearization and the task's inertia, against elimination and differences

@@ -69,7 +69,12 @@ def zero_near(robot: Robot, zeros: Program, start: Mapping[str, float]) -> dict[
     Each step is the shortest that solves the linear equations, which may be fewer than the
     coordinates, or repeat each other: Jᵀ (J Jᵀ + ε)⁻¹ f.
     """
-    at, names = dict(start), [q.name for q in robot.coordinates]
+    return zero_along([q.name for q in robot.coordinates], zeros, start)
+
+
+def zero_along(names: Sequence[str], zeros: Program, start: Mapping[str, float]) -> dict[str, float] | None:
+    """The same where only these names are changed."""
+    at = dict(start)
     try:
         for _ in range(_NEWTON_STEPS):
             f = zeros.run(at)

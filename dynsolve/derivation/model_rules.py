@@ -11,7 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.derivation import linearization, regressor, task_inertia
+from dynsolve.derivation import balance, linearization, regressor, task_inertia
 from dynsolve.derivation.energy import accelerations
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.quantities.index import asked_stages
@@ -52,6 +52,7 @@ def _parameters(robot: Robot) -> Iterator[Rule]:
 
 
 def _equilibria(robot: Robot) -> Iterator[Rule]:
+    yield Rule("balance", ("g",), partial(balance.balance, robot))
     yield Rule("equilibria", ("g",), partial(_where_in_balance, robot))
     if robot.questions.model.linearize:
         friction = ("friction",) if "friction" in robot.actions.kinds else ()

@@ -16,7 +16,7 @@ from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.inverse.subproblems import Solved
 from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.sets import SingularSet
-from dynsolve.explain.forms import Forms, is_numeric, parallel_coordinates
+from dynsolve.explain.forms import Forms, is_numeric, leading_names, parallel_coordinates
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.notation.build import cost, split_sign, times
 from dynsolve.notation.python import to_python
@@ -57,6 +57,16 @@ class ConfigurationForms:
         if isinstance(found, Skipped):
             return ()
         return tuple(tuple(map(self.condition, one)) for one in found.alternatives)
+
+    @cached_property
+    def balance(self) -> tuple[Node, ...]:
+        """What must be 0 for gravity to be balanced; none where it is too long."""
+        found = self.values["balance"]
+        if isinstance(found, Skipped):
+            return ()
+        ring = self.robot.ring
+        form = Compactor(ring, leading_names(self.robot), decimal=is_numeric(self.robot)).form
+        return tuple(map(form, found))
 
     def alternatives(self, name: str) -> tuple[tuple[Node, ...], ...]:
         """The alternatives of a set of equations, by its name."""

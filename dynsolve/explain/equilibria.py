@@ -9,7 +9,7 @@ from dynsolve.derivation import linearization
 from dynsolve.derivation.equilibria import Equilibria, Point, Stability
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
-from dynsolve.explain.citations import SLOTINE_LI
+from dynsolve.explain.citations import SLOTINE_LI, spong
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
@@ -44,6 +44,8 @@ def steps(context: Context) -> Iterator[Step]:
     wanted = context.wanted
     if "equilibria" in wanted:
         yield from _equilibria(context)
+    if "balance" in wanted:
+        yield _balance(context)
     if "linear_A" in wanted:
         yield _state_matrix(context)
     if "linear_B" in wanted:
@@ -131,6 +133,35 @@ def _point(context: Context, point: Point) -> Prose:
 def _together(conditions: tuple[Node, ...]) -> Node:
     """Equations that hold together, in one line."""
     return side_by_side([equation(value, Number(0)) for value in conditions])
+
+
+# -- nowhere to move -------------------------------------------------------------------------------
+
+
+def _balance(context: Context) -> Step:
+    found, wanted = context.values["balance"], context.robot.questions.model.balanced
+    if isinstance(found, Skipped):
+        return _skipped("balance", found)
+    shown = ConfigurationForms(context.robot, context.values).balance
+    goal: Node = Number(0) if wanted is None else context.show(wanted)
+    notes: list[Prose] = []
+    if not shown:
+        notes.append(("Gravity is what it should be for all values of the parameters.",))
+    return Step(
+        id="balance",
+        stage=STAGE,
+        title="What balances gravity",
+        why=("Multiplied out, ", letters.G, " is a sum of what moves, each with a coefficient of parameters. "
+             "It is what it should be in every configuration where all the coefficients are. Those that are "
+             "combinations of others, and factors that are not 0, are left out."),
+        formula=equation(letters.G, goal),
+        source=spong("7.5.3"),
+        working=(equation(letters.G, context.form("g")),) if is_small(context.form("g")) else (),
+        result=tuple(equation(value, Number(0)) for value in shown),
+        listed=len(shown) > 1,
+        notes=tuple(notes),
+        detail=Detail.BRIEF,
+    )  # fmt: skip
 
 
 # -- near one of them ------------------------------------------------------------------------------

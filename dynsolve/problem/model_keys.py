@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dynsolve.problem.kinds import Key, ListOf, MapOf, OneOf, Word
+from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Word
 from dynsolve.problem.value_kinds import EXPRESSION, NAME
 
 KNOWN = "known"
@@ -11,6 +11,9 @@ KNOWN = "known"
 MAX_PARAMETERS = 60
 
 INPUTS = Word(("given",))
+BALANCE = Keyed(
+    (Key("g", ListOf(EXPRESSION, "a list of expressions"), "The wanted g.", "[0, 0]", required=True),)
+)
 
 MODEL_KEYS = (
     Key(
@@ -32,6 +35,14 @@ MODEL_KEYS = (
         "given",
         "no motor holds anything",
         remedy="write inputs: given",
+    ),
+    Key(
+        "balance",
+        BALANCE,
+        "The g(q) that the parameters are to give in `balance`, an expression for each coordinate.",
+        "{g: [0, 0]}",
+        "0",
+        remedy="write balance: {g: [0, k*cos(q2)]}, an expression for each coordinate",
     ),
     Key(
         "linearize",

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 from dynsolve.errors import ReadError
 from dynsolve.notation.names import normalize
-from dynsolve.problem.cells import Cell, forbid, read_cell
-from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
-from dynsolve.problem.model_keys import INPUTS, KNOWN, MAX_PARAMETERS
+from dynsolve.problem.cells import Cell, forbid, read_cell, read_expressions
+from dynsolve.problem.fields import Fields, describe, did_you_mean, items, mapping, word
+from dynsolve.problem.model_keys import BALANCE, INPUTS, KNOWN, MAX_PARAMETERS
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.state import ParsedState, read_equilibrium
@@ -26,6 +26,7 @@ class ParsedModelQuestions:
     parameters: tuple[tuple[str, Cell], ...] = ()
     linearize: ParsedState | None = None
     inputs_given: bool = False
+    balanced: tuple[Cell, ...] = ()
 
     @property
     def constant(self) -> Iterator[Cell]:
@@ -45,7 +46,22 @@ def read_model_questions(
     parameters = _read_parameters(faults, fields.get("parameters"), coordinates)
     given = word(faults, fields.get("inputs"), INPUTS.choices, "inputs", PROBLEM["inputs"].help)
     equilibrium = read_equilibrium(faults, fields.get("linearize"), coordinates)
-    return replace(parameters, linearize=equilibrium, inputs_given=given is not None)
+    return replace(
+        parameters,
+        linearize=equilibrium,
+        inputs_given=given is not None,
+        balanced=_read_balanced(faults, fields.get("balance"), len(coordinates)),
+    )
+
+
+def _read_balanced(faults: Faults, node: YamlNode | None, n: int) -> tuple[Cell, ...]:
+    help = PROBLEM["balance"].help
+    fields = mapping(faults, node, BALANCE.names, "balance", help)
+    cells = read_expressions(faults, fields.get("g"), "g", help) if fields else None
+    if cells is not None and len(cells) != n:
+        faults.error(fields.span, f"g has {len(cells)} entries, for {n} coordinates", help)
+        return ()
+    return cells or ()
 
 
 def _read_parameters(

@@ -104,6 +104,7 @@ class ParsedQuestions:
     def moving(self) -> Iterator[Cell]:
         """The values that may hold coordinates."""
         yield from self.task.cells if self.task else ()
+        yield from self.model.balanced
         for load in self.loads:
             yield from (*load.force, *load.moment)
         yield from (constraint.cell for constraint in self.constraints)

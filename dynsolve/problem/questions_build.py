@@ -205,6 +205,7 @@ def _model(values: CellValues, robot: Robot, parsed: ParsedModelQuestions) -> Mo
     return ModelQuestions(
         known=frozenset(name for name, _ in parsed.known),
         inputs_given=parsed.inputs_given,
+        balanced=values.column(parsed.balanced) if parsed.balanced else None,
         linearize=tuple((name, dots, value) for (name, dots), value in at.items()),
         named=tuple(name for name, _ in parsed.parameters),
         parameters=values.column(cell for _, cell in parsed.parameters) if parsed.parameters else None,

@@ -50,6 +50,8 @@ class Kind(Enum):
     """An expression, a vector or a matrix."""
     EQUATIONS = "equations"
     """Where something holds: alternatives, each of equations that hold together."""
+    CONDITIONS = "conditions"
+    """Equations that all hold."""
     BRANCHES = "branches"
     """Solutions: alternatives, each an expression for every coordinate."""
     VERDICTS = "verdicts"

@@ -54,6 +54,10 @@ EQUILIBRIA = Family(
     name="equilibria", stage=Stage.EQUILIBRIA, kind=Kind.EQUATIONS, spellings=("equilibrium",)
 )
 
+BALANCE = Family(
+    name="balance", stage=Stage.EQUILIBRIA, kind=Kind.CONDITIONS, spellings=("balanced", "balancing")
+)
+
 LINEAR_A = Family(
     name="linear_A",
     stage=Stage.EQUILIBRIA,

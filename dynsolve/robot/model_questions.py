@@ -28,7 +28,8 @@ class ModelQuestions:
     `known` are the names of the parameters that do not count as unknown in τ = Y a.  `parameters`
     (p×1) are the entries of a where the exercise gives them, `named` the names that it gives them.
     `inputs_given` says that motors hold their coordinates in equilibria.  `linearize` is one of
-    these: (name, 0, value) of the coordinates that are given.
+    these: (name, 0, value) of the coordinates that are given.  `balanced` (n×1) is the g that parameters
+    are to give, where it is not 0.
     """
 
     known: frozenset[str] = frozenset()
@@ -36,6 +37,7 @@ class ModelQuestions:
     parameters: Matrix | None = None
     linearize: tuple[tuple[str, int, Node], ...] = ()
     inputs_given: bool = False
+    balanced: Matrix | None = None
 
     @property
     def equilibrium(self) -> dict[tuple[str, int], Node]:

@@ -78,11 +78,18 @@ def skipped(robot: Robot, values: Derivation) -> Iterator[tuple[str, str]]:
 
 
 def _verify_equilibria(robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str]) -> None:
-    """Hold the equilibria, as printed, in numbers."""
+    """Hold the equilibria, and the conditions that balance gravity, as printed, in numbers."""
+    if not {"equilibria", "balance"} & wanted:
+        return
+    from dynsolve.explain.configurations import ConfigurationForms
+
+    if "balance" in wanted:
+        from dynsolve.derivation.balance_check import verify_balance
+
+        verify_balance(robot, forms("g"), ConfigurationForms(robot, values).balance)
     if "equilibria" not in wanted:
         return
     from dynsolve.derivation.equilibrium_check import Case, verify_equilibria
-    from dynsolve.explain.configurations import ConfigurationForms
 
     shown = ConfigurationForms(robot, values).equilibria
     cases = [Case(*case) for case in zip(shown, values["equilibria"].points, strict=True)]

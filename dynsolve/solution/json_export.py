@@ -121,8 +121,12 @@ class _Exporter:
     def value(self, quantity: Quantity) -> Any:
         """A scalar as text, a matrix as its rows, a vector as its entries; sets and spans as lists."""
         match quantity.family.kind:
-            case Kind.EQUATIONS | Kind.BRANCHES if isinstance(self.solution.values[quantity.rule], Skipped):
+            case Kind.EQUATIONS | Kind.CONDITIONS | Kind.BRANCHES if isinstance(
+                self.solution.values[quantity.rule], Skipped
+            ):
                 return {"skipped": self.solution.values[quantity.rule].why}
+            case Kind.CONDITIONS:
+                return [f"{self.python.text(e)} = 0" for e in self.configurations.balance]
             case Kind.EQUATIONS:
                 found = self.configurations.alternatives(quantity.rule)
                 return [[f"{self.python.text(e)} = 0" for e in one] for one in found]

@@ -53,6 +53,11 @@ _SLIPS = (
          "Every choice of one factor of each force that is 0 is a case."),
     Slip("no_equilibrium", "a case", "Where alternative {number} holds, gravity or a spring moves something.",
          "Put such a configuration into g(q), row by row."),
+    Slip("not_balanced", "a condition", "Where your equations hold, gravity is not what it should be.",
+         "Every coefficient of a sine, a cosine or a coordinate in g must be 0."),
+    Slip("condition_too_much", "a condition",
+         "Gravity is balanced also where equation {number} does not hold.",
+         "Look for the coefficients of g, and ask for no more than that these are 0."),
     Slip("foreign_name", "a name", "A name stands in it that has no meaning here.",
          "Write it in the coordinates and parameters of the problem."),
 )  # fmt: skip

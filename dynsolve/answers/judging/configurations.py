@@ -18,6 +18,7 @@ from dynsolve.answers.judging.branches import BranchKey
 from dynsolve.answers.judging.equilibria import EquilibriumKey
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
 from dynsolve.answers.submission import ConfigurationAnswer, Part
+from dynsolve.derivation.balance_check import balanced_points, is_balanced
 from dynsolve.derivation.configuration_check import (
     NO_VALUE,
     rank_of,
@@ -62,13 +63,15 @@ class ConfigurationKey:
             return self._branches.verdict(answer.alternatives)
         if answer.name == "equilibria":
             return self._equilibria.verdict(answer.alternatives)
+        if answer.name == "balance":
+            return self._balance(answer.alternatives)
         return self._equations(answer.alternatives)
 
     def is_skipped(self, name: str) -> bool:
         """Whether the key has no set of that name, because it would be too long."""
         if name == "inverse" and self.robot.questions.target is not None:
             return self.shown.target is None
-        return isinstance(self.values[name], Skipped) and name in ("singular", "equilibria")
+        return isinstance(self.values[name], Skipped) and name in ("singular", "equilibria", "balance")
 
     @cached_property
     def _branches(self) -> BranchKey | TargetKey:
@@ -82,6 +85,19 @@ class ConfigurationKey:
     @cached_property
     def _equilibria(self) -> EquilibriumKey:
         return EquilibriumKey(self.robot, self.forms("g"), self.shown.equilibria, self.numbers)
+
+    def _balance(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
+        """Conditions that all hold: whether gravity is balanced where they do, and they do where it is."""
+        theirs = [part.node for one in given for part in one]
+        gravity = self.forms("g")
+        points = list(balanced_points(self.robot, theirs))
+        if not points or not all(is_balanced(self.robot, gravity, at) for at in points):
+            return SetVerdict(False, "not_balanced")
+        for number, node in enumerate(theirs, 1):
+            program = compile_trees([node])
+            if not all(_holds(program, at) for at in balanced_points(self.robot, self.shown.balance)):
+                return SetVerdict(False, "condition_too_much", number)
+        return RIGHT
 
     def _known(self, answer: ConfigurationAnswer) -> bool:
         """Whether every name in an answer has a value here."""

@@ -202,9 +202,8 @@ class Vocabulary:
     def set_named(self, name: str) -> str | None:
         """The answer of that name that is a set of equations, or of branches; None for any other."""
         found = self.quantities.canonical(name)
-        return (
-            found if found and self.quantities[found].family.kind in (Kind.EQUATIONS, Kind.BRANCHES) else None
-        )
+        kinds = (Kind.EQUATIONS, Kind.CONDITIONS, Kind.BRANCHES)
+        return found if found and self.quantities[found].family.kind in kinds else None
 
     def verdicts_named(self, name: str) -> str | None:
         """The answer of that name that is a verdict on matrices; None for any other."""

@@ -1,0 +1,47 @@
+"""Conditions on parameters, compared with numbers: where they hold, gravity must be what is asked for.
+
+Points are found by Newton's method, in which masses and the acceleration of gravity stay.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from random import Random
+
+from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.balance import never_zero
+from dynsolve.derivation.equilibrium_check import zero_along
+from dynsolve.derivation.reached import CLOSE
+from dynsolve.derivation.verification import SEED
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import compile_trees
+from dynsolve.robot.model import Robot
+
+STATES = 6
+
+
+def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[str, float]]:
+    """Values of all parameters at which all conditions are 0, each with a configuration."""
+    program = compile_trees(list(conditions))
+    free = sorted(set(robot.parameters) - never_zero(robot))
+    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
+    for _ in range(STATES):
+        start = draw_values(robot, random, lambda found: None)[0]
+        at = zero_along(free, program, start) if conditions else start
+        if at is not None:
+            yield at
+
+
+def is_balanced(robot: Robot, gravity: Node, at: Mapping[str, float]) -> bool:
+    """Whether gravity is what is asked for."""
+    wanted = robot.questions.model.balanced
+    found = compile_trees([gravity]).run(at)[0]
+    given = [0.0] * robot.n if wanted is None else [robot.ring.evaluate(e, at) for e in wanted.entries]
+    return all(abs(row[0] - other) < CLOSE for row, other in zip(found, given, strict=True))
+
+
+def verify_balance(robot: Robot, gravity: Node, conditions: Sequence[Node]) -> None:
+    """Raises VerificationError where the conditions hold and gravity is not what is asked for."""
+    if not all(is_balanced(robot, gravity, at) for at in balanced_points(robot, conditions)):
+        raise VerificationError("gravity is not balanced where it should be; this is a fault of dynsolve")
