@@ -58,10 +58,11 @@ def _read_balanced(faults: Faults, node: YamlNode | None, n: int) -> tuple[Cell,
     help = PROBLEM["balance"].help
     fields = mapping(faults, node, BALANCE.names, "balance", help)
     cells = read_expressions(faults, fields.get("g"), "g", help) if fields else None
-    if cells is not None and len(cells) != n:
-        faults.error(fields.span, f"g has {len(cells)} entries, for {n} coordinates", help)
+    if fields is None or cells is None:
         return ()
-    return cells or ()
+    if len(cells) != n:
+        faults.error(fields.span, f"g has {len(cells)} entries, for {n} coordinates", help)
+    return cells if len(cells) == n else ()
 
 
 def _read_parameters(
