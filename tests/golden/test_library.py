@@ -33,6 +33,7 @@ STEMS = {
     "planar-2r",
     "planar-2r-friction",
     "planar-2r-motors",
+    "planar-2r-reach",
     "planar-2r-remote",
     "planar-3r-redundant",
     "planar-rrp-task",
