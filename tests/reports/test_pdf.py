@@ -26,8 +26,9 @@ def test_every_problem_gives_a_pdf_in_which_no_page_is_nearly_empty(problem: Pat
     pdf.write_bytes(made(problem, Format.PDF))
     pages = lines_of(pdf)
     shown = " ".join(line for page in pages for line in page)
-    assert "Forward kinematics" in shown
-    assert "(10)" in shown
+    if re.search(r"^(?:dh|axes):", problem.read_text(encoding="utf-8"), re.MULTILINE):
+        assert "Forward kinematics" in shown
+        assert "(10)" in shown
     assert min(map(len, pages)) >= FEWEST_LINES
 
 

@@ -53,6 +53,8 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
     found = _from_components(context, body, velocity) if squares_shown else None
     if found is not None:
         return found
+    if not context.robot.has_table:
+        return _from_components(context, body, velocity) or _squared(context, body, velocity)
     for i in range(body.link + 1):
         turned = rotation(context.values[f"H{i}"]).T @ velocity
         way = _from_components(context, body, turned)
