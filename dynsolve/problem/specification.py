@@ -191,6 +191,7 @@ MAX_BODIES = 100
 OF_A_TABLE = (
     "dh", "axes", "tip", "zero", "also", "strict", "base", "masses", "coordinates", "convention",
     "points", "task", "reach", "branches", "forces", "velocity", "acceleration",
+    "limits", "weights",
 )  # fmt: skip
 """The keys that have no meaning beside `model`."""
 
