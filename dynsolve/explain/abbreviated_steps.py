@@ -15,6 +15,7 @@ from functools import partial
 from dynsolve.derivation.rules import course_rules
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.explain.closing import driving_row
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import (
     EntryFormulas,
@@ -272,7 +273,7 @@ class _LongModel:
         return _with(step, equation(letters.partial_derivative(letters.L, by), total(terms)))
 
     def force(self, q: Coordinate, step: Step) -> Step:
-        result = equation(letters.force(q), self.formulas.force(q.index - 1))
+        result = equation(driving_row(self.context, q), self.formulas.force(q.index - 1))
         why = " Collected by the accelerations and the rates."
         return _with(step, result, why)
 

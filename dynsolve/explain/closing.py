@@ -14,8 +14,10 @@ from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation.tree import (
     ZERO,
+    Entry,
     Matrix,
     Node,
+    Number,
     Product,
     Relation,
     Sum,
@@ -27,6 +29,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import UnicodePrinter, width
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Coordinate
 
 ID = "model"
 """The closing step; reports show it in their last section, with what it is made of."""
@@ -79,6 +82,16 @@ def driving_side(context: Context, constrained: bool = True) -> Node:
     if not constrained and context.robot.questions.constraints:
         beside.pop()
     return sum_of([letters.TAU, *beside])
+
+
+def driving_row(context: Context, q: Coordinate) -> Node:
+    """τ_k + Q_k + (A_cᵀ λ)_k: what a row of the left side comes to, with everything that acts."""
+    k, asked = Number(q.index), context.robot.questions
+    outside: list[Node] = [letters.entry("Q", q.index)] if asked.loads else []
+    held: list[Node] = []
+    if asked.constraints:
+        held = [Entry(Product((Transpose(letters.A_C), letters.LAMBDA)), k)]
+    return sum_of([letters.force(q), *outside, *held])
 
 
 def moving_side(context: Context) -> Sum:

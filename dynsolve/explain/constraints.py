@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from dynsolve.algebra.fraction_matrix import quotient
 from dynsolve.algebra.minors import determinant
@@ -20,6 +20,7 @@ from dynsolve.explain.writing import is_small, listed, sum_of
 from dynsolve.notation.tree import (
     Derivative,
     Negative,
+    Node,
     Number,
     Parenthesized,
     Power,
@@ -33,6 +34,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Robot
 
 STAGE = Stage.CONSTRAINTS
 
@@ -139,9 +141,15 @@ def _multipliers(context: Context) -> Step:
         source=mls("6.1.2"),
         lines=lines,
         concluding=("Put in, and cancelled:",) if lines else (),
-        result=(equation(_L, context.form("lambda")),),
+        result=(equation(_L, mapped(context.form("lambda"), _with_letters(context.robot))),),
         detail=Detail.BRIEF,
     )  # fmt: skip
+
+
+def _with_letters(robot: Robot) -> Callable[[Node], Node]:
+    """The names of generalized forces as the letters that they are printed with elsewhere."""
+    forces = {q.force: letters.force(q) for q in robot.coordinates if q.force in robot.inputs}
+    return lambda part: forces.get(part.name, part) if isinstance(part, Symbol) else part
 
 
 def _driving(context: Context) -> Prose:
@@ -187,8 +195,7 @@ def _reduced(context: Context) -> Iterator[Step]:
     shown = context.forms.of(Z)
     if not is_small(shown):
         return
-    free = Symbol("v") if Z.shape[1] == 1 else letters.bold("v")
-    motion = equation(letters.QD, Product((name, free)))
+    motion = equation(letters.QD, Product((name, letters.bold("nu"))))
     yield Step(
         id="reduced",
         stage=STAGE,

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
+from dynsolve.explain.closing import driving_row
 from dynsolve.explain.context import Context
 from dynsolve.explain.recursions.general import general_steps
 from dynsolve.explain.recursions.inwards import inwards
@@ -66,9 +67,9 @@ def _torque(context: Context, q: Coordinate) -> Step:
             "the bearings hold the others.",
             *beside,
         ),
-        formula=equation(letters.force(q), sum_of([*terms, *added])),
+        formula=equation(driving_row(context, q), sum_of([*terms, *added])),
         source=source_of(context),
-        result=(equation(letters.force(q), context.form(f"tau{q.index}")),),
+        result=(equation(driving_row(context, q), context.form(f"tau{q.index}")),),
         detail=Detail.BRIEF,
     )
 

@@ -156,11 +156,12 @@ def _questions(robot: Robot) -> Iterator[Line]:
     yield _line(Symbol("psi"), "angle that is sought", "rad", ("", "name", "psi"))
     yield _line(_numbered("F"), "force from outside", "N")
     yield _line([_numbered("M"), _body("M")], "moment from outside, its size", "N m")
-    yield _line(letters.Q_FORCES, "generalized forces of these", "", ("Q", "bold", "F#"))
+    of_forces = [letters.Q_FORCES, Letter("Q", _I)]
+    yield _line(of_forces, "generalized forces of these, their entries", "", ("Q", "bold", "F#"))
     held = [(letters.H_C, "what the constraints keep at 0"), (letters.A_C, "constraint matrix"),
             (letters.LAMBDA, "multipliers")]  # fmt: skip
     yield _each(held)
-    free = [(letters.bold("Z"), "rates that the constraints leave free"), (letters.bold("v"), "their sizes")]
+    free = [(letters.bold("Z"), "rates that the constraints leave free"), (letters.bold("nu"), "their sizes")]
     if robot.questions.constraints:
         yield _each(free)
     yield _line(Letter("Delta", _K), "leading minor k of a matrix: the determinant of its first k rows")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.document import Prose
+from dynsolve.explain.closing import driving_row
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import derivatives
@@ -105,7 +106,7 @@ def _slope(context: Context, q: Coordinate) -> Step:
 
 
 def _force(context: Context, q: Coordinate) -> Step:
-    force = letters.force(q)
+    force = driving_row(context, q)
     momentum = letters.time_derivative(letters.partial_derivative(letters.L, letters.velocity(q)))
     derivative = letters.partial_derivative(letters.L, Symbol(q.name))
     return Step(

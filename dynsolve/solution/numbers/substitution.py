@@ -199,6 +199,9 @@ def _questions(questions: Questions, put: Substitution) -> Questions:
         points=tuple(replace(point, position=put.matrix(point.position)) for point in questions.points),
         task=task and replace(task, entries=tuple(replaced(entry, put.values) for entry in task.entries)),
         loads=tuple(_load(load, put) for load in questions.loads),
+        constraints=tuple(
+            replace(one, entry=replaced(one.entry, put.values)) for one in questions.constraints
+        ),
         state=State(tuple(values)),
         candidates=tuple(_candidate(one, put) for one in questions.candidates),
         velocity=questions.velocity and put.matrix(questions.velocity),

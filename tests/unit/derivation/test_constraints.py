@@ -8,6 +8,7 @@ import dynsolve
 from dynsolve.derivation.constraint_check import verify_constraints
 from dynsolve.errors import ProblemError, VerificationError
 from dynsolve.notation.tree import Matrix, Negative
+from tests.support import numbers
 
 ELBOW = """
 gravity: [0, -g, 0]
@@ -80,3 +81,15 @@ def test_only_what_is_asked_is_worked_out() -> None:
 def test_what_is_no_constraint_is_refused(constraint: str, message: str) -> None:
     with pytest.raises(ProblemError, match=message):
         dynsolve.solve(ELBOW + f"constraints: [{constraint}]\n")
+
+
+def test_it_does_not_matter_when_the_numbers_are_put_in() -> None:
+    values = {"m1": "2", "m2": "1", "l1": "1/2", "l2": "1", "k": "3/4", "g": "10"}
+    late = dynsolve.solve(ELBOW + LINE).with_values(**values)
+    text = ELBOW + LINE
+    for name, value in values.items():
+        text = text.replace(f"mass: {name}", f"mass: {value}").replace(f"a: {name}", f"a: {value}")
+    early = dynsolve.solve(text.replace("- k]", "- 3/4]").replace("-g", "-10")).to_json()["results"]["lambda"]
+    state = {"q1": 0.3, "q2": 0.8, "q1_dot": 0.5, "q2_dot": -0.7, "tau1": 0.2, "tau2": 1.1}
+    (found,) = late.to_json()["results"]["lambda"]
+    assert numbers([found], state)[0] == pytest.approx(numbers(early, state)[0])

@@ -42,8 +42,8 @@ def everything_said(problem: str) -> str:
 
 @pytest.mark.parametrize("problem", SMALL)
 def test_every_stage_in_the_order_of_the_course(problem: str) -> None:
-    stages = list(dict.fromkeys(step.stage for step in solved(problem).steps))
-    assert stages == list(COURSE)
+    stages = dict.fromkeys(step.stage for step in solved(problem).steps)
+    assert [stage for stage in stages if not stage.asked_for] == list(COURSE)
 
 
 @pytest.mark.parametrize("problem", SMALL)
