@@ -94,6 +94,8 @@ def _own(robot: Robot, style: Style) -> Iterator[str]:
     names += robot.questions.reached
     if Stage.INVERSE in stages_of(robot):
         names += CONSTANTS_OF_SOLUTIONS
+    if Stage.PARAMETERS in stages_of(robot):
+        names.append("a")  # a column of the table, beside the column of the parameters
     yield from _printed(map(Symbol, names))
     yield from map(UnicodePrinter(style).text, shorthands(robot, style))
 
@@ -126,6 +128,7 @@ def _scalars(robot: Robot, base: str, count: int) -> Iterator[Node]:
 def _vectors(robot: Robot) -> Iterator[Letter]:
     """The bold letters of the textbook."""
     yield from (letters.J, letters.Q, letters.D, letters.C, letters.G, letters.GRAVITY, letters.TAU)
+    yield from (letters.PARAMETERS, letters.REGRESSOR)
     yield from map(letters.bold, ("A", "N", "E", "U", "r", "v", "omega", "x", "z", "o"))
     numbered: tuple[Callable[[int], Letter], ...] = (letters.A, letters.z, letters.o, _bold("x"), _bold("J"))
     frames = [letter(i) for letter in numbered for i in range(len(robot.joints) + 1)]
