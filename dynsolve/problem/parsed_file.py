@@ -82,6 +82,7 @@ class ParsedFile:
             is_twist=self.questions.task is not None and self.questions.task.is_twist,
             constraints=len(self.questions.constraints),
             rates=self.questions.rates,
+            given=frozenset({"references", *(("linearize",) if self.questions.model.linearize else ())}),
             actions=self.actions.kinds,
             has_matrices=self.has_matrices,
             has_robot=not self.is_of_matrices,

@@ -8,7 +8,7 @@ from functools import cached_property, lru_cache
 from itertools import groupby, product
 
 from dynsolve.notation.tree import Node
-from dynsolve.quantities import kinematic_families
+from dynsolve.quantities import kinematic_families, model_families
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Owner, Size
 from dynsolve.quantities.spelling import key, open_index, other_names, subscripts
@@ -27,6 +27,13 @@ MOST_INDEXED = 9
 _FROM_RATES = {kinematic_families.QD: "velocity", kinematic_families.QDD: "acceleration"}
 """What is asked of the joints, and the rate of the task that it belongs to."""
 
+_FROM_GIVEN = {
+    model_families.LINEAR_A: "linearize",
+    model_families.LINEAR_B: "linearize",
+    model_families.Y_REFERENCE: "references",
+}
+"""What is asked of the model, and what must be given for it: an equilibrium, reference rates."""
+
 
 @dataclass(frozen=True, slots=True)
 class Owners:
@@ -35,8 +42,8 @@ class Owners:
     `points` are the bodies without inertia, `named` the points that the exercise names.
     `stages` are those of which something is asked, `task_rows` the components of the task, and
     `task_names` what else each of them is called where the task is a function r(q), which a twist is
-    not.  `rates` says whether its velocity, and its acceleration, is given; `actions` what acts beside
-    gravity: friction, springs, motors.  `has_matrices` says that there are matrices to be judged, and
+    not.  `rates` says whether its velocity, and its acceleration, is given; `given` what of `_FROM_GIVEN` is;
+    `actions` what acts beside gravity: friction, springs, motors.  `has_matrices` says that there are matrices to be judged, and
     without `has_robot` there is nothing else.
     """
 
@@ -52,6 +59,7 @@ class Owners:
     is_twist: bool = False
     constraints: int = 0
     rates: frozenset[str] = frozenset()
+    given: frozenset[str] = frozenset()
     actions: frozenset[str] = frozenset()
     has_matrices: bool = False
     has_robot: bool = True
@@ -75,6 +83,14 @@ class Owners:
             is_twist=asked.task is not None and asked.task.is_twist,
             constraints=len(asked.constraints),
             rates=given_rates(asked),
+            given=frozenset(
+                name
+                for name, there in (
+                    ("linearize", asked.model.linearize),
+                    ("references", robot.ring.plan.references),
+                )
+                if there
+            ),
             actions=robot.actions.kinds,
             has_matrices=bool(asked.candidates),
             has_robot=robot.has_table or robot.has_dynamics,
@@ -89,6 +105,8 @@ class Owners:
         if family.brought_by and family.brought_by not in self.actions:
             return False
         if family in _FROM_RATES and _FROM_RATES[family] not in self.rates:
+            return False
+        if family in _FROM_GIVEN and _FROM_GIVEN[family] not in self.given:
             return False
         if not self.rows and family.stage.needs_table:
             return False

@@ -49,6 +49,8 @@ def test_shapes_are_those_of_the_derivation(stem: str) -> None:
     for quantity in quantities(robot(stem)).values():
         if quantity.rule not in known or quantity.family is families.CHRISTOFFEL:
             continue
+        if "any" in (quantity.family.shape or ()):  # it is known when it is computed
+            continue
         value = known[quantity.rule]
         if quantity.is_read_off:
             value = value[quantity.entry]
