@@ -43,8 +43,8 @@ class Owners:
     `stages` are those of which something is asked, `task_rows` the components of the task, and
     `task_names` what else each of them is called where the task is a function r(q), which a twist is
     not.  `rates` says whether its velocity, and its acceleration, is given; `given` what of `_FROM_GIVEN` is;
-    `actions` what acts beside gravity: friction, springs, motors.  `has_matrices` says that there are matrices to be judged, and
-    without `has_robot` there is nothing else.
+    `actions` what acts beside gravity: friction, springs, motors.  `has_matrices` says that there
+    are matrices to be judged, and without `has_robot` there is nothing else.
     """
 
     rows: int
