@@ -82,7 +82,15 @@ class ParsedFile:
             is_twist=self.questions.task is not None and self.questions.task.is_twist,
             constraints=len(self.questions.constraints),
             rates=self.questions.rates,
-            given=frozenset({"references", *(("linearize",) if self.questions.model.linearize else ())}),
+            given=frozenset(
+                name
+                for name, there in (
+                    ("mass", self.bodies or self.model),
+                    ("linearize", self.questions.model.linearize),
+                    ("references", True),
+                )
+                if there
+            ),
             actions=self.actions.kinds,
             has_matrices=self.has_matrices,
             has_robot=not self.is_of_matrices,

@@ -12,7 +12,7 @@ from dynsolve.quantities import kinematic_families, model_families
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Owner, Size
 from dynsolve.quantities.spelling import key, open_index, other_names, subscripts
-from dynsolve.quantities.stages import Stage
+from dynsolve.quantities.stages import OF_THE_MODEL, Stage
 from dynsolve.robot.model import Coordinate, JointType, Robot
 from dynsolve.robot.questions import Method, Questions, component_names
 from dynsolve.robot.units import LENGTH, Dimension, times
@@ -42,9 +42,10 @@ class Owners:
     `points` are the bodies without inertia, `named` the points that the exercise names.
     `stages` are those of which something is asked, `task_rows` the components of the task, and
     `task_names` what else each of them is called where the task is a function r(q), which a twist is
-    not.  `rates` says whether its velocity, and its acceleration, is given; `given` what of `_FROM_GIVEN` is;
-    `actions` what acts beside gravity: friction, springs, motors.  `has_matrices` says that there
-    are matrices to be judged, and without `has_robot` there is nothing else.
+    not.  `rates` says whether its velocity, and its acceleration, is given; `given` whether there is
+    `mass`, and what of `_FROM_GIVEN` there is; `actions` what acts beside gravity: friction, springs,
+    motors.  `has_matrices` says that there are matrices to be judged, and without `has_robot` there is
+    nothing else.
     """
 
     rows: int
@@ -86,6 +87,7 @@ class Owners:
             given=frozenset(
                 name
                 for name, there in (
+                    ("mass", robot.has_dynamics),
                     ("linearize", asked.model.linearize),
                     ("references", robot.ring.plan.references),
                 )
@@ -105,6 +107,8 @@ class Owners:
         if family.brought_by and family.brought_by not in self.actions:
             return False
         if family in _FROM_RATES and _FROM_RATES[family] not in self.rates:
+            return False
+        if family.stage in OF_THE_MODEL and "mass" not in self.given:
             return False
         if family in _FROM_GIVEN and _FROM_GIVEN[family] not in self.given:
             return False

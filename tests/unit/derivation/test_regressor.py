@@ -12,7 +12,7 @@ from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.derivation.model_check import rank, verify_model
 from dynsolve.derivation.regressor import minimal_parameters, parameters_for, regressor
 from dynsolve.derivation.rules import derive
-from dynsolve.errors import VerificationError
+from dynsolve.errors import ProblemError, VerificationError
 from dynsolve.explain.forms import Forms
 from dynsolve.notation import tree
 from dynsolve.problem import read_problem
@@ -117,3 +117,9 @@ def test_the_check_finds_a_wrong_entry_and_a_parameter_too_many() -> None:
 def test_the_rank_of_numbers() -> None:
     assert rank([[0.0, 0.0], [0.0, 0.0]]) == 0
     assert rank([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]]) == 2
+
+
+@pytest.mark.parametrize("name", ["Y", "a", "equilibria", "balance", "linear_A", "Lambda"])
+def test_without_masses_nothing_is_asked_of_the_model(name: str) -> None:
+    with pytest.raises(ProblemError, match="no answer of this problem"):
+        read_problem(f"dh: [{{theta: q1*, a: l1}}]\nfind: [{name}]\n")
