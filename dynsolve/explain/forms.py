@@ -22,7 +22,7 @@ from dynsolve.notation.build import cost, negated, times, total
 from dynsolve.notation.tree import ZERO, Node
 from dynsolve.quantities import families
 from dynsolve.quantities.index import quantities
-from dynsolve.quantities.model_families import REGRESSORS
+from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
 from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.parallel import Turn, parallel_groups
 
@@ -103,7 +103,7 @@ class Forms:
         if name == "det":
             return self._products.form(value)
         entries = value.entries if isinstance(value, Matrix) else (value,)
-        if name in REGRESSORS and sum(map(len, entries)) > LONG_REGRESSOR:
+        if name in (*PARAMETERS, REFERENCE) and sum(map(len, entries)) > LONG_REGRESSOR:
             return self._quick.matrix(value)
         if max(map(len, entries), default=0) > LONG:
             made = self._from_parts(name)
