@@ -364,7 +364,7 @@ def test_definitions_come_before_what_uses_them() -> None:
     blocks = solution_document(solution).blocks
     headings = [block.text for block in blocks if hasattr(block, "text")]
     assert headings.index("Abbreviations") + 1 == headings.index("7. The vectorized form")
-    assert [b for b in blocks if b in list(definition_blocks(short("stanford-6")))]
+    assert [b for b in blocks if b in list(definition_blocks(short("stanford-6"), "arm"))]
 
 
 def displayed(blocks: Sequence[Any]) -> Iterator[Node]:
