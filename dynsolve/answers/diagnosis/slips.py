@@ -363,7 +363,7 @@ gravity: [0, -g, 0]
 masses: [{mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}]
 parameters: {known: [l1, g]}
 find: [Y, a]
-""", "a", [["I1"], ["m1"]])),
+""", "a", [["I1"]])),
     Slip("tool_frame", "the frame of a vector",
          "Your matrix is seen from frame {part}; it is asked for along the axes of the base.",
          "Its columns are vectors: z and o belong in the same frame.",
