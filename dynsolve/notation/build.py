@@ -118,10 +118,10 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
             sign, inner = -sign, total([negated(t) for t in inner.terms])
         if sign < 0 and exponent % 2:
             coefficient = -coefficient
-        if exponent != 1 and isinstance(inner, Product) and isinstance(inner.factors[0], Number):
-            number, *others = inner.factors
-            coefficient = coefficient * Fraction(number.p, number.q) ** exponent
-            inner = others[0] if len(others) == 1 else Product(tuple(others))
+        match inner:
+            case Product((Number(p, q), *others)) if exponent != 1:
+                coefficient = coefficient * Fraction(p, q) ** exponent
+                inner = others[0] if len(others) == 1 else Product(tuple(others))
         if exponent == 1:
             coefficient = _put_factor(inner, coefficient, above)
         elif isinstance(inner, Number):
