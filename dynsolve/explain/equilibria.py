@@ -35,7 +35,7 @@ STAGE = Stage.EQUILIBRIA
 _SOURCE = SLOTINE_LI.section("3.3")
 _INVERSE = Power(letters.D, Negative(Number(1)))
 _F, _S = letters.bold("F"), letters.bold("S")
-_DG = Row((Words("∂"), letters.G, Words("/∂"), letters.Q))
+_DG = letters.partial_derivative(letters.G, letters.Q)
 _ZERO, _ONE = letters.bold("0"), letters.bold("E")
 
 
