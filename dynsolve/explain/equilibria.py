@@ -67,10 +67,11 @@ def _equilibria(context: Context) -> Iterator[Step]:
     if held:
         passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
         why = (*why, "Motors hold the others; what has none must be in balance: ", *listed(passive), ". ")
-    rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
-    lines = (Line(("Combined, without factors that are never 0",), rows),) if rows else ()
     cases = shown.equilibria
     result: tuple[Node, ...] = tuple(_together(one) for one in cases if one)
+    rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
+    is_new = bool(rows) and [side_by_side(rows)] != [*result]  # not what the result says again
+    lines = (Line(("Combined, without factors that are never 0",), rows),) if is_new else ()
     if not cases:
         notes: tuple[Prose, ...] = (("No configuration makes all of them 0: there is no equilibrium.",),)
     elif not cases[0]:
