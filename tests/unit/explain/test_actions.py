@@ -45,7 +45,7 @@ def step(id: str, problem: str = ACTING):
         ("Km", "K_m = Σᵢ₌₁² ½ I_mi (k_ri q̇ₖ + zᵀ ω_link)²"),
         ("friction", "τ_fk = ∂ℛ/∂q̇ₖ + f_ck sgn(q̇ₖ)"),
         ("tau1", "τ₁ + Q₁ = d/dt (∂𝓛/∂q̇₁) - ∂𝓛/∂q₁ + τ_f1"),
-        ("Cqd", "C q̇ + 𝐠 = τ - D q̈ - τ_f"),
+        ("Cqd", "C q̇ + 𝐠 = τ + Q - D q̈ - τ_f"),
         ("model", "D q̈ + C q̇ + τ_f + 𝐠 = τ + Q"),
     ],
 )
