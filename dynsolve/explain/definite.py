@@ -58,7 +58,11 @@ def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped)
         title=f"The matrix {candidate.name}",
         source=spong("7.5"),
         result=(equation(name, context.show(candidate.matrix)), *minors),
-        why=(*_assumed(context.forms, candidate, found), *reason(context.forms, found), f" {_CONCLUSIONS[found.answer]}"),
+        why=(
+            *_assumed(context.forms, candidate, found),
+            *reason(context.forms, found),
+            f" {_CONCLUSIONS[found.answer]}",
+        ),
         notes=notes,
         hint=("Look at its entries first, then at its leading minors.",),
         detail=Detail.BRIEF,
@@ -117,7 +121,10 @@ def _refused(found: Definiteness) -> Prose:
             return (f"It is not symmetric: {entry} is not entry ({j + 1}, {i + 1}).",)
         case Refusal.NOT_PERIODIC:
             why = " is an angle, and stands outside of sines and cosines in "
-            return (Symbol(found.coordinate), f"{why}{entry}: after a full turn the matrix would not be the same.")
+            return (
+                Symbol(found.coordinate),
+                f"{why}{entry}: after a full turn the matrix would not be the same.",
+            )
         case Refusal.LENGTH_IN_SINE:
             return (Symbol(found.coordinate), f" is a length, and stands in a sine or cosine in {entry}.")
         case Refusal.DEGREE:

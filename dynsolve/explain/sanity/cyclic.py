@@ -31,7 +31,10 @@ def cyclic_step(context: Context) -> Step | None:
     momenta = [letters.partial_derivative(letters.L, letters.velocity(q)) for q in free]
     why: Prose = (*listed([Symbol(q.name) for q in free]), f" {'stands' if one else 'stand'} nowhere in ")
     why += (letters.L, f": {'a cyclic coordinate' if one else 'cyclic coordinates'}. As long as ")
-    why += (*listed([equation(driving_row(context, q), Number(0)) for q in free]), ", the Euler-Lagrange equation")
+    why += (
+        *listed([equation(driving_row(context, q), Number(0)) for q in free]),
+        ", the Euler-Lagrange equation",
+    )
     why += (" says" if one else "s say",)
     why += (f" that the {'momentum' if one else 'momenta'} ", *listed(momenta))
     why += (" is conserved." if one else " are conserved.",)

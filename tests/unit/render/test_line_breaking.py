@@ -59,7 +59,9 @@ def test_a_denominator_that_fits_no_line_stands_behind_a_slash() -> None:
     node = read("-(a + b)/(m1*q1^2 + (I1 + I2)*c)").tree
     setting = [FormulaSplitter(latex_notation(LatexPrinter()), Ruler(), 6, most) for most in (5, 50)]
     broken, whole = ["".join(piece.text for piece in one.pieces(node)).replace(" ", "") for one in setting]
-    assert r"\frac" not in broken and ")/(" in broken.replace("{}", "").replace(r"\left", "").replace(r"\right", "")
+    assert r"\frac" not in broken and ")/(" in broken.replace("{}", "").replace(r"\left", "").replace(
+        r"\right", ""
+    )
     assert r"\frac" in whole
 
 
