@@ -24,6 +24,7 @@ MOST_PRODUCTS = 200_000
 """An inertia matrix whose determinant may come to more products of terms is not inverted."""
 
 TOO_LARGE = "the inverse of the inertia matrix is too large to be read"
+SINGULAR = "the inertia matrix has no inverse"
 
 Linear = Matrix | FractionMatrix | Skipped
 
@@ -101,5 +102,8 @@ def _below(robot: Robot, D: Matrix, upper: Matrix, right: Matrix) -> Linear:
     inertia = at_equilibrium(robot).matrix(D)
     if work(inertia) > MOST_PRODUCTS:
         return Skipped(TOO_LARGE)
-    lower = quotient(adjugate(inertia) @ right, determinant(inertia))
+    divisor = determinant(inertia)
+    if divisor.is_zero:
+        return Skipped(SINGULAR)
+    lower = quotient(adjugate(inertia) @ right, divisor)
     return tidy(robot.ring, [map(fraction_of, row) for row in (*upper.rows, *lower.rows)])

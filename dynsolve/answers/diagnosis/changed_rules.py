@@ -14,6 +14,7 @@ from dynsolve.answers.diagnosis.slips import SLIPS
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.derivation.graph import Skipped
 from dynsolve.errors import AlgebraError
 
 MOST_TERMS = 1_500
@@ -45,12 +46,15 @@ class ChangedDerivation:
         return self._reached[node]
 
     def __call__(self, node: str) -> Any:
-        """The node's value."""
+        """The node's value; AlgebraError where the replacement leads to none."""
         if node not in self._values:
             if not self.reached(node):
                 return self.graph.key(node)
             route = self.graph.routes(node)[0]
-            self._values[node] = route.compute(*(self(name) for name in route.inputs))
+            found = route.compute(*(self(name) for name in route.inputs))
+            if isinstance(found, Skipped):
+                raise AlgebraError(found.why)
+            self._values[node] = found
         return self._values[node]
 
 

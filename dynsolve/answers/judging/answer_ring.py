@@ -140,8 +140,11 @@ class AnswerRing:
     # -- carrying over -----------------------------------------------------------------------------
 
     def move(self, value: Any) -> Any:
-        """A value of the problem's ring, or anything that is made of such values, in this ring."""
-        if self.same:
+        """A value of the problem's ring, or anything that is made of such values, in this ring.
+
+        What is in a ring of its own, as equilibria are, stays there.
+        """
+        if self.same or (isinstance(value, Expr | Matrix) and value.ring is not self.base):
             return value
         if isinstance(value, Expr):
             return self._expr(value)

@@ -17,6 +17,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.answer_ring import AnswerRing, AnswerRingBuilder
 from dynsolve.answers.judging.evaluate import AnswerEvaluator
 from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.answers.judging.inputs import with_inputs
 from dynsolve.answers.judging.own_coordinates import in_problems_coordinates
 from dynsolve.answers.judging.own_names import GivenNowhereError, OwnNames, Rows
 from dynsolve.answers.submission import Answer
@@ -67,7 +68,8 @@ class AnswerValues:
                 self._faults[place] = answer.fault or "this could not be read", answer.expected
                 continue
             try:
-                self._nodes[place] = in_problems_coordinates(answer, named) or answer.node
+                turned = in_problems_coordinates(answer, named) or answer.node
+                self._nodes[place] = with_inputs(base.robot, named, answer.name, turned)
                 builder.admit(self._nodes[place])
             except AlgebraError as error:
                 self._faults[place] = error.message, error.help

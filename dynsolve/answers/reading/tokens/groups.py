@@ -9,6 +9,7 @@ from dynsolve.answers.reading.tokens.lexer import SEPARATORS, Token
 
 _SINGLE = frozenset({"name", "letter", "number", "text"})
 _FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
+_FRACTIONS = ("frac", "binom")
 _SIGNS = frozenset({"+", "-", "="})
 
 
@@ -29,7 +30,7 @@ def close_group(closing: Token, group: Group, out: list[Token], following: str) 
         out.append(closing._replace(kind="close", text="matrix"))
     elif inside == 0:
         del out[start:]
-    elif inside == 1 and (out[-1].kind in _SINGLE or out[-1].text in _FUNCTIONS):
+    elif inside == 1 and _is_one(out, start):
         out[start:] = [out[-1]._replace(spaced=out[start].spaced)]
     elif group.depth > MAX_NESTING:  # it will not be read, and looking through it would take for ever
         out.append(closing)
@@ -39,6 +40,14 @@ def close_group(closing: Token, group: Group, out: list[Token], following: str) 
         del out[start]
     else:
         out.append(closing)
+
+
+def _is_one(out: list[Token], start: int) -> bool:
+    r"""Whether the token that stands alone in its group is one factor: `ml` below a line may be two."""
+    token = out[-1]
+    if token.kind in ("name", "text") and len(token.text) > 1 and _is_divided(out, start):
+        return False
+    return token.kind in _SINGLE or token.text in _FUNCTIONS
 
 
 def frame_follows(tokens: list[Token], position: int) -> bool:
@@ -78,13 +87,21 @@ def _is_argument(out: list[Token], start: int) -> bool:
         out[before].kind == "command" and out[before].text not in SEPARATORS
     ):
         return True
+    return _is_divided(out, start)
+
+
+def _is_divided(out: list[Token], start: int) -> bool:
+    """Whether the group that opens there is an argument of a fraction, or stands under a root."""
+    before = start - 1
+    if before >= 0 and out[before].kind == "command" and out[before].text in (*_FRACTIONS, "sqrt"):
+        return True
     level = 0
     while before >= 0:  # the second argument of a fraction
         level -= level_of(out[before])
         before -= 1
         if level <= 0:
             break
-    return before >= 0 and out[before].kind == "command" and out[before].text in ("frac", "binom")
+    return before >= 0 and out[before].kind == "command" and out[before].text in _FRACTIONS
 
 
 def _bar(out: list[Token], start: int) -> int:

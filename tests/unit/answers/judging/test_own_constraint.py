@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+import dynsolve
 from dynsolve.answers.judging.other_solutions import Other
 from tests.unit.answers.hands import Text, judge, verdicts
 
@@ -55,6 +56,26 @@ def test_the_matrix_and_its_rate(answers: dict[str, Text], expected: list[str]) 
 def test_the_multipliers_go_with_the_matrix(matrix: Text, multiplier: str, expected: str) -> None:
     found = verdicts(judge(LINE, {"Ac": matrix, "lambda": multiplier}))
     assert (found["Ac"], found["lambda"]) == ("correct", expected)
+
+
+@pytest.mark.parametrize(
+    ("more", "multiplier", "expected"),
+    [
+        ("", FORCE, "correct"),
+        ("", f"[{FORCE}]", "correct"),
+        ("  tau: [m*q2^2*q1_ddot + 2*m*q2*q1_dot*q2_dot, m*q2_ddot - m*q2*q1_dot^2]\n", FORCE, "correct"),
+        ("", FORCE.replace("q2 -", "q2 +"), "wrong"),
+    ],
+)
+def test_names_of_forces_are_inputs_in_what_is_handed_in(more: str, multiplier: str, expected: str) -> None:
+    """Also beside an answer τ of the student's own, which holds accelerations."""
+    report = dynsolve.check(LINE, f"answers:\n  lambda: {multiplier}\n{more}")
+    assert verdicts(report)["lambda"] == expected
+
+
+def test_a_coordinate_without_a_motor_has_no_input() -> None:
+    report = dynsolve.check(f"{LINE}passive: [q1]\n", f"answers:\n  lambda: {FORCE}\n")
+    assert verdicts(report)["lambda"] == "correct"
 
 
 def test_what_holds_on_the_constraint_alone_is_told() -> None:
