@@ -16,7 +16,7 @@ from dynsolve.explain.closing import driving_side, equations_of_motion, moving_s
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.task import with_letters
-from dynsolve.explain.writing import is_small, listed, sum_of
+from dynsolve.explain.writing import is_small, listed, scalar, sum_of
 from dynsolve.notation.tree import (
     Derivative,
     Negative,
@@ -67,7 +67,7 @@ def _functions(context: Context) -> Step:
              "from the forward kinematics." if _with_points(context) else " stays 0 in every motion."),
         formula=equation(letters.H_C, column(*entries) if many else entries[0]),
         source=mls("6.1.1"),
-        result=(equation(letters.H_C, context.form("hc")),),
+        result=(equation(letters.H_C, scalar(context.form("hc"))),),
         detail=Detail.BRIEF,
     )  # fmt: skip
 
@@ -100,17 +100,21 @@ def _matrix(context: Context) -> Step:
 
 
 def _rate(context: Context) -> Step:
-    change = equation(Sum((Product((_A, letters.QDD)), Product((_A_DOT, letters.QD)))), Number(0))
     return Step(
         id="Ac_dot",
         stage=STAGE,
         title="Its rate",
-        why=("The constraint differentiated once more: ", change, ". Every entry by the chain rule."),
+        why=("The constraint differentiated once more: ", _kept(), ". Every entry by the chain rule."),
         formula=equation(_A_DOT, letters.time_derivative(_A)),
         source=mls("6.1.2"),
         result=(equation(_A_DOT, context.form("Ac_dot")),),
         detail=Detail.BRIEF,
     )
+
+
+def _kept() -> Node:
+    """A_c q̈ + Ȧ_c q̇ = 0: what the constraints ask of the accelerations."""
+    return equation(Sum((Product((_A, letters.QDD)), Product((_A_DOT, letters.QD)))), Number(0))
 
 
 # -- the multipliers -------------------------------------------------------------------------------
@@ -134,14 +138,14 @@ def _multipliers(context: Context) -> Step:
         why=(
             "The forces of constraint do no work, so they are combinations of the rows of ", _A, ": ",
             equations_of_motion(context),
-            ". Put the accelerations that follow into the constraint, differentiated twice, and solve.",
+            ". Put the accelerations that follow into ", _kept(), ", and solve.",
             *_driving(context),
         ),
         formula=formula,
         source=mls("6.1.2"),
         lines=lines,
         concluding=("Put in, and cancelled:",) if lines else (),
-        result=(equation(_L, mapped(context.form("lambda"), _with_letters(context.robot))),),
+        result=(equation(_L, mapped(scalar(context.form("lambda")), _with_letters(context.robot))),),
         detail=Detail.BRIEF,
     )  # fmt: skip
 
@@ -170,7 +174,7 @@ def _products(context: Context) -> tuple[Line, ...]:
     D, A = context.values["D"], context.values["Ac"]
     inverse, scale = adjugate(D), determinant(D)
     square = quotient(A @ inverse @ A.T, scale)
-    shown = context.forms.of(square)
+    shown = scalar(context.forms.of(square))
     over = context.forms.of(quotient(inverse, scale))
     if not is_small(shown, over):
         return ()

@@ -58,7 +58,11 @@ def _step(context: Context, candidate: Candidate, found: Definiteness | Skipped)
         title=f"The matrix {candidate.name}",
         source=spong("7.5"),
         result=(equation(name, context.show(candidate.matrix)), *minors),
-        why=(*reason(context.forms, found), f" {_CONCLUSIONS[found.answer]}"),
+        why=(
+            *_assumed(context.forms, candidate, found),
+            *reason(context.forms, found),
+            f" {_CONCLUSIONS[found.answer]}",
+        ),
         notes=notes,
         hint=("Look at its entries first, then at its leading minors.",),
         detail=Detail.BRIEF,
@@ -70,6 +74,13 @@ _CONCLUSIONS = {
     Answer.IF: "So it can be an inertia matrix under these conditions.",
     Answer.NO: "So it can be no inertia matrix.",
 }
+
+
+def _assumed(forms: Forms, candidate: Candidate, found: Definiteness) -> Prose:
+    """Under which inequalities of the parameters the minors are judged."""
+    if not candidate.assumed or found.refusal not in (None, Refusal.INDEFINITE):
+        return ()
+    return ("Let ", *listed([inequality(forms, bound) for bound in candidate.assumed]), ". ")
 
 
 def _general(is_relative: bool) -> Step:
@@ -110,7 +121,10 @@ def _refused(found: Definiteness) -> Prose:
             return (f"It is not symmetric: {entry} is not entry ({j + 1}, {i + 1}).",)
         case Refusal.NOT_PERIODIC:
             why = " is an angle, and stands outside of sines and cosines in "
-            return (Symbol(found.coordinate), f"{why}{entry}: after a full turn D would not be the same.")
+            return (
+                Symbol(found.coordinate),
+                f"{why}{entry}: after a full turn the matrix would not be the same.",
+            )
         case Refusal.LENGTH_IN_SINE:
             return (Symbol(found.coordinate), f" is a length, and stands in a sine or cosine in {entry}.")
         case Refusal.DEGREE:

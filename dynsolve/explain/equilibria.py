@@ -35,7 +35,7 @@ STAGE = Stage.EQUILIBRIA
 _SOURCE = SLOTINE_LI.section("3.3")
 _INVERSE = Power(letters.D, Negative(Number(1)))
 _F, _S = letters.bold("F"), letters.bold("S")
-_DG = Row((Words("∂"), letters.G, Words("/∂"), letters.Q))
+_DG = letters.partial_derivative(letters.G, letters.Q)
 _ZERO, _ONE = letters.bold("0"), letters.bold("E")
 
 
@@ -67,10 +67,11 @@ def _equilibria(context: Context) -> Iterator[Step]:
     if held:
         passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
         why = (*why, "Motors hold the others; what has none must be in balance: ", *listed(passive), ". ")
-    rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
-    lines = (Line(("Combined, without factors that are never 0",), rows),) if rows else ()
     cases = shown.equilibria
     result: tuple[Node, ...] = tuple(_together(one) for one in cases if one)
+    rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
+    is_new = bool(rows) and [side_by_side(rows)] != [*result]  # not what the result says again
+    lines = (Line(("Combined, without factors that are never 0",), rows),) if is_new else ()
     if not cases:
         notes: tuple[Prose, ...] = (("No configuration makes all of them 0: there is no equilibrium.",),)
     elif not cases[0]:

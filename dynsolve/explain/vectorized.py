@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dynsolve.document import Prose
 from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
 from dynsolve.explain.christoffel import SLOPES, christoffel_step
-from dynsolve.explain.closing import closing_step
+from dynsolve.explain.closing import closing_step, driving_side
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import inertia_step
 from dynsolve.explain.sanity import sanity_steps
@@ -110,7 +110,9 @@ def _rest(context: Context) -> Step:
         why += (" No term has rates here.",)
     if values["g"].is_zero:
         why += (" No term remains at rest here.",)
-    left: list[Node] = [letters.TAU, Negative(Product((letters.D, letters.QDD)))]
+    acting = driving_side(context)
+    left: list[Node] = [*(acting.terms if isinstance(acting, Sum) else (acting,))]
+    left.append(Negative(Product((letters.D, letters.QDD))))
     if "friction" in values.rules:
         why += (" Friction, ", letters.FRICTION, ", is taken off.")
         left.append(Negative(letters.FRICTION))

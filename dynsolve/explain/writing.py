@@ -67,6 +67,14 @@ def side_by_side(parts: Sequence[Node]) -> Row:
     return Row(tuple(row))
 
 
+def scalar(form: Node) -> Node:
+    """The entry of a 1×1 matrix: what there is one of is written as a number.  Other forms as they are."""
+    match form:
+        case Matrix(((entry,),)):
+            return entry
+    return form
+
+
 def sum_of(terms: Sequence[Node]) -> Node:
     """The sum of terms as they are; 0 of none."""
     if not terms:

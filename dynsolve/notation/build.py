@@ -107,7 +107,7 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     """coefficient · Π node^exponent; negative exponents go below the fraction line.
 
     Signs and numbers of the factors are drawn to the front, products flattened, in
-    the given order.  With `decimal` a fraction is one number in front, 0.12 c₂ and not
+    the given order: 1/(2·3 a) is 1/(6 a).  With `decimal` a fraction is one number in front, 0.12 c₂ and not
     3 c₂/25; one that does not end is kept exact, and rounded where it is shown.
     """
     above: list[Node] = []
@@ -118,6 +118,10 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
             sign, inner = -sign, total([negated(t) for t in inner.terms])
         if sign < 0 and exponent % 2:
             coefficient = -coefficient
+        match inner:
+            case Product((Number(p, q), *others)) if exponent != 1:
+                coefficient = coefficient * Fraction(p, q) ** exponent
+                inner = others[0] if len(others) == 1 else Product(tuple(others))
         if exponent == 1:
             coefficient = _put_factor(inner, coefficient, above)
         elif isinstance(inner, Number):

@@ -9,7 +9,6 @@ from typing import Protocol
 
 from dynsolve.notation.tree import Node, Number
 from dynsolve.problem.cells import Cell, forbid, read_cell, read_matrix
-from dynsolve.problem.density import cell_of, line_density
 from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items, word
 from dynsolve.problem.places import ParsedPlace, read_link, read_place
@@ -181,6 +180,8 @@ def _read_body(
 
 def _integrated(faults: Faults, parsed: ParsedBody) -> ParsedBody:
     """A rod with a density: its mass, centre and tensor follow; a key that would say them too is reported."""
+    from dynsolve.problem.density import cell_of, line_density
+
     shape = parsed.shape
     assert shape is not None
     density = shape.density

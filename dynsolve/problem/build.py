@@ -6,15 +6,14 @@ which axes.  What is wrong is reported at its place; nothing is built of it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.problem.actions import NO_ACTIONS
 from dynsolve.problem.bodies import ParsedBody, ParsedShape
 from dynsolve.problem.body_values import mass_value, tensor_value
-from dynsolve.problem.candidates_build import candidates
-from dynsolve.problem.mechanism_build import given_model, placed_bodies
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.positions import PlaceBuilder
 from dynsolve.problem.questions_build import load, named_point, with_questions
@@ -25,6 +24,10 @@ from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.model_questions import reference
 from dynsolve.robot.shapes import AXES, KINDS, Shape
+
+if TYPE_CHECKING:
+    from dynsolve.problem.mechanism import ParsedModel
+    from dynsolve.robot.mechanism import GivenModel
 
 HOLD_FORCES = frozenset({"lambda"})
 """The results that hold the generalized forces by their names."""
@@ -52,11 +55,11 @@ def build_robot(
     move = values.column(parsed.base.move) if parsed.base.move else None
     gravity = values.column(parsed.gravity) if parsed.gravity else None
     builder = BodyBuilder(faults, values, links)
-    bodies = placed_bodies(values, model) if model else [builder.body(body) for body in parsed.bodies]
+    bodies = _placed(values, model) if model else [builder.body(body) for body in parsed.bodies]
     asked_points = [named_point(builder.places, point) for point in parsed.questions.points]
     points = [point for point in asked_points if point]
     loads = [load(builder.places, entry, points, len(joints)) for entry in parsed.questions.loads]
-    given = given_model(values, model) if model else None
+    given = _given(values, model) if model else None
     if faults.errors or gravity is None:
         return None
     robot = Robot(
@@ -80,9 +83,25 @@ def build_robot(
     is_drawn = parsed.normals is not None
     robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn, written)
     if parsed.candidates is not None:
+        from dynsolve.problem.candidates_build import candidates
+
         judged = candidates(values, parsed.candidates, given.D if given else None)
         robot = replace(robot, questions=replace(robot.questions, candidates=judged))
     return None if faults.errors else robot
+
+
+def _placed(values: CellValues, model: ParsedModel) -> Sequence[Body | None]:
+    """The bodies of a mechanism by positions; a file with a table does not import what makes them."""
+    from dynsolve.problem.mechanism_build import placed_bodies
+
+    return placed_bodies(values, model)
+
+
+def _given(values: CellValues, model: ParsedModel) -> GivenModel | None:
+    """The energies that a file gives in the place of bodies."""
+    from dynsolve.problem.mechanism_build import given_model
+
+    return given_model(values, model)
 
 
 def _joint(values: CellValues, parsed: ParsedFile, row: DHRow) -> Joint | None:

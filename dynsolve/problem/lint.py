@@ -9,15 +9,18 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from dynsolve.errors import Finding
 from dynsolve.notation.names import split
 from dynsolve.problem.bodies import ParsedBody
 from dynsolve.problem.cells import Cell
-from dynsolve.problem.mechanism import ParsedPlacedBody
 from dynsolve.problem.reader import Reading, read_file, read_whole
 from dynsolve.problem.yaml_nodes import MappingNode, Span
 from dynsolve.robot.model import Body, Robot
+
+if TYPE_CHECKING:
+    from dynsolve.problem.mechanism import ParsedPlacedBody
 
 _YAML_WORDS = ("null", "true", "false", "yes", "no", "on", "off")
 _SHORTHAND = re.compile(r"[sc]_?([0-9_]+)")

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.problem.actions import NO_ACTIONS, ParsedActions
 from dynsolve.problem.base import ParsedBase
 from dynsolve.problem.bodies import ParsedBody
-from dynsolve.problem.candidates import ParsedCandidates
 from dynsolve.problem.cells import Cell
-from dynsolve.problem.mechanism import ParsedModel
 from dynsolve.problem.questions import ParsedQuestions
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.table import DHTable
@@ -19,6 +18,10 @@ from dynsolve.quantities.index import Owners
 from dynsolve.quantities.stages import ASKED_FOR
 from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.model import AxesKind, Convention, Coordinate, JointType
+
+if TYPE_CHECKING:
+    from dynsolve.problem.candidates import ParsedCandidates
+    from dynsolve.problem.mechanism import ParsedModel
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from dynsolve.errors import Finding, ProblemError
 from dynsolve.problem.accepted_tables import read_accepted_tables
@@ -19,14 +20,12 @@ from dynsolve.problem.actions import NO_ACTIONS, check_bodies, read_actions
 from dynsolve.problem.base import NO_BASE, NO_GRAVITY, read_base, read_gravity
 from dynsolve.problem.bodies import read_bodies
 from dynsolve.problem.build import build_robot
-from dynsolve.problem.candidates import ParsedCandidates, read_candidates
 from dynsolve.problem.cells import Cell
 from dynsolve.problem.drawing import read_drawing
 from dynsolve.problem.drawn_places import DrawnFrames
 from dynsolve.problem.exercise import read_exercise
 from dynsolve.problem.fields import Fields, describe, free_text, word
 from dynsolve.problem.framing import Framed, from_drawing
-from dynsolve.problem.mechanism import ParsedModel, read_model, read_types
 from dynsolve.problem.model import FilePlace, Problem
 from dynsolve.problem.parsed_file import ParsedFile
 from dynsolve.problem.questions import read_questions
@@ -36,6 +35,10 @@ from dynsolve.problem.symbols import check_size, check_symbols
 from dynsolve.problem.table import DHTable, read_table
 from dynsolve.problem.yaml_nodes import ListNode, MappingNode, YamlNode, read_nodes
 from dynsolve.robot.model import Convention
+
+if TYPE_CHECKING:  # a file with a table needs neither
+    from dynsolve.problem.candidates import ParsedCandidates
+    from dynsolve.problem.mechanism import ParsedModel
 
 _AXES = "delete it, or give the joint axes of a drawing in place of `dh`"
 
@@ -177,6 +180,8 @@ def _of_matrices(faults: Faults, fields: Fields) -> dict[str, str]:
     example = "write coordinates: {q1: revolute, q2: prismatic}"
     if "coordinates" not in fields:
         faults.error(fields.key_span("candidates"), "the candidates have no `coordinates`", example)
+    from dynsolve.problem.mechanism import read_types
+
     return read_types(faults, fields.get("coordinates"), example)
 
 
@@ -200,6 +205,8 @@ def _model(faults: Faults, fields: Fields) -> ParsedModel:
         if key in fields:
             message = f"`{key}` stands beside `model`, which has no table"
             faults.error(fields.key_span(key), message, "delete it, or give a `dh` table in place of `model`")
+    from dynsolve.problem.mechanism import read_model
+
     return read_model(faults, fields.get("model"))
 
 
@@ -207,6 +214,8 @@ def _candidates(faults: Faults, fields: Fields, coordinates: Mapping[str, str]) 
     """Matrices in the place of a robot, or what is assumed of the D of a model; None without either."""
     if "candidates" not in fields and not ("model" in fields and ("assume" in fields or "find" in fields)):
         return None
+    from dynsolve.problem.candidates import read_candidates
+
     return read_candidates(faults, fields, coordinates)
 
 

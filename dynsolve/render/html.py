@@ -45,6 +45,7 @@ PAGE = 44.0
 """What fits the widest page."""
 
 _FINE = 6.0
+_FRACTION = 13.0
 _WHOLE = 13.0
 _LEVELS = ("brief", "normal", "full")
 _CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>[.,:;)]+")
@@ -126,7 +127,7 @@ class _Page(MarkupPage):
         self.numbers = {level: numbered(document, level or None) for level in self.levels}
         self.level = 0  # of the fold that is being written
         self.ruler = Ruler(style)
-        self.splitter = FormulaSplitter(html_notation(printer), self.ruler, _FINE)
+        self.splitter = FormulaSplitter(html_notation(printer), self.ruler, _FINE, _FRACTION)
         self.entries: list[_Entry] = []
 
     def document(self, blocks: Iterable[Block]) -> Iterator[str]:

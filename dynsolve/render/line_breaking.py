@@ -32,6 +32,8 @@ RELATION_BREAK, SUM_BREAK, FACTOR_BREAK = 0, 1, 3
 _DEEPER = 2
 _FINE = 11.0
 """Terms and factors that are narrower than this, in em, stay whole."""
+_FRACTION = 32.0
+"""Denominators that are wider than this, in em, stand behind a slash, where they may be broken."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,10 +92,13 @@ class _Builder:
 class FormulaSplitter:
     """Takes formulas apart into pieces."""
 
-    def __init__(self, notation: Notation, ruler: Ruler, fine: float = _FINE) -> None:
+    def __init__(
+        self, notation: Notation, ruler: Ruler, fine: float = _FINE, fraction: float = _FRACTION
+    ) -> None:
         self.notation = notation
         self.ruler = ruler
         self.fine = fine
+        self.fraction = fraction
 
     def pieces(self, node: Node, sign: str = "") -> list[Piece]:
         """The pieces of a formula, with a sign of a relation before it."""
@@ -124,7 +129,8 @@ class FormulaSplitter:
                 self._sum(builder, terms, level)
             case Negative(argument):
                 builder.add(self.notation.lead, 0.78)
-                self._factor(builder, argument, level)
+                put = self._put if isinstance(argument, Quotient) else self._factor
+                put(builder, argument, level)
             case Row(parts):
                 inside = level + _DEEPER if any(map(_is_comma, parts)) else level
                 for part in parts:
@@ -135,6 +141,11 @@ class FormulaSplitter:
                 builder.add(self.notation.text(node), self.ruler.width(node))
             case Product(factors) if factors:
                 self._product(builder, factors, level)
+            case Quotient(numerator, denominator) if self._is_long_fraction(node):
+                self._factor(builder, numerator, level)
+                builder.gap(level + FACTOR_BREAK)
+                builder.add(self.notation.relation("/"), BINARY)
+                self._enclosed(builder, denominator, level)
             case Quotient(numerator, denominator) if not isinstance(numerator, Number):
                 builder.add(
                     self.notation.text(Quotient(Number(1), denominator)), self.ruler.width(denominator) + 0.4
@@ -143,7 +154,7 @@ class FormulaSplitter:
                     self._product(builder, numerator.factors, level)
                 else:
                     self._factor(builder, numerator, level)
-            case Power(base, exponent) if isinstance(base, Sum | Parenthesized):
+            case Power(base, exponent) if isinstance(base, Sum | Parenthesized | Negative | Product):
                 inner = base.argument if isinstance(base, Parenthesized) else base
                 self._enclosed(builder, inner, level, exponent)
             case Parenthesized(argument):
@@ -194,7 +205,7 @@ class FormulaSplitter:
             builder.add(self.notation.text(node), self.ruler.width(node))
 
     def _factor(self, builder: _Builder, node: Node, level: int) -> None:
-        if isinstance(node, Sum | Negative | Relation):
+        if isinstance(node, Sum | Negative | Relation) or self._is_long_fraction(node):
             self._enclosed(builder, node, level)
         else:
             self._put(builder, node, level)
@@ -207,6 +218,9 @@ class FormulaSplitter:
             self.notation.closed(size, exponent),
             PARENTHESIS + (0.0 if exponent is None else self.ruler.index(exponent)),
         )
+
+    def _is_long_fraction(self, node: Node) -> bool:
+        return isinstance(node, Quotient) and self.ruler.width(node.denominator) > self.fraction
 
     def _is_wide(self, node: Node) -> bool:
         return self.ruler.width(node) > self.fine

@@ -106,7 +106,7 @@ def typst_notation(printer: TypstPrinter) -> Notation:
         plus='class("binary", +)',
         minus='class("binary", -)',
         lead="-",
-        relation=lambda sign: sign,
+        relation=lambda sign: "\\/" if sign == "/" else sign,  # unescaped it sets a fraction
         opened=lambda inner: fence("(", inner),
         closed=closed,
         joined=" ".join,

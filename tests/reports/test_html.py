@@ -16,6 +16,7 @@ pytestmark = pytest.mark.browser
 
 LONGEST = 5_000_000
 WIDTHS = (400, 1200)
+CONSTRAINTS = Path(__file__).parents[1] / "golden" / "constraints"
 
 # Elements without width or height, those in hidden parts apart.
 EMPTY = """
@@ -58,6 +59,12 @@ def test_everything_is_seen_and_nothing_overflows(problem: Path, page: Page, tmp
         assert page.ask(OVERFLOWING) == []
         assert page.requests == [path.as_uri()]
         assert page.complaints == []
+
+
+def test_a_long_fraction_is_broken_on_a_phone(page: Page, tmp_path: Path) -> None:
+    page.open(saved(CONSTRAINTS / "sapienza-2013-01-line.yaml", tmp_path), 400)
+    assert page.ask("document.querySelectorAll('#eq-lambda .line > math').length") > 2
+    assert page.ask(OVERFLOWING) == []
 
 
 def test_matrices_accents_and_fractions_are_set(page: Page, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dynsolve.document import Prose
+from dynsolve.explain.closing import driving_row
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import listed, spong
@@ -16,7 +17,7 @@ LONGEST = 30
 
 
 def cyclic_step(context: Context) -> Step | None:
-    """The momenta that stay constant as long as their forces are zero."""
+    """The momenta that stay constant as long as nothing acts on them."""
     values = context.values
     free = [
         q
@@ -30,7 +31,10 @@ def cyclic_step(context: Context) -> Step | None:
     momenta = [letters.partial_derivative(letters.L, letters.velocity(q)) for q in free]
     why: Prose = (*listed([Symbol(q.name) for q in free]), f" {'stands' if one else 'stand'} nowhere in ")
     why += (letters.L, f": {'a cyclic coordinate' if one else 'cyclic coordinates'}. As long as ")
-    why += (*listed([equation(letters.force(q), Number(0)) for q in free]), ", the Euler-Lagrange equation")
+    why += (
+        *listed([equation(driving_row(context, q), Number(0)) for q in free]),
+        ", the Euler-Lagrange equation",
+    )
     why += (" says" if one else "s say",)
     why += (f" that the {'momentum' if one else 'momenta'} ", *listed(momenta))
     why += (" is conserved." if one else " are conserved.",)

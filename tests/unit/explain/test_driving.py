@@ -26,3 +26,28 @@ def test_a_row_says_what_acts(more: str, row: str) -> None:
         solution = dynsolve.solve(ARM + more, method=method)
         step = next(step for step in solution.steps if step.id == "tau1")
         assert UnicodePrinter(solution.style).text(step.result[0]).startswith(f"{row} = ")
+
+
+@pytest.mark.parametrize(
+    ("more", "rest", "conserved"),
+    [
+        ("", "C q̇ + g = τ - D q̈", "As long as τ₁ = 0, "),
+        (FORCE, "C q̇ + g = τ + Q - D q̈", "As long as τ₁ + Q₁ = 0, "),
+        (CONSTRAINT, "C q̇ + g = τ + A_cᵀ λ - D q̈", "As long as τ₁ + (A_cᵀ λ)₁ = 0, "),
+    ],
+)
+def test_what_is_read_off_and_conserved_counts_all_that_acts(more: str, rest: str, conserved: str) -> None:
+    solution = dynsolve.solve(ARM + "gravity: none\n" + more)
+    steps = {step.id: step for step in solution.steps}
+    printer = UnicodePrinter(solution.style)
+    said = "".join(part if isinstance(part, str) else printer.text(part) for part in steps["cyclic"].why)
+    assert printer.text(steps["Cqd"].formula) == rest
+    assert conserved in said
+
+
+def test_one_constraint_has_numbers_and_not_matrices_of_one() -> None:
+    solution = dynsolve.solve(f"{ARM}{CONSTRAINT}find: [lambda]\n")
+    shown = [n for step in solution.steps if step.id in ("hc", "lambda") for n in step.result]
+    texts = [UnicodePrinter(solution.style).text(node) for node in shown]
+    assert len(texts) == 2
+    assert not any("[" in text for text in texts)

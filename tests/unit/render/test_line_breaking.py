@@ -55,6 +55,16 @@ def test_pieces_are_the_formula() -> None:
     )
 
 
+def test_a_denominator_that_fits_no_line_stands_behind_a_slash() -> None:
+    node = read("-(a + b)/(m1*q1^2 + (I1 + I2)*c)").tree
+    setting = [FormulaSplitter(latex_notation(LatexPrinter()), Ruler(), 6, most) for most in (5, 50)]
+    broken, whole = ["".join(piece.text for piece in one.pieces(node)).replace(" ", "") for one in setting]
+    assert r"\frac" not in broken and ")/(" in broken.replace("{}", "").replace(r"\left", "").replace(
+        r"\right", ""
+    )
+    assert r"\frac" in whole
+
+
 def test_a_short_formula_stands_on_one_line() -> None:
     node = equation(Symbol("P1"), read("m1*g*l1").tree)
     assert [line.right for line in setter(30).set(Formula(node))] == ["P_{1} = m_{1} g l_{1}"]
