@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.algebra.fraction import RationalExpr
@@ -15,9 +15,9 @@ from dynsolve.document import Prose
 from dynsolve.explain.citations import SLOTINE_LI, spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.writing import side_by_side
+from dynsolve.explain.writing import listed
 from dynsolve.notation.build import times, total
-from dynsolve.notation.tree import Letter, Node, Number, Product, Row, Sum, Symbol, Words, equation
+from dynsolve.notation.tree import Entry, Letter, Node, Number, Product, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
@@ -108,7 +108,7 @@ def _known(context: Context) -> Prose:
     known = sorted(context.robot.questions.model.known)
     if not known:
         return ()
-    return (side_by_side([Symbol(name) for name in known]), f" count{'s' * (len(known) == 1)} as known. ")
+    return (*listed([Symbol(name) for name in known]), f" count{'s' * (len(known) == 1)} as known. ")
 
 
 def _minimal(count: int) -> str:
@@ -125,26 +125,21 @@ def _lines(context: Context, linear: _Linear, parameters: Matrix) -> Iterator[Li
         "The coefficients that occur, without numbers and known factors that all terms of one share",
     )
     yield Line(by, tuple(context.show(coefficient) for coefficient, _ in found))
-    names = [_entry(context, k) for k in range(1, len(parameters.rows) + 1)]
+    names = [Entry(linear.a_letter, Number(k)) for k in range(1, len(parameters.rows) + 1)]
     dependent = [
         equation(context.show(coefficient), _sum(context, names, factors))
         for coefficient, factors in found
-        if coefficient not in parameters.entries and None not in names
+        if coefficient not in parameters.entries
     ]
     if dependent:
         yield Line(("What is a combination of others needs no entry of its own",), tuple(dependent))
 
 
-def _entry(context: Context, k: int) -> Node | None:
-    """a_k, None where the problem has a parameter of that name."""
-    return None if f"a{k}" in context.robot.parameters else Letter("a", Number(k))
-
-
-def _sum(context: Context, names: list[Node | None], factors: tuple[RationalExpr, ...]) -> Node:
-    """Σ y_k a_k"""
+def _sum(context: Context, names: Sequence[Node], factors: tuple[RationalExpr, ...]) -> Node:
+    """Σ y_k (a)_k"""
     terms = []
     for name, factor in zip(names, factors, strict=True):
-        if name is not None and not factor.is_zero:
+        if not factor.is_zero:
             (row,) = _shown(context, factor)
             terms.append(times(1, [(row, 1), (name, 1)]))
     return total(terms)

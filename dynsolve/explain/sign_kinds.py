@@ -17,6 +17,8 @@ from dynsolve.notation.walk import children
 Kind = tuple[str, str, str]
 """Base, style and shape of the indices; of a name ("", "name", the name)."""
 
+TIME: Kind = ("", "name", "t")
+
 _SAME: dict[Kind, Kind] = {
     ("x", "bold", ""): ("x", "bold", "#"),
     ("z", "bold", ""): ("z", "bold", "#"),
@@ -84,6 +86,8 @@ def kinds_in(nodes: Iterable[Node], style: Style) -> set[Kind]:
         kind = kind_of(node, style)
         if kind is not None:
             found.add(kind)
+        if isinstance(node, Letter | Symbol) and node.dots:
+            found.add(TIME)  # a dot is a derivative by it
         if not (isinstance(node, Letter) or (kind and kind[1] == "shorthand")):
             pending += children(node)
     return found

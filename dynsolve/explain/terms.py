@@ -59,7 +59,7 @@ _MEANINGS: dict[Kind, str] = {
     Kind.CORIOLIS: "With the product of two rates it is a Coriolis term: it needs both coordinates to move.",
     Kind.FRICTION: "What takes energy away is friction: its sign is that of the rates.",
     Kind.GRAVITY: "Without rates and accelerations it is gravity: what {holds} must hold at rest.",
-    Kind.SPRING: "The force of a spring has no rates either.",
+    Kind.SPRING: "What {holds} must hold at rest against a spring has neither rates nor accelerations.",
     Kind.HELD: "Without rates and accelerations it is what {holds} must hold at rest, against gravity and "
     "springs.",
 }

@@ -259,3 +259,16 @@ def test_the_letters_of_shapes_are_told_where_there_are_shapes() -> None:
     """The values of a task may be called x, y and z, as the sides of a box are."""
     assert lines("inf3480-rpr")["x, y, z"] == ("values of the task that are to be reached", "")
     assert "of a uniform shape" in lines("box-cylinder-rod-sphere")["m, l, r, x, y, z"][0]
+
+
+@pytest.mark.parametrize("problem", ["planar-2r-reach", "in3140-rp"])
+def test_what_a_dot_means_is_told_wherever_there_is_one(problem: str) -> None:
+    remarks = notation(solved(problem).robot, solved(problem).style, document(problem).blocks).remarks
+    assert "A dot is the derivative with respect to the time " in remarks
+
+
+def test_the_entries_of_the_parameters_are_not_lengths_of_the_table() -> None:
+    """With a_i in the table, entry i of the parameters is (a)_i."""
+    (step,) = (step for step in solved("rp-parameters").steps if step.id == "a")
+    shown = [to_unicode(node, solved("rp-parameters").style) for node in step.lines[-1].formulas]
+    assert shown[0] == "m₁ d_c1 + m₂ l₁ = l₁ (𝐚)₂ + (𝐚)₃"
