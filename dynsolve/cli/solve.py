@@ -108,11 +108,10 @@ def solve(
     """Derive a robot's dynamics step by step, verified.
 
     The stages, in order: kinematics, jacobian, task, singular, inverse, rates, inertia,
-    energy, lagrangian, torque, vectorized, parameters, equilibria, task_inertia, definite,
-    statics, constraints. A robot without masses has none of the dynamics; task, singular, inverse,
-    rates, parameters, equilibria, task_inertia, definite, statics and constraints are there where a
-    file asks for
-    something of them. With --method newton-euler one stage, newton_euler, leads from the
+    energy, lagrangian, torque, vectorized, parameters, equilibria, forward_dynamics,
+    task_inertia, definite, statics, constraints. A robot without masses has none of the
+    dynamics; task, singular, inverse, rates, and those from parameters on are there where a file
+    asks for something of them. With --method newton-euler one stage, newton_euler, leads from the
     kinematics to the forces.
     """
     view = _View(_stages(stage, first, last), detail, star, abbreviate, fragment, hint)

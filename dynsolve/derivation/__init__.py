@@ -18,6 +18,8 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     balance         conditions on the parameters for gravity to move nothing: likewise
     equilibria      where gravity and springs move nothing, and how stable that is: likewise
     linearization   the motion near an equilibrium: likewise
+    forward_dynamics
+                    q̈ from the forces: likewise
     task_inertia    the inertia that a force at the task meets: likewise
     regressor       7.5.3 τ = Y a, with a of minimal length: likewise
     statics         4.10  forces from outside, the torques that hold them: likewise
@@ -57,6 +59,7 @@ And the independent check, which shares no formula with any of these:
     balance_check   these conditions put in
     equilibrium_check
                     equilibria put in, looked for, and their stability, by differences
+    forward_check   q̈ put back into the equations of motion
     linear_check    linearization and the task's inertia, against elimination and differences
     model_check     Y a against τ, its length against the rank of numbers
     static_check    generalized forces and holding torques, against the power of the forces

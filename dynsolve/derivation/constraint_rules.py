@@ -8,6 +8,7 @@ from functools import partial
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation import constraints, kinematics, task
+from dynsolve.derivation.forward_dynamics import acting_forces, acting_names
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.kinematic_rules import position_rule
 from dynsolve.robot.model import Robot
@@ -33,13 +34,7 @@ def constraint_rules(robot: Robot) -> Iterator[Rule]:
 
 
 def _multipliers(robot: Robot) -> Rule:
-    held = ("Cqd", "g", *(("friction",) if "friction" in robot.actions.kinds else ()))
-    outside = ("Q",) if robot.questions.loads else ()
-
     def compute(A: Matrix, A_dot: Matrix, D: Matrix, *forces: Matrix) -> Matrix | FractionMatrix | Skipped:
-        acting = sum(forces[len(held) :], start=constraints.driving_forces(robot))
-        for force in forces[: len(held)]:
-            acting = acting - force
-        return constraints.multipliers(robot, A, A_dot, D, acting)
+        return constraints.multipliers(robot, A, A_dot, D, acting_forces(robot, *forces))
 
-    return Rule(LAMBDA, ("Ac", "Ac_dot", "D", *held, *outside), compute)
+    return Rule(LAMBDA, ("Ac", "Ac_dot", "D", *acting_names(robot)), compute)

@@ -60,13 +60,6 @@ def constraint_matrix(robot: Robot, h: Matrix) -> Matrix:
     return Matrix.of(ring, rows)
 
 
-def driving_forces(robot: Robot) -> Matrix:
-    """τ, n×1, by the names of the generalized forces; 0 where no motor drives a coordinate."""
-    ring, passive = robot.ring, robot.actions.passive
-    entries = [ring.zero if k in passive else ring.symbol(q.force) for k, q in enumerate(robot.coordinates)]
-    return Matrix.column(ring, entries)
-
-
 def multipliers(
     robot: Robot, A: Matrix, A_dot: Matrix, D: Matrix, acting: Matrix
 ) -> Matrix | FractionMatrix | Skipped:

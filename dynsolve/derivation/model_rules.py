@@ -1,7 +1,7 @@
-"""What exercises ask of the equations of motion as rules: parameters, linearization, inertia of the task.
+"""What exercises ask of the equations of motion as rules: parameters, linearization, q̈, inertia of the task.
 
 A robot has the rules of those stages of which something is asked; the formulas are in
-`regressor`, `linearization` and `task_inertia`.
+`regressor`, `linearization`, `forward_dynamics` and `task_inertia`.
 """
 
 from __future__ import annotations
@@ -29,6 +29,8 @@ def model_rules(robot: Robot) -> Iterator[Rule]:
         yield from _parameters(robot)
     if Stage.EQUILIBRIA in stages:
         yield from _equilibria(robot)
+    if Stage.FORWARD_DYNAMICS in stages:
+        yield _forward(robot)
     if Stage.TASK_INERTIA in stages and robot.has_table:
         yield Rule("Lambda", ("Jr", "D"), task_inertia.task_inertia)
 
@@ -58,6 +60,13 @@ def _equilibria(robot: Robot) -> Iterator[Rule]:
         friction = ("friction",) if "friction" in robot.actions.kinds else ()
         yield Rule("linear_A", ("D", "g", *friction), partial(linearization.state_matrix, robot))
         yield Rule("linear_B", ("D",), partial(linearization.input_matrix, robot))
+
+
+def _forward(robot: Robot) -> Rule:
+    """The rule of the accelerations; what works them out is imported when they are asked for."""
+    from dynsolve.derivation.forward_dynamics import accelerations, acting_names
+
+    return Rule("qdd_forward", ("D", *acting_names(robot)), partial(accelerations, robot))
 
 
 def _where_in_balance(robot: Robot, gravity: Matrix) -> Equilibria | Skipped:

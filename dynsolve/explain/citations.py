@@ -99,7 +99,11 @@ SICILIANO = Book(
 LYNCH_PARK = Book(
     name="Lynch and Park",
     full="K. M. Lynch, F. C. Park, Modern Robotics, Cambridge University Press, 2017",
-    sections={"8.2.1": "Classical Formulation", "8.6": "Dynamics in the Task Space"},
+    sections={
+        "8.2.1": "Classical Formulation",
+        "8.5": "Forward Dynamics of Open Chains",
+        "8.6": "Dynamics in the Task Space",
+    },
 )
 
 MURRAY_LI_SASTRY = Book(

@@ -5,17 +5,20 @@ Friction stands beside g, forces from outside and of constraint beside τ, where
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.style import style_of
 from dynsolve.explain.working.proved import MOST_JOINTS
-from dynsolve.explain.writing import sum_of
+from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
     Matrix,
+    Negative,
     Node,
     Number,
     Product,
@@ -29,7 +32,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import UnicodePrinter, width
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Coordinate
+from dynsolve.robot.model import Coordinate, Robot
 
 ID = "model"
 """The closing step; reports show it in their last section, with what it is made of."""
@@ -101,6 +104,13 @@ def moving_side(context: Context) -> Sum:
     return Sum((inertial, coriolis, *rubs, letters.G))
 
 
+def acting_side(context: Context) -> Node:
+    """τ + Q - C q̇ - friction - g: everything that acts but constraints, beside D q̈."""
+    _, *rest = moving_side(context).terms
+    driving = driving_side(context, constrained=False)
+    return sum_of([*(driving.terms if isinstance(driving, Sum) else (driving,)), *map(Negative, rest)])
+
+
 def equations_of_motion(context: Context) -> Relation:
     """D q̈ + C q̇ + g = τ in letters, with everything that acts."""
     return equation(moving_side(context), driving_side(context))
@@ -121,6 +131,25 @@ def _meanings(context: Context) -> Prose:
 
         why += passive_prose(context)
     return why
+
+
+def motors_prose(context: Context) -> Prose:
+    """Which names stand for what the motors do."""
+    robot = context.robot
+    forces = [letters.force(q) for k, q in enumerate(robot.coordinates) if k not in robot.actions.passive]
+    if not forces:
+        return ()
+    return (
+        " ",
+        *listed(forces),
+        " is what the motor does." if len(forces) == 1 else " are what the motors do.",
+    )
+
+
+def with_force_letters(robot: Robot) -> Callable[[Node], Node]:
+    """The names of generalized forces as the letters that they are printed with elsewhere."""
+    forces = {q.force: letters.force(q) for q in robot.coordinates if q.force in robot.inputs}
+    return lambda part: forces.get(part.name, part) if isinstance(part, Symbol) else part
 
 
 def _width(context: Context, matrix: Matrix) -> int:

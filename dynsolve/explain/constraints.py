@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from dynsolve.algebra.fraction_matrix import quotient
 from dynsolve.algebra.minors import determinant
@@ -12,11 +12,18 @@ from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.graph import Skipped
 from dynsolve.document import Prose
 from dynsolve.explain.citations import mls
-from dynsolve.explain.closing import driving_side, equations_of_motion, moving_side
+from dynsolve.explain.closing import (
+    acting_side,
+    driving_side,
+    equations_of_motion,
+    motors_prose,
+    moving_side,
+    with_force_letters,
+)
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.task import with_letters
-from dynsolve.explain.writing import is_small, listed, scalar, sum_of
+from dynsolve.explain.writing import is_small, scalar
 from dynsolve.notation.tree import (
     Derivative,
     Negative,
@@ -26,7 +33,6 @@ from dynsolve.notation.tree import (
     Power,
     Product,
     Sum,
-    Symbol,
     Transpose,
     column,
     equation,
@@ -34,7 +40,6 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Robot
 
 STAGE = Stage.CONSTRAINTS
 
@@ -123,10 +128,7 @@ def _kept() -> Node:
 def _multipliers(context: Context) -> Step:
     inverse = Power(letters.D, _MINUS_ONE)
     square = Product((_A, inverse, Transpose(_A)))
-    _, *rest = moving_side(context).terms
-    driving = driving_side(context, constrained=False)
-    acting = sum_of([*(driving.terms if isinstance(driving, Sum) else (driving,)), *map(Negative, rest)])
-    inside = Sum((Product((_A, inverse, Parenthesized(acting))), Product((_A_DOT, letters.QD))))
+    inside = Sum((Product((_A, inverse, Parenthesized(acting_side(context)))), Product((_A_DOT, letters.QD))))
     formula = equation(
         _L, Negative(Product((Power(Parenthesized(square), _MINUS_ONE), Parenthesized(inside))))
     )
@@ -139,34 +141,15 @@ def _multipliers(context: Context) -> Step:
             "The forces of constraint do no work, so they are combinations of the rows of ", _A, ": ",
             equations_of_motion(context),
             ". Put the accelerations that follow into ", _kept(), ", and solve.",
-            *_driving(context),
+            *motors_prose(context),
         ),
         formula=formula,
         source=mls("6.1.2"),
         lines=lines,
         concluding=("Put in, and cancelled:",) if lines else (),
-        result=(equation(_L, mapped(scalar(context.form("lambda")), _with_letters(context.robot))),),
+        result=(equation(_L, mapped(scalar(context.form("lambda")), with_force_letters(context.robot))),),
         detail=Detail.BRIEF,
     )  # fmt: skip
-
-
-def _with_letters(robot: Robot) -> Callable[[Node], Node]:
-    """The names of generalized forces as the letters that they are printed with elsewhere."""
-    forces = {q.force: letters.force(q) for q in robot.coordinates if q.force in robot.inputs}
-    return lambda part: forces.get(part.name, part) if isinstance(part, Symbol) else part
-
-
-def _driving(context: Context) -> Prose:
-    """Which names stand for what the motors do."""
-    robot = context.robot
-    forces = [letters.force(q) for k, q in enumerate(robot.coordinates) if k not in robot.actions.passive]
-    if not forces:
-        return ()
-    return (
-        " ",
-        *listed(forces),
-        " is what the motor does." if len(forces) == 1 else " are what the motors do.",
-    )
 
 
 def _products(context: Context) -> tuple[Line, ...]:

@@ -158,6 +158,8 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
             yield from ((letters.D, "D"), (letters.C, "C"), (letters.G, "g"))
     elif stage is Stage.EQUILIBRIA:
         yield from ((letters.D, "D"), (letters.G, "g"))
+    elif stage is Stage.FORWARD_DYNAMICS:
+        yield from ((letters.D, "D"), (letters.C, "C"), (letters.G, "g"))
     elif stage is Stage.TASK_INERTIA:
         yield from ((letters.J_TASK, "Jr"), (letters.D, "D"))
     elif stage is Stage.STATICS:

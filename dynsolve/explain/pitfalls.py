@@ -220,6 +220,13 @@ def _equilibria(robot: Robot) -> Iterator[Prose]:
         yield ("What no motor drives has no column in B, but its row stays.",)
 
 
+def _forward_dynamics(robot: Robot) -> Iterator[Prose]:
+    yield ("The inverse of D stands before the whole sum of forces, from the left.",)
+    yield ("What stands beside D q̈ on the left of the equations of motion goes over with a minus sign.",)
+    if robot.actions.passive:
+        yield ("What no motor drives is accelerated, too: its force is 0, and its row stays.",)
+
+
 def _task_inertia(robot: Robot) -> Iterator[Prose]:
     yield ("Where the Jacobian is not square only the whole product has an inverse.",)
     yield (
@@ -298,6 +305,7 @@ _PITFALLS: Mapping[Stage, Callable[[Robot], Iterator[Prose]]] = {
     Stage.PARAMETERS: _parameters,
     Stage.CONSTRAINTS: _constraints,
     Stage.EQUILIBRIA: _equilibria,
+    Stage.FORWARD_DYNAMICS: _forward_dynamics,
     Stage.TASK_INERTIA: _task_inertia,
     Stage.STATICS: _statics,
     Stage.DEFINITE: _definite,

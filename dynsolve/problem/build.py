@@ -20,6 +20,7 @@ from dynsolve.problem.questions_build import load, named_point, with_questions
 from dynsolve.problem.source import Faults
 from dynsolve.problem.table import COLUMNS, DHRow
 from dynsolve.problem.values import CellValues, evaluate
+from dynsolve.quantities.families import HOLD_FORCES
 from dynsolve.robot.geometry import Links
 from dynsolve.robot.model import Axes, AxesKind, Body, Joint, Robot
 from dynsolve.robot.model_questions import reference
@@ -28,9 +29,6 @@ from dynsolve.robot.shapes import AXES, KINDS, Shape
 if TYPE_CHECKING:
     from dynsolve.problem.mechanism import ParsedModel
     from dynsolve.robot.mechanism import GivenModel
-
-HOLD_FORCES = frozenset({"lambda"})
-"""The results that hold the generalized forces by their names."""
 
 
 def build_robot(

@@ -513,6 +513,9 @@ _CONSTRAINTS = constraint_families.FAMILIES
 
 _ASKED_OF_MATRICES = definite_families.FAMILIES
 
+HOLD_FORCES = frozenset({constraint_families.LAMBDA.name, model_families.QDD_FORWARD.name})
+"""The names of the results that hold the generalized forces by their names."""
+
 _GROUPS = (
     _ASKED_OF_KINEMATICS, _ENERGIES_OF_ACTIONS, _FRICTION, _ROTORS, _RECURSIONS, _ASKED_OF_MODEL,
     _ASKED_OF_STATICS, _CONSTRAINTS, _ASKED_OF_MATRICES,

@@ -1,4 +1,4 @@
-"""The families of what an exercise asks of the equations of motion: Y and a, A and B, Λ.
+"""The families of what an exercise asks of the equations of motion: Y and a, A and B, q̈, Λ.
 
 A robot has those of a stage of which something is asked (`quantities.stages`).  To add one,
 see `quantities.families`; its rule stands in `dynsolve.derivation.model_rules`.
@@ -72,6 +72,16 @@ LINEAR_B = Family(
     shape=("any", "any"),
     letter=of_robot(letters.LINEAR_B),
     spellings=("Blin",),
+)
+
+# -- from the forces -------------------------------------------------------------------------------
+
+QDD_FORWARD = Family(
+    name="qdd_forward",
+    stage=Stage.FORWARD_DYNAMICS,
+    shape=("n", 1),
+    letter=of_robot(letters.QDD),
+    spellings=("forwarddynamics", "qddforward"),
 )
 
 # -- at the task -----------------------------------------------------------------------------------

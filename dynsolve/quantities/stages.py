@@ -36,6 +36,7 @@ class Stage(StrEnum):
     VECTORIZED = "vectorized", "The vectorized form"
     PARAMETERS = "parameters", "Linear in the parameters", True
     EQUILIBRIA = "equilibria", "Equilibria and linearization", True
+    FORWARD_DYNAMICS = "forward_dynamics", "Forward dynamics", True
     TASK_INERTIA = "task_inertia", "Inertia as the task meets it", True
     DEFINITE = "definite", "Inertia matrices: symmetric, positive definite", True
     STATICS = "statics", "Forces from outside, and the torques that hold them", True
@@ -65,7 +66,7 @@ class Stage(StrEnum):
         return self in _OF_A_TABLE
 
 
-OF_THE_MODEL = frozenset({Stage.PARAMETERS, Stage.EQUILIBRIA, Stage.TASK_INERTIA})
+OF_THE_MODEL = frozenset({Stage.PARAMETERS, Stage.EQUILIBRIA, Stage.FORWARD_DYNAMICS, Stage.TASK_INERTIA})
 """The stages that go on from the equations of motion."""
 
 _OF_MASSES = OF_THE_MODEL | {

@@ -35,6 +35,11 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
         verify_references(robot, {name: forms(name) for name in ("Yr", "a", "D", "C", "g")}, states)
     linear = [name for name in linear_names(wanted) if name in values.rules]
     verify_linear(robot, {name: forms(name) for name in linear}, states)
+    if "qdd_forward" in wanted:
+        from dynsolve.derivation.forward_check import COMPARED, verify_forward
+
+        forward = [name for name in COMPARED if name in values.rules and (name != "Q" or name in wanted)]
+        verify_forward(robot, {name: forms(name) for name in forward}, states)
     _verify_equilibria(robot, values, forms, wanted)
     _verify_configurations(robot, values, forms, wanted)
     if "definite" in wanted:

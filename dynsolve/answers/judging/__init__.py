@@ -4,7 +4,7 @@ answer_ring, ring_extension   the ring that holds the key and all that was writt
 evaluate                      a formula tree -> its value in that ring
 answer_values                 the answers of a hand-in with their values
 own_coordinates               answers in the student's own coordinates, turned to the problem's
-inputs                        names of generalized forces in λ: what the motors give
+inputs                        names of generalized forces in λ and q̈: what the motors give
 own_names                     what a name inside a value stands for
 route, task_routes            one way to an answer; those by way of the task's Jacobian
 own_constraint                A_c by its rows, its rate, and λ by A_cᵀ λ, where the constraint holds

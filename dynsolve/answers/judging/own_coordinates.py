@@ -13,14 +13,14 @@ from collections.abc import Callable
 from dynsolve.answers.submission import Answer
 from dynsolve.notation.tree import Matrix, Negative, Node, Reference
 from dynsolve.notation.walk import with_children
-from dynsolve.quantities import families, static_families
+from dynsolve.quantities import families, model_families, static_families
 from dynsolve.quantities import kinematic_families as asked
 from dynsolve.quantities.family import Owner
 from dynsolve.quantities.index import Quantities, Quantity
 
 _OF_ROWS = (
     families.TAU, families.G, families.CQD, static_families.Q, static_families.TAU_STATIC,
-    asked.QD, asked.QDD,
+    asked.QD, asked.QDD, model_families.QDD_FORWARD,
 )  # fmt: skip
 _OF_COLUMNS = (
     families.JV, families.JW, families.J, families.JV_BODY, families.JW_BODY, asked.JV_POINT, asked.JW_POINT,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 import dynsolve
@@ -83,3 +85,11 @@ def test_what_holds_on_the_constraint_alone_is_told() -> None:
     rate = [["-k*q1_dot - q2_dot*sin(q1)", "-sin(q1)*q1_dot"]]
     (answer,) = [a for a in judge(LINE, {"Ac_dot": rate}).answers if a.name == "Ac_dot"]
     assert Other.ON_CONSTRAINT in answer.notes
+
+
+def test_the_names_of_forces_in_a_file_are_inputs(tmp_path: Path) -> None:
+    hand_in = tmp_path / "answers.yaml"
+    lines = ["tau: [m*q2^2*q1_ddot + 2*m*q2*q1_dot*q2_dot, m*q2_ddot - m*q2*q1_dot^2]", f"lambda: {FORCE}"]
+    hand_in.write_text("".join(f"{line}\n" for line in ["answers:", *(f"  {one}" for one in lines)]))
+    found = {answer.name: str(answer.verdict) for answer in dynsolve.check(LINE, hand_in).answers}
+    assert (found["tau"], found["lambda"]) == ("correct", "correct")

@@ -1,0 +1,40 @@
+"""Forward dynamics, put back: with these accelerations the left side of the equations gives the forces.
+
+Nothing is inverted or eliminated: D q̈ + C q̇ + friction + g, as it is printed, must be τ + Q.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from random import Random
+
+from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.rate_check import TOLERANCE
+from dynsolve.derivation.verification import SEED
+from dynsolve.errors import VerificationError
+from dynsolve.notation.tree import Node
+from dynsolve.notation.tree_values import compile_trees
+from dynsolve.robot.model import Robot
+
+COMPARED = ("qdd_forward", "tau", "Q")
+"""What is compared; Q where forces act from outside."""
+
+
+def verify_forward(robot: Robot, results: Mapping[str, Node], states: int = 5) -> None:
+    """Compare the printed form of `qdd_forward` with those of `tau` and, where there is one, `Q`.
+
+    Raises VerificationError where it does not give the forces back.
+    """
+    found, left = compile_trees([results["qdd_forward"]]), compile_trees([results["tau"]])
+    outside = compile_trees([results["Q"]]) if "Q" in results else None
+    random = Random(SEED)  # noqa: S311 - the same states every time are wanted
+    for _ in range(states):
+        values, (rows,) = draw_values(robot, random, found.run)
+        moved = {q.acceleration: row[0] for q, row in zip(robot.coordinates, rows, strict=True)}
+        (theirs,) = left.run({**values, **moved})
+        loads = outside.run(values)[0] if outside else [(0.0,)] * robot.n
+        for k, q in enumerate(robot.coordinates):
+            force = loads[k][0] + (0.0 if k in robot.actions.passive else values[q.force])
+            size = max(1.0, abs(force), *map(abs, moved.values()))
+            if not abs(theirs[k][0] - force) <= TOLERANCE * size:
+                raise VerificationError("qdd_forward does not give the forces; this is a fault of dynsolve")
