@@ -27,7 +27,6 @@ from dynsolve.explain.writing import is_small, scalar
 from dynsolve.notation.tree import (
     Derivative,
     Negative,
-    Node,
     Number,
     Parenthesized,
     Power,
