@@ -27,6 +27,7 @@ from dynsolve.explain.writing import is_small, scalar
 from dynsolve.notation.tree import (
     Derivative,
     Negative,
+    Node,
     Number,
     Parenthesized,
     Power,
