@@ -190,7 +190,7 @@ def _reduced(context: Context) -> Iterator[Step]:
         why=(
             "The columns of ", name, " are the rates that the constraints leave free: ",
             equation(Product((_A, name)), Number(0)), " and ", motion,
-            ". Multiplied by its transpose the equations of motion lose the forces of constraint.",
+            ". Multiplied by ", T, " the equations of motion lose the forces of constraint.",
         ),
         formula=equation(Product((T, Parenthesized(moving_side(context)))), Product((T, right))),
         source=mls("6.1.3"),

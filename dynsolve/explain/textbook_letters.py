@@ -233,7 +233,8 @@ def _recursions(robot: Robot) -> Iterator[Line]:
 
 
 def _dynamics(machine: str) -> Iterator[Line]:
-    yield _line([_sub("J", "v"), _sub("J", "omega")], "Jacobians of the mass centre of body i")
+    jacobians = [(_sub("J", "v"), "linear part"), (_sub("J", "omega"), "angular part")]
+    yield _each(jacobians, " of the Jacobian of the mass centre of body i")
     velocities = [
         (_numbered("v"), "velocity of the mass centre"), (_numbered("omega"), "angular velocity"),
     ]  # fmt: skip
