@@ -71,7 +71,7 @@ LINEAR_B = Family(
     stage=Stage.EQUILIBRIA,
     shape=("any", "any"),
     letter=of_robot(letters.LINEAR_B),
-    spellings=("Blin",),
+    spellings=("B", "Blin"),
 )
 
 # -- from the forces -------------------------------------------------------------------------------

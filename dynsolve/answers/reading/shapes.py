@@ -96,6 +96,8 @@ def fitted(vocabulary: Vocabulary, candidates: tuple[str, ...], value: Value) ->
                 turned = transposed(value)
                 assert isinstance(turned, Grid)
                 loose.insert(0, (name, turned.node, "the row is read as a column"))
+            elif 0 in shape:  # of any size: B is D only where it has the size of D
+                loose.insert(0, (name, value.node, ""))
             else:
                 loose.append((name, value.node, ""))
         elif shape == (1, 1) and isinstance(value, Node):

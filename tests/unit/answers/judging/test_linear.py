@@ -15,7 +15,7 @@ model:
   bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + l*sin(theta), l*cos(theta), 0]}]
 passive: [theta]
 linearize: {x: 0, theta: 0}
-find: [linear_A]
+find: [D, linear_A, linear_B]
 """
 ELASTIC = """
 gravity: [0, -g, 0]
@@ -26,7 +26,7 @@ motors: [{turns: q2*, inertia: J}]
 springs: [{stiffness: k, of: q1 - q2}]
 passive: [q1]
 linearize: {q1: 0, q2: 0}
-find: [equilibria, linear_A]
+find: [D, equilibria, linear_A, linear_B]
 """
 """Spong, Hutchinson, Vidyasagar (2006), chapter 8: a link with a flexible joint."""
 
@@ -53,3 +53,20 @@ def test_a_state_matrix(tmp_path: Path, problem: str, rows: str, expected: str) 
     file.write_text(f"$$A = {MOTION}{rows}$$\n")
     verdicts = {a.name: str(a.verdict) for a in dynsolve.check(problem, file).answers}
     assert verdicts["linear_A"] == expected
+
+
+@pytest.mark.parametrize(
+    ("value", "name", "expected"),
+    [
+        (r"\begin{bmatrix} 0 \\ 0 \\ 0 \\ \frac{1}{J} \end{bmatrix}", "linear_B", "correct"),
+        (r"\begin{bmatrix} 0 & 0 & 0 & 1/J \end{bmatrix}^T", "linear_B", "correct"),
+        (r"\begin{bmatrix} 0 \\ 0 \\ \frac{1}{J} \\ 0 \end{bmatrix}", "linear_B", "wrong"),
+        (r"\begin{bmatrix} I + ML^2 & 0 \\ 0 & J \end{bmatrix}", "D", "correct"),
+    ],
+)
+def test_the_letter_b_is_what_its_size_says(tmp_path: Path, value: str, name: str, expected: str) -> None:
+    """Books write B for the matrix of the inputs, and for the inertia matrix."""
+    file = tmp_path / "report.md"
+    file.write_text(f"$$B = {value}$$\n")
+    given = {a.name: str(a.verdict) for a in dynsolve.check(ELASTIC, file).answers if a.given}
+    assert given == {name: expected}
