@@ -81,7 +81,7 @@ QDD_FORWARD = Family(
     stage=Stage.FORWARD_DYNAMICS,
     shape=("n", 1),
     letter=of_robot(letters.QDD),
-    spellings=("forwarddynamics", "qddforward"),
+    spellings=("forwarddynamics", "qddforward", "qdd", "qddot", "ddq"),
 )
 
 # -- at the task -----------------------------------------------------------------------------------

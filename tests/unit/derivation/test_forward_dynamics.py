@@ -42,6 +42,12 @@ passive: [q2]
 forces: [{link: 2, at: tip, force: [F, 0, 0]}]
 find: [qdd_forward]
 """
+LARGE = """
+gravity: [0, 0, -g]
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l2}, {theta: q3*, a: l3}, {theta: q4*, a: l4}]
+masses: [{mass: m2, link: 2}, {mass: m3, link: 3}, {mass: m4, link: 4}]
+find: [qdd_forward]
+"""
 
 
 def test_the_published_accelerations_come_out() -> None:
@@ -75,6 +81,7 @@ def test_a_wrong_result_is_found(text: str) -> None:
     ("text", "why"),
     [
         (ELBOW + "constraints: [tip.x - c]\n", "constraints act, too"),
+        (LARGE, "too large"),
         (CART.replace("l*sin(theta)", "l").replace("l*cos(theta)", "l"), "no inverse"),
     ],
 )
@@ -96,6 +103,7 @@ def test_the_step_has_the_letters_of_the_forces_and_the_book() -> None:
     [
         ("qdd_forward", ("", ""), "correct"),
         ("forward_dynamics", ("", ""), "correct"),
+        ("qdd", ("", ""), "correct"),
         ("qdd_forward", ("(-f1*", "(tau2/mp-f1*"), "correct"),
         ("qdd_forward", ("(mc + mp)", "(mc - mp)"), "wrong"),
         ("qdd_forward", ("-f1", "f1"), "wrong"),
