@@ -119,6 +119,7 @@ _AT_HAND = {
     Stage.PARAMETERS: "You have the equations of motion, one for each coordinate:",
     Stage.CONSTRAINTS: "You have the forward kinematics, and the matrices of the model:",
     Stage.EQUILIBRIA: "You have the matrices of the equations of motion:",
+    Stage.FORWARD_DYNAMICS: "You have the matrices of the equations of motion:",
     Stage.TASK_INERTIA: "You have the Jacobian of the task and the inertia matrix:",
     Stage.DEFINITE: "You have the matrices, and what is assumed of their parameters.",
     Stage.STATICS: "You have the Jacobian of the end of the arm, and the frames:",

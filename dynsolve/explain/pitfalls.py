@@ -222,7 +222,7 @@ def _equilibria(robot: Robot) -> Iterator[Prose]:
 
 def _forward_dynamics(robot: Robot) -> Iterator[Prose]:
     yield ("The inverse of D stands before the whole sum of forces, from the left.",)
-    yield ("What stands beside D q̈ on the left of the equations of motion goes over with a minus sign.",)
+    yield ("What stands beside the inertial forces, on their side, goes over with a minus sign.",)
     if robot.actions.passive:
         yield ("What no motor drives is accelerated, too: its force is 0, and its row stays.",)
 

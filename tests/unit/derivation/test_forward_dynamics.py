@@ -98,6 +98,12 @@ def test_the_step_has_the_letters_of_the_forces_and_the_book() -> None:
     assert letters.force(solution.robot.coordinates[0]) in list(walk(step.result[0]))
 
 
+def test_its_hint_says_what_there_is_and_what_to_do() -> None:
+    said = str(dynsolve.solve(CART).hint("forward_dynamics"))
+    assert "matrices of the equations of motion" in said
+    assert "its force is 0" in said
+
+
 @pytest.mark.parametrize(
     ("name", "change", "verdict"),
     [
