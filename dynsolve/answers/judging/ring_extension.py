@@ -7,12 +7,14 @@ own, so that the answer has a value and can be diagnosed.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Sequence
+from math import radians
 
 from dynsolve.algebra.angles import Angle, angle_from_tree, names_of
 from dynsolve.algebra.contents import Contents, ContentsCollector
 from dynsolve.algebra.generators import dotted
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
+from dynsolve.answers.judging.entry_comparison import half_unit
 from dynsolve.errors import AlgebraError
 from dynsolve.notation import tree
 from dynsolve.notation.bounded_cache import keep
@@ -112,14 +114,20 @@ LARGEST_EXPONENT = 8
 MOST_TERMS = 12
 LARGEST_DIVISOR = 24
 
+_STEP = radians(15)
+_DOUBLE = 1e-14
+"""So far a number of double precision may be off."""
+
 
 def expected_angle(node: Function, coordinates: Iterable[str]) -> Angle | None:
     """The argument of a function as an angle, None where it is none (a velocity, a bare number, a cosine)."""
     if node.name == "sgn":
         return None
     try:
-        angle = angle_from_tree(node.argument)
+        angle = _in_degrees(angle_from_tree(node.argument, radians=True))
     except AlgebraError:
+        return None
+    if angle is None:
         return None
     moving = set(coordinates)
     for atom, _ in angle.terms:
@@ -130,6 +138,18 @@ def expected_angle(node: Function, coordinates: Iterable[str]) -> Angle | None:
     if len(angle.terms) > MOST_TERMS or any(rate.denominator > LARGEST_DIVISOR for _, rate in angle.terms):
         return None
     return angle
+
+
+def _in_degrees(angle: Angle) -> Angle | None:
+    """The angle with degrees for a decimal in radians, which rounds a multiple of 15°: 1.5708."""
+    rates = dict(angle.terms)
+    bare = rates.pop((), None)
+    if bare is None:
+        return angle
+    half, steps = half_unit(bare), round(float(bare) / _STEP)
+    if half is None or not steps or abs(float(bare) - steps * _STEP) > 2 * float(half) + _DOUBLE:
+        return None
+    return Angle(tuple(rates.items()), angle.degrees + 15 * steps)
 
 
 def unsigned(node: Function) -> tuple[int, Function]:
