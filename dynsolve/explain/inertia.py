@@ -219,7 +219,8 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
     frame, turned = letters.R(robot, link), context.show(body.axes.rotation)
     match body.axes.kind:
         case AxesKind.LINK if has_link_axes(body):
-            which = "the frame that comes after the mass and" if _ends_after(context, body) else "which"
+            beyond = _ends_after(context, body) and not body.center.is_zero
+            which = "the frame that comes after the mass and" if beyond else "which"
             why = f"The body's axes are those of frame {link}, {which} is fixed in the same link."
             return (why,), frame, ()
         case AxesKind.LINK:
@@ -227,8 +228,8 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
             return (why,), Product((frame, turned)), ()
         case AxesKind.REST:
             why = (
-                "The body's axes are parallel to frame 0 at q = 0 and turn with the link: first back by how "
-                "the link is turned at q = 0, then on as it is turned."
+                "The body's axes are parallel to frame 0 at q = 0 and turn with the link: its rotation, "
+                "times the inverse of that at q = 0."
             )
             at_rest = Row((frame, Words("(0)")))
             base = (letters.R(robot, 0),) if letters.has_base(robot) else ()

@@ -81,7 +81,7 @@ def terms_of(context: Context, k: int) -> Iterator[Term]:
     n, values = context.robot.n, context.values
     for j in range(n):
         kind = Kind.INERTIAL if j == k else Kind.COUPLING
-        letter = letters.entry("d", min(j, k) + 1, max(j, k) + 1)
+        letter = letters.entry("d", k + 1, j + 1)
         yield from _unless_zero(Term(kind, 1, letter, values["D"][k, j], ((j, 2),)))
     for i, j in pairs(n):
         kind = Kind.CENTRIFUGAL if i == j else Kind.CORIOLIS

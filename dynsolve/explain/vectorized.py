@@ -78,8 +78,8 @@ def _inertia(context: Context) -> Step:
         stage=STAGE,
         title="D, read off from the forces",
         why=(
-            "Entry (i, j) is the factor of the j-th acceleration in the i-th force. D is symmetric, "
-            "and may depend on the coordinates, but on no rate.",
+            "Entry (i, j) is the factor of the j-th acceleration in the i-th generalized force. D is "
+            "symmetric, and may depend on the coordinates, but on no rate.",
         ),
         formula=equation(_d(_I, _J), letters.partial_derivative(Letter("tau", _I), Letter("q", _J, dots=2))),
         source=spong("7.3"),

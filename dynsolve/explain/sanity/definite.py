@@ -95,8 +95,8 @@ def _by_bodies(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
     why: Prose = (
         "No body has a negative kinetic energy, so where ",
         letters.K,
-        " is 0, that of each body is. By the lines below the rates are then 0 one after the other; in each "
-        "line those of the lines before it are put to 0:",
+        " is 0, that of each body is. By the lines below the rates are then 0 one after the other; each "
+        "line is written with those of the lines before it equal to 0:",
     )
     return why, tuple(lines)
 

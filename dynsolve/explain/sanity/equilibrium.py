@@ -9,7 +9,7 @@ from dynsolve.explain.sanity.pose import Pose, at, poses, turning_in, written
 from dynsolve.explain.sanity.sign import is_positive, with_lengths
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import listed, spong
-from dynsolve.notation.tree import Number, equation
+from dynsolve.notation.tree import Number, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import JointType
@@ -49,26 +49,43 @@ def _hanging_and_upright(context: Context) -> Prose:
     hanging, upright = balanced_poses(context)
     why: Prose = ()
     if hanging is not None:
-        why += (*_zero_at(hanging), f"minimum: the {context.machine} hangs; the equilibrium is stable. ")
+        why += (*_zero_at(hanging), f"minimum: the {context.machine} hangs; the equilibrium is stable")
+        why += (*_in_what_moves(context, hanging), ". ")
     if upright is not None:
         why += (
             *_zero_at(upright),
             f"maximum: the {context.machine} stands upright; the equilibrium is unstable. ",
         )
+    if not why:
+        return ()
     assumed = ("Let all lengths be positive. ",) if context.robot.parameters else ()
-    return (*assumed, *why) if why else ()
+    number = len(_balanced(context))
+    others = (f"Gravity is balanced in {number} poses of right angles in all.",) if number > 2 else ()
+    return (*assumed, *why, *others)
+
+
+def _in_what_moves(context: Context, pose: Pose) -> Prose:
+    """The coordinates that gravity holds, where it does not hold the others: these drift once they move."""
+    if len(pose) == context.robot.n:
+        return ()
+    return (" in ", *listed([Symbol(name) for name in pose]))
 
 
 def balanced_poses(context: Context) -> tuple[Pose | None, Pose | None]:
     """The poses of right angles in which P surely has a minimum, and a maximum."""
-    g = context.values["g"].entries
-    names = turning_in(context.robot, *g)
-    if not names or _slides(context):
-        return None, None
-    zero = [pose for pose in poses(names, RIGHT_ANGLES) if all(at(x.ring, x, pose).is_zero for x in g)]
+    zero = _balanced(context)
     hanging = next((pose for pose in zero if _is_definite(context, pose, 1)), None)
     upright = next((pose for pose in zero if _is_definite(context, pose, -1)), None)
     return hanging, upright
+
+
+def _balanced(context: Context) -> list[Pose]:
+    """The poses of right angles in which g is zero; none where a length changes the potential energy."""
+    g = context.values["g"].entries
+    names = turning_in(context.robot, *g)
+    if not names or _slides(context):
+        return []
+    return [pose for pose in poses(names, RIGHT_ANGLES) if all(at(x.ring, x, pose).is_zero for x in g)]
 
 
 def _slides(context: Context) -> bool:

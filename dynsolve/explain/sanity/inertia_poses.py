@@ -40,7 +40,7 @@ def inertia_poses_step(context: Context) -> Step | None:
             " of all that these joints move, the joints after them held: ")  # fmt: skip
     why += ("each mass times the square of its distance from the axis, and the moments of the bodies",)
     why += (" and rotors. " if context.robot.actions.motors else ". ",)
-    why += ("In simple poses the distances can be seen:",)
+    why += ("In simple poses:",)
     return Step(
         id="inertia_poses",
         stage=Stage.VECTORIZED,

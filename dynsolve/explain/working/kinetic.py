@@ -228,7 +228,7 @@ def rotational(context: Context, body: Body) -> Rotation | None:
         return None
     own = R.T @ base
     in_base, in_body = (base, values[f"I{b}"]), (own, values[f"I_body{b}"])
-    if _terms_of(*in_base) <= _terms_of(*in_body):
+    if _needed(*in_base) <= _needed(*in_body):
         return Rotation((_product(context, body, *in_base),), _multiplied_out(context, body, *in_base))
     w = letters.of_body("omega", body, "bold")
     turned = Product((Transpose(letters.of_body("R", body, "bold")), w))
@@ -258,8 +258,10 @@ def _named(context: Context, R: Matrix, base: Matrix, own: Matrix) -> Prose:
     return (" (with ", *said(used), ")") if used else ()
 
 
-def _terms_of(*matrices: Matrix) -> int:
-    return sum(len(entry) for matrix in matrices for entry in matrix.entries)
+def _needed(w: Matrix, tensor: Matrix) -> int:
+    """The terms that ωᵀ I ω is made of: of the tensor, the entries that meet components of ω."""
+    turning = [k for k, entry in enumerate(w.entries) if not entry.is_zero]
+    return sum(len(w[k, 0]) for k in turning) + sum(len(tensor[i, j]) for i in turning for j in turning)
 
 
 def _product(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Node:
