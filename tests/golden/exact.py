@@ -69,13 +69,12 @@ def exact(entries: Any, values: Mapping[str, Any]) -> Any:
 
 
 def names_in(entries: Any) -> set[str]:
-    """Every symbol of a string or of nested lists of strings."""
+    """Every symbol of a string or of nested lists of strings; a function that is called is none."""
     if not isinstance(entries, str):
         return {name for entry in entries for name in names_in(entry)}
-    return {node.id for node in ast.walk(ast.parse(entries, mode="eval")) if isinstance(node, ast.Name)} - {
-        "sin",
-        "cos",
-    }
+    nodes = list(ast.walk(ast.parse(entries, mode="eval")))
+    called = {id(node.func) for node in nodes if isinstance(node, ast.Call)}
+    return {node.id for node in nodes if isinstance(node, ast.Name) and id(node) not in called}
 
 
 def random_state(names: Iterable[str], angles: Iterable[str], seed: int) -> dict[str, Any]:
