@@ -13,7 +13,7 @@ from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.rates import whole_or_task
-from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 

@@ -14,7 +14,7 @@ from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix, vstack
 from dynsolve.derivation import energy, jacobian, kinematics, rates, task
 from dynsolve.derivation.graph import Rule, Skipped
-from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of

@@ -14,7 +14,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation import balance, linearization, regressor, task_inertia
 from dynsolve.derivation.energy import accelerations
 from dynsolve.derivation.graph import Rule, Skipped
-from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 

@@ -16,7 +16,7 @@ from dynsolve.algebra.matrix import Matrix, vstack
 from dynsolve.derivation import energy, euler_lagrange, inertia, jacobian, kinematics, vectorized
 from dynsolve.derivation.graph import Derivation, Rule
 from dynsolve.derivation.link_frame import link_frame_rules
-from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import OF_THE_MODEL, Stage
 from dynsolve.robot.model import Body, Robot
 

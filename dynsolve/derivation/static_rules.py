@@ -9,7 +9,7 @@ from dynsolve.algebra.at_state import AtState
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation import jacobian, kinematics, statics
 from dynsolve.derivation.graph import Rule
-from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, Load

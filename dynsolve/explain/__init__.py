@@ -86,7 +86,7 @@ from importlib import import_module
 
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
-from dynsolve.quantities.index import stages_of
+from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
 
 __all__ = ["Detail", "Step", "explain"]

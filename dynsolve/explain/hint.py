@@ -22,7 +22,8 @@ from dynsolve.explain.step import Step
 from dynsolve.explain.writing import is_small, listed
 from dynsolve.notation.tree import Node, equation
 from dynsolve.quantities import kinematic_families, letters
-from dynsolve.quantities.index import quantities, stages_of
+from dynsolve.quantities.index import quantities
+from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
 
 

@@ -24,7 +24,7 @@ from dynsolve.notation.tree import Function, Letter, Node, Number, Sum, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
-from dynsolve.quantities.index import stages_of
+from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 

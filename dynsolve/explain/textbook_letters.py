@@ -15,7 +15,7 @@ from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Letter, Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
-from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Convention, Robot
 

@@ -49,7 +49,7 @@ def rescored(
 ) -> tuple[Marked, ...]:
     """The marks of a hand-in's answers as they are now.
 
-    >>> from dynsolve.quantities.index import Owners
+    >>> from dynsolve.quantities.owners import Owners
     >>> quantities = Quantities(Owners(1, (), ("1",)))
     >>> kept = [Kept("K", "follows", "", '[["K1"], [], [], 0, 0]')]
     >>> policy = Policy(follow=Fraction(1, 2))

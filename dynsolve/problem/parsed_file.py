@@ -14,7 +14,7 @@ from dynsolve.problem.cells import Cell
 from dynsolve.problem.questions import ParsedQuestions
 from dynsolve.problem.rotations import ParsedRotation
 from dynsolve.problem.table import DHTable
-from dynsolve.quantities.index import Owners
+from dynsolve.quantities.owners import Owners
 from dynsolve.quantities.stages import ASKED_FOR
 from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.model import AxesKind, Convention, Coordinate, JointType

@@ -19,7 +19,7 @@ from dynsolve.problem.reach import check_reach
 from dynsolve.problem.targets import TargetBuilder
 from dynsolve.problem.values import CellValues
 from dynsolve.problem.weights import ParsedWeights
-from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.constraints import Constraint
 from dynsolve.robot.geometry import last_origin

@@ -2,7 +2,7 @@
 
     stages      the stages of a solution, with their headings
     family      what a record says: owner, shape, dimension, letter, spellings, parts
-    families    the records, in the order of the derivation
+    families    the records, in the order of the derivation; by files those of the course
     action_families
                 those of what acts beside gravity: springs, rotors, friction
     kinematic_families
@@ -17,12 +17,13 @@
                 those of what exercises ask of the equations of motion
     static_families
                 those of what exercises ask of forces from outside
-    index       the quantities of one robot by name: which there are, what is part of what
+    robot_stages
+                which stages one robot has
+    owners      what its quantities belong to, and which families it has
+    index       the quantities of one robot by name, and what is part of what
     letters     what they are set with; the printers make every notation of it
     spelling    how students spell names
 
-To add a quantity, write its record in `families` (at its place in the derivation), its
-formula and its rule in `dynsolve.derivation`, and its step in `dynsolve.explain`.  A
-quantity of something that robots did not have so far also needs an owner in `family`, and
-`Owners` in `index` to say which ones a robot has.
+`families` says how a quantity is added.  One of something that robots did not have so far also
+needs an owner in `family`, and `Owners` to say which ones a robot has.
 """

@@ -5,152 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import groupby, product
+from itertools import groupby
 
 from dynsolve.notation.tree import Node
-from dynsolve.quantities import kinematic_families, model_families
 from dynsolve.quantities.families import FAMILIES
-from dynsolve.quantities.family import Family, Owner, Size
+from dynsolve.quantities.family import Family, Owner
+from dynsolve.quantities.owners import MOST_INDEXED, Owners
 from dynsolve.quantities.spelling import key, open_index, other_names, subscripts
-from dynsolve.quantities.stages import OF_THE_MODEL, Stage
-from dynsolve.robot.model import Coordinate, JointType, Robot
-from dynsolve.robot.questions import Method, Questions, component_names
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.units import LENGTH, Dimension, times
 
 Shape = tuple[int, int] | None
 """Rows and columns of a quantity; None for a scalar."""
-
-MOST_INDEXED = 9
-"""Entries have names up to this index: d_111 could be two of them."""
-
-
-_FROM_RATES = {kinematic_families.QD: "velocity", kinematic_families.QDD: "acceleration"}
-"""What is asked of the joints, and the rate of the task that it belongs to."""
-
-_FROM_GIVEN = {
-    model_families.LINEAR_A: "linearize",
-    model_families.LINEAR_B: "linearize",
-    model_families.Y_REFERENCE: "references",
-}
-"""What is asked of the model, and what must be given for it: an equilibrium, reference rates."""
-
-
-@dataclass(frozen=True, slots=True)
-class Owners:
-    """The owners of a robot's quantities: rows of its table, coordinates, bodies and points by name, forces.
-
-    `points` are the bodies without inertia, `named` the points that the exercise names.
-    `stages` are those of which something is asked, `task_rows` the components of the task, and
-    `task_names` what else each of them is called where the task is a function r(q), which a twist is
-    not.  `rates` says whether its velocity, and its acceleration, is given; `given` whether there is
-    `mass`, and what of `_FROM_GIVEN` there is; `actions` what acts beside gravity: friction, springs,
-    motors.  `has_matrices` says that there are matrices to be judged, and without `has_robot` there is
-    nothing else.
-    """
-
-    rows: int
-    coordinates: tuple[Coordinate, ...]
-    bodies: tuple[str, ...]
-    points: frozenset[str] = frozenset()
-    named: tuple[str, ...] = ()
-    stages: frozenset[Stage] = frozenset()
-    loads: int = 0
-    task_rows: int = 0
-    task_names: tuple[tuple[str, ...], ...] = ()
-    is_twist: bool = False
-    constraints: int = 0
-    rates: frozenset[str] = frozenset()
-    given: frozenset[str] = frozenset()
-    actions: frozenset[str] = frozenset()
-    has_matrices: bool = False
-    has_robot: bool = True
-
-    @staticmethod
-    def of(robot: Robot) -> Owners:
-        """Those of a robot."""
-        bodies = tuple(body.name for body in robot.bodies)
-        points = frozenset(body.name for body in robot.bodies if body.is_point)
-        asked = robot.questions
-        return Owners(
-            rows=len(robot.joints),
-            coordinates=robot.coordinates,
-            bodies=bodies,
-            points=points,
-            named=tuple(point.name for point in asked.points),
-            stages=asked_stages(asked),
-            loads=len(asked.loads),
-            task_rows=asked.task.rows if asked.task else 0,
-            task_names=component_names(asked.task) if asked.task else (),
-            is_twist=asked.task is not None and asked.task.is_twist,
-            constraints=len(asked.constraints),
-            rates=given_rates(asked),
-            given=frozenset(
-                name
-                for name, there in (
-                    ("mass", robot.has_dynamics),
-                    ("linearize", asked.model.linearize),
-                    ("references", robot.ring.plan.references),
-                )
-                if there
-            ),
-            actions=robot.actions.kinds,
-            has_matrices=bool(asked.candidates),
-            has_robot=robot.has_table or robot.has_dynamics,
-        )
-
-    def has(self, family: Family) -> bool:
-        """Whether there are quantities of a family: those of the course, and of what is asked."""
-        if family.stage is Stage.CONSTRAINTS and not self.constraints:
-            return False
-        if self.is_twist and family in (kinematic_families.R, kinematic_families.R_ENTRY):
-            return False
-        if family.brought_by and family.brought_by not in self.actions:
-            return False
-        if family in _FROM_RATES and _FROM_RATES[family] not in self.rates:
-            return False
-        if family.stage in OF_THE_MODEL and "mass" not in self.given:
-            return False
-        if family in _FROM_GIVEN and _FROM_GIVEN[family] not in self.given:
-            return False
-        if not self.rows and family.stage.needs_table:
-            return False
-        if not (self.has_matrices if family.stage is Stage.DEFINITE else self.has_robot):
-            return False
-        return not family.stage.asked_for or family.stage in self.stages
-
-    def size(self, size: Size) -> int:
-        """Rows or columns in numbers."""
-        sizes = {"n": len(self.coordinates), "m": self.task_rows, "c": self.constraints, "any": 0}
-        return sizes[size] if isinstance(size, str) else size
-
-    def indices(self, owner: Owner) -> Iterator[tuple[int, ...]]:
-        """The index of every owner of a kind, from 1."""
-        count = {
-            Owner.ROW: self.rows,
-            Owner.BODY: len(self.bodies),
-            Owner.COORDINATE: len(self.coordinates),
-            Owner.POINT: len(self.named),
-            Owner.LOAD: self.loads,
-            Owner.TASK: len(self.task_names),
-        }
-        if owner in count:
-            return ((i,) for i in range(1, count[owner] + 1))
-        repeat = {Owner.ROBOT: 0, Owner.PAIR: 2, Owner.TRIPLE: 3}[owner]
-        return product(range(1, min(len(self.coordinates), MOST_INDEXED) + 1), repeat=repeat)
-
-    def template_values(self, owner: Owner, index: tuple[int, ...]) -> dict[str, str]:
-        """The values of the fields in a family's templates; see `dynsolve.quantities.family`."""
-        match owner:
-            case Owner.ROW | Owner.LOAD | Owner.TASK:
-                return {"i": str(index[0])}
-            case Owner.BODY:
-                return {"b": self.bodies[index[0] - 1]}
-            case Owner.POINT:
-                return {"p": self.named[index[0] - 1]}
-            case Owner.COORDINATE:
-                q = self.coordinates[index[0] - 1]
-                return {"i": str(q.index), "force": q.force}
-        return dict(zip("ijk", map(str, index), strict=False))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -185,6 +52,7 @@ class Quantity:
 class Quantities(Mapping[str, Quantity]):
     """The quantities by name, in the order of the derivation.
 
+    >>> from dynsolve.quantities.owners import Owners
     >>> from dynsolve.robot.model import Coordinate, JointType
     >>> theta, d = Coordinate("theta1", JointType.REVOLUTE, 1), Coordinate("d2", JointType.PRISMATIC, 2)
     >>> found = Quantities(Owners(2, (theta, d), ("1", "p"), frozenset("p")))
@@ -405,57 +273,6 @@ class Quantities(Mapping[str, Quantity]):
             if stem:
                 found.setdefault(stem, set()).update(name for name in names if self[name].index)
         return {stem: tuple(sorted(names, key=self.position)) for stem, names in found.items() if names}
-
-
-_OF_LAGRANGE = frozenset({Stage.JACOBIAN, Stage.INERTIA, Stage.ENERGY, Stage.LAGRANGIAN, Stage.TORQUE})
-"""The stages that lead from the mass centres to τ by the Lagrangian; the recursions need none of them."""
-
-_OF_THE_TASK = {Stage.SINGULAR, Stage.INVERSE, Stage.RATES, Stage.TASK_INERTIA}
-"""The stages that go on from the task."""
-
-
-def given_rates(questions: Questions) -> frozenset[str]:
-    """Which rates of the task an exercise gives."""
-    given = {"velocity": questions.velocity, "acceleration": questions.acceleration}
-    return frozenset(name for name, value in given.items() if value is not None)
-
-
-def asked_stages(questions: Questions) -> frozenset[Stage]:
-    """The stages of which an exercise asks something."""
-    asked_for = [family for family in FAMILIES if family.stage.asked_for] if questions.asked else ()
-    found = {family.stage for family in asked_for if any(map(family.names, questions.asked))}
-    if given_rates(questions):
-        found.add(Stage.RATES)
-    if questions.points or questions.task or found & _OF_THE_TASK:
-        found.add(Stage.TASK)
-    if questions.is_drawn:
-        found.add(Stage.FRAMES)
-    if questions.constraints:
-        found.add(Stage.CONSTRAINTS)
-    if questions.loads:
-        found.add(Stage.STATICS)
-    if questions.method is Method.NEWTON_EULER:
-        found.add(Stage.NEWTON_EULER)
-    return frozenset(found)
-
-
-def stages_of(robot: Robot) -> tuple[Stage, ...]:
-    """The stages of a robot's solution that are told, in their order."""
-    passed_over = _OF_LAGRANGE if robot.questions.method is Method.NEWTON_EULER else frozenset()
-    return tuple(stage for stage in derived_stages(robot) if stage not in passed_over)
-
-
-def derived_stages(robot: Robot) -> tuple[Stage, ...]:
-    """The stages that a robot's results belong to, also those that another method passes over."""
-    asked = asked_stages(robot.questions)
-    return tuple(stage for stage in Stage if (stage in asked if stage.asked_for else _belongs(stage, robot)))
-
-
-def _belongs(stage: Stage, robot: Robot) -> bool:
-    """Whether a stage of the course belongs to a robot: to one without masses or a table not all do."""
-    if stage.needs_table:
-        return robot.has_table
-    return bool(robot.bodies) if stage.needs_bodies else robot.has_dynamics
 
 
 @lru_cache(maxsize=64)  # asked for at every hand-in; 18 ms to make for a 7R arm, 0.01 ms to find

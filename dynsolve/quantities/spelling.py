@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from itertools import product
 
 from dynsolve.notation.names import split
 from dynsolve.robot.model import Coordinate, JointType
@@ -40,3 +42,13 @@ def open_index(name: str) -> str:
     """A name with `#` for each digit of its index: P# of `P3`, d## of `d13`; empty without an index."""
     stem = name.rstrip("0123456789")
     return stem + "#" * (len(name) - len(stem)) if stem != name else ""
+
+
+def each(*pieces: str | Iterable[str]) -> tuple[str, ...]:
+    """Templates of spellings: every choice of one of each piece, joined.
+
+    >>> each("K T", "v w", "{b}")
+    ('Kv{b}', 'Kw{b}', 'Tv{b}', 'Tw{b}')
+    """
+    choices = [piece.split(" ") if isinstance(piece, str) else piece for piece in pieces]
+    return tuple("".join(choice) for choice in product(*choices))

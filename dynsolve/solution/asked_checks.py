@@ -11,7 +11,7 @@ from dynsolve.derivation.model_check import model_names, verify_model, verify_re
 from dynsolve.derivation.rate_check import rate_names, verify_rates
 from dynsolve.derivation.static_check import verify_statics
 from dynsolve.explain.forms import Forms
-from dynsolve.quantities.index import asked_stages
+from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 

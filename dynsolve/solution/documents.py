@@ -29,7 +29,7 @@ from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed, machine
 from dynsolve.notation.tree import Relation, equation
 from dynsolve.quantities import letters
-from dynsolve.quantities.index import stages_of
+from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.earlier_results import EarlierResults, labelled_results

@@ -22,7 +22,8 @@ from dynsolve.notation.tree import Matrix, Node, Words
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities.families import FAMILIES
 from dynsolve.quantities.family import Family, Kind, Owner
-from dynsolve.quantities.index import Quantity, derived_stages, quantities
+from dynsolve.quantities.index import Quantity, quantities
+from dynsolve.quantities.robot_stages import derived_stages
 from dynsolve.robot.model import Robot
 from dynsolve.solution.branch_export import beside_branches, branch_results
 from dynsolve.solution.dynamics import Dynamics

@@ -13,7 +13,7 @@ from dynsolve.explain.step import Step
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed
 from dynsolve.quantities import letters
-from dynsolve.quantities.index import stages_of
+from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.robot.model import Robot
 
 TITLE = "Summary"

@@ -199,7 +199,7 @@ def _capped(found: Iterable[Marked], quantities: Quantities, policy: Policy) -> 
 def maximum(marks: Iterable[tuple[str, Fraction]], quantities: Quantities, policy: Policy) -> Fraction:
     """The most that a problem can earn.
 
-    >>> from dynsolve.quantities.index import Owners
+    >>> from dynsolve.quantities.owners import Owners
     >>> marks = [("K", Fraction(4)), ("P", Fraction(2)), ("D", Fraction(1))]
     >>> maximum(marks, Quantities(Owners(1, (), ("1",))), Policy(caps={"energy": Fraction(5)}))
     Fraction(6, 1)

@@ -8,7 +8,8 @@ from itertools import chain
 from dynsolve.notation.tree import Node
 from dynsolve.quantities import families as of
 from dynsolve.quantities.family import Family, Kind
-from dynsolve.quantities.index import Quantity, quantities, stages_of
+from dynsolve.quantities.index import Quantity, quantities
+from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 

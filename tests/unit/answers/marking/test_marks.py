@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from dynsolve.answers.marking.marks import mark, maximum
 from dynsolve.answers.marking.policy import Policy, rounded, shown
 from dynsolve.answers.verdict import EntryVerdict, JudgedAnswer, Verdict
-from dynsolve.quantities.index import Owners, Quantities
+from dynsolve.quantities.index import Quantities
+from dynsolve.quantities.owners import Owners
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, JointType
 
