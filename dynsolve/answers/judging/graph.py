@@ -132,7 +132,7 @@ class AnswerGraph:
                 found = self._routes_of_model(node)
                 return tuple(r for r in found if "tau" not in r.inputs) if assembled else found
             case _ if node in PARAMETERS or node == REFERENCE:
-                return tuple(model_routes(self, quantity))
+                return tuple(model_routes(rule, self.key))
             case "C" | "christoffel":
                 return (Route(("D",), self._symbols if node == "christoffel" else self._coriolis_matrix),)
         body = self._lifted(node)
@@ -154,7 +154,10 @@ class AnswerGraph:
         found: dict[str, tuple[Route, ...]] = {}
         for quantity in self.quantities.values():
             if quantity.rule in rules:
-                ways = (*task_routes(self, quantity), *recursion_routes(self, quantity))
+                ways = (
+                    *task_routes(self.robot.questions, quantity, self.key),
+                    *recursion_routes(self.answer_ring, quantity),
+                )
                 if ways:
                     found[quantity.rule] = ways
         return found

@@ -3,29 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from dynsolve.algebra.fraction_matrix import FractionMatrix
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.route import Route
+from dynsolve.answers.judging.route import Key, Route
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.errors import AlgebraError
-from dynsolve.quantities.index import Quantity
-from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
-
-if TYPE_CHECKING:
-    from dynsolve.answers.judging.graph import AnswerGraph
 
 
-def model_routes(graph: AnswerGraph, quantity: Quantity) -> Iterator[Route]:
-    """The routes to a regressor, none to other quantities."""
-    if quantity.rule not in (*PARAMETERS, REFERENCE):
-        return
-    rule: Rule = graph.answer_ring.rules[quantity.rule]
+def model_routes(rule: Rule, key: Key) -> Iterator[Route]:
+    """The routes to a regressor, from its rule."""
     *forces, parameters = rule.inputs
 
     def by_key(*values: Any) -> Matrix | FractionMatrix:
-        return _found(rule.compute(*values, graph.key(parameters)))
+        return _found(rule.compute(*values, key(parameters)))
 
     yield Route(tuple(forces), by_key, linear=False)
     yield Route(rule.inputs, lambda *values: _found(rule.compute(*values)), linear=False)

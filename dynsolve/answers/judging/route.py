@@ -6,6 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+Key = Callable[[str], Any]
+"""The key's value of a node, by its name."""
+
 
 @dataclass(frozen=True, slots=True)
 class Route:

@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.answers.judging.route import Route
+from dynsolve.answers.judging.route import Key, Route
 from dynsolve.derivation import statics
 from dynsolve.notation.tree import Reference
 from dynsolve.quantities import kinematic_families, static_families
 from dynsolve.quantities.index import Quantity
-from dynsolve.robot.questions import TIP, Load
-
-if TYPE_CHECKING:
-    from dynsolve.answers.judging.graph import AnswerGraph
+from dynsolve.robot.questions import TIP, Load, Questions, Task
 
 
-def task_routes(graph: AnswerGraph, quantity: Quantity) -> Iterator[Route]:
+def task_routes(questions: Questions, quantity: Quantity, key: Key) -> Iterator[Route]:
     """The routes to a quantity beside that of its rule."""
-    task = graph.robot.questions.task
+    task = questions.task
     if task is None or task.is_twist:
         return
     if quantity.family is kinematic_families.JR:
@@ -28,28 +24,28 @@ def task_routes(graph: AnswerGraph, quantity: Quantity) -> Iterator[Route]:
         if None not in rows:
             yield Route(("Jv",), lambda Jv: Matrix(Jv.ring, tuple(Jv.rows[k] for k in rows if k is not None)))
     elif quantity.family is static_families.LOAD:
-        load = graph.robot.questions.loads[quantity.index[0] - 1]
-        wrench = _task_wrench(graph, load, quantity.rule)
+        load = questions.loads[quantity.index[0] - 1]
+        wrench = _task_wrench(task, load, quantity.rule, key)
         if wrench is not None:
             yield Route(("Jr",), lambda J: J.T @ wrench, linear=False)
 
 
 def _axis(entry: object) -> int | None:
     """Which coordinate of the tip a component of the task is, None for any other component."""
-    is_tip = isinstance(entry, Reference) and entry.quantity == TIP and entry.row is not None
-    return entry.row - 1 if is_tip and isinstance(entry, Reference) and entry.row else None
+    if isinstance(entry, Reference) and entry.quantity == TIP and entry.row is not None:
+        return entry.row - 1
+    return None
 
 
-def _task_wrench(graph: AnswerGraph, load: Load, rule: str) -> Matrix | None:
+def _task_wrench(task: Task, load: Load, rule: str, key: Key) -> Matrix | None:
     """The force along each component of the task with which J_rᵀ gives the generalized forces; None of none.
 
     Along a coordinate of the tip it is that of the force, along an angle one of the moment.
     """
-    task = graph.robot.questions.task
-    if task is None or load.point != TIP:
+    if load.point != TIP:
         return None
-    J, wanted = graph.key("Jr"), graph.key(rule)
-    force, moment = statics.wrench(load, graph.key(f"H{load.link}"))
+    J, wanted = key("Jr"), key(rule)
+    force, moment = statics.wrench(load, key(f"H{load.link}"))
     for around in range(3):
         parts: list[Expr] = []
         for entry in task.entries:
