@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import cos, pi, radians, sin, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from flint import fmpq_mpoly
 
 from dynsolve.algebra.angles import Atom, names_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.generators import Generator, dotted
+from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree_values import evaluate as value_of_tree
-
-if TYPE_CHECKING:
-    from dynsolve.algebra.ring import Ring
 
 Functions = Mapping[str, Callable[[Any], Any]]
 

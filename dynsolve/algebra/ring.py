@@ -15,12 +15,12 @@ an integer combination of them: the absolute angles of parallel joints, θ₁, �
 and halves where half an angle occurs.
 
 `ring_plan` says what a ring must hold for some formulas, `build` makes the ring,
-`evaluate` gives the value of a formula in it.
+`ring_values` gives the value of a formula in it, `floats` that of an element in numbers.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -30,7 +30,6 @@ from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 from dynsolve.algebra.angles import Angle, Atom, names_of
 from dynsolve.algebra.constants import ConstantAngles, minimal_polynomial
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.generators import Pair, dotted, is_sign, lay_out, sine_cosine_pairs
 from dynsolve.algebra.rationals import rational
 from dynsolve.algebra.relations import Relations
@@ -329,10 +328,6 @@ class Ring:
     def moving_degree(self, expr: Expr) -> int:
         """The degree in the coordinates, the sines and cosines of their angles, and their rates."""
         return max((sum(int(e[i]) for i in self._moving) for e in expr.poly.monoms()), default=0)
-
-    def evaluate(self, expr: Expr, values: Mapping[str, float]) -> float:
-        """The value at plain names: `theta1`, `theta1_dot`, `theta1_ddot` and the parameters."""
-        return evaluate(expr, values)
 
 
 class NoRoom(Exception):

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate
 from dynsolve.robot.actions import Spring
 from dynsolve.robot.model import Robot
 
@@ -38,11 +39,11 @@ def acting_forces(robot: Robot, values: Mapping[str, float]) -> ActingForces:
             springs[k] += _slope(robot, spring, values, k)
     for one in acting.friction:
         rate = values[robot.coordinates[one.coordinate].velocity]
-        viscous, coulomb = (robot.ring.evaluate(expr, values) for expr in (one.viscous, one.coulomb))
+        viscous, coulomb = (evaluate(expr, values) for expr in (one.viscous, one.coulomb))
         friction[one.coordinate] += viscous * rate + (math.copysign(coulomb, rate) if rate else 0.0)
     for damper in acting.dampers:
         moving = {**values, **{q.name: values[q.velocity] for q in robot.coordinates}}
-        force = robot.ring.evaluate(damper.damping, values) * robot.ring.evaluate(damper.of, moving)
+        force = evaluate(damper.damping, values) * evaluate(damper.of, moving)
         for k in range(n):
             friction[k] += force * _at_unit(robot, damper.of, values, k)
     return ActingForces(tuple(springs), tuple(friction), energy)
@@ -51,15 +52,13 @@ def acting_forces(robot: Robot, values: Mapping[str, float]) -> ActingForces:
 def _at_unit(robot: Robot, form: Expr, values: Mapping[str, float], k: int) -> float:
     """A linear form where coordinate k is 1 and the others are 0."""
     unit = {q.name: float(place == k) for place, q in enumerate(robot.coordinates)}
-    return robot.ring.evaluate(form, {**values, **unit})
+    return evaluate(form, {**values, **unit})
 
 
 def _energy(robot: Robot, spring: Spring, values: Mapping[str, float]) -> float:
     if spring.law is None:
-        return robot.ring.evaluate(spring.energy, values)
-    k, x, rest = (
-        robot.ring.evaluate(expr, values) for expr in (spring.law.stiffness, spring.law.of, spring.law.rest)
-    )
+        return evaluate(spring.energy, values)
+    k, x, rest = (evaluate(expr, values) for expr in (spring.law.stiffness, spring.law.of, spring.law.rest))
     return k * (x - rest) ** 2 / 2
 
 

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.newton_euler import (
     ZERO,
@@ -88,7 +89,7 @@ class RobotValues:
 
     def number(self, expr: Expr) -> float:
         """The value of an expression."""
-        return self.robot.ring.evaluate(expr, self.values)
+        return evaluate(expr, self.values)
 
     def vector(self, column: Matrix) -> Vector:
         """The value of a column of three."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from random import Random
 
+from dynsolve.algebra.floats import evaluate
 from dynsolve.derivation.arm_values import draw_values
 from dynsolve.derivation.balance import never_zero
 from dynsolve.derivation.equilibrium_check import zero_along
@@ -37,7 +38,7 @@ def is_balanced(robot: Robot, gravity: Node, at: Mapping[str, float]) -> bool:
     """Whether gravity is what is asked for."""
     wanted = robot.questions.model.balanced
     found = compile_trees([gravity]).run(at)[0]
-    given = [0.0] * robot.n if wanted is None else [robot.ring.evaluate(e, at) for e in wanted.entries]
+    given = [0.0] * robot.n if wanted is None else [evaluate(e, at) for e in wanted.entries]
     return all(abs(row[0] - other) < CLOSE for row, other in zip(found, given, strict=True))
 
 

@@ -17,6 +17,7 @@ from enum import Enum
 from random import Random
 
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.inequality import Bound, follows
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant, work
@@ -153,7 +154,7 @@ def _is_possible(matrix: Matrix, bounds: Sequence[Bound]) -> bool:
         values = {
             name: random.choice((random.uniform(-3, 3), random.uniform(0, 3))) for name in ring.parameters
         }
-        if all(ring.evaluate(b.value, values) > (1e-9 if b.is_strict else -1e-9) for b in bounds):
+        if all(evaluate(b.value, values) > (1e-9 if b.is_strict else -1e-9) for b in bounds):
             return True
     return False
 

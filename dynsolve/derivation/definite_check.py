@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from random import Random
 
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.inequality import Bound
 from dynsolve.derivation.definite import Answer, Definiteness, Refusal
 from dynsolve.errors import VerificationError
@@ -47,7 +48,7 @@ def _parameters(
         values = {
             name: random.choice((random.uniform(-2, 2), random.uniform(0.1, 3))) for name in ring.parameters
         }
-        if all(ring.evaluate(b.value, values) > 1e-3 * b.is_strict for b in bounds):
+        if all(evaluate(b.value, values) > 1e-3 * b.is_strict for b in bounds):
             count += 1
             yield values
             if count == states:
@@ -70,8 +71,7 @@ def _poses(robot: Robot, parameters: Mapping[str, float], random: Random) -> Ite
 
 def _is_definite(candidate: Candidate, values: Mapping[str, float]) -> bool:
     """Whether every pivot of the elimination is positive."""
-    ring = candidate.matrix.ring
-    rows = [[ring.evaluate(entry, values) for entry in row] for row in candidate.matrix.rows]
+    rows = [[evaluate(entry, values) for entry in row] for row in candidate.matrix.rows]
     size = max(abs(entry) for row in rows for entry in row)
     for k, pivot in enumerate(rows):
         if pivot[k] <= 1e-12 * size:

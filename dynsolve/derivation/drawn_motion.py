@@ -15,6 +15,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from random import Random
 from typing import TypeVar
 
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.newton_euler import Rotation, Vector, applied, cross, dot, minus, plus, scaled, times
 from dynsolve.errors import VerificationError
@@ -83,7 +84,7 @@ def _drawn_coordinate(normals: Normals, i: int, axis: DrawnAxis, letters: Mappin
 
 
 def _vector(column: Matrix, letters: Mapping[str, float]) -> Vector:
-    x, y, z = (column.ring.evaluate(entry, letters) for entry in column.entries)
+    x, y, z = (evaluate(entry, letters) for entry in column.entries)
     return x, y, z
 
 

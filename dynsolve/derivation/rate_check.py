@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from random import Random
 from typing import Any
 
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.arm_values import draw
 from dynsolve.derivation.rates import whole_or_task
@@ -106,7 +107,7 @@ def _weights(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any])
         return [list(row) for row in ours["D"]]
     if robot.questions.weights is None:
         return None
-    return [[robot.ring.evaluate(entry, values) for entry in row] for row in robot.questions.weights.rows]
+    return [[evaluate(entry, values) for entry in row] for row in robot.questions.weights.rows]
 
 
 def _spaces(ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
@@ -133,7 +134,7 @@ def _spaces(ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
 
 
 def _numbers(robot: Robot, column: Matrix, values: Mapping[str, float]) -> Vector:
-    return [robot.ring.evaluate(entry, values) for entry in column.entries]
+    return [evaluate(entry, values) for entry in column.entries]
 
 
 def _gap(J: Rows, x: Vector, wanted: Vector, weights: Rows | None) -> float:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate
 from dynsolve.draw.vectors import IDENTITY, Rotation
 from dynsolve.notation.walk import names_in
 from dynsolve.problem.model import Problem
@@ -75,14 +76,14 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
         raise ValueError("a length came out as 0")
 
     def drawn(expr: Expr) -> float:
-        ratio = evaluate(robot, expr, values) / unit
+        ratio = finite(expr, values) / unit
         return drawn_length(ratio) if shortest < 0.8 * SHORTEST * unit else ratio
 
     rows = tuple(
         TableRow(angle(joint.theta, values), drawn(joint.d), drawn(joint.a), angle(joint.alpha, values))
         for joint in robot.joints
     )
-    x, y, z = ([evaluate(robot, entry, values) for entry in row] for row in robot.base_rotation.rows)
+    x, y, z = ([finite(entry, values) for entry in row] for row in robot.base_rotation.rows)
     base = tuple(zip(x, y, z, strict=True))
     return RobotNumbers(rows, values, unit, (base[0], base[1], base[2]))
 
@@ -92,12 +93,12 @@ def _has_vanished(robot: Robot, values: Mapping[str, float]) -> bool:
     constant = [
         x for joint in robot.joints for x in (joint.a, *(() if joint.variable == "d" else (joint.d,)))
     ]
-    return any(not x.is_zero and abs(evaluate(robot, x, values)) < _TINY for x in constant)
+    return any(not x.is_zero and abs(finite(x, values)) < _TINY for x in constant)
 
 
 def _range(robot: Robot, values: Mapping[str, float]) -> tuple[float, float]:
     """The longest length of the table, and the shortest that is not 0; 1 where there is none."""
-    lengths = [abs(evaluate(robot, x, values)) for joint in robot.joints for x in (joint.d, joint.a)]
+    lengths = [abs(finite(x, values)) for joint in robot.joints for x in (joint.d, joint.a)]
     real = [x for x in lengths if x > _TINY]
     return max(real, default=1.0), min(real, default=1.0)
 
@@ -124,9 +125,9 @@ def _lengths(robot: Robot) -> list[str]:
     return [name for name in robot.ring.parameters if name in names - coordinates]
 
 
-def evaluate(robot: Robot, expr: Expr, values: Mapping[str, float]) -> float:
+def finite(expr: Expr, values: Mapping[str, float]) -> float:
     """The value of an expression; ValueError where it has none that is finite."""
-    value = robot.ring.evaluate(expr, values)
+    value = evaluate(expr, values)
     if not math.isfinite(value):
         raise ValueError(value)
     return value

@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dynsolve.draw.drawn_lengths import RobotNumbers, evaluate
+from dynsolve.algebra.floats import evaluate
+from dynsolve.draw.drawn_lengths import RobotNumbers, finite
 from dynsolve.draw.skeleton import MassCenter, Skeleton, near_and_far
 from dynsolve.draw.vectors import (
     NEAR,
@@ -79,7 +80,7 @@ def _local_center(
 
     def center(**changed: float) -> Vector:
         state = values | changed
-        x, y, z = (evaluate(robot, entry, state) / numbers.unit for entry in body.center.entries)
+        x, y, z = (finite(entry, state) / numbers.unit for entry in body.center.entries)
         return x, y, z
 
     middle = between(near, far, 0.5)
@@ -126,7 +127,7 @@ def _symbols_of(robot: Robot, body: Body) -> list[str]:
 
     def center() -> tuple[float, ...]:
         try:
-            return tuple(ring.evaluate(entry, values) for entry in body.center.entries)
+            return tuple(evaluate(entry, values) for entry in body.center.entries)
         except (ValueError, ZeroDivisionError, OverflowError):
             return ()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dynsolve.draw.drawn_lengths import RobotNumbers, evaluate
+from dynsolve.draw.drawn_lengths import RobotNumbers, finite
 from dynsolve.draw.skeleton import DrawnFrame, Skeleton, base_frame, skeleton
 from dynsolve.draw.vectors import Vector, any_normal, cross, dot, length, scale, subtract, unit
 from dynsolve.robot.model import JointType, Robot
@@ -41,7 +41,7 @@ def orientation(robot: Robot, numbers: RobotNumbers) -> Orientation:
 
 def _gravity(robot: Robot, numbers: RobotNumbers) -> Vector | None:
     try:
-        x, y, z = (evaluate(robot, entry, numbers.values) for entry in robot.gravity.entries)
+        x, y, z = (finite(entry, numbers.values) for entry in robot.gravity.entries)
     except (ValueError, ZeroDivisionError, OverflowError):
         return None
     return unit((x, y, z)) if length((x, y, z)) > _FLAT else None

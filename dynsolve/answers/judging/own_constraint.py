@@ -13,6 +13,7 @@ from functools import cached_property
 from random import Random
 from typing import TYPE_CHECKING
 
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.fraction import RationalExpr, add, equal, multiply
 from dynsolve.algebra.fraction_matrix import FractionMatrix, fraction_of
 from dynsolve.algebra.matrix import Matrix
@@ -155,8 +156,8 @@ class _OwnConstraint:
             return None
 
     def _number(self, entry: RationalExpr, at: Mapping[str, float]) -> float:
-        above = self.ring.evaluate(entry.numerator, at)
-        return above if entry.divisor is None else above / self.ring.evaluate(entry.divisor, at)
+        above = evaluate(entry.numerator, at)
+        return above if entry.divisor is None else above / evaluate(entry.divisor, at)
 
     # -- states on the constraint ------------------------------------------------------------------
 

@@ -17,6 +17,7 @@ from random import Random
 
 from dynsolve.algebra.angles import Angle, Atom, names_of
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.errors import AlgebraError
@@ -45,7 +46,7 @@ def samples(ring: Ring) -> tuple[Values, ...]:
 
 def sign(expr: Expr) -> int:
     """+1 or -1 where an expression has that sign for all positive letters, else 0."""
-    signs = {_sign(expr.ring.evaluate(expr, values)) for values in samples(expr.ring)}
+    signs = {_sign(evaluate(expr, values)) for values in samples(expr.ring)}
     return signs.pop() if len(signs) == 1 else 0
 
 
@@ -65,7 +66,7 @@ def angle_of(cosine: Expr, sine: Expr) -> Angle | None:
 def angle_between(cosine: Expr) -> Angle | None:
     """The angle in (0°, 180°) that has this cosine; None where none is found."""
     ring = cosine.ring
-    floats = [degrees(acos(max(-1.0, min(1.0, ring.evaluate(cosine, v))))) for v in samples(ring)]
+    floats = [degrees(acos(max(-1.0, min(1.0, evaluate(cosine, v))))) for v in samples(ring)]
     for angle in _candidates(ring, floats):
         found = _cos_sin(ring, angle)
         if found and found[0] == cosine:
@@ -77,7 +78,7 @@ def direction_angles(along: Expr, across: Expr) -> Iterator[Angle]:
     """Angles whose tangent may be across / along, in the quadrant of the two; still to be proved."""
     ring = along.ring
     values = samples(ring)
-    floats = [degrees(atan2(ring.evaluate(across, v), ring.evaluate(along, v))) for v in values]
+    floats = [degrees(atan2(evaluate(across, v), evaluate(along, v))) for v in values]
     yield from _candidates(ring, floats)
     # where a length changes its sign with the letters, the direction turns round
     acute = [(value + 90) % 180 - 90 for value in floats]
@@ -127,4 +128,4 @@ def _atom(atom: Atom, values: Values) -> float:
 
 def number_at(vector: Matrix, values: Values) -> tuple[float, ...]:
     """The entries of a vector at values of the letters."""
-    return tuple(vector.ring.evaluate(entry, values) for entry in vector.entries)
+    return tuple(evaluate(entry, values) for entry in vector.entries)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from dynsolve.algebra.floats import evaluate
 from dynsolve.derivation.kinematics import base_transform, dh_matrix, frame
 from dynsolve.draw import PictureFormat, draw, picture
 from dynsolve.draw.convert import to_pdf, to_png
@@ -43,13 +44,13 @@ def test_frames_are_where_the_product_of_the_A_puts_them(path: Path) -> None:
     for joint, found in zip(robot.joints, pose.frames[1:], strict=True):
         H = frame(frames[joint.parent], dh_matrix(robot, joint))
         frames.append(H)
-        turned_to = [[robot.ring.evaluate(H[i, j], state) for i in range(3)] for j in range(3)]
+        turned_to = [[evaluate(H[i, j], state) for i in range(3)] for j in range(3)]
         for column, axis in zip(turned_to, found.axes, strict=True):
             assert axis == pytest.approx(column, abs=1e-9)
         if named and not robot.base_position.rows[0][0].is_zero:
             continue
         if named:
-            place = [robot.ring.evaluate(H[i, 3], state) / values.unit for i in range(3)]
+            place = [evaluate(H[i, 3], state) / values.unit for i in range(3)]
             assert found.origin == pytest.approx(place, abs=1e-9)
 
 

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.rules import derive
 from dynsolve.explain.forms import Forms
@@ -127,6 +128,6 @@ def test_it_is_the_same_function(text: str) -> None:
         form = forms(quantity)
         trees = [e for row in form.rows for e in row] if isinstance(form, Matrix) else [form]
         for exact, tree in zip(entries, trees, strict=True):
-            number = robot.ring.evaluate(exact, point)
+            number = evaluate(exact, point)
             (printed,) = compile_trees([tree]).run(point)
             assert printed == pytest.approx(number, rel=1e-9, abs=1e-9), f"{quantity}: {to_python(tree)}"

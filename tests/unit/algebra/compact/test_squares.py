@@ -10,9 +10,10 @@ from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.build import build_ring
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.ring import Ring
 from dynsolve.notation.tree import Symbol
-from dynsolve.notation.tree_values import evaluate
+from dynsolve.notation.tree_values import evaluate as value_of_tree
 from dynsolve.notation.unicode import to_unicode
 
 
@@ -58,4 +59,4 @@ def test_what_is_written_is_what_was_meant() -> None:
         value = M * sum(draw.sample(roots, draw.randint(2, 4)), R.zero) ** 2 + M * draw.choice(roots) * D3
         state = {name: draw.uniform(0.3, 1.5) for name in ("m", "a", "b", "l", "q1", "q2", "d3")}
         tree = Compactor(R, ["m"], [["q1", "q2"]]).form(value)
-        assert evaluate(tree, state) == pytest.approx(R.evaluate(value, state))
+        assert value_of_tree(tree, state) == pytest.approx(evaluate(value, state))
