@@ -25,6 +25,7 @@ from dynsolve.robot.model import Robot
 STATES = 8
 NEWTON_STEPS = 60
 DIFFERENCE = 1e-6
+SMALL = 1e-9
 
 Values = Mapping[str, float]
 
@@ -136,20 +137,25 @@ def zero_near(robot: Robot, zeros: Program, start: Values) -> dict[str, float] |
 
 
 def _newton(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | None:
+    """Until nothing moves any more: near a double root, as of cos q = 1, an equation is 0 long before."""
     at = dict(start)
     names = [q.name for q in robot.coordinates]
     for _ in range(NEWTON_STEPS):
         f = zeros.run(at)
-        if max(map(abs, f)) < CLOSE**2:
-            return at
-        moved = [zeros.run({**at, name: at[name] + DIFFERENCE}) for name in names]
+        ahead, behind = (
+            [zeros.run({**at, name: at[name] + step}) for name in names] for step in (DIFFERENCE, -DIFFERENCE)
+        )
+        moved = 0.0
         for k, value in enumerate(f):  # one equation after the other, each by its own gradient
-            row = [(m[k] - value) / DIFFERENCE for m in moved]
+            row = [(a[k] - b[k]) / (2 * DIFFERENCE) for a, b in zip(ahead, behind, strict=True)]
             square = sum(x * x for x in row)
-            if square >= CLOSE**2:
+            if square >= SMALL**2:
+                moved = max(moved, abs(value) / square**0.5)
                 for name, x in zip(names, row, strict=True):
                     at[name] -= value * x / square
-    return None
+        if moved < SMALL:
+            break
+    return at if max(map(abs, zeros.run(at))) < CLOSE**2 else None
 
 
 def rank_of(rows: Sequence[Sequence[float]]) -> int:

@@ -16,17 +16,16 @@ from typing import TYPE_CHECKING
 
 from dynsolve.answers.judging.branches import BranchKey
 from dynsolve.answers.judging.equilibria import EquilibriumKey
+from dynsolve.answers.judging.held_equations import held_equations
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
 from dynsolve.answers.submission import ConfigurationAnswer, Part
 from dynsolve.derivation.balance_check import balanced_points, is_balanced
 from dynsolve.derivation.configuration_check import (
-    NO_VALUE,
     rank_of,
     states_of,
     zero_near,
 )
 from dynsolve.derivation.graph import Derivation, Skipped
-from dynsolve.derivation.reached import CLOSE
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree_values import Program, compile_trees
@@ -94,8 +93,8 @@ class ConfigurationKey:
         if not points or not all(is_balanced(self.robot, gravity, at) for at in points):
             return SetVerdict(False, "not_balanced")
         for number, node in enumerate(theirs, 1):
-            program = compile_trees([node])
-            if not all(_holds(program, at) for at in balanced_points(self.robot, self.shown.balance)):
+            condition = held_equations([node], (), ())
+            if not all(condition.hold(at) for at in balanced_points(self.robot, self.shown.balance)):
                 return SetVerdict(False, "condition_too_much", number)
         return RIGHT
 
@@ -112,15 +111,16 @@ class ConfigurationKey:
     # -- equations ---------------------------------------------------------------------------------
 
     def _equations(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
-        theirs = [compile_trees([part.node for part in one]) for one in given]
+        names, turning = [q.name for q in self.robot.coordinates], self._turning
+        theirs = [held_equations((part.node for part in one), names, turning) for one in given]
         for conditions in self.shown.singular:
             for q in self._points(compile_trees(conditions)):
-                if not any(_holds(program, q) for program in theirs):
+                if not any(one.hold(q) for one in theirs):
                     return SetVerdict(False, "configurations_missing")
         assert self.shown.singular_set is not None
         rank = self.shown.singular_set.rank
-        for number, program in enumerate(theirs, 1):
-            points = list(self._points(program))
+        for number, one in enumerate(theirs, 1):
+            points = list(self._points(one.program))
             if not points:
                 return SetVerdict(False, "condition_never_holds", number)
             if any(rank_of(self._jacobian.run(q)[0]) >= rank for q in points):
@@ -132,19 +132,15 @@ class ConfigurationKey:
         (name,) = self.values.rules["singular"].inputs
         return compile_trees([self.forms(name)])
 
+    @cached_property
+    def _turning(self) -> tuple[str, ...]:
+        return tuple(q.name for q in self.robot.coordinates if q.type is JointType.REVOLUTE)
+
     def _points(self, zeros: Program) -> Iterator[dict[str, float]]:
         """Configurations at which everything is 0, looked for all around the circle."""
-        turning = [q.name for q in self.robot.coordinates if q.type is JointType.REVOLUTE]
         for values in self._states():
-            turned = {name: values[name] + pi for name in turning}
+            turned = {name: values[name] + pi for name in self._turning}
             for start in (values, {**values, **turned}):
                 found = zero_near(self.robot, zeros, start)
                 if found is not None:
                     yield found
-
-
-def _holds(program: Program, q: Mapping[str, float]) -> bool:
-    try:
-        return all(abs(value) < CLOSE for value in program.run(q))
-    except NO_VALUE:
-        return False

@@ -8,16 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from math import pi, remainder
+from math import pi
 
+from dynsolve.answers.judging.held_equations import held_equations
 from dynsolve.answers.judging.set_verdict import RIGHT, SetVerdict
 from dynsolve.answers.submission import Part
-from dynsolve.derivation.configuration_check import NO_VALUE
 from dynsolve.derivation.equilibrium_check import in_balance, is_zero, starts, zero_near
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import Program, compile_trees
-from dynsolve.notation.walk import names_in
 from dynsolve.robot.model import JointType, Robot
 
 
@@ -35,12 +34,11 @@ class EquilibriumKey:
 
     def verdict(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
         """Whether a set is that of the key."""
-        theirs = [
-            [(compile_trees([part.node]), self._is_periodic(part.node)) for part in one] for one in given
-        ]
+        names = [q.name for q in self.robot.coordinates]
+        theirs = [held_equations((part.node for part in one), names, self._periodic) for one in given]
         for conditions in self.alternatives:
             for q in self._points(tuple(conditions)):
-                if not any(all(_holds(program, q, turns) for program, turns in one) for one in theirs):
+                if not any(one.hold(q) for one in theirs):
                     return SetVerdict(False, "equilibria_missing")
         for number, one in enumerate(given, 1):
             points = list(self._points(tuple(part.node for part in one)))
@@ -78,15 +76,3 @@ class EquilibriumKey:
                 )
             )
         )
-
-    def _is_periodic(self, node: Node) -> bool:
-        """Whether the coordinates in it are all angles that count modulo 2π."""
-        return names_in(node) & {q.name for q in self.robot.coordinates} <= self._periodic
-
-
-def _holds(program: Program, q: Mapping[str, float], turns: bool) -> bool:
-    try:
-        (value,) = program.run(q)
-    except NO_VALUE:
-        return False
-    return bool(abs(remainder(value, 2 * pi) if turns else value) < CLOSE)

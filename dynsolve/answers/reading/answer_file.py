@@ -19,9 +19,11 @@ from dynsolve.answers.reading.given_values import read_value
 from dynsolve.answers.reading.limits import MAX_ANSWERS
 from dynsolve.answers.reading.placed_text import PlacedText
 from dynsolve.answers.reading.sources import Source
+from dynsolve.answers.reading.span_text import span_text
 from dynsolve.answers.reading.verdicts import read_verdicts
 from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode
 from dynsolve.errors import Finding
+from dynsolve.quantities.spelling import key
 
 KEYS = ("problem", "student", "symbols", "let", "atan2", "answers")
 """The keys of an answer file."""
@@ -85,7 +87,9 @@ def read_answer_file(reader: EquationReader, source: Source) -> tuple[tuple[str,
 
 
 def _as_rows(reader: EquationReader, entry: Entry, value: PlacedText) -> PlacedText:
-    """The text of a value; of a table that is drawn in a block of text its rows."""
+    """The text of a value; of a table that is drawn in a block of text its rows, of a space its vectors."""
+    if reader.vocabulary.is_space(entry.key):
+        return span_text(value, lambda word: reader.vocabulary.symbol(key(word)) is not None)
     if entry.key != dh_tables.NAME or "\n" not in value.text:
         return value
     names = [q.name for q in reader.vocabulary.coordinates]
@@ -100,28 +104,28 @@ def parsed(text: str) -> AnswerFile:
     except NotYaml:
         return _by_lines(text)
     top = [entry for root in roots for entry in root.entries()]
-    nodes = {yaml_values.word(text, key): node for key, node in top}
+    nodes = {yaml_values.word(text, name): node for name, node in top}
     if not nodes:
         return _by_lines(text)
     names = [
-        (key == "symbols", entry)
-        for key in ("symbols", "let")
-        if key in nodes
-        for entry in _entries(text, nodes[key].entries())
+        (part == "symbols", entry)
+        for part in ("symbols", "let")
+        if part in nodes
+        for entry in _entries(text, nodes[part].entries())
     ]
     inside = _entries(text, nodes["answers"].entries()) if "answers" in nodes else ()
     beside = (pair for pair in top if yaml_values.word(text, pair[0]) not in KEYS)
     problem, student, order = (
-        yaml_values.word(text, nodes[key])[:200] if key in nodes else ""
-        for key in ("problem", "student", "atan2")
+        yaml_values.word(text, nodes[part])[:200] if part in nodes else ""
+        for part in ("problem", "student", "atan2")
     )
     answers = (*inside, *_entries(text, beside))
     return AnswerFile(problem, student, tuple(names), answers, order == X_FIRST)
 
 
 def _entries(text: str, pairs: Iterable[tuple[YamlNode, YamlNode]]) -> Iterator[Entry]:
-    for key, node in pairs:
-        yield Entry(yaml_values.word(text, key), key.start, yaml_values.value(text, node), node)
+    for name, node in pairs:
+        yield Entry(yaml_values.word(text, name), name.start, yaml_values.value(text, node), node)
 
 
 def _by_lines(text: str) -> AnswerFile:
@@ -129,9 +133,9 @@ def _by_lines(text: str) -> AnswerFile:
     found = answer_lines.entries(text)
     named = {entry.key: entry for entry in found}
     names = [
-        (key == "symbols", Entry(entry.key, entry.at, answer_lines.value_of(text, entry)))
-        for key in ("symbols", "let")
-        for entry in answer_lines.inner(text, named.get(key))
+        (part == "symbols", Entry(entry.key, entry.at, answer_lines.value_of(text, entry)))
+        for part in ("symbols", "let")
+        for entry in answer_lines.inner(text, named.get(part))
     ]
     inside = answer_lines.inner(text, named.get("answers"))
     beside = [entry for entry in found if entry.key not in KEYS]
@@ -140,7 +144,7 @@ def _by_lines(text: str) -> AnswerFile:
         for entry in [*inside, *beside][:MAX_ANSWERS]
     ]
     problem, student, order = (
-        answer_lines.word(text, named.get(key)) for key in ("problem", "student", "atan2")
+        answer_lines.word(text, named.get(part)) for part in ("problem", "student", "atan2")
     )
     return AnswerFile(problem, student, tuple(names), tuple(answers), order == X_FIRST)
 

@@ -14,13 +14,16 @@ with a letter that means nothing else, for all whole multiples.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from itertools import islice, pairwise, product
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
+from itertools import groupby, islice, product
 
 from dynsolve.answers.reading import yaml_values
 from dynsolve.answers.reading.displays import chain
 from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.loose_lists import loose_node
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
+from dynsolve.answers.reading.set_text import alternatives
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.vocabulary import Vocabulary
@@ -28,20 +31,17 @@ from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode
 from dynsolve.answers.submission import ConfigurationAnswer, Part, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.build import negated, total
-from dynsolve.notation.tree import ZERO, Node
-from dynsolve.notation.walk import with_atan2_exchanged
+from dynsolve.notation.tree import ZERO, Node, Reference
+from dynsolve.notation.walk import names_in, walk, with_atan2_exchanged
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.spelling import key
 
 MOST_ITEMS = 64
 """More alternatives, with every ± written out, are not read."""
 
-_AND = re.compile(r"\s(?:and|und|og|et|y)\s|&&?|∧|\\(?:land|wedge)\b|\s\\text\{\s*and\s*\}\s")
-_OR = re.compile(r"\s(?:or|oder|eller|ou)\s|\|\|?|∨|\\(?:lor|vee)\b")
 _EITHER = re.compile(r"±|\\pm\b|\+/-")
 _OPPOSITE = re.compile(r"∓|\\mp\b|-/\+")
 _NONE = re.compile(r"(?:none|no solutions?|empty|unreachable|out of reach|∅)\.?", re.IGNORECASE)
-_MULTIPLE = re.compile(r"(?<![\w\\])([kn])\s*\*?\s*(?=(?:\\?pi\b|π))")
 
 
 def read_configurations(
@@ -62,8 +62,7 @@ def read_configurations(
     try:
         source, root = (text, _parsed(text)) if node is None else (text, node)
         written = source[root.start : root.end].strip()
-        names = tuple(q.name for q in reader.vocabulary.coordinates)
-        items = list(islice(_alternatives(source, root, kind, names), MOST_ITEMS + 1))
+        items = list(islice(_alternatives(reader.vocabulary, source, root, kind), MOST_ITEMS + 1))
         if len(items) > MOST_ITEMS:
             raise ReadError(f"more than {MOST_ITEMS} alternatives", 0, 1, "write fewer")
         read = tuple(tuple(_part(reader.vocabulary, *part) for part in item) for item in items)
@@ -81,7 +80,12 @@ def _parsed(text: str) -> YamlNode:
     try:
         (root,) = yaml_values.documents(text)
     except (NotYaml, ValueError):
-        raise ReadError("this is no list", 0, 1, "write a list: [sin(q2) = 0, cos(q3) = 0]") from None
+        found = loose_node(text)
+        if found is None:
+            raise ReadError(
+                "a bracket never closes", 0, 1, "write a list: [sin(q2) = 0, cos(q3) = 0]"
+            ) from None
+        return found
     return root
 
 
@@ -89,22 +93,43 @@ _Item = tuple[tuple[str, str], ...]
 """An alternative: (coordinate or nothing, text) for each of its formulas."""
 
 
-def _alternatives(text: str, root: YamlNode, kind: Kind, names: Sequence[str]) -> Iterator[_Item]:
+def _alternatives(vocabulary: Vocabulary, text: str, root: YamlNode, kind: Kind) -> Iterator[_Item]:
     items = yaml_values.items_of(text, root) if root.style == "list" else [root]
     if kind is Kind.BRANCHES:
-        if _is_none(text, root):
-            return
-        if items and all(item.style not in ("list", "mapping") for item in items):
-            items = [root]
-    if kind is Kind.EQUATIONS and len(items) == 1 and _is_none(text, items[0]):
+        yield from _branches(vocabulary, text, root, items)
+    elif not (len(items) == 1 and _is_none(text, items[0])):
+        for texts in _texts(text, items):
+            each = [
+                alternatives(one, partial(_is_name, vocabulary), partial(_is_value, vocabulary))
+                for one in texts
+            ]
+            for chosen in product(*each):
+                yield from _signed(tuple(("", equation) for one in chosen for equation in one))
+
+
+def _branches(
+    vocabulary: Vocabulary, text: str, root: YamlNode, items: Sequence[YamlNode]
+) -> Iterator[_Item]:
+    if _is_none(text, root):
         return
+    if items and all(item.style not in ("list", "mapping") for item in items):
+        items = [root]
+    names = [q.name for q in vocabulary.coordinates]
     for item in items:
-        if kind is Kind.EQUATIONS and item.style == "mapping":
-            for chosen in _combinations(text, item):
-                yield from _signed(chosen)
+        yield from _signed(tuple(_branch(text, item, names)))
+
+
+def _texts(text: str, items: Iterable[YamlNode]) -> Iterator[list[list[str]]]:
+    """What holds together, each as texts of which one holds; the texts of a list are alternatives."""
+    for is_text, found in groupby(items, lambda item: item.style not in ("list", "mapping")):
+        if is_text:
+            yield [[yaml_values.word(text, item) for item in found]]
             continue
-        parts = tuple(_branch(text, item, names)) if kind is Kind.BRANCHES else tuple(_together(text, item))
-        yield from _signed(parts)
+        for item in found:
+            if item.style == "mapping":
+                yield [[equation] for equation in _equations(text, item)]
+            else:
+                yield [[yaml_values.word(text, one)] for one in yaml_values.items_of(text, item)]
 
 
 def _branch(text: str, node: YamlNode, names: Sequence[str]) -> Iterator[tuple[str, str]]:
@@ -124,45 +149,35 @@ def _is_none(text: str, node: YamlNode) -> bool:
     return node.style not in ("list", "mapping") and bool(_NONE.fullmatch(yaml_values.word(text, node)))
 
 
-def _combinations(text: str, node: YamlNode) -> Iterator[_Item]:
-    """{q1: [pi/2, -pi/2], q2: 0}: every choice of a value of each coordinate, as equations."""
-    choices = []
+def _equations(text: str, node: YamlNode) -> Iterator[str]:
+    """{q1: [pi/2, -pi/2], q2: 0}: a value, or one of several, for each coordinate."""
     for name, value in node.entries():
         items = yaml_values.items_of(text, value) if value.style == "list" else [value]
-        left = yaml_values.word(text, name)
-        choices.append([("", f"{left} = {yaml_values.word(text, item)}") for item in items])
-    yield from product(*choices)
-
-
-def _together(text: str, node: YamlNode) -> Iterator[tuple[str, str]]:
-    """Equations that hold together."""
-    items = yaml_values.items_of(text, node) if node.style == "list" else [node]
-    for item in items:
-        for part in _AND.split(yaml_values.word(text, item)):
-            members = [part] if _OR.search(part) else part.split("=")
-            for left, right in pairwise(members) if len(members) > 2 else ():
-                yield "", f"{left}={right}"
-            if len(members) <= 2:
-                yield "", part
+        values = " or ".join(yaml_values.word(text, item) for item in items)
+        yield f"{yaml_values.word(text, name)} = {values}"
 
 
 def _signed(parts: _Item) -> Iterator[_Item]:
-    """Every ± written out, and `or` and whole multiples of π, as alternatives of their own."""
-    for index, (name, text) in enumerate(parts):
-        choices = _OR.split(text)
-        if len(choices) == 1 and (found := _MULTIPLE.search(text)):
-            choices = [text[: found.start()] + f"{factor}*" + text[found.end() :] for factor in (0, 1)]
-        if len(choices) > 1:
-            before = choices[0].split("=")[0] if "=" in choices[0] else ""
-            for choice in choices:
-                whole = choice if "=" in choice or not before else f"{before}= {choice}"
-                yield from _signed((*parts[:index], (name, whole), *parts[index + 1 :]))
-            return
+    """Both signs of every ± as alternatives of their own."""
     if any(_EITHER.search(text) or _OPPOSITE.search(text) for _, text in parts):
         for sign, other in (("+", "-"), ("-", "+")):
             yield tuple((name, _OPPOSITE.sub(other, _EITHER.sub(sign, text))) for name, text in parts)
     else:
         yield parts
+
+
+def _is_name(vocabulary: Vocabulary, letter: str) -> bool:
+    """Whether a letter means something in the problem or to the student."""
+    return vocabulary.symbol(key(letter)) is not None
+
+
+def _is_value(vocabulary: Vocabulary, text: str) -> bool:
+    """Whether no coordinate stands in a text."""
+    try:
+        found = names_in(_value(vocabulary, prepared(text)))
+    except ReadError:
+        return False
+    return found.isdisjoint(q.name for q in vocabulary.coordinates)
 
 
 def _part(vocabulary: Vocabulary, name: str, text: str) -> Part:
@@ -197,4 +212,7 @@ def _value(vocabulary: Vocabulary, tokens: list[Token]) -> Node:
         raise ReadError(f"{found.free[0]} is no name of this problem", 0, 1, "write it in its symbols")
     if not isinstance(found.value, Node):
         raise ReadError("a single expression is expected", 0, 1, "write one formula")
+    for part in walk(found.value):
+        if isinstance(part, Reference):
+            raise ReadError(f"{part} stands in it", 0, 1, "write it in the coordinates: sin(q2) = 0")
     return found.value

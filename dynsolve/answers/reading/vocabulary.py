@@ -210,6 +210,11 @@ class Vocabulary:
         found = self.quantities.canonical(name)
         return found if found and self.quantities[found].family.kind is Kind.VERDICTS else None
 
+    def is_space(self, name: str) -> bool:
+        """Whether the answer of that name is a space, which vectors span."""
+        found = self.quantities.canonical(name)
+        return bool(found) and self.quantities[found].family.kind is Kind.SPAN
+
     def shape(self, name: str) -> Shape:
         """Rows and columns of an answer; None for a scalar, and for what is none."""
         quantity = self.quantities.get(name)

@@ -1,0 +1,43 @@
+"""Equations that hold together, in numbers: of a set of configurations one alternative."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+from math import pi, remainder
+
+from dynsolve.derivation.configuration_check import NO_VALUE
+from dynsolve.derivation.reached import CLOSE
+from dynsolve.notation.tree import Function, Node
+from dynsolve.notation.tree_values import Program, compile_trees
+from dynsolve.notation.walk import names_in, walk
+
+
+@dataclass(frozen=True, slots=True)
+class HeldEquations:
+    """What is 0 together; `are_angles` tells of each whether it counts modulo 2π, as q₂ - π does."""
+
+    program: Program
+    are_angles: tuple[bool, ...]
+
+    def hold(self, q: Mapping[str, float]) -> bool:
+        """Whether all are 0 at a configuration."""
+        try:
+            values = self.program.run(q)
+        except NO_VALUE:
+            return False
+        pairs = zip(values, self.are_angles, strict=True)
+        return all(abs(remainder(value, 2 * pi) if is_angle else value) < CLOSE for value, is_angle in pairs)
+
+
+def held_equations(
+    nodes: Iterable[Node], coordinates: Collection[str], periodic: Collection[str]
+) -> HeldEquations:
+    """The equations node = 0, where the angles `periodic` among the coordinates count modulo 2π."""
+    nodes = tuple(nodes)
+    are_angles = []
+    for node in nodes:
+        within = names_in(node).intersection(coordinates)
+        has_function = any(isinstance(part, Function) for part in walk(node))
+        are_angles.append(bool(within) and within <= set(periodic) and not has_function)
+    return HeldEquations(compile_trees(nodes), tuple(are_angles))

@@ -1,0 +1,154 @@
+r"""The text of an alternative as people write it: `θ₂ = 0 or π`, `q_2 = k\pi, k ∈ ℤ`, `q2 ∈ {0, π}`.
+
+What joins equations is taken apart before any formula is read: `or` into alternatives, `and` into
+equations that hold together, outside of parentheses; `and` binds closer, and a value without an
+equation of its own, the π of `θ₂ = 0 or π`, is another value of the equation before it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import pairwise, product
+
+from dynsolve.errors import ReadError
+
+Together = tuple[str, ...]
+"""The texts of equations that hold together."""
+
+WHOLE_NUMBERS = range(4)
+"""What is put for k in `k*pi/2`: every multiple of a quarter turn within one turn."""
+
+_WORD = re.compile(
+    r"\\(?:text|textrm|textnormal|mathrm|mbox)\s*\{\s*(or|and|oder|und|eller|og|ou|et)\s*\}", re.IGNORECASE
+)
+_FOLLOWS = re.compile(
+    r"\\(?:implies|iff|(?:Long)?(?:left)?[rR]ightarrow|(?:Long)?Leftrightarrow)\b|<?=>|[⇒⇔⟹⟺]"
+)
+_INTEGERS = re.compile(
+    r"\s*[,;]?\s*\(?\s*(?:\\(?:quad|text\{\s*for\s*\}|forall)\s*|for\s+|with\s+|∀\s*)?"
+    r"[kn]\s*(?:(?:\\in|∈|\bin\b)\s*(?:\\mathbb\s*\{?\s*Z\s*\}?|ℤ|Z\b|(?:the\s+)?integers)|(?:an?\s+)?integer)\s*\)?"
+)
+_COUNTED = re.compile(r"\s*[,;]\s*\(?\s*[kn]\s*=\s*(?:0|\.\.\.|\\[lc]?dots|…)[^=]*\Z")
+_MODULO = re.compile(r"\s*(?:\(\s*mod(?:ulo)?\s+([^()]+)\)|\\pmod\s*\{([^{}]*)\}|\bmod(?:ulo)?\s+(.+))\s*\Z")
+_HALF_TURN = re.compile(r"\s*(?:\\?pi|π|180\s*(?:°|deg|\^\\circ|\^\{\\circ\}))\s*\Z")
+_MEMBERS = re.compile(r"(?:\\in\b|∈|=)\s*\\?\{((?:[^{}]|\{[^{}]*\})*?)\\?\}\s*\Z")
+_WHOLE = re.compile(r"(?<![A-Za-z_\\])([kn])(?![A-Za-z_0-9])")
+_OR = re.compile(r"\s(?:or|oder|eller|ou)\s|\|\|?|∨|\\(?:lor|vee)\b|;")
+_AND = re.compile(r"\s(?:and|und|og|et|y)\s|&&?|∧|\\(?:land|wedge)\b")
+_COMMA = re.compile(",")
+_LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
+
+
+def alternatives(
+    texts: Sequence[str], is_name: Callable[[str], bool], is_value: Callable[[str], bool]
+) -> Iterator[Together]:
+    """The alternatives that texts name, the items of a list.
+
+    `is_name` says whether a letter has a meaning of its own, `is_value` whether no coordinate
+    stands in a text.
+
+    >>> list(alternatives(["q2 = 0 or pi and q3 = 0"], lambda letter: False, lambda text: text[0] != "q"))
+    [('q2 = 0', 'q3 = 0'), ('q2 = pi', 'q3 = 0')]
+    """
+    text = " or ".join(map(_spelled_out, texts))
+    for equations in _either(text, is_value):
+        letters = dict.fromkeys(
+            letter for one in equations for letter in _WHOLE.findall(one) if not is_name(letter)
+        )
+        for numbers in product(WHOLE_NUMBERS, repeat=len(letters)):
+            values = dict(zip(letters, numbers, strict=True))
+            yield tuple(_with_numbers(one, values) for one in equations)
+
+
+def _with_numbers(text: str, values: Mapping[str, int]) -> str:
+    """A text with numbers for letters."""
+    return _WHOLE.sub(lambda letter: f"({values[letter[1]]})" if letter[1] in values else letter[0], text)
+
+
+def _spelled_out(text: str) -> str:
+    """The text with words for signs, behind its last arrow, and without what is said of whole numbers."""
+    text = _FOLLOWS.split(_WORD.sub(r" \1 ", text))[-1]
+    text = _COUNTED.sub("", _INTEGERS.sub("", text))
+    if (modulo := _MODULO.search(text)) is not None:
+        by = next(group for group in modulo.groups() if group is not None)
+        text = text[: modulo.start()] + (" + k*pi" if _HALF_TURN.fullmatch(by) else "")
+    return text
+
+
+def _either(text: str, is_value: Callable[[str], bool]) -> Iterator[Together]:
+    """The alternatives of a text in which words stand for signs."""
+    found: list[list[list[str]]] = []
+    for piece in _parts(_without_parentheses(text), _OR):
+        for number, one in enumerate(_listed(piece)):
+            first, *others = _parts(one, _AND)
+            before = found[-1][-1] if found else []
+            if before and "=" not in first and "=" in before[0] and (number or is_value(first)):
+                before.append(f"{before[0].split('=')[0]}= {first}")
+            else:
+                found.append([[first]])
+            found[-1] += [[other] for other in others]
+    for equations in found:
+        yield from _together(equations, is_value)
+
+
+def _together(equations: Sequence[Sequence[str]], is_value: Callable[[str], bool]) -> Iterator[Together]:
+    """Every choice of a value of each equation; what stands in parentheses is taken apart in its turn."""
+    choices: list[list[Together]] = []
+    for values in equations:
+        found: list[Together] = []
+        for value in values:
+            inner = _without_parentheses(value)
+            found += _either(inner, is_value) if inner != value.strip() else [_chain(value)]
+        choices.append(found)
+    for chosen in product(*choices):
+        yield tuple(equation for one in chosen for equation in one)
+
+
+def _chain(text: str) -> Together:
+    """sin q₂ = sin q₃ = 0 as two equations."""
+    members = text.split("=")
+    if len(members) < 3:
+        return (text,)
+    return tuple(f"{left}={right}" for left, right in pairwise(members))
+
+
+def _listed(text: str) -> list[str]:
+    """q₂ = 0, π and q₂ ∈ {0, π}: further values of one equation, which commas part."""
+    if (members := _MEMBERS.search(text)) is not None:
+        values = _parts(members[1], _COMMA)
+        return [f"{text[: members.start()]}= {values[0]}", *values[1:]]
+    pieces = _parts(text, _COMMA)
+    lefts = {piece.split("=")[0].strip() for piece in pieces if "=" in piece}
+    if len(pieces) > 1 and (len(lefts) != 1 or "=" not in pieces[0]):
+        help = "write a list of alternatives, and join by `and` what holds together"
+        raise ReadError("a comma stands between equations", text.find(","), 1, help)
+    return pieces
+
+
+def _without_parentheses(text: str) -> str:
+    """The text without parentheses around all of it, where equations stand in them."""
+    text = text.strip()
+    if text[:1] == "(" and text[-1:] == ")" and "=" in text:
+        inside = text[1:-1]
+        if all(level >= 0 for level in _running(inside)):
+            return inside
+    return text
+
+
+def _running(text: str) -> Iterator[int]:
+    level = 0
+    for character in text:
+        level += _LEVELS.get(character, 0)
+        yield level
+
+
+def _parts(text: str, separator: re.Pattern[str]) -> list[str]:
+    """What stands between separators outside of brackets."""
+    levels = list(_running(text))
+    found, start = [], 0
+    for sign in separator.finditer(text):
+        if levels[sign.start()] == 0:
+            found.append(text[start : sign.start()])
+            start = sign.end()
+    return [*found, text[start:]]
