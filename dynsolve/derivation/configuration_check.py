@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import hypot
 from operator import mul
 from random import Random
 from typing import Any
@@ -145,17 +146,39 @@ def _newton(robot: Robot, zeros: Program, start: Values) -> dict[str, float] | N
         ahead, behind = (
             [zeros.run({**at, name: at[name] + step}) for name in names] for step in (DIFFERENCE, -DIFFERENCE)
         )
-        moved = 0.0
-        for k, value in enumerate(f):  # one equation after the other, each by its own gradient
-            row = [(a[k] - b[k]) / (2 * DIFFERENCE) for a, b in zip(ahead, behind, strict=True)]
-            square = sum(x * x for x in row)
-            if square >= SMALL**2:
-                moved = max(moved, abs(value) / square**0.5)
-                for name, x in zip(names, row, strict=True):
-                    at[name] -= value * x / square
-        if moved < SMALL:
-            break
-    return at if max(map(abs, zeros.run(at))) < CLOSE**2 else None
+        rows = [
+            [(a[k] - b[k]) / (2 * DIFFERENCE) for a, b in zip(ahead, behind, strict=True)]
+            for k in range(len(f))
+        ]
+        step = _step(f, rows)
+        for name, x in zip(names, step, strict=True):
+            at[name] += x
+        moved = max(map(abs, step), default=0.0)
+        if moved < SMALL and max(map(abs, f)) < CLOSE**2:
+            return at
+    return None
+
+
+def _step(values: Sequence[float], rows: Sequence[Sequence[float]]) -> list[float]:
+    """The shortest step after which each value, changed by its gradient, is 0.
+
+    One gradient after the other, each without its part along those before it; one that lies in their
+    span is an equation that repeats another.
+    """
+    step = [0.0] * len(rows[0])
+    across: list[list[float]] = []
+    for value, row in zip(values, rows, strict=True):
+        left = list(row)
+        for one in across:
+            along = sum(map(mul, row, one))
+            left = [x - along * y for x, y in zip(left, one, strict=True)]
+        length, whole = hypot(*left), hypot(*row)
+        if length < SMALL or length < DIFFERENCE * whole:
+            continue
+        across.append([x / length for x in left])
+        short = (value + sum(map(mul, row, step))) / length
+        step = [x - short * y for x, y in zip(step, across[-1], strict=True)]
+    return step
 
 
 def rank_of(rows: Sequence[Sequence[float]]) -> int:

@@ -29,4 +29,5 @@ explanation                   which of those explains an answer
 configurations                sets: singular configurations, in numbers
 branches, target_branches     branches of the inverse; configurations that are to reach numbers
 set_verdict                   what is found of a set
+held_equations                equations that hold together, in numbers; angles count modulo 2π
 """

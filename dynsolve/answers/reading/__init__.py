@@ -24,7 +24,9 @@ The way of one line, `D_{11} = m_1 l_{c1}^2 + I_1` in a report, to a value:
 Every equation ends as an answer, in `not_recognized`, which the student is shown, or in
 `left_alone`, each with its reason: a path through `equation_reader` that leaves no record is a fault.
 
-`configurations` reads sets: singular configurations, branches of the inverse kinematics;
+`configurations` reads sets: singular configurations, branches of the inverse kinematics; `set_text`
+takes apart what words join in them, `loose_lists` finds the lists in what YAML refuses, `span_text` the
+vectors of a space;
 `verdicts` what is said of matrices.
 `definitions` reads the names that an answer file declares under `symbols:` and `let:`;
 `own_coordinates` are those that count a coordinate the other way, `own_names` keeps what follows

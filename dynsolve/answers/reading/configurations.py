@@ -23,7 +23,7 @@ from dynsolve.answers.reading.displays import chain
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.loose_lists import loose_node
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
-from dynsolve.answers.reading.set_text import alternatives
+from dynsolve.answers.reading.set_text import alternatives, joined
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.vocabulary import Vocabulary
@@ -66,6 +66,8 @@ def read_configurations(
         if len(items) > MOST_ITEMS:
             raise ReadError(f"more than {MOST_ITEMS} alternatives", 0, 1, "write fewer")
         read = tuple(tuple(_part(reader.vocabulary, *part) for part in item) for item in items)
+        if kind is Kind.EQUATIONS:
+            _check_values(reader.vocabulary, items, read)
         if takes_x_first:
             read = tuple(tuple(_turned_round(part) for part in item) for item in read)
     except ReadError as error:
@@ -73,6 +75,14 @@ def read_configurations(
     else:
         found = ConfigurationAnswer(name, place, written, read)
     reader.found.configurations.append(found)
+
+
+def _check_values(vocabulary: Vocabulary, items: Iterable[_Item], read: Iterable[Sequence[Part]]) -> None:
+    """The 0 of `[0, pi]` is a value of an unknown coordinate."""
+    for item, parts in zip(items, read, strict=True):
+        for (_, text), part in zip(item, parts, strict=True):
+            if "=" not in text and not _has_coordinate(vocabulary, part.node):
+                raise ReadError(f"`{text.strip()[:60]}` is no equation", 0, 1, "write [q2 = 0, q2 = pi]")
 
 
 def _parsed(text: str) -> YamlNode:
@@ -112,11 +122,26 @@ def _branches(
 ) -> Iterator[_Item]:
     if _is_none(text, root):
         return
-    if items and all(item.style not in ("list", "mapping") for item in items):
-        items = [root]
     names = [q.name for q in vocabulary.coordinates]
+    if items and all(item.style not in ("list", "mapping") for item in items):
+        if all("=" in yaml_values.word(text, item) for item in items):
+            yield from _in_equations([yaml_values.word(text, item) for item in items])
+            return
+        items = [root]
     for item in items:
         yield from _signed(tuple(_branch(text, item, names)))
+
+
+def _in_equations(texts: Iterable[str]) -> Iterator[_Item]:
+    """`q2 = acos(x), q1 = ...`: the formulas of a branch as equations; each name once in a branch."""
+    branch: dict[str, str] = {}
+    for equation in (equation for text in texts for equation in joined(text)):
+        left, _, right = equation.partition("=")
+        if left.strip() in branch:
+            yield from _signed(tuple(branch.items()))
+            branch = {}
+        branch[left.strip()] = right
+    yield from _signed(tuple(branch.items()))
 
 
 def _texts(text: str, items: Iterable[YamlNode]) -> Iterator[list[list[str]]]:
@@ -174,10 +199,13 @@ def _is_name(vocabulary: Vocabulary, letter: str) -> bool:
 def _is_value(vocabulary: Vocabulary, text: str) -> bool:
     """Whether no coordinate stands in a text."""
     try:
-        found = names_in(_value(vocabulary, prepared(text)))
+        return not _has_coordinate(vocabulary, _value(vocabulary, prepared(text)))
     except ReadError:
         return False
-    return found.isdisjoint(q.name for q in vocabulary.coordinates)
+
+
+def _has_coordinate(vocabulary: Vocabulary, node: Node) -> bool:
+    return not names_in(node).isdisjoint(q.name for q in vocabulary.coordinates)
 
 
 def _part(vocabulary: Vocabulary, name: str, text: str) -> Part:

@@ -22,6 +22,9 @@ WHOLE_NUMBERS = range(4)
 _WORD = re.compile(
     r"\\(?:text|textrm|textnormal|mathrm|mbox)\s*\{\s*(or|and|oder|und|eller|og|ou|et)\s*\}", re.IGNORECASE
 )
+_SPACE = re.compile(r"\\[,;:!]|\\q?quad\b|[$~]")
+_EQUALS = re.compile(r"==")
+_DETERMINANT = re.compile(r"\s*(?:\\?det\b|\||\\lvert|\\left\s*\|)[^=]*=(?=[^=]+=)")
 _FOLLOWS = re.compile(
     r"\\(?:implies|iff|(?:Long)?(?:left)?[rR]ightarrow|(?:Long)?Leftrightarrow)\b|<?=>|[⇒⇔⟹⟺]"
 )
@@ -32,10 +35,11 @@ _INTEGERS = re.compile(
 _COUNTED = re.compile(r"\s*[,;]\s*\(?\s*[kn]\s*=\s*(?:0|\.\.\.|\\[lc]?dots|…)[^=]*\Z")
 _MODULO = re.compile(r"\s*(?:\(\s*mod(?:ulo)?\s+([^()]+)\)|\\pmod\s*\{([^{}]*)\}|\bmod(?:ulo)?\s+(.+))\s*\Z")
 _HALF_TURN = re.compile(r"\s*(?:\\?pi|π|180\s*(?:°|deg|\^\\circ|\^\{\\circ\}))\s*\Z")
-_MEMBERS = re.compile(r"(?:\\in\b|∈|=)\s*\\?\{((?:[^{}]|\{[^{}]*\})*?)\\?\}\s*\Z")
+_MEMBERS = re.compile(r"(?:\\in\b|∈|\bin\b|=)\s*\\?\{((?:[^{}]|\{[^{}]*\})*?)\\?\}\s*\Z")
 _WHOLE = re.compile(r"(?<![A-Za-z_\\])([kn])(?![A-Za-z_0-9])")
-_OR = re.compile(r"\s(?:or|oder|eller|ou)\s|\|\|?|∨|\\(?:lor|vee)\b|;")
+_OR = re.compile(r"\s(?:or|oder|eller|ou)\s|\s\|\|?\s|∨|\\(?:lor|vee)\b|;")
 _AND = re.compile(r"\s(?:and|und|og|et|y)\s|&&?|∧|\\(?:land|wedge)\b")
+_JOINTS = re.compile(rf"{_OR.pattern}|{_AND.pattern}|,")
 _COMMA = re.compile(",")
 _LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 
@@ -61,6 +65,15 @@ def alternatives(
             yield tuple(_with_numbers(one, values) for one in equations)
 
 
+def joined(text: str) -> list[str]:
+    """The equations of a text, parted by commas, words and signs outside of brackets.
+
+    >>> joined("q1 = atan2(y, x), q2 = 0 and q3 = pi")
+    ['q1 = atan2(y, x)', 'q2 = 0', 'q3 = pi']
+    """
+    return [part.strip() for part in _parts(_SPACE.sub(" ", _WORD.sub(r" \1 ", text)), _JOINTS)]
+
+
 def _with_numbers(text: str, values: Mapping[str, int]) -> str:
     """A text with numbers for letters."""
     return _WHOLE.sub(lambda letter: f"({values[letter[1]]})" if letter[1] in values else letter[0], text)
@@ -68,7 +81,8 @@ def _with_numbers(text: str, values: Mapping[str, int]) -> str:
 
 def _spelled_out(text: str) -> str:
     """The text with words for signs, behind its last arrow, and without what is said of whole numbers."""
-    text = _FOLLOWS.split(_WORD.sub(r" \1 ", text))[-1]
+    text = _EQUALS.sub("=", _SPACE.sub(" ", _WORD.sub(r" \1 ", text)))
+    text = _DETERMINANT.sub("", _FOLLOWS.split(text)[-1], count=1)
     text = _COUNTED.sub("", _INTEGERS.sub("", text))
     if (modulo := _MODULO.search(text)) is not None:
         by = next(group for group in modulo.groups() if group is not None)
@@ -84,10 +98,14 @@ def _either(text: str, is_value: Callable[[str], bool]) -> Iterator[Together]:
             first, *others = _parts(one, _AND)
             before = found[-1][-1] if found else []
             if before and "=" not in first and "=" in before[0] and (number or is_value(first)):
-                before.append(f"{before[0].split('=')[0]}= {first}")
+                before.append(f"{_left(before[0])} = {first}")
             else:
                 found.append([[first]])
-            found[-1] += [[other] for other in others]
+            for other in others:
+                if _left(other) == _left(first):  # q₂ = 0 and q₂ = π are said of two places
+                    found[-1][-1].append(other)
+                else:
+                    found[-1].append([other])
     for equations in found:
         yield from _together(equations, is_value)
 
@@ -113,13 +131,18 @@ def _chain(text: str) -> Together:
     return tuple(f"{left}={right}" for left, right in pairwise(members))
 
 
+def _left(text: str) -> str:
+    """What stands left of the first equality sign."""
+    return text.split("=")[0].strip()
+
+
 def _listed(text: str) -> list[str]:
     """q₂ = 0, π and q₂ ∈ {0, π}: further values of one equation, which commas part."""
     if (members := _MEMBERS.search(text)) is not None:
         values = _parts(members[1], _COMMA)
         return [f"{text[: members.start()]}= {values[0]}", *values[1:]]
     pieces = _parts(text, _COMMA)
-    lefts = {piece.split("=")[0].strip() for piece in pieces if "=" in piece}
+    lefts = {_left(piece) for piece in pieces if "=" in piece}
     if len(pieces) > 1 and (len(lefts) != 1 or "=" not in pieces[0]):
         help = "write a list of alternatives, and join by `and` what holds together"
         raise ReadError("a comma stands between equations", text.find(","), 1, help)

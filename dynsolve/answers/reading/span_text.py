@@ -12,7 +12,8 @@ from collections.abc import Callable
 from dynsolve.answers.reading.placed_text import PlacedText, placed
 
 _SPAN = re.compile(
-    r"\s*(?:\\(?:mathrm|operatorname\*?|text|textrm|mathop|mathcal)\s*\{\s*span\s*\}|\\?span(?![a-z]))\s*", re.I
+    r"\s*(?:\\(?:mathrm|operatorname\*?|text|textrm|mathop|mathcal)\s*\{\s*span\s*\}|\\?span(?![a-z]))\s*",
+    re.I,
 )
 _FACTOR = re.compile(r"\s*(\\?[A-Za-z]+|[αβγλμ])\s*\\?[*,;]?\s*(?=\\begin|\\left|\[|\()")
 _NOTHING = re.compile(
@@ -20,8 +21,9 @@ _NOTHING = re.compile(
     r"[\[{(]?\s*[\]})]|\\?\{\s*(?:\\(?:mathbf|vec|bm)\s*\{?)?\s*0\s*\}?\s*\\?\})\.?",
     re.I,
 )
-_WHOLE = re.compile(
-    r"\\?(?:mathbb\s*\{?\s*R\s*\}?|[Rℝ])\s*(?:\^\s*\{?\s*([1-6])\s*\}?|([¹²³⁴⁵⁶])|([1-6]))"
+_WHOLE = re.compile(r"\\?(?:mathbb\s*\{?\s*R\s*\}?|[Rℝ])\s*(?:\^\s*\{?\s*([1-6])\s*\}?|([¹²³⁴⁵⁶])|([1-6]))")
+_FOR_ALL = re.compile(
+    r"\s*[,;]\s*(?:\\\S\s*)?(?:\\?forall|∀|for all)?\s*\S{1,8}\s*(?:\\in\b|∈|\bin\b)[^\[\]]*\Z"
 )
 _OPENING = re.compile(r"\s*(?:\\left\s*)?(\\?\{|\[|\()\s*")
 _CLOSING = re.compile(r"\s*(?:\\right\s*)?(\\?\}|\]|\))\s*\Z")
@@ -37,10 +39,16 @@ def span_text(value: PlacedText, is_name: Callable[[str], bool]) -> PlacedText:
         size = int(whole[1] or whole[3] or _RAISED.index(whole[2]) + 1)
         rows = ", ".join(str([int(i == j) for j in range(size)]) for i in range(size))
         return placed([(f"[{rows}]", value.origin(0))])
+    if (numbers := _FOR_ALL.search(value.text)) is not None:
+        value = value.part(0, numbers.start())
     if (span := _SPAN.match(value.text)) is not None:
         return _between(value, span.end())
     factor = _FACTOR.match(value.text)
-    if factor is not None and factor[1].lower() not in ("\\begin", "\\left") and not is_name(factor[1].strip("\\")):
+    if (
+        factor is not None
+        and factor[1].lower() not in ("\\begin", "\\left")
+        and not is_name(factor[1].strip("\\"))
+    ):
         return value.part(factor.end(), len(value.text))
     return value
 

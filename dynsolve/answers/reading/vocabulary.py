@@ -213,7 +213,7 @@ class Vocabulary:
     def is_space(self, name: str) -> bool:
         """Whether the answer of that name is a space, which vectors span."""
         found = self.quantities.canonical(name)
-        return bool(found) and self.quantities[found].family.kind is Kind.SPAN
+        return found is not None and self.quantities[found].family.kind is Kind.SPAN
 
     def shape(self, name: str) -> Shape:
         """Rows and columns of an answer; None for a scalar, and for what is none."""

@@ -50,6 +50,8 @@ def read(reader: Reader, function: str) -> Value:
     if function != "sqrt":
         while reader.script(scripts):
             pass
+    if scripts.powers == [-1] and f"a{function}" in _INVERSES and reader.vocabulary.has_inverse_functions:
+        function, scripts.powers = f"a{function}", []  # cos⁻¹ is never 1/cos beside arccos
     if scripts.transposed or scripts.primes or scripts.mark or any(power < 1 for power in scripts.powers):
         length = max(reader.token.start - name.start, 1)
         raise ReadError(

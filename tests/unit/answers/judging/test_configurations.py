@@ -34,6 +34,8 @@ def judged(problem: str, name: str, value: str) -> JudgedAnswer:
 
 C2 = "(px^2 + py^2 - l1^2 - l2^2)/(2*l1*l2)"
 Q1 = "atan2(py, px) - atan2(l2*sin(q2), l1 + l2*cos(q2))"
+LATEX_C2 = r"\frac{p_x^2 + p_y^2 - l_1^2 - l_2^2}{2 l_1 l_2}"
+LATEX_Q1 = r"\operatorname{atan2}(p_y, p_x) - \operatorname{atan2}(l_2 \sin q_2, l_1 + l_2 \cos q_2)"
 
 # (the branches, the verdict, the note or the code of the slip)
 BRANCHES = [
@@ -43,6 +45,13 @@ BRANCHES = [
     (f"[{{q2: '±atan2(sqrt(1 - ({C2})^2), {C2})', q1: 'atan2(py*(l1 + l2*cos(q2)) - px*l2*sin(q2), "
      "px*(l1 + l2*cos(q2)) + py*l2*sin(q2))'}]", "correct", ""),
     (f"[{{q1: '{Q1}', q2: '±\\arccos({C2})'}}]", "correct", ""),
+    (f"[{{q1: {Q1}, q2: '±cos^{{-1}}({C2})'}}]", "correct", ""),
+    (f"[[{Q1}, acos({C2})], [{Q1}, -acos({C2})]]", "correct", ""),
+    (f"q2 = ±acos({C2}), q1 = {Q1}", "correct", ""),
+    (f"[q2 = acos({C2}) and q1 = {Q1}, q2 = -acos({C2}) and q1 = {Q1}]", "correct", ""),
+    (rf"[{{q_2: \pm\arccos{LATEX_C2}, q_1: {LATEX_Q1}}}]", "correct", ""),
+    (rf"[{{q_2: \arccos\left({LATEX_C2}\right), q_1: {LATEX_Q1}}}, "
+     rf"{{q_2: -\arccos{LATEX_C2}, q_1: {LATEX_Q1}}}]", "correct", ""),
     (f"[{{q1: 'atan2(px, py) - atan2(l1 + l2*cos(q2), l2*sin(q2))', q2: '±acos({C2})'}}]",
      "wrong", "atan2_order"),
     (f"[{{q1: 'atan2(py, px) + atan2(l2*sin(q2), l1 + l2*cos(q2))', q2: '±acos({C2})'}}]",
@@ -121,6 +130,45 @@ SETS = [
     (PLANAR_RPRP, "[q2 = 0, sin(q3) = 0]", "wrong", "not_singular"),
 ]
 
+# The same sets as students write them on a page.
+WRITTEN = [
+    (TWO_LINKS, "q2 = 0 or pi"),
+    (TWO_LINKS, "θ₂ = 0 or π"),
+    (TWO_LINKS, r"q_2 = 0, \pi"),
+    (TWO_LINKS, "q2 = 0; q2 = pi"),
+    (TWO_LINKS, "q2 == 0 or q2 == pi"),
+    (TWO_LINKS, "q2 = 0 and q2 = pi"),
+    (TWO_LINKS, "q2 ∈ {0, π}"),
+    (TWO_LINKS, r"q_2 \in \{0, \pi\}"),
+    (TWO_LINKS, "q2 in {0, pi}"),
+    (TWO_LINKS, "{q2: 0 or pi}"),
+    (TWO_LINKS, "q2 = 0 (mod pi)"),
+    (TWO_LINKS, r"q_2 = k\pi, k \in \mathbb{Z}"),
+    (TWO_LINKS, "q2 = k pi for k integer"),
+    (TWO_LINKS, r"q_2 = k\pi,\; k = 0, 1, \dots"),
+    (TWO_LINKS, r"$\sin q_2 = 0$"),
+    (TWO_LINKS, r"\sin q_2 = 0 \Rightarrow q_2 = 0, \pi"),
+    (TWO_LINKS, r"q_2 = 0^\circ \;\text{or}\; 180^\circ"),
+    (TWO_LINKS, r"\det J = l_1 l_2 \sin q_2 = 0"),
+    (TWO_LINKS, "|J| = l1*l2*sin(q2) = 0"),
+    (ELBOW, "s3 = 0 or L2*c2 + L3*c23 = 0"),
+    (ELBOW, r"s_3 (L_2 c_2 + L_3 c_{23}) = 0"),
+    (ELBOW, r"\sin\theta_3 = 0 \text{ or } L_2\cos\theta_2 + L_3\cos(\theta_2+\theta_3) = 0"),
+    (ELBOW, r"[\sin q_3 = 0, L_2 \cos q_2 + L_3 \cos(q_2+q_3) = 0]"),
+    (PLANAR_RPRP, r"q_2 = 0 \wedge q_3 = k\pi"),
+    (PLANAR_RPRP, "(q2 = 0 and q3 = 0) or (q2 = 0 and q3 = pi)"),
+    (PLANAR_RPRP, "q2 = 0 and (q3 = 0 or q3 = pi)"),
+    (PLANAR_RPRP, "q2 = sin(q3) = 0"),
+    (PLANAR_RPRP, "q2 = 0 and cos(q3) = ±1"),
+    (PLANAR_RPRP, "{q2: 0, q3: [0, pi]}"),
+]
+
+
+@pytest.mark.parametrize(("problem", "value"), WRITTEN)
+def test_sets_as_they_are_written(problem: str, value: str) -> None:
+    answer = judged(problem, "singular", value)
+    assert answer.verdict == "correct", (answer.fault, answer.diagnosis)
+
 
 @pytest.mark.parametrize(("problem", "value", "verdict", "code"), SETS)
 def test_sets(problem: str, value: str, verdict: str, code: str) -> None:
@@ -129,7 +177,18 @@ def test_sets(problem: str, value: str, verdict: str, code: str) -> None:
     assert [one.code for one in answer.diagnosis] == ([code] if code else [])
 
 
-@pytest.mark.parametrize("value", ["[sin(q2 = 0]", "{x7: 0}", "[x7 = 0]", "[a = b = c]", "[0 or q2 = = 1]"])
+@pytest.mark.parametrize(
+    "value",
+    [
+        "[sin(q2 = 0]",
+        "[0, pi]",
+        "q1 = 0, sin(q2) = 0",
+        "{x7: 0}",
+        "[x7 = 0]",
+        "[a = b = c]",
+        "[0 or q2 = = 1]",
+    ],
+)
 def test_what_cannot_be_read_says_why(value: str) -> None:
     answer = judged(TWO_LINKS, "singular", value)
     assert answer.verdict == "unreadable"

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from dynsolve.answers.judge import check
+from dynsolve.answers.reading.files import FileReader
+from dynsolve.problem import read_problem
 from tests.unit.answers.hands import codes, judge, judged, verdicts
 
 ARM = """
@@ -47,6 +50,28 @@ def test_verdicts(problem: str, name: str, vectors: list[list[str]] | str, verdi
     found = judged(problem, name, vectors)
     assert found.verdict == verdict
     assert codes(found) == ([] if verdict == "correct" else ["span"])
+
+
+@pytest.mark.parametrize(
+    ("problem", "name", "written"),
+    [
+        (ARM, "lost", "span{[cos(q1), sin(q1)]}"),
+        (ARM, "lost", r"\mathrm{span}\left\{\begin{bmatrix}\cos q_1\\ \sin q_1\end{bmatrix}\right\}"),
+        (ARM, "lost", r"\alpha [\cos q_1, \sin q_1]^T"),
+        (ARM, "lost", r"k [c_1, s_1]^T, k \in \mathbb{R}"),
+        (ARM, "rangespace", "span{[-sin(q1); cos(q1)]}"),
+        (ELBOW, "rangespace", r"\mathbb{R}^2"),
+        (ELBOW, "rangespace", "ℝ²"),
+        (ELBOW, "nullspace", "{0}"),
+        (ELBOW, "nullspace", r"\{\mathbf{0}\}"),
+        (ELBOW, "nullspace", "[]"),
+        (ELBOW, "lost", "none"),
+    ],
+)
+def test_spaces_as_they_are_written(problem: str, name: str, written: str) -> None:
+    read = read_problem(problem, "own.yaml")
+    report = check(read, FileReader(read)(f"answers:\n  {name}: {written}\n", "answer.yaml"))
+    assert next(found.verdict for found in report.answers if found.name == name) == "correct"
 
 
 def test_what_is_wrong_with_them_is_told() -> None:
