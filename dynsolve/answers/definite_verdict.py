@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
-from dynsolve.answers.diagnosis.configuration_slips import SET_SLIPS
+from dynsolve.answers.diagnosis.slips.configurations import SET_SLIPS
 from dynsolve.answers.submission import VerdictAnswer
 from dynsolve.answers.verdict import Diagnosis, EntryVerdict, JudgedAnswer, Verdict, worst
 from dynsolve.derivation.definite import Definiteness

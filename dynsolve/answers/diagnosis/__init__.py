@@ -1,6 +1,6 @@
 """Diagnosis: which slip explains an answer that is wrong, told to the person it happened to.
 
-A slip is a record in `slips`: its code, its kind in a few words, a message in the second
+A slip is a record in a file of `slips`: its code, its kind in a few words, a message in the second
 person that says what happened, and what to look at.  A diagnosis is true or silent: every slip
 brings its mend (`mends`), and is told only where the mend, put into the student's own value,
 gives exactly the value that the student's own nearest answers lead to; where no slip does, what
@@ -20,8 +20,8 @@ What they share: `wrong_entry` (the scalar that is wrong), `case` (it, and an ex
 hold of it), `parts` (an expression as terms),
 `term_writer` (terms in words).
 
-`configuration_slips` are what is said of sets of configurations, which are held in numbers.
+`slips.configurations` are what is said of sets of configurations, which are held in numbers.
 
-To add a slip, write its record with an example in `slips`, and its recognition with its mend in
-the file above that it belongs to; the tests run every example.
+To add a slip, write its record with an example in a file of `slips`, and its recognition with
+its mend in the file above that it belongs to; the tests run every example.
 """

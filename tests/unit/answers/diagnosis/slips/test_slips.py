@@ -9,7 +9,8 @@ import pytest
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
-from dynsolve.answers.diagnosis.slips import SLIPS, Slip
+from dynsolve.answers.diagnosis.slips import SLIPS
+from dynsolve.answers.diagnosis.slips.record import Slip
 from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.graph import AnswerGraph

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from dynsolve.answers.diagnosis.slips import Slip
+from dynsolve.answers.diagnosis.slips.record import Slip
 
 _BRANCH = "Put the branch into r(q), at values for which you know a configuration."
 
