@@ -25,7 +25,12 @@ Vector = npt.NDArray[np.float64]
 
 KNOWN = FUNCTIONS | {name: getattr(math, name) for name in ("asin", "acos", "atan2", "pi")}
 
+NUMPY = {"sin": np.sin, "cos": np.cos, "sqrt": np.sqrt, "pi": math.pi, "asin": np.arcsin, "acos": np.arccos,
+         "atan2": np.arctan2}  # fmt: skip
+"""The same functions of many values at once, nan where there is none."""
+
 POINTS, STARTS, STEPS = 2, 12, 25
+MANY = 1000
 
 # the lengths of the arms are 1 on the grid, so that it also meets conditions like l1 + l2 cos q2 = 0
 ANGLES = tuple(k * math.pi / 3 for k in range(6))
@@ -155,6 +160,42 @@ def test_the_branches_are_what_newton_finds(name: str) -> None:
         assert all(np.allclose(this.r(q, lengths), r, atol=1e-8) for q in branches)
         for q in this.newton(r, lengths, draw):
             assert any(this.is_same(q, other) for other in branches)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_the_branches_reach_a_thousand_points_and_miss_none(name: str) -> None:
+    """At random configurations: each branch that is real gives r(q) back, one is the configuration itself."""
+    draw = np.random.default_rng(12)
+    this = arm(name)
+    many = {p: draw.uniform(0.4, 1.2, MANY) for p in this.parameters}
+    many |= {q: draw.uniform(-3, 3, MANY) for q in this.names}
+    wanted = [at_once(entry, many) for entry in this.entries]
+    is_found = np.zeros(MANY, dtype=bool)
+    for branch in this.branches:
+        values = {p: many[p] for p in this.parameters} | {f"r{k}": r for k, r in enumerate(wanted, 1)}
+        waiting = dict(branch)
+        with np.errstate(invalid="ignore"):
+            while waiting:
+                q = next(n for n, f in waiting.items() if not set(f.co_names) & waiting.keys())
+                values[q] = at_once(waiting.pop(q), values)
+        is_real = np.isfinite([values[q] for q in this.names]).all(axis=0)
+        for entry, r, turns in zip(this.entries, wanted, this.angles, strict=True):
+            assert np.abs(shortest(at_once(entry, values) - r, turns)[is_real]).max() < 1e-6
+        gaps = [
+            shortest(values[q] - many[q], turns) for q, turns in zip(this.names, this.turning, strict=True)
+        ]
+        is_found |= is_real & (np.abs(gaps).max(axis=0) < 1e-5)
+    assert is_found.all()
+
+
+def at_once(formula: CodeType, values: Mapping[str, Vector]) -> Vector:
+    """A formula at many values."""
+    return np.broadcast_to(eval(formula, dict(NUMPY), dict(values)), MANY)  # noqa: S307 - results of our own
+
+
+def shortest(gap: Vector, turns: bool) -> Vector:
+    """Differences, those of angles the shortest way round."""
+    return (gap + math.pi) % (2 * math.pi) - math.pi if turns else gap
 
 
 @pytest.mark.parametrize("name", ARMS)
