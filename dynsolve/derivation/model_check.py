@@ -123,10 +123,11 @@ def rank_of_forces(robot: Robot, Y: str, forces: Node, expected: int) -> int:
     }
     moving = [name for q in robot.coordinates for name in (q.name, q.velocity, q.acceleration)]
 
-    def numbers(names: Iterable[str]) -> dict[str, float]:
-        return {name: random.uniform(0.4, 1.6) for name in names}
+    def numbers(names: Iterable[str], sign: int = 1) -> dict[str, float]:
+        return {name: sign * random.uniform(0.4, 1.6) for name in names}
 
-    motions = [numbers(moving) for _ in range(-(-(expected + _MARGIN) // robot.n) + 1)]
+    # in both directions, for Coulomb friction is a constant force in either of them
+    motions = [numbers(moving, (-1) ** k) for k in range(-(-(expected + _MARGIN) // robot.n) + 1)]
     choices = [numbers(robot.ring.parameters) | fixed for _ in range(expected + _MARGIN)]
 
     def forces_at(choice: Mapping[str, float], motion: Mapping[str, float]) -> list[float]:

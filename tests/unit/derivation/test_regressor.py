@@ -77,6 +77,15 @@ def test_division_by_a_known_length() -> None:
     assert found["results"]["Y"] == [["(l1*q1_ddot + g*cos(q1))/l1**2"]]
 
 
+def test_friction_and_a_spring_at_rest_elsewhere_are_two_parameters() -> None:
+    """f_c sgn(q̇) and −k x₀ differ where the motion goes back, so that the length of a is verified there too."""
+    found = dynsolve.solve(
+        "dh: [{d: x*}]\nmasses: [{mass: m, link: 1}]\nfriction: {x: {coulomb: fc}}\n"
+        "springs: [{stiffness: k, of: x, rest: x0}]\ngravity: [0, 0, 0]\nfind: [Y, a]\n"
+    ).to_json()
+    assert sorted(found["results"]["a"]) == ["fc", "k", "k*x0", "m"]
+
+
 def test_parameters_that_do_not_reach_are_told() -> None:
     text = "dh: [{theta: q1*, a: l1}]\ngravity: [0, -g, 0]\nmasses: [{mass: m, link: 1}]\n"
     found = dynsolve.solve(text + "parameters: {p1: m*l1^2}\nfind: [Y]\n").to_json()
