@@ -16,6 +16,7 @@ answer got its verdict is decided, in this order, by
     judging.explanation      do the student's own answers lead to it?             follows
     answer_verdict           neither                                              wrong
     diagnosis.diagnoser      why: the first explanation of its list that fits
+    general_formulas         a formula of names alone is what the student's own answers make of it
     unwritten                what is asked for and not written by itself          missing
 
 A Denavit-Hartenberg table is judged as a whole, by the mechanism that it describes: `table_verdict`;

@@ -11,6 +11,7 @@ comes first.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -21,6 +22,7 @@ from dynsolve.answers.definite_verdict import judged_verdicts
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.factors import FactorPairs
+from dynsolve.answers.general_formulas import general_formulas, is_given
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.judging.entry_comparison import EntryComparer
@@ -39,6 +41,7 @@ from dynsolve.answers.verdict import JudgedAnswer, Report, Verdict
 from dynsolve.derivation.graph import Derivation
 from dynsolve.derivation.rules import derive
 from dynsolve.problem.model import Problem
+from dynsolve.quantities.index import quantities
 
 
 class Checker:
@@ -83,8 +86,12 @@ class Checker:
         return ConfigurationKey(self.problem.robot, self.key, self.problem.values, self.problem.decimals)
 
     def __call__(self, submission: Submission) -> Report:
-        """Judge a hand-in; what follows a table in other frames is judged in these, too."""
-        report = Judge(self, submission).report()
+        """Judge a hand-in."""
+        return self.report(Judge(self, submission))
+
+    def report(self, judge: Judge) -> Report:
+        """All verdicts of a hand-in; what follows a table in other frames is judged in these, too."""
+        submission, report = judge.submission, judge.report()
         tables = [answer for answer in submission.answers if answer.name == TABLE]
         if not tables or len(tables) == len(submission.answers):
             return report
@@ -109,6 +116,7 @@ class Judge:
         self.submission = submission
         self.tables = [answer for answer in submission.answers if answer.name == TABLE]
         others = [answer for answer in submission.answers if answer.name != TABLE]
+        others += general_formulas(submission, self._asked, quantities(self.problem.robot))
         self.hand_in = ComparedHandIn(checker.answer_ring, checker.compare_entry, others)
         self.graph = self.hand_in.graph
 
@@ -175,7 +183,7 @@ class Judge:
         assembled = self.hand_in.assembled_coriolis
         if assembled is not None:
             answers |= dict(coriolis_entries(judge, assembled, answers))
-        for name in self.problem.marks or self.problem.find:
+        for name in self._asked:
             if name not in answers and (name == TABLE or self._has_key(name)):
                 answers[name] = self._unwritten(name, answers)
         for name, chains in self.hand_in.definitions.items():
@@ -196,22 +204,18 @@ class Judge:
     @cached_property
     def _of_names_alone(self) -> tuple[NotRecognized, ...]:
         """The equations of names alone that would answer something, and need what is given nowhere."""
+        named, given = self.graph.quantities, self.hand_in.chains
         found = []
         for one in self.submission.left_alone:
-            lacking = [name for name in one.needs if not self._is_given(name)]
-            if lacking and not any(map(self._is_given, one.answers)):
+            lacking = [name for name in one.needs if not is_given(named, name, given)]
+            if lacking and not any(is_given(named, name, given) for name in one.answers):
                 why = f"{lacking[0]} stands in it and is given nowhere: this is a definition"
                 found.append(replace(one, why=why))
         return tuple(found)
 
-    def _is_given(self, name: str) -> bool:
-        """Whether a quantity is written, by itself or by an entry or a part of it."""
-        quantities, given = self.graph.quantities, self.hand_in.chains
-        return (
-            name in given
-            or any(quantities.entry_of(other)[0] == name for other in given)
-            or any(part in given for part in quantities.parts(name))
-        )
+    @property
+    def _asked(self) -> Collection[str]:
+        return self.problem.marks or self.problem.find
 
     def _has_key(self, name: str) -> bool:
         return self.hand_in.compare.target(name).node in self.hand_in.answer_ring.rules

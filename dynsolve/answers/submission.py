@@ -123,6 +123,7 @@ class Submission:
 
     What is no answer is `not_recognized`, which the student is shown, or `left_alone`: definitions,
     general formulas, and what a sentence says.  So every equation of the file is in one of the three.
+    `general` has the formulas of names alone once more, as what they would answer (`general_formulas`).
     """
 
     problem: str
@@ -132,5 +133,6 @@ class Submission:
     not_recognized: tuple[NotRecognized, ...] = ()
     faults: tuple[Finding, ...] = ()
     left_alone: tuple[NotRecognized, ...] = ()
+    general: tuple[Answer, ...] = ()
     configurations: tuple[ConfigurationAnswer, ...] = ()
     verdicts: tuple[VerdictAnswer, ...] = ()

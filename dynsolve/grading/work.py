@@ -13,14 +13,20 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from hashlib import sha256
-from typing import Any
+from typing import Any, TypeVar
 
 from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.marking.marks import Marked, mark
 from dynsolve.answers.marking.policy import from_data
 from dynsolve.answers.reading.occurrences import readable
 from dynsolve.answers.sandbox import REMEDY, Stopped, limited
-from dynsolve.answers.submission import Submission
+from dynsolve.answers.submission import (
+    Answer,
+    ConfigurationAnswer,
+    NotRecognized,
+    Submission,
+    VerdictAnswer,
+)
 from dynsolve.answers.verdict import JudgedAnswer, Verdict
 from dynsolve.grading.marking import basis
 from dynsolve.grading.pages import student_page
@@ -28,6 +34,8 @@ from dynsolve.problem.reader import read_problem
 from dynsolve.quantities.index import Quantities
 
 Data = dict[str, Any]
+
+Placed = TypeVar("Placed", Answer, NotRecognized, ConfigurationAnswer, VerdictAnswer)
 
 SHARE = 8
 """One answer may take this part of the time that its hand-in may take."""
@@ -62,7 +70,7 @@ def checker_of(payload: Data) -> Checker:
 def _graded(checker: Checker, submission: Submission, payload: Data) -> Data:
     problem, policy = checker.problem, from_data(payload["policy"])
     judge = Judge(checker, submission)
-    report = judge.report()
+    report = checker.report(judge)
     marked = mark(report.answers, judge.graph.quantities, policy, payload["late"])
     html, markdown = student_page(report, problem, payload["student"], policy.hints)
     return {
@@ -92,25 +100,34 @@ def _joined(read: list[Submission], quantities: Quantities) -> Submission:
     """Several files of one student as one hand-in, in their order; each place then says its file."""
     if len(read) == 1:
         return read[0]
-    answers, chains = [], 0
+    answers, general, chains = [], [], 0
     for one in read:
-        for answer in one.answers:
-            chain, member = answer.occurrence
-            place = replace(answer.place, file=one.file)
-            answers.append(replace(answer, place=place, occurrence=(chain + chains, member)))
-        chains += 1 + max((a.occurrence[0] for a in one.answers), default=0)
+        answers += [_in_file(answer, one.file, chains) for answer in one.answers]
+        general += [_in_file(answer, one.file, chains) for answer in one.general]
+        chains += 1 + max((a.occurrence[0] for a in (*one.answers, *one.general)), default=0)
     kept, lost = readable(answers, quantities)
     return Submission(
         read[0].problem,
         read[0].student,
         ", ".join(one.file for one in read),
         tuple(kept),
-        (
-            *(replace(n, place=replace(n.place, file=o.file)) for o in read for n in o.not_recognized),
-            *lost,
-        ),
-        tuple(replace(f, message=f"{o.file}: {f.message}") for o in read for f in o.faults),
+        (*(_placed(n, one.file) for one in read for n in one.not_recognized), *lost),
+        tuple(replace(f, message=f"{one.file}: {f.message}") for one in read for f in one.faults),
+        tuple(_placed(n, one.file) for one in read for n in one.left_alone),
+        tuple(general),
+        tuple(_placed(c, one.file) for one in read for c in one.configurations),
+        tuple(_placed(v, one.file) for one in read for v in one.verdicts),
     )
+
+
+def _in_file(answer: Answer, file: str, chains: int) -> Answer:
+    """An answer whose place says its file, behind so many equations of the files before it."""
+    chain, member = answer.occurrence
+    return replace(_placed(answer, file), occurrence=(chain + chains, member))
+
+
+def _placed(record: Placed, file: str) -> Placed:
+    return replace(record, place=replace(record.place, file=file))
 
 
 def _answer(answer: JudgedAnswer, marked: Marked) -> Data:

@@ -61,7 +61,7 @@ class _Undecided:
 class AnswerList:
     """The answers of one hand-in, in the order of the file; `printer` writes how each was read.
 
-    `not_recognized` and `left_alone` are what is no answer, as in a `Submission`.
+    `not_recognized`, `left_alone` and `general` are what is no answer, as in a `Submission`.
     """
 
     vocabulary: Vocabulary
@@ -69,6 +69,7 @@ class AnswerList:
     answers: list[Answer] = field(default_factory=list)
     not_recognized: list[NotRecognized] = field(default_factory=list)
     left_alone: list[NotRecognized] = field(default_factory=list)
+    general: list[Answer] = field(default_factory=list)
     configurations: list[ConfigurationAnswer] = field(default_factory=list)
     verdicts: list[VerdictAnswer] = field(default_factory=list)
     _undecided: list[_Undecided] = field(default_factory=list)

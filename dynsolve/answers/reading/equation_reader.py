@@ -303,6 +303,12 @@ class EquationReader:
             answers = tuple(name for candidates in names for name in candidates)
             refused = replace(refused, answers=answers, needs=tuple(dict.fromkeys(needs)))
             self.found.left_alone.append(refused)
+            self.found.general += [
+                self.found.answer(candidates, member, origin)
+                for candidates in names
+                for member in read
+                if isinstance(member.found, RightSide) and not isinstance(member.found.value, Abstract)
+            ]
 
     def _without_name(
         self, first: LeftSide, members: list[list[Token]], read: list[Member], origin: Origin

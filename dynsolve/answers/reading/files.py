@@ -65,6 +65,7 @@ class FileReader:
             refused,
             tuple(faults),
             tuple(reader.found.left_alone),
+            tuple(reader.found.general),
             tuple(reader.found.configurations),
             tuple(reader.found.verdicts),
         )

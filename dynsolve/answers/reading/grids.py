@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from dynsolve.answers.reading.limits import MAX_ENTRIES, MAX_NODES
+from dynsolve.answers.reading.limits import MAX_ENTRIES, MAX_INVERSE, MAX_NODES
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import ONE, ZERO, Matrix, Negative, Node, Product, Quotient, Sum
 
 _TEXT = "name a part of it with an abbreviation"
+
+Rows = tuple[tuple[Node, ...], ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,7 +28,7 @@ class Grid:
     `terms` the matrices of a sum, as they were written.
     """
 
-    rows: tuple[tuple[Node, ...], ...]
+    rows: Rows
     quantity: str = ""
     is_rates: int = -1
     factors: tuple[Grid, Grid] | None = None
@@ -178,6 +180,41 @@ def transposed(value: Value) -> Value:
     if not isinstance(value, Grid):
         return value
     return Grid(tuple(zip(*value.rows, strict=True)))
+
+
+def inverse(value: Grid) -> Value:
+    """The adjugate over the determinant, of a matrix of at most three rows.
+
+    >>> from dynsolve.notation.tree import Symbol
+    >>> a, b = Symbol("a"), Symbol("b")
+    >>> inverse(grid([[a, ZERO], [ZERO, b]])).rows[0][0] == Quotient(b, Product((a, b)))
+    True
+    """
+    (n, columns), help = value.shape, "multiply the equation by it, or write its inverse out"
+    if n != columns:
+        raise ReadError(f"a {n}×{columns} matrix has no inverse", help="check the shapes")
+    if n > MAX_INVERSE:
+        raise ReadError(f"the inverse of a matrix of more than {MAX_INVERSE} rows", help=help)
+    divisor = _determinant(value.rows)
+    if divisor == ZERO:
+        raise ReadError("a singular matrix has no inverse", help="check its rows")
+    rows = tuple(tuple(_over(_cofactor(value.rows, j, i), divisor) for j in range(n)) for i in range(n))
+    return Grid(rows) if n > 1 else rows[0][0]
+
+
+def _over(above: Node, below: Node) -> Node:
+    return above if above == ZERO else Quotient(above, below)
+
+
+def _determinant(rows: Rows) -> Node:
+    if not rows:
+        return ONE
+    return _sum([scaled(entry, _cofactor(rows, 0, j)) for j, entry in enumerate(rows[0])])
+
+
+def _cofactor(rows: Rows, i: int, j: int) -> Node:
+    minor = _determinant(tuple(row[:j] + row[j + 1 :] for k, row in enumerate(rows) if k != i))
+    return _minus(minor) if (i + j) % 2 else minor
 
 
 def divided(left: Value, right: Value) -> Value:

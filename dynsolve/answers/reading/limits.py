@@ -34,6 +34,9 @@ MAX_MEMBERS = 50
 MAX_ENTRIES = 1_000
 """Entries of one matrix."""
 
+MAX_INVERSE = 3
+"""Rows of a matrix whose inverse is written as a power."""
+
 MAX_NODES = 60_000
 """Nodes of one value, its abbreviations written out."""
 

@@ -102,3 +102,8 @@ def test_the_steps_name_the_book() -> None:
     assert list(steps) == ["linear_A", "linear_B"]
     assert all("Slotine" in step.source for step in steps.values())
     assert "Coulomb" in str(steps["linear_A"].notes)
+
+
+def test_the_inertia_of_the_task_may_be_singular_where_the_equations_are_linearized() -> None:
+    stretched = ARM.replace("q2: 30deg", "q2: 0").replace("find: [", "task: [tip.x, tip.y]\nfind: [Lambda, ")
+    assert "linear_A" in results(stretched)

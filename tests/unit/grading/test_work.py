@@ -64,6 +64,34 @@ def test_several_files_are_one_hand_in() -> None:
     assert (found["K"]["marks"], found["tau"]["verdict"]) == ("4", "missing")
 
 
+ARM = """title: Arm
+dh: [{theta: q1*, d: h, alpha: 90deg}, {theta: q2*, a: l2}]
+masses: [{mass: m, link: 2}]
+find: [DH, g, D, C, tau, singular]
+"""
+
+
+def test_the_files_after_the_first_may_hold_sets_and_general_formulas() -> None:
+    more = {"problem": {"file": "arm.yaml", "text": ARM}, "marks": {"singular": "2", "tau": "1"}}
+    inertia = "D: [[m*l2^2*cos(q2)^2, 0], [0, m*l2^2]]"
+    rates = "C: [[-m*l2^2*sin(q2)*cos(q2)*q2', -m*l2^2*sin(q2)*cos(q2)*q1'], [m*l2^2*sin(q2)*cos(q2)*q1', 0]]"
+    parts = f"answers:\n  {inertia}\n  {rates}\n  g: [0, m*g*l2*cos(q2)]\n"
+    sets = "answers:\n  singular: cos(q2) = 0\n"
+    torques = "$$\\tau = D\\ddot q + C\\dot q + g$$"
+    first = {**payload(parts, sets), **more}
+    formula = {"name": "part2.md", "content": base64.b64encode(torques.encode()).decode()}
+    found = _answers(grade_one({**first, "files": [*first["files"], formula]}))
+    assert {name: found[name]["marks"] for name in ("singular", "tau")} == {"singular": "2", "tau": "1"}
+
+
+def test_what_follows_a_table_in_other_frames_earns_its_marks() -> None:
+    more = {"problem": {"file": "arm.yaml", "text": ARM}, "marks": {"DH": "1", "g": "2"}}
+    table = "DH: [[q1, h, 0, 90deg], [q2 + 90deg, 0, l2, 0]]"  # q2 from the vertical
+    text = f"answers:\n  {table}\n  g: [0, -m*g*l2*sin(q2)]\n"
+    found = _answers(grade_one({**payload(text), **more}))
+    assert {name: answer["marks"] for name, answer in found.items()} == {"DH": "1", "g": "2"}
+
+
 def test_a_later_file_that_cannot_be_read_takes_no_answer_away() -> None:
     result = grade_one(payload(RIGHT_K, "answers:\n  K: F_v q1_dot\n"))
     assert _answers(result)["K"]["marks"] == "4"

@@ -16,7 +16,8 @@ from dynsolve.answers.reading.grammar.exponents import raise_to
 from dynsolve.answers.reading.grammar.forms import Form, Scripts
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.scripts import ScriptCursor
-from dynsolve.answers.reading.grids import Abstract, Grid, Value, times, transposed
+from dynsolve.answers.reading.grids import Abstract, Grid, Value, inverse, times, transposed
+from dynsolve.answers.reading.limits import MAX_INVERSE
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
@@ -125,5 +126,9 @@ class Reader(ScriptCursor):
         if isinstance(value, Grid):
             if power == 2 and value.shape[1] == 1:
                 return times(transposed(value), value)
+            if power == -1 and value.shape[0] > MAX_INVERSE and not self.symbols:
+                return Abstract("the inverse of a matrix of the derivation")
+            if power == -1:
+                return self.placed(start, inverse, value)
             raise ReadError("a power of a matrix", start, 1, "write the product out")
         return raise_to(value, power)

@@ -232,7 +232,22 @@ MATRICES = [
     r"\begin{bmatrix} m_1 & 0 \\ 0 & m_2 \end{bmatrix} + \begin{bmatrix} 0 & 0 \\ g & 0 \end{bmatrix}",
     r"\frac{1}{2}\begin{bmatrix} 2m_1 & 0 \\ 2g & 2m_2 \end{bmatrix}",
     r"\frac{\begin{bmatrix} 2m_1 & 0 \\ 2g & 2m_2 \end{bmatrix}}{2}",
+    r"\begin{bmatrix} \frac{1}{m_1} & 0 \\ -\frac{g}{m_1 m_2} & \frac{1}{m_2} \end{bmatrix}^{-1}",
+    "[[2, 1], [1, 1]]^(-1) * [[2*m1 + g, m2], [m1 + g, m2]]",
+    "[[1,0,0],[0,0,1]] * [[m1,0,0],[0,0,1],[0,1,0]]^(-1) * [[m1^2,0],[g,m2],[0,0]]",
 ]
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("[[m1, m1], [0, 0]]^(-1)", "a singular matrix has no inverse"),
+        ("[[m1, m2]]^(-1)", "a 1×2 matrix has no inverse"),
+        ("[[m1,0,0,0], [0,1,0,0], [0,0,1,0], [0,0,0,1]]^(-1)", "the inverse of a matrix of more than 3 rows"),
+    ],
+)
+def test_what_has_no_inverse_is_said(text: str, fault: str) -> None:
+    assert answer("planar-2r", "D", text).fault == fault
 
 
 @pytest.mark.parametrize("text", MATRICES)

@@ -1,0 +1,33 @@
+"""Formulas of names alone that count as answers: τ = D q̈ + C q̇ + g beside a D, a C and a g of one's own.
+
+A formula like this says how a quantity is found, and is a definition.  Where the quantity is
+asked for, and nothing else in the file gives it, it is what the student's own answers make of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from dynsolve.answers.submission import Answer, Submission
+from dynsolve.quantities.index import Quantities
+
+
+def general_formulas(
+    submission: Submission, asked: Collection[str], named: Quantities
+) -> Iterator[Answer]:
+    """The formulas of names alone that answer what is asked and not given, from what is given."""
+    given = {answer.name for answer in submission.answers}
+    for answer in submission.general:
+        if answer.name not in asked or is_given(named, answer.name, given):
+            continue
+        if answer.node is not None and answer.references and all(is_given(named, name, given) for name in answer.references):
+            yield answer
+
+
+def is_given(named: Quantities, name: str, given: Collection[str]) -> bool:
+    """Whether a quantity is written, by itself or by an entry or a part of it."""
+    return (
+        name in given
+        or any(named.entry_of(other)[0] == name for other in given)
+        or any(part in given for part in named.parts(name))
+    )
