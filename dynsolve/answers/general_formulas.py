@@ -12,15 +12,17 @@ from dynsolve.answers.submission import Answer, Submission
 from dynsolve.quantities.index import Quantities
 
 
-def general_formulas(
-    submission: Submission, asked: Collection[str], named: Quantities
-) -> Iterator[Answer]:
+def general_formulas(submission: Submission, asked: Collection[str], named: Quantities) -> Iterator[Answer]:
     """The formulas of names alone that answer what is asked and not given, from what is given."""
     given = {answer.name for answer in submission.answers}
     for answer in submission.general:
         if answer.name not in asked or is_given(named, answer.name, given):
             continue
-        if answer.node is not None and answer.references and all(is_given(named, name, given) for name in answer.references):
+        if (
+            answer.node is not None
+            and answer.references
+            and all(is_given(named, name, given) for name in answer.references)
+        ):
             yield answer
 
 

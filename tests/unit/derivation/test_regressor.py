@@ -78,7 +78,7 @@ def test_division_by_a_known_length() -> None:
 
 
 def test_friction_and_a_spring_at_rest_elsewhere_are_two_parameters() -> None:
-    """f_c sgn(q̇) and −k x₀ differ where the motion goes back, so that the length of a is verified there too."""
+    """f_c sgn(q̇) and −k x₀ differ where the motion goes back: the length of a is verified there too."""
     found = dynsolve.solve(
         "dh: [{d: x*}]\nmasses: [{mass: m, link: 1}]\nfriction: {x: {coulomb: fc}}\n"
         "springs: [{stiffness: k, of: x, rest: x0}]\ngravity: [0, 0, 0]\nfind: [Y, a]\n"
