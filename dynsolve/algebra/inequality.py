@@ -46,6 +46,37 @@ def follows(bound: Bound, assumed: Sequence[Bound]) -> bool:
     return _is_sum(_polynomial(bound.value), products, bound.is_strict)
 
 
+def opposite(bound: Bound) -> Bound:
+    """What holds where an inequality does not."""
+    return Bound(-bound.value, not bound.is_strict)
+
+
+def simplified(bound: Bound, known: Sequence[Bound]) -> Bound:
+    """An inequality without the factors that are known to be positive, or negative."""
+    ring = bound.value.ring
+    content, factors = bound.value.poly.factor()
+    value = ring.one if content > 0 else -ring.one
+    for factor, times in factors:
+        own = Expr(ring, factor)
+        if follows(Bound(own), known):
+            continue
+        if follows(Bound(-own), known):
+            value = value * (-1) ** int(times)
+        else:
+            value = value * own ** int(times)
+    return Bound(value, bound.is_strict)
+
+
+def independent(needed: Sequence[Bound], assumed: Sequence[Bound]) -> tuple[Bound, ...]:
+    """Inequalities without those that follow from the others."""
+    kept = list(dict.fromkeys(needed))
+    for bound in list(kept):
+        rest = [other for other in kept if other is not bound]
+        if follows(bound, [*assumed, *rest]):
+            kept = rest
+    return tuple(kept)
+
+
 def _polynomial(value: Expr) -> Polynomial:
     return {tuple(map(int, e)): fraction(f) for e, f in value.poly.to_dict().items()}
 

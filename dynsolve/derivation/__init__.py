@@ -16,7 +16,11 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     constraints     A_c q̇ = 0 and its multipliers (Murray, Li, Sastry 6.1): likewise
     recursions      7.6   Newton-Euler in link frames: ω, ω̇, accelerations, f, n: likewise
     balance         conditions on the parameters for gravity to move nothing: likewise
-    equilibria      where gravity and springs move nothing, and how stable that is: likewise
+    equilibria      where gravity and springs move nothing: likewise
+    existence       for which parameters an angle makes a sum of its cosine and sine 0
+    stability       how stable equilibria are, and under which conditions on the parameters
+    parameter_signs the signs of polynomials in parameters, under what is assumed of these
+    steady          equilibria where some coordinates move at constant rates
     linearization   the motion near an equilibrium: likewise
     forward_dynamics
                     q̈ from the forces: likewise

@@ -18,7 +18,7 @@ from random import Random
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
-from dynsolve.algebra.inequality import Bound, follows
+from dynsolve.algebra.inequality import Bound, follows, independent, opposite, simplified
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant, work
 from dynsolve.derivation.graph import Rule, Skipped
@@ -98,13 +98,13 @@ def definiteness(robot: Robot, candidate: Candidate) -> Definiteness | Skipped:
         for extreme in extremes:
             if follows(extreme.bound, candidate.assumed):
                 continue
-            if follows(_opposite(extreme.bound), candidate.assumed):
+            if follows(opposite(extreme.bound), candidate.assumed):
                 found = Definiteness(name, Answer.NO, minors, (), Refusal.INDEFINITE, moves_with_base=moves)
                 return replace(found, extreme=extreme, size=size)
             bound = simplified(extreme.bound, [*candidate.assumed, *needed])
             if not follows(bound, needed):
                 needed.append(bound)
-    conditions = _independent(needed, candidate.assumed)
+    conditions = independent(needed, candidate.assumed)
     if conditions and not _is_possible(matrix, (*candidate.assumed, *conditions)):
         return Skipped(f"whether {name} is positive definite for some parameters is not found")
     answer = Answer.IF if conditions else Answer.YES
@@ -114,37 +114,6 @@ def definiteness(robot: Robot, candidate: Candidate) -> Definiteness | Skipped:
 def _leading(matrix: Matrix) -> Iterator[Expr]:
     for size in range(1, matrix.shape[0] + 1):
         yield determinant(matrix.block(0, size, 0, size))
-
-
-def _opposite(bound: Bound) -> Bound:
-    """What holds where an inequality does not."""
-    return Bound(-bound.value, not bound.is_strict)
-
-
-def simplified(bound: Bound, known: Sequence[Bound]) -> Bound:
-    """An inequality without the factors that are known to be positive, or negative."""
-    ring = bound.value.ring
-    content, factors = bound.value.poly.factor()
-    value = ring.one if content > 0 else -ring.one
-    for factor, times in factors:
-        own = Expr(ring, factor)
-        if follows(Bound(own), known):
-            continue
-        if follows(Bound(-own), known):
-            value = value * (-1) ** int(times)
-        else:
-            value = value * own ** int(times)
-    return Bound(value, bound.is_strict)
-
-
-def _independent(needed: Sequence[Bound], assumed: Sequence[Bound]) -> tuple[Bound, ...]:
-    """The conditions without those that follow from the others."""
-    kept = list(dict.fromkeys(needed))
-    for bound in list(kept):
-        rest = [other for other in kept if other is not bound]
-        if follows(bound, [*assumed, *rest]):
-            kept = rest
-    return tuple(kept)
 
 
 def _is_possible(matrix: Matrix, bounds: Sequence[Bound]) -> bool:

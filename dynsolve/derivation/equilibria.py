@@ -2,96 +2,87 @@
 
 The rows are combined first, as linear equations in what moves, with factors of parameters: what
 stands in one of them alone is left.  Then each is taken apart into its factors, and every choice
-of one factor of each is a case (as for singular configurations).
+of one factor of each is a case (as for singular configurations).  A case in which the cosine of an
+angle would have to be more than 1 for all parameters is none.
 
-At rest an equilibrium is stable where the potential energy has a strict minimum, the matrix of
-its second derivatives ∂g/∂q being positive definite (Lagrange and Dirichlet), and unstable where
-this matrix has a negative direction.
+Where rates are held constant, g is the sum of forces in that motion (`steady`).
 
-Slotine, Li, Applied Nonlinear Control, sections 3.1 and 3.4 (1991).
+Slotine, Li, Applied Nonlinear Control, section 3.1 (1991).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
-from itertools import combinations, product
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.generators import Pair
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.algebra.minors import determinant
 from dynsolve.algebra.parameter_span import Generators, expression, primitive
-from dynsolve.algebra.positivity import is_positive
-from dynsolve.algebra.pseudoinverse import part
 from dynsolve.algebra.transfer import Transfer
+from dynsolve.derivation.existence import conditions
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.inverse.unknowns import search_ring
+from dynsolve.derivation.parameter_signs import ParameterSigns
 from dynsolve.derivation.regressor import generators
-from dynsolve.derivation.singular.conditions import Condition
 from dynsolve.derivation.singular.sets import Alternative, common_zeros
+from dynsolve.derivation.stability import Curvature, Point
 from dynsolve.robot.model import Robot
 
 MOST_TERMS = 200
 """Forces with more terms are not taken apart."""
 
-MOST_POINTS = 16
-"""With more points in a case their stability is not told one by one."""
-
-MOST_MINORS = 6
-"""The stability of robots with more coordinates is not decided."""
-
 TOO_LONG = "gravity and springs are too long to be taken apart into factors"
-
-Values = tuple[tuple[Pair, int, int], ...]
-"""(angle, sine, cosine): quarter turns."""
-
-
-class Stability(StrEnum):
-    """What second derivatives say of an equilibrium."""
-
-    STABLE = "stable"
-    UNSTABLE = "unstable"
-    UNDECIDED = "undecided"
-
-
-@dataclass(frozen=True, slots=True)
-class Point:
-    """Quarter turns of angles in a case, and how stable the arm is there.
-
-    `neutral` are the coordinates, from 0, along which nothing changes.
-    """
-
-    values: Values
-    stability: Stability
-    neutral: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Equilibria:
-    """Where all of `rows` are 0: at any of the alternatives, with the points of each."""
+    """Where all of `rows` are 0: at any of the alternatives, with the points of each.
+
+    `exist` is what the parameters must satisfy for each to be there.
+    """
 
     rows: tuple[Expr, ...]
     alternatives: tuple[Alternative, ...]
     points: tuple[tuple[Point, ...], ...]
+    exist: tuple[tuple[Bound, ...], ...]
 
 
-def equilibria(robot: Robot, gravity: Matrix) -> Equilibria | Skipped:
-    """The configurations with g(q) = 0 in every row, or with `inputs: given` in those without a motor."""
-    wanted = robot.actions.passive if robot.questions.model.inputs_given else range(robot.n)
-    forces = [gravity[k, 0] for k in wanted]
-    if sum(map(len, forces)) > MOST_TERMS:
+def wanted_rows(robot: Robot) -> list[int]:
+    """The coordinates, from 0, whose forces must be 0: those that no motor holds, or keeps at its rate."""
+    passive, model = robot.actions.passive, robot.questions.model
+    steady = dict(model.steady)
+    return [
+        k
+        for k, q in enumerate(robot.coordinates)
+        if k in passive or not (model.inputs_given or q.name in steady)
+    ]
+
+
+def equilibria(robot: Robot, forces: Matrix, may_be_held: bool = False) -> Equilibria | Skipped:
+    """The configurations where the forces (n×1) are 0 in every row that no motor holds.
+
+    The forces are derivatives of an energy: g(q), or those of `steady`; `may_be_held` is that of
+    `stability.Curvature`.
+    """
+    wanted = [forces[k, 0] for k in wanted_rows(robot)]
+    if sum(map(len, wanted)) > MOST_TERMS:
         return Skipped(TOO_LONG)
     ring = search_ring(robot.ring, (), {})
     there = Transfer(robot.ring, ring)
-    rows = tuple(combined(robot, forces))
-    alternatives = common_zeros([there(row) for row in rows])
-    second = Matrix.of(
-        ring, ([there(robot.ring.diff(g, k)) for k in range(robot.n)] for g in gravity.entries)
-    )
-    return Equilibria(rows, alternatives, tuple(tuple(_points(second, one)) for one in alternatives))
+    rows = tuple(combined(robot, wanted))
+    assumed = robot.questions.model.assumed
+    signs = ParameterSigns(tuple(Bound(there(bound.value), bound.is_strict) for bound in assumed))
+    found = {
+        one: exist
+        for one in common_zeros([there(row) for row in rows])
+        if (exist := conditions([condition.expr for condition in one], signs)) is not None
+    }
+    second = Matrix.of(ring, ([there(robot.ring.diff(g, k)) for k in range(robot.n)] for g in forces.entries))
+    curvature = Curvature(second, signs, may_be_held)
+    points = tuple(tuple(curvature.points(one, exist)) for one, exist in found.items())
+    return Equilibria(rows, tuple(found), points, tuple(found.values()))
 
 
 def combined(robot: Robot, forces: Sequence[Expr]) -> Iterator[Expr]:
@@ -137,62 +128,3 @@ def _without(row: dict[Any, Expr], chosen: dict[Any, Expr], lead: Any) -> dict[A
 
 def _size(row: dict[Any, Expr]) -> int:
     return sum(map(len, row.values()))
-
-
-# -- stability -------------------------------------------------------------------------------------
-
-
-def _points(second: Matrix, alternative: Alternative) -> Iterator[Point]:
-    """The quarter turns that a case allows, each with the second derivatives of the energy there."""
-    if 2 ** len(alternative) > MOST_POINTS:
-        return
-    turns = [found for one in alternative if (found := _quarter_turns(one))]
-    others = [one for one in alternative if not _quarter_turns(one)]
-    for values in product(*turns):
-        at = _put(second, values)
-        rest = [_put(Matrix.column(second.ring, [one.expr]), values).entries[0] for one in others]
-        for left in rest:
-            if not left.is_zero:
-                size = at.shape[1]
-                flat = Condition(left).reduced_together(at.entries)
-                at = Matrix.of(second.ring, (flat[i : i + size] for i in range(0, len(flat), size)))
-        yield Point(values, *_stability(at))
-
-
-def _quarter_turns(condition: Condition) -> list[tuple[Pair, int, int]]:
-    """The quarter turns at which sin q, cos q, or one of these less ±1, is 0; none of other conditions."""
-    ring = condition.expr.ring
-    quarters = ((0, 1), (1, 0), (0, -1), (-1, 0))
-    for pair in ring.pairs:
-        used = {i for i, degree in enumerate(condition.expr.poly.degrees()) if degree > 0}
-        if used and used <= {pair.sine, pair.cosine}:
-            column = Matrix.column(ring, [condition.expr])
-            return [(pair, s, c) for s, c in quarters if _put(column, ((pair, s, c),)).is_zero]
-    return []
-
-
-def _put(matrix: Matrix, values: Values) -> Matrix:
-    """The matrix at quarter turns."""
-    ring = matrix.ring
-    images = [ring.generator(g.index).poly for g in ring.generators]
-    for pair, sine, cosine in values:
-        images[pair.sine], images[pair.cosine] = ring.constant(sine).poly, ring.constant(cosine).poly
-    return matrix.map(lambda entry: Expr(ring, ring.reduce(entry.poly.compose(*images, ctx=ring.ctx))))
-
-
-def _stability(second: Matrix) -> tuple[Stability, tuple[int, ...]]:
-    """(what the second derivatives say, the coordinates along which nothing changes)"""
-    size = len(second.rows)
-    neutral = tuple(k for k in range(size) if all(entry.is_zero for entry in second.rows[k]))
-    rest = tuple(k for k in range(size) if k not in neutral)
-    if not rest or len(rest) > MOST_MINORS:
-        return Stability.UNDECIDED, neutral
-    minors = {
-        k: [determinant(part(second, c, c)) for c in combinations(rest, k)] for k in range(1, len(rest) + 1)
-    }
-    if any(is_positive(-value) for k in (1, 2) for value in minors.get(k, ())):
-        return Stability.UNSTABLE, neutral
-    leading = [determinant(part(second, rest[:k], rest[:k])) for k in range(1, len(rest) + 1)]
-    if all(map(is_positive, leading)):
-        return Stability.STABLE, neutral
-    return Stability.UNDECIDED, neutral

@@ -3,7 +3,8 @@
 At points of each case, found by Newton's method, gravity and springs must move nothing; every
 zero that the same method finds of the forces themselves must lie in one of the cases; and at
 the points whose stability is told, differences of the forces decide whether the energy rises
-in every direction.
+in every direction.  Where rates are held constant the forces are τ, with these rates and without
+accelerations.
 """
 
 from __future__ import annotations
@@ -13,11 +14,13 @@ from dataclasses import dataclass
 from math import atan2, pi
 from random import Random
 
+from dynsolve.algebra.floats import evaluate
 from dynsolve.derivation.arm_values import draw_values
 from dynsolve.derivation.configuration_check import NO_VALUE
-from dynsolve.derivation.equilibria import Point, Stability
+from dynsolve.derivation.equilibria import wanted_rows
 from dynsolve.derivation.linear_check import solved
 from dynsolve.derivation.reached import CLOSE
+from dynsolve.derivation.stability import Point, Stability
 from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Matrix, Node
@@ -42,20 +45,39 @@ class Case:
 
 
 def starts(robot: Robot, numbers: Mapping[str, float] | None = None) -> Iterator[dict[str, float]]:
-    """Random configurations with values for the parameters, each also half a turn away."""
+    """Random configurations, each also half a turn away, with parameters as is assumed of them."""
     random = Random(SEED)  # noqa: S311 - the same states every time are wanted
     turning = [q.name for q in robot.coordinates if q.type is JointType.REVOLUTE]
+
+    def assumed(values: Mapping[str, float]) -> None:
+        if any(evaluate(bound.value, values) <= 0 for bound in robot.questions.model.assumed):
+            raise ValueError  # draws again
+
     for _ in range(STATES):
-        values = {**draw_values(robot, random, lambda found: None)[0], **(numbers or {})}
+        values = {**draw_values(robot, random, assumed)[0], **(numbers or {})}
+        values |= _moving(robot, values)
         yield values
         yield {**values, **{name: values[name] + pi for name in turning}}
 
 
-def in_balance(robot: Robot, gravity: Node) -> Program:
-    """The forces that must be 0: those of all coordinates, or of the passive ones alone."""
-    assert isinstance(gravity, Matrix)
-    wanted = robot.actions.passive if robot.questions.model.inputs_given else range(robot.n)
-    return compile_trees([gravity.rows[k][0] for k in wanted])
+def _moving(robot: Robot, values: Mapping[str, float]) -> dict[str, float]:
+    """Rates and accelerations: 0, but for the rates that are held constant."""
+    still = {name: 0.0 for q in robot.coordinates for name in (q.velocity, q.acceleration)}
+    steady = robot.questions.model.steady
+    rates = {q.name: q.velocity for q in robot.coordinates}
+    held = compile_trees([value for _, value in steady]).run(values)
+    return still | {rates[name]: float(value) for (name, _), value in zip(steady, held, strict=True)}
+
+
+def balanced_forces(robot: Robot) -> str:
+    """The name of the forces that are 0 in an equilibrium: g, or τ where rates are held constant."""
+    return "tau" if robot.questions.model.steady else "g"
+
+
+def in_balance(robot: Robot, forces: Node) -> Program:
+    """The forces that must be 0: those of all coordinates that no motor holds."""
+    assert isinstance(forces, Matrix)
+    return compile_trees([forces.rows[k][0] for k in wanted_rows(robot)])
 
 
 def is_zero(program: Program, at: Mapping[str, float]) -> bool:
@@ -97,12 +119,12 @@ def zero_along(names: Sequence[str], zeros: Program, start: Mapping[str, float])
     return None
 
 
-def verify_equilibria(robot: Robot, gravity: Node, cases: Sequence[Case]) -> None:
-    """Compare the cases with the forces.
+def verify_equilibria(robot: Robot, balanced: Node, cases: Sequence[Case]) -> None:
+    """Compare the cases with the forces, which are those of `balanced_forces`.
 
     Raises VerificationError where an equilibrium is none, one is missing, or its stability is another.
     """
-    forces = in_balance(robot, gravity)
+    forces = in_balance(robot, balanced)
     programs = [compile_trees(list(case.zeros)) for case in cases]
     for start in starts(robot):
         for program, case in zip(programs, cases, strict=True):
@@ -112,30 +134,39 @@ def verify_equilibria(robot: Robot, gravity: Node, cases: Sequence[Case]) -> Non
         found = zero_near(robot, forces, start)
         if found is not None and not any(is_zero(program, found) for program in programs):
             raise VerificationError("an equilibrium is missing; this is a fault of dynsolve")
-    whole = compile_trees([gravity])
+    whole = compile_trees([balanced])
     for program, case in zip(programs, cases, strict=True):
         for point in case.points:
             _verify_stability(robot, whole, program, point)
 
 
-def _verify_stability(robot: Robot, gravity: Program, zeros: Program, point: Point) -> None:
+def _told(robot: Robot, point: Point, at: Mapping[str, float]) -> Stability:
+    """The stability that is told for these parameters; where a condition fails, nothing is a minimum."""
+    if not point.conditions:
+        return point.stability
+    held = all(evaluate(bound.value, at) > 0 for bound in point.conditions)
+    return Stability.STABLE if held else Stability.UNSTABLE
+
+
+def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Point) -> None:
     for start in starts(robot):
         turned = {pair.angle.terms[0][0][0][0]: atan2(s, c) for pair, s, c in point.values}
         at = zero_near(robot, zeros, {**start, **turned})
         if at is None or any(abs(at[name] - angle) > _NEAR for name, angle in turned.items()):
             continue
-        rising = _rises(robot, gravity, at, point)
-        told = point.stability
+        rising = _rises(robot, forces, at, point)
+        told = _told(robot, point, at)
         if told is not Stability.UNDECIDED and rising is not (told is Stability.STABLE):
             raise VerificationError("the stability told is another; this is a fault of dynsolve")
 
 
-def _rises(robot: Robot, gravity: Program, at: Mapping[str, float], point: Point) -> bool:
+def _rises(robot: Robot, forces: Program, at: Mapping[str, float], point: Point) -> bool:
     """Whether the energy rises but along what is neutral: elimination leaves positive pivots."""
-    rest = [q for q in robot.coordinates if q.index - 1 not in point.neutral]
+    steady = dict(robot.questions.model.steady)
+    rest = [q for q in robot.coordinates if q.index - 1 not in point.neutral and q.name not in steady]
     rows = []
     for q in rest:
-        ahead, behind = (gravity.run({**at, q.name: at[q.name] + step})[0] for step in (_STEP, -_STEP))
+        ahead, behind = (forces.run({**at, q.name: at[q.name] + step})[0] for step in (_STEP, -_STEP))
         rows.append([(ahead[k.index - 1][0] - behind[k.index - 1][0]) / (2 * _STEP) for k in rest])
     for k, row in enumerate(rows):
         if row[k] <= 0:

@@ -55,7 +55,10 @@ def _parameters(robot: Robot) -> Iterator[Rule]:
 
 def _equilibria(robot: Robot) -> Iterator[Rule]:
     yield Rule("balance", ("g",), partial(balance.balance, robot))
-    yield Rule("equilibria", ("g",), partial(_where_in_balance, robot))
+    if robot.questions.model.steady:
+        yield Rule("equilibria", ("D", "C", "g"), partial(_in_steady_motion, robot))
+    else:
+        yield Rule("equilibria", ("g",), partial(_where_in_balance, robot))
     if robot.questions.model.linearize:
         friction = ("friction",) if "friction" in robot.actions.kinds else ()
         yield Rule("linear_A", ("D", "g", *friction), partial(linearization.state_matrix, robot))
@@ -74,3 +77,10 @@ def _where_in_balance(robot: Robot, gravity: Matrix) -> Equilibria | Skipped:
     from dynsolve.derivation.equilibria import equilibria
 
     return equilibria(robot, gravity)
+
+
+def _in_steady_motion(robot: Robot, D: Matrix, C: Matrix, gravity: Matrix) -> Equilibria | Skipped:
+    """Those of coordinates whose others move at constant rates."""
+    from dynsolve.derivation.steady import steady_equilibria
+
+    return steady_equilibria(robot, D, C, gravity)

@@ -36,6 +36,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     writing     sentences and pieces of formulas
     configurations
                 singular configurations and branches of the inverse, as formulas
+    steady      what the step of equilibria says of motions at constant rates
     singular_figures
                 drawings of singular configurations: the arm there, and what is lost
     inverse_formulas

@@ -136,7 +136,13 @@ SLOTINE_LI = Book(
     },
 )
 
-BOOKS = (SPONG, CRAIG, SICILIANO, LYNCH_PARK, MURRAY_LI_SASTRY, KHALIL_DOMBRE, SLOTINE_LI)
+GOLDSTEIN = Book(
+    name="Goldstein, Poole, Safko",
+    full="H. Goldstein, C. Poole, J. Safko, Classical Mechanics, 3rd edition, Addison Wesley, 2002",
+    sections={"2.7": "Energy Function and the Conservation of Energy"},
+)
+
+BOOKS = (SPONG, CRAIG, SICILIANO, LYNCH_PARK, MURRAY_LI_SASTRY, KHALIL_DOMBRE, SLOTINE_LI, GOLDSTEIN)
 
 _IN_A_LIST = "Spong et al."
 """What the course's own book is called where no report names it at its start."""

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from math import lcm
+from typing import TYPE_CHECKING, Any
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.positivity import is_positive
 from dynsolve.algebra.rationals import fraction
 from dynsolve.algebra.ring import Ring
@@ -20,7 +22,7 @@ from dynsolve.explain.forms import Forms, is_numeric, leading_names, parallel_co
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.notation.build import cost, split_sign, times
 from dynsolve.notation.python import to_python
-from dynsolve.notation.tree import Matrix, Negative, Node, Sum, Symbol, column
+from dynsolve.notation.tree import Matrix, Negative, Node, Relation, Sum, Symbol, column
 from dynsolve.notation.walk import mapped
 from dynsolve.robot.model import Robot
 
@@ -58,6 +60,16 @@ class ConfigurationForms:
             return ()
         return tuple(tuple(map(self.condition, one)) for one in found.alternatives)
 
+    def inequality(self, bound: Bound) -> Relation:
+        """l W² > g: what is positive of it on one side, what is negative on the other."""
+        ring = bound.value.ring
+        sides: tuple[dict[Any, Any], dict[Any, Any]] = {}, {}
+        for exponents, factor in bound.value.poly.to_dict().items():
+            sides[factor < 0][exponents] = abs(factor)
+        form = self.compactor(ring).form
+        left, right = (form(Expr(ring, ring.ctx.from_dict(side))) for side in sides)
+        return Relation((left, right), (">" if bound.is_strict else "≥",))
+
     @cached_property
     def balance(self) -> tuple[Node, ...]:
         """What must be 0 for gravity to be balanced; none where it is too long."""
@@ -83,8 +95,9 @@ class ConfigurationForms:
         )
 
     def condition(self, condition: Condition) -> Node:
-        """What is 0 where a condition holds."""
-        return self.zero(condition.expr)
+        """What is 0 where a condition holds, with whole coefficients but where the file has decimals."""
+        whole = 1 if is_numeric(self.robot) else lcm(*(int(c.q) for c in condition.expr.poly.coeffs()))
+        return self.zero(condition.expr * whole)
 
     def zero(self, expr: Expr) -> Node:
         """What is 0, with the sign that leaves fewer minus signs."""

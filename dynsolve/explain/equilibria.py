@@ -6,9 +6,11 @@ from collections.abc import Iterator
 
 from dynsolve.algebra.minors import determinant
 from dynsolve.derivation import linearization
-from dynsolve.derivation.equilibria import Equilibria, Point, Stability
+from dynsolve.derivation.equilibria import Equilibria
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.stability import Point, Stability
 from dynsolve.document import Prose
+from dynsolve.explain import steady as moving
 from dynsolve.explain.citations import SLOTINE_LI, spong
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.context import Context
@@ -37,6 +39,8 @@ _INVERSE = Power(letters.D, Negative(Number(1)))
 _F, _S = letters.bold("F"), letters.bold("S")
 _DG = letters.partial_derivative(letters.G, letters.Q)
 _ZERO, _ONE = letters.bold("0"), letters.bold("E")
+_AT_REST: Prose = ("In an equilibrium rates and accelerations are 0, and of the equations of motion ",
+                   letters.G, " is left. ")  # fmt: skip
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -61,12 +65,6 @@ def _equilibria(context: Context) -> Iterator[Step]:
         yield _skipped("equilibria", found)
         return
     shown = ConfigurationForms(robot, context.values)
-    held = robot.questions.model.inputs_given
-    why: Prose = ("In an equilibrium rates and accelerations are 0, and of the equations of motion ",
-                  letters.G, " is left. ")  # fmt: skip
-    if held:
-        passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
-        why = (*why, "Motors hold the others; what has none must be in balance: ", *listed(passive), ". ")
     cases = shown.equilibria
     result: tuple[Node, ...] = tuple(_together(one) for one in cases if one)
     rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
@@ -77,15 +75,18 @@ def _equilibria(context: Context) -> Iterator[Step]:
     elif not cases[0]:
         notes = (("Nothing is left to be 0: every configuration is an equilibrium.",),)
     else:
-        notes = (("Coordinates that do not occur are free.",),)
+        notes = (("Coordinates that do not occur are free.",), *_existence(shown, found))
+    steady = bool(robot.questions.model.steady)
+    forces: Node = moving.FORCES if steady else letters.G
+    at_rest = (equation(letters.G, context.form("g")),) if is_small(context.form("g")) else ()
     yield Step(
         id="equilibria",
         stage=STAGE,
-        title="Where nothing moves",
-        why=why,
-        formula=equation(letters.G, Number(0)),
-        source=SLOTINE_LI.section("3.1"),
-        working=(equation(letters.G, context.form("g")),) if is_small(context.form("g")) else (),
+        title="Where nothing else moves" if steady else "Where nothing moves",
+        why=(*(moving.why(context) if steady else _AT_REST), *_held(context)),
+        formula=equation(forces, Number(0)),
+        source=moving.SOURCE if steady else SLOTINE_LI.section("3.1"),
+        working=moving.working(context) if steady else at_rest,
         lines=lines,
         result=result,
         listed=len(result) > 1,
@@ -93,42 +94,85 @@ def _equilibria(context: Context) -> Iterator[Step]:
         detail=Detail.BRIEF,
     )
     if any(points for points in found.points):
-        yield _stability(context, found)
+        yield _stability(context, shown, found)
 
 
-def _stability(context: Context, found: Equilibria) -> Step:
-    second = linearization.curvature(context.robot, context.values["g"])
-    shown = context.show(second)
-    told = [_point(context, point) for points in found.points for point in points]
+def _held(context: Context) -> Prose:
+    """Which coordinates must be in balance, where motors hold the others."""
+    robot = context.robot
+    if not robot.questions.model.inputs_given:
+        return ()
+    passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
+    return ("Motors hold the others; what has none must be in balance: ", *listed(passive), ". ")
+
+
+def _existence(shown: ConfigurationForms, found: Equilibria) -> Iterator[Prose]:
+    """For which parameters the cases are there that are not for all."""
+    for case, bounds in zip(shown.equilibria, found.exist, strict=True):
+        if bounds:
+            conditions = side_by_side([shown.inequality(bound) for bound in bounds])
+            yield (_together(case), " has solutions where ", conditions, ".")
+
+
+def _stability(context: Context, shown: ConfigurationForms, found: Equilibria) -> Step:
+    robot = context.robot
+    steady = bool(robot.questions.model.steady)
+    forces = context.values["g"]
+    why: Prose = (
+        "Where the potential energy has a strict minimum, all second derivatives being positive together, "
+        "the equilibrium is stable; where it falls in some direction, it is not.",
+    )
+    working: tuple[Node, ...] = ()
+    second: Node = _DG
+    if steady:
+        why, energy = moving.energy(context)
+        forces, working = moving.forces(context), (energy,)
+        second = moving.SECOND
+    curvature = context.show(linearization.curvature(robot, forces))
+    if is_small(curvature):
+        working = (*working, equation(second, curvature))
+    several = len(found.alternatives) > 1
+    told = [
+        _point(context, shown, point, case if several else ())
+        for case, points in zip(shown.equilibria, found.points, strict=True)
+        for point in points
+    ]
     return Step(
         id="equilibria_stability",
         stage=STAGE,
         title="How stable they are",
-        why=("Where the potential energy has a strict minimum, all second derivatives being positive "
-             "together, the equilibrium is stable; where it falls in some direction, it is not.",),
-        source=SLOTINE_LI.section("3.4"),
-        working=(equation(_DG, shown),) if is_small(shown) else (),
+        why=why,
+        source=moving.SOURCE if steady else SLOTINE_LI.section("3.4"),
+        working=working,
         notes=tuple(told),
         uses=("equilibria",),
-    )  # fmt: skip
+    )
 
 
-def _point(context: Context, point: Point) -> Prose:
+def _point(context: Context, shown: ConfigurationForms, point: Point, case: tuple[Node, ...]) -> Prose:
     """At q₁ = -90°, q₂ = 0: stable."""
     quarters = {(0, 1): Number(0), (1, 0): Degrees(90), (0, -1): Degrees(180), (-1, 0): Negative(Degrees(90))}
     at = [
         equation(Symbol(pair.angle.terms[0][0][0][0]), quarters[sine, cosine])
         for pair, sine, cosine in point.values
     ]
-    said = {
+    said: Prose = ({
         Stability.STABLE: "stable",
         Stability.UNSTABLE: "not stable",
         Stability.UNDECIDED: "second derivatives do not decide for all values of the parameters",
-    }[point.stability]
-    free = [Symbol(context.robot.coordinates[k].name) for k in point.neutral]
+    }[point.stability],)  # fmt: skip
+    if point.conditions:
+        said = ("stable where ", side_by_side([shown.inequality(bound) for bound in point.conditions]))
+    steady = dict(context.robot.questions.model.steady)
+    names = [context.robot.coordinates[k].name for k in point.neutral]
+    free = [Symbol(name) for name in names if name not in steady]
     along: Prose = (", but for ", *listed(free), ", along which nothing changes") if free else ()
-    where: Prose = ("At ", side_by_side(at)) if at else ("There",)
-    return (*where, f": {said}", *along, ".")
+    where: Prose = ("There",)
+    if at:
+        where = ("At ", side_by_side(at))
+    elif case:
+        where = ("Where ", _together(case))
+    return (*where, ": ", *said, *along, ".")
 
 
 def _together(conditions: tuple[Node, ...]) -> Node:

@@ -81,10 +81,11 @@ def build_robot(
     is_drawn = parsed.normals is not None
     robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn, written)
     if parsed.candidates is not None:
-        from dynsolve.problem.candidates_build import candidates
+        from dynsolve.problem.candidates_build import assumed, candidates
 
         judged = candidates(values, parsed.candidates, given.D if given else None)
-        robot = replace(robot, questions=replace(robot.questions, candidates=judged))
+        model = replace(robot.questions.model, assumed=assumed(values, parsed.candidates))
+        robot = replace(robot, questions=replace(robot.questions, candidates=judged, model=model))
     return None if faults.errors else robot
 
 

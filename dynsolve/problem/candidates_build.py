@@ -24,6 +24,11 @@ def candidates(values: CellValues, parsed: ParsedCandidates, given: Matrix | Non
     return tuple(made)
 
 
+def assumed(values: CellValues, parsed: ParsedCandidates) -> tuple[Bound, ...]:
+    """What is assumed of the parameters, whatever matrix they stand in."""
+    return _bounds(values, parsed.assumed.get(EVERY, ()))
+
+
 def _bounds(values: CellValues, parsed: tuple[ParsedInequality, ...]) -> tuple[Bound, ...]:
     found = []
     for one in parsed:

@@ -24,7 +24,7 @@ CANDIDATES = Key(
 ASSUME = Key(
     "assume",
     OneOf((_INEQUALITIES, MapOf(_INEQUALITIES, "inequalities by the name of a candidate"))),
-    "Inequalities between parameters that hold, for `definite`; of candidates also by name.",
+    "Inequalities between parameters that hold, for `definite` and `equilibria`; of candidates also by name.",
     "[a1 > 0, a1*a3 > a2^2]",
     "none",
     remedy="write assume: [a1 > a2, a2 > 0], or of candidates {Ma: [a1 > a2], Mb: [...]}",

@@ -51,5 +51,13 @@ MODEL_KEYS = (
         "{theta1: 0, L2: 0}",
         remedy="write linearize: {q1: 0, q2: 90deg}, the coordinates of the equilibrium",
     ),
+    Key(
+        "steady",
+        MapOf(EXPRESSION, "rates by coordinate"),
+        "Coordinates whose rates are constant: `equilibria` are then those of the others in this motion.",
+        "{theta1: W}",
+        "nothing moves",
+        remedy="write steady: {q1: W}, a coordinate with its constant rate",
+    ),
 )
 """The keys, in the order of the documentation."""

@@ -12,7 +12,7 @@ from dynsolve.problem.fields import Fields, describe, did_you_mean, items, mappi
 from dynsolve.problem.model_keys import BALANCE, INPUTS, KNOWN, MAX_PARAMETERS
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
-from dynsolve.problem.state import ParsedState, read_equilibrium
+from dynsolve.problem.state import ParsedState, read_equilibrium, read_steady
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, Span, YamlNode
 
 _HELP = PROBLEM["parameters"].help
@@ -25,6 +25,7 @@ class ParsedModelQuestions:
     known: tuple[tuple[str, Span], ...] = ()
     parameters: tuple[tuple[str, Cell], ...] = ()
     linearize: ParsedState | None = None
+    steady: ParsedState | None = None
     inputs_given: bool = False
     balanced: tuple[Cell, ...] = ()
 
@@ -32,7 +33,8 @@ class ParsedModelQuestions:
     def constant(self) -> Iterator[Cell]:
         """The values that are constant."""
         yield from (cell for _, cell in self.parameters)
-        yield from self.linearize.cells.values() if self.linearize else ()
+        for state in (self.linearize, self.steady):
+            yield from state.cells.values() if state else ()
 
 
 NO_MODEL_QUESTIONS = ParsedModelQuestions()
@@ -49,6 +51,7 @@ def read_model_questions(
     return replace(
         parameters,
         linearize=equilibrium,
+        steady=read_steady(faults, fields.get("steady"), coordinates),
         inputs_given=given is not None,
         balanced=_read_balanced(faults, fields.get("balance"), len(coordinates)),
     )

@@ -202,11 +202,13 @@ def _rates(values: CellValues, parsed: ParsedRates | None, rows: int) -> Matrix 
 def _model(values: CellValues, robot: Robot, parsed: ParsedModelQuestions) -> ModelQuestions:
     check_model_questions(values.faults, parsed, robot.parameters)
     at = parsed.linearize.values if parsed.linearize else {}
+    steady = parsed.steady.values if parsed.steady else {}
     return ModelQuestions(
         known=frozenset(name for name, _ in parsed.known),
         inputs_given=parsed.inputs_given,
         balanced=values.column(parsed.balanced) if parsed.balanced else None,
         linearize=tuple((name, dots, value) for (name, dots), value in at.items()),
+        steady=tuple((name, value) for (name, _), value in steady.items()),
         named=tuple(name for name, _ in parsed.parameters),
         parameters=values.column(cell for _, cell in parsed.parameters) if parsed.parameters else None,
     )

@@ -211,8 +211,8 @@ def _model(faults: Faults, fields: Fields) -> ParsedModel:
 
 
 def _candidates(faults: Faults, fields: Fields, coordinates: Mapping[str, str]) -> ParsedCandidates | None:
-    """Matrices in the place of a robot, or what is assumed of the D of a model; None without either."""
-    if "candidates" not in fields and not ("model" in fields and ("assume" in fields or "find" in fields)):
+    """Matrices in the place of a robot, or what is assumed of parameters; None without either."""
+    if not ("candidates" in fields or "assume" in fields or ("model" in fields and "find" in fields)):
         return None
     from dynsolve.problem.candidates import read_candidates
 

@@ -70,6 +70,24 @@ def read_equilibrium(faults: Faults, node: YamlNode | None, kinds: Mapping[str, 
     return found
 
 
+def read_steady(faults: Faults, node: YamlNode | None, kinds: Mapping[str, str]) -> ParsedState | None:
+    """The rates of `steady`, each under its coordinate's name or its own; None where there are none."""
+    if node is None or isinstance(node, FaultyNode):
+        return None
+    help = PROBLEM["steady"].help
+    if not isinstance(node, MappingNode):
+        faults.error(node.span, "steady is a mapping from coordinates to their constant rates", help)
+        return None
+    rates = dict.fromkeys(kinds, "prismatic")  # a rate is a number also where the coordinate is an angle
+    found = _read_values(faults, node, rates)
+    if any(dots > 1 for _, dots in found.cells):
+        faults.error(node.span, "an acceleration is 0 where the rate is constant", help)
+    cells = {(name, 1): cell for (name, _), cell in found.cells.items()}
+    if len(cells) == len(kinds):
+        faults.error(node.span, "no coordinate is left that could be in balance", help)
+    return ParsedState(cells, kinds)
+
+
 def _read_values(faults: Faults, node: MappingNode, kinds: Mapping[str, str]) -> ParsedState:
     cells: dict[tuple[str, int], Cell] = {}
     for key, value in node.entries:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from dynsolve.algebra.inequality import Bound
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.notation.tree import Node
 
@@ -28,8 +29,9 @@ class ModelQuestions:
     `known` are the names of the parameters that do not count as unknown in τ = Y a.  `parameters`
     (p×1) are the entries of a where the exercise gives them, `named` the names that it gives them.
     `inputs_given` says that motors hold their coordinates in equilibria.  `linearize` is one of
-    these: (name, 0, value) of the coordinates that are given.  `balanced` (n×1) is the g that parameters
-    are to give, where it is not 0.
+    these: (name, 0, value) of the coordinates that are given.  `steady` are the coordinates whose rates
+    are constant, with these.  `balanced` (n×1) is the g that parameters are to give, where it is not 0.
+    `assumed` are inequalities between parameters, which count as positive besides.
     """
 
     known: frozenset[str] = frozenset()
@@ -38,6 +40,8 @@ class ModelQuestions:
     linearize: tuple[tuple[str, int, Node], ...] = ()
     inputs_given: bool = False
     balanced: Matrix | None = None
+    steady: tuple[tuple[str, Node], ...] = ()
+    assumed: tuple[Bound, ...] = ()
 
     @property
     def equilibrium(self) -> dict[tuple[str, int], Node]:

@@ -94,11 +94,11 @@ def _verify_equilibria(robot: Robot, values: Derivation, forms: Forms, wanted: f
         verify_balance(robot, forms("g"), ConfigurationForms(robot, values).balance)
     if "equilibria" not in wanted:
         return
-    from dynsolve.derivation.equilibrium_check import Case, verify_equilibria
+    from dynsolve.derivation.equilibrium_check import Case, balanced_forces, verify_equilibria
 
     shown = ConfigurationForms(robot, values).equilibria
     cases = [Case(*case) for case in zip(shown, values["equilibria"].points, strict=True)]
-    verify_equilibria(robot, forms("g"), cases)
+    verify_equilibria(robot, forms(balanced_forces(robot)), cases)
 
 
 def _verify_configurations(robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str]) -> None:

@@ -112,9 +112,9 @@ class _Exporter:
         results.setdefault("bodies", bodies)
         results |= {quantity.name: self.value(quantity) for quantity in _asked(robot)}
         if isinstance(results.get("equilibria"), list):
-            from dynsolve.solution.stability_export import stability
+            from dynsolve.solution.stability_export import beside_equilibria
 
-            results["equilibria_stability"] = stability(self.solution.values["equilibria"])
+            results |= dict(beside_equilibria(self.configurations, self.python))
         if "inverse" in results:
             results |= dict(beside_branches(self.configurations, self.unicode))
         return results | dict(table_results(self.solution, self.python))

@@ -1,19 +1,35 @@
-"""The stability of equilibria as data, beside the equilibria themselves."""
+"""Where equilibria are, and how stable, as data beside the equilibria themselves."""
 
 from __future__ import annotations
 
-from dynsolve.derivation.equilibria import Equilibria, Values
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from dynsolve.algebra.inequality import Bound
+from dynsolve.derivation.equilibria import Equilibria
+from dynsolve.derivation.stability import Point, Values
+from dynsolve.explain.configurations import ConfigurationForms
+from dynsolve.notation.python import PythonPrinter
+from dynsolve.solution.verdict_export import plain_inequality
 
 QUARTERS = {(0, 1): "0", (1, 0): "pi/2", (0, -1): "pi", (-1, 0): "-pi/2"}
 """Quarter turns by their sine and cosine."""
 
 
-def stability(found: Equilibria) -> list[list[dict[str, str]]]:
-    """For each alternative its points: the angles that are fixed, and `stability` there."""
-    return [
-        [{**angles(point.values), "stability": point.stability.value} for point in points]
-        for points in found.points
-    ]
+def beside_equilibria(shown: ConfigurationForms, printer: PythonPrinter) -> Iterator[tuple[str, Any]]:
+    """`equilibria_stability`, and where an alternative is not there for all parameters `equilibria_exist`."""
+    found: Equilibria = shown.values["equilibria"]
+
+    def written(bounds: Sequence[Bound]) -> list[str]:
+        return [plain_inequality(shown.inequality(bound), printer) for bound in bounds]
+
+    def told(point: Point) -> dict[str, Any]:
+        conditions = {"stable_if": written(point.conditions)} if point.conditions else {}
+        return {**angles(point.values), "stability": point.stability.value, **conditions}
+
+    yield "equilibria_stability", [[told(point) for point in points] for points in found.points]
+    if any(found.exist):
+        yield "equilibria_exist", [written(bounds) for bounds in found.exist]
 
 
 def angles(values: Values) -> dict[str, str]:

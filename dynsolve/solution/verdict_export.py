@@ -35,12 +35,15 @@ def _result(
     parts = (p if isinstance(p, str) else p.text if isinstance(p, Verbatim) else reader.text(p) for p in why)
     return {
         "verdict": found.answer.value,
-        "conditions": [_plain(inequality(solution.forms, bound), printer) for bound in found.conditions],
+        "conditions": [
+            plain_inequality(inequality(solution.forms, bound), printer) for bound in found.conditions
+        ],
         "why": "".join(parts),
     }
 
 
-def _plain(relation: Relation, printer: PythonPrinter) -> str:
+def plain_inequality(relation: Relation, printer: PythonPrinter) -> str:
+    """a1 >= a2"""
     left, right = relation.parts
     sign = {"≥": ">="}.get(relation.signs[0], relation.signs[0])
     return f"{printer.text(left)} {sign} {printer.text(right)}"

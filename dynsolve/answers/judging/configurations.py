@@ -25,6 +25,7 @@ from dynsolve.derivation.configuration_check import (
     states_of,
     zero_near,
 )
+from dynsolve.derivation.equilibrium_check import balanced_forces
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms
@@ -83,7 +84,9 @@ class ConfigurationKey:
 
     @cached_property
     def _equilibria(self) -> EquilibriumKey:
-        return EquilibriumKey(self.robot, self.forms("g"), self.shown.equilibria, self.numbers)
+        return EquilibriumKey(
+            self.robot, self.forms(balanced_forces(self.robot)), self.shown.equilibria, self.numbers
+        )
 
     def _balance(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
         """Conditions that all hold: whether gravity is balanced where they do, and they do where it is."""

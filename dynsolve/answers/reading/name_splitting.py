@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.quantities.spelling import key
@@ -14,6 +16,9 @@ _CALLS = frozenset(
     "Vector vector diag Diag zeros".split()
 )
 """Words that are functions, never products of letters."""
+
+_INVERSE = re.compile(r"a(?:rc)?(?:sin|cos|tan2?)", re.IGNORECASE)
+"""Such words where the inverse functions are known, though the problem may have a parameter a."""
 
 
 def split_names(tokens: list[Token], vocabulary: Vocabulary, naming: bool = False) -> list[Token]:
@@ -73,6 +78,8 @@ def _is_name(text: Token, after: list[Token], vocabulary: Vocabulary, naming: bo
 def _pieces(text: str, vocabulary: Vocabulary, open_end: bool, called: bool, naming: bool) -> list[str]:
     """The fewest names that make up a run of letters; the run itself where there are none."""
     if _known(text, vocabulary, naming) or text in _CALLS or len(text) > _LONGEST_RUN:
+        return [text]
+    if called and vocabulary.has_inverse_functions and _INVERSE.fullmatch(text):
         return [text]
     starts = _starts(text)
     ends = [*starts[1:], len(text)]

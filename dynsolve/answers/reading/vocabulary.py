@@ -221,6 +221,10 @@ class Vocabulary:
         return quantity.shape if quantity is not None else None
 
 
+_HOLD_ANGLES = frozenset({"inverse", "singular", "equilibria"})
+"""Answers that give angles, and so may hold arccos and its like."""
+
+
 def is_running(index: str) -> bool:
     """Whether an index runs: K_i, v_{ci}, omega_{i-1}."""
     return bool(_RUNNING.fullmatch(key(index)))
@@ -238,8 +242,8 @@ def vocabulary(problem: Problem) -> Vocabulary:
     coordinates = robot.coordinates
     symbols = {key(name): Symbol(name) for name in robot.parameters}
     symbols |= {key(q.name): Symbol(q.name) for q in coordinates}
-    solves = "inverse" in robot.questions.asked
-    if solves:
+    has_arcs = not robot.questions.asked.isdisjoint(_HOLD_ANGLES)
+    if "inverse" in robot.questions.asked:
         symbols |= {key(name): Symbol(name) for name in robot.questions.reached}
     others: dict[str, Symbol] = {"pi": Symbol("pi")}
     spoken = subscripts(coordinates)
@@ -247,7 +251,7 @@ def vocabulary(problem: Problem) -> Vocabulary:
     if robot.ring.plan.references:
         _add_references(others, symbols, coordinates)
     masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
-    return Vocabulary(coordinates, symbols, others, quantities(robot), masses, solves, subscripts=spoken)
+    return Vocabulary(coordinates, symbols, others, quantities(robot), masses, has_arcs, subscripts=spoken)
 
 
 def _add_derivatives(

@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 import dynsolve
-from dynsolve.derivation.equilibria import Stability
 from dynsolve.derivation.equilibrium_check import Case, verify_equilibria
 from dynsolve.derivation.rules import derive
+from dynsolve.derivation.stability import Stability
 from dynsolve.errors import VerificationError
 from dynsolve.explain.configurations import ConfigurationForms
 from dynsolve.explain.forms import Forms

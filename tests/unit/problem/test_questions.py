@@ -116,6 +116,11 @@ FAULTS = {
     "a denominator": ("task: [«1/tip.x»]", "stands in a denominator", "sums, products"),
     "a root": ("task: [«sqrt(tip.x^2 + tip.y^2)»]", "under a root", "sums, products"),
     "a root of a coordinate": ("task: [«sqrt(theta1)»]", "under a root", "sums, products"),
+    "steady as a list": ("steady: «[theta1]»", "a mapping from coordinates to their", "steady: {q1: W}"),
+    "a rate of no coordinate": ("steady: {«theta3»: W}", "no coordinate and no rate", "theta"),
+    "a rate that moves": ("steady: {theta1: «theta2»}", "contains the coordinate", "parameters"),
+    "an acceleration": ("steady: «{theta1'': 1}»", "an acceleration is 0", "steady: {q1: W}"),
+    "rates of all": ("steady: «{theta1: W, theta2: W}»", "no coordinate is left", "steady: {q1: W}"),
     "no r of a twist": ("task: twist\nfind: [«r»]", "`r` is no answer of this problem", ""),
 }  # fmt: skip
 

@@ -40,6 +40,14 @@ passive: [q1]
 find: [equilibria]
 """
 HELD = ELASTIC.replace("find:", "inputs: given\nfind:")
+HOOP = """
+gravity: [0, 0, -g]
+model:
+  coordinates: {phi: revolute, theta: revolute}
+  bodies: [{mass: m, at: [a*sin(theta)*cos(phi), a*sin(theta)*sin(phi), -a*cos(theta)]}]
+steady: {phi: W}
+find: [equilibria]
+"""
 LIFT = "dh: [{d: d1*}]\nmasses: [{mass: m, link: 1}]\nfind: [equilibria]\n"
 FLAT = "gravity: none\ndh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\nfind: [equilibria]\n"
 
@@ -68,6 +76,10 @@ FLAT = "gravity: none\ndh: [{theta: q1*, a: l}]\nmasses: [{mass: m, link: 1}]\nf
         (ELASTIC, '["sin(q1) = 0 and sin(q2) = 0"]', "no_equilibrium"),
         (HELD, "[m*g*l*sin(q1) + k*(q1 - q2) = 0]", ""),
         (HELD, '["sin(q1) = 0 and q1 = q2"]', "equilibria_missing"),
+        (HOOP, "{theta: [0, pi, ±acos(g/(a*W^2))]}", ""),
+        (HOOP, "[sin(theta) = 0, theta = ±arccos(g/(a*W^2))]", ""),
+        (HOOP, "{theta: [0, pi]}", "equilibria_missing"),
+        (HOOP, "[sin(theta) = 0, cos(theta) = W^2*a/g]", "equilibria_missing"),
         (LIFT, "none", ""),
         (LIFT, "[d1 = 0]", "no_equilibrium"),
         (FLAT, "[q1 = 0]", "equilibria_missing"),

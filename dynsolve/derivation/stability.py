@@ -1,0 +1,171 @@
+"""How stable equilibria are, by the second derivatives of the potential energy.
+
+An equilibrium is stable where the potential energy has a strict minimum, the matrix of its second
+derivatives being positive definite (Lagrange and Dirichlet): where all its leading minors are
+positive (Sylvester).  It is unstable where the matrix has a negative direction.  Parameters count
+as positive; a minor whose sign they leave open is a condition for stability.
+
+Where rates are held constant the energy is that of `steady`, and forces across the motion, which
+do no work, may hold what would fall: then nothing is called unstable.
+
+Slotine, Li, Applied Nonlinear Control, section 3.4 (1991).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import combinations, product
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.generators import Pair
+from dynsolve.algebra.inequality import Bound, independent
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.minors import determinant
+from dynsolve.algebra.pseudoinverse import part
+from dynsolve.derivation.existence import Turn, turn_of
+from dynsolve.derivation.parameter_signs import ParameterSigns
+from dynsolve.derivation.singular.conditions import Condition
+from dynsolve.derivation.singular.sets import Alternative
+
+MOST_POINTS = 16
+"""With more points in a case their stability is not told one by one."""
+
+MOST_MINORS = 6
+"""The stability of robots with more coordinates is not decided."""
+
+Values = tuple[tuple[Pair, int, int], ...]
+"""(angle, sine, cosine): quarter turns."""
+
+
+class Stability(StrEnum):
+    """What second derivatives say of an equilibrium."""
+
+    STABLE = "stable"
+    UNSTABLE = "unstable"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """Quarter turns of angles in a case, and how stable the arm is there.
+
+    `neutral` are the coordinates, from 0, along which nothing changes.  Where the stability is
+    undecided, and there are `conditions` on the parameters, it is stable where these hold.
+    """
+
+    values: Values
+    stability: Stability
+    neutral: tuple[int, ...] = ()
+    conditions: tuple[Bound, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Curvature:
+    """The second derivatives of the energy, n×n, and the signs of what stands in them.
+
+    `may_be_held` says that forces which do no work act, too.
+    """
+
+    second: Matrix
+    signs: ParameterSigns
+    may_be_held: bool
+
+    def points(self, alternative: Alternative, exists: Sequence[Bound]) -> Iterator[Point]:
+        """The quarter turns that a case allows, each with its stability where the case `exists`."""
+        if 2 ** len(alternative) > MOST_POINTS:
+            return
+        turns = [found for one in alternative if (found := quarter_turns(one))]
+        others = [one for one in alternative if not quarter_turns(one)]
+        signs = self.signs.beside(*(Bound(bound.value) for bound in exists))
+        for values in product(*turns):
+            at = _put(self.second, values)
+            for other in others:
+                (left,) = _put(Matrix.column(at.ring, [other.expr]), values).entries
+                at = _where_zero(at, left)
+            yield self._point(values, at, signs)
+
+    def _point(self, values: Values, second: Matrix, signs: ParameterSigns) -> Point:
+        size = len(second.rows)
+        neutral = tuple(k for k in range(size) if all(entry.is_zero for entry in second.rows[k]))
+        rest = tuple(k for k in range(size) if k not in neutral)
+        if not rest or len(rest) > MOST_MINORS:
+            return Point(values, Stability.UNDECIDED, neutral)
+        if not self.may_be_held and _falls(second, rest, signs):
+            return Point(values, Stability.UNSTABLE, neutral)
+        leading = (determinant(part(second, rest[:k], rest[:k])) for k in range(1, len(rest) + 1))
+        left = [
+            minor for minor in map(signs.open_part, leading) if not (minor.is_number and minor.number > 0)
+        ]
+        if not left:
+            return Point(values, Stability.STABLE, neutral)
+        if any(minor.is_number or minor.ring.depends_on_coordinates(minor) for minor in left):
+            return Point(values, Stability.UNDECIDED, neutral)
+        conditions = independent([Bound(minor) for minor in left], signs.assumed)
+        return Point(values, Stability.UNDECIDED, neutral, conditions)
+
+
+def _falls(second: Matrix, rest: Sequence[int], signs: ParameterSigns) -> bool:
+    """Whether the energy surely falls along a coordinate, or along some direction of two."""
+    return any(
+        signs.is_positive(-determinant(part(second, chosen, chosen)))
+        for size in (1, 2)
+        for chosen in combinations(rest, size)
+    )
+
+
+def _where_zero(second: Matrix, left: Expr) -> Matrix:
+    """The second derivatives where a further expression is 0, up to a positive factor."""
+    if left.is_zero:
+        return second
+    turn = turn_of(left)
+    if turn is not None and turn.is_one_sided:
+        return _at_turn(second, turn)
+    size = second.shape[1]
+    flat = Condition(left).reduced_together(second.entries)
+    return Matrix.of(second.ring, (flat[i : i + size] for i in range(0, len(flat), size)))
+
+
+def _at_turn(second: Matrix, turn: Turn) -> Matrix:
+    """The matrix where A x + C = 0 for the sine or the cosine x of an angle, times A to an even power."""
+    ring, pair = second.ring, turn.pair
+    known, other = (pair.cosine, pair.sine) if turn.sine.is_zero else (pair.sine, pair.cosine)
+    factor, rest = turn.cosine + turn.sine, turn.rest
+    degrees = (int(e[known]) + int(e[other]) for entry in second.entries for e in entry.poly.monoms())
+    most = max(degrees, default=0)
+    highest, y = most + most % 2, ring.generator(other)
+
+    def put(expr: Expr) -> Expr:
+        total = ring.zero
+        for exponents, number in expr.poly.to_dict().items():
+            i, j = int(exponents[known]), int(exponents[other])
+            plain = tuple(0 if k in (known, other) else e for k, e in enumerate(exponents))
+            squares = (factor * factor - rest * rest) ** (j // 2)  # A² y² = A² - C²
+            power = highest - i - 2 * (j // 2)
+            own = Expr(ring, ring.ctx.from_dict({plain: number}))
+            total += own * (-rest) ** i * squares * factor**power * y ** (j % 2)
+        return total
+
+    return second.map(put)
+
+
+def quarter_turns(condition: Condition) -> list[tuple[Pair, int, int]]:
+    """The quarter turns at which sin q, cos q, or one of these less ±1, is 0; none of other conditions."""
+    ring = condition.expr.ring
+    quarters = ((0, 1), (1, 0), (0, -1), (-1, 0))
+    for pair in ring.pairs:
+        used = {i for i, degree in enumerate(condition.expr.poly.degrees()) if degree > 0}
+        if used and used <= {pair.sine, pair.cosine}:
+            column = Matrix.column(ring, [condition.expr])
+            return [(pair, s, c) for s, c in quarters if _put(column, ((pair, s, c),)).is_zero]
+    return []
+
+
+def _put(matrix: Matrix, values: Values) -> Matrix:
+    """The matrix at quarter turns."""
+    ring = matrix.ring
+    images = [ring.generator(g.index).poly for g in ring.generators]
+    for pair, sine, cosine in values:
+        images[pair.sine], images[pair.cosine] = ring.constant(sine).poly, ring.constant(cosine).poly
+    return matrix.map(lambda entry: Expr(ring, ring.reduce(entry.poly.compose(*images, ctx=ring.ctx))))

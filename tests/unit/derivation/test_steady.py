@@ -1,0 +1,106 @@
+"""Steady motions, what is assumed of parameters, and for which of them equilibria are there."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import dynsolve
+
+ARM = """
+gravity: [0, 0, -g]
+dh: [{theta: q1*, alpha: 90deg}, {theta: q2*, a: l}]
+masses: [{mass: m, link: 2}]
+steady: {q1: W}
+find: [equilibria]
+"""
+SLIDER = """
+gravity: none
+dh: [{theta: q1*, alpha: 90deg}, {d: q2*}]
+masses: [{mass: m, link: 2}]
+springs: [{stiffness: k, of: q2, rest: r}]
+steady: {q1': 2}
+find: [equilibria]
+"""
+PLATE = """
+gravity: none
+model:
+  coordinates: {phi: revolute, x: prismatic, y: prismatic}
+  bodies: [{mass: m, at: [x*cos(phi) - y*sin(phi), x*sin(phi) + y*cos(phi), 0]}]
+springs: [{stiffness: k, of: x}, {stiffness: k, of: y}]
+steady: {phi: W}
+find: [equilibria]
+"""
+SPRING = """
+gravity: none
+model: {coordinates: {q: revolute}, D: [[m]], P: a1*cos(q) - b*q}
+find: [equilibria]
+"""
+
+
+def equilibria(problem: str) -> dict[str, Any]:
+    results = dynsolve.solve(problem).to_json()["results"]
+    return {name.removeprefix("equilibria"): value for name, value in results.items() if name[:5] == "equil"}
+
+
+def test_an_arm_that_is_turned_about_its_waist() -> None:
+    """At sin q2 = -g/(l W²) below the shoulder, or hanging, or upright (by hand)."""
+    found = equilibria(ARM)
+    assert found[""] == [["g + l*W**2*sin(q2) = 0"], ["cos(q2) = 0"]]
+    assert found["_exist"] == [["l*W**2 >= g"], []]
+    assert found["_stability"] == [
+        [{"stability": "stable"}],
+        [{"q2": "pi/2", "stability": "unstable"},
+         {"q2": "-pi/2", "stability": "undecided", "stable_if": ["g > l*W**2"]}],
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("assumed", "count", "hanging"), [("l*W^2 > g", 2, "unstable"), ("g > l*W^2", 1, "stable")]
+)
+def test_what_is_assumed_decides(assumed: str, count: int, hanging: str) -> None:
+    found = equilibria(f"{ARM}assume: [{assumed}]\n")
+    assert len(found[""]) == count and "_exist" not in found
+    assert found["_stability"][-1][-1] == {"q2": "-pi/2", "stability": hanging}
+
+
+def test_a_slider_leaves_the_spring_where_it_turns_too_fast() -> None:
+    """k (q2 - r) = m 2² q2, stable where k > 4m (by hand)."""
+    found = equilibria(SLIDER)
+    assert found[""] == [["4*m*q2 - k*(q2 - r) = 0"]]
+    assert found["_stability"] == [[{"stability": "undecided", "stable_if": ["k > 4*m"]}]]
+
+
+def test_what_forces_across_the_motion_may_hold_is_not_called_unstable() -> None:
+    """A mass on a turning plate is stable also where W is large (Whirling shaft: gyroscopic stability)."""
+    (point,) = equilibria(f"{PLATE}assume: [m*W^2 > k]\n")["_stability"][0]
+    assert point == {"stability": "undecided"}
+    (point,) = equilibria(f"{PLATE}assume: [k > m*W^2]\n")["_stability"][0]
+    assert point == {"stability": "stable"}
+
+
+def test_angles_that_no_parameters_allow_are_left_out() -> None:
+    assert equilibria(SPRING)["_exist"] == [["a1 >= b"]]
+    assert equilibria(f"{SPRING}assume: [b > a1]\n") == {"": [], "_stability": []}
+
+
+@pytest.mark.parametrize(
+    ("problem", "why"),
+    [
+        (ARM.replace("q1: W", "q2: W"), "q2 is not cyclic"),
+        (f"{ARM}friction: {{q1: b}}\npassive: [q1]\n", "friction acts on q1"),
+        (f"{ARM}dampers: [{{damping: b, of: q1 - q2}}]\n", "friction acts on q2"),
+    ],
+)
+def test_a_motion_that_is_not_steady_is_refused(problem: str, why: str) -> None:
+    solution = dynsolve.solve(problem)
+    assert why in solution.to_json()["results"]["equilibria"]["skipped"]
+    assert any(why in warning.message for warning in solution.warnings)
+
+
+def test_the_step_says_what_is_left_of_the_equations() -> None:
+    steps = {step.id: step for step in dynsolve.solve(ARM).steps}
+    assert steps["equilibria"].title == "Where nothing else moves"
+    assert "has solutions where" in str(steps["equilibria"].notes)
+    assert "the kinetic energy of the motion" in str(steps["equilibria_stability"].why)
