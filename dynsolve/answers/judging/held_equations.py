@@ -38,6 +38,6 @@ def held_equations(
     are_angles = []
     for node in nodes:
         within = names_in(node).intersection(coordinates)
-        has_function = any(isinstance(part, Function) for part in walk(node))
-        are_angles.append(bool(within) and within <= set(periodic) and not has_function)
+        turned = any(isinstance(part, Function) and within & names_in(part) for part in walk(node))
+        are_angles.append(bool(within) and within <= set(periodic) and not turned)
     return HeldEquations(compile_trees(nodes), tuple(are_angles))

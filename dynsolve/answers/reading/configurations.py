@@ -197,9 +197,9 @@ def _is_name(vocabulary: Vocabulary, letter: str) -> bool:
 
 
 def _is_value(vocabulary: Vocabulary, text: str) -> bool:
-    """Whether no coordinate stands in a text."""
+    """Whether no coordinate stands in a text, which may begin with ±."""
     try:
-        return not _has_coordinate(vocabulary, _value(vocabulary, prepared(text)))
+        return not _has_coordinate(vocabulary, _value(vocabulary, prepared(_EITHER.sub("+", text))))
     except ReadError:
         return False
 
