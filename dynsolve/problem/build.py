@@ -84,8 +84,8 @@ def build_robot(
         from dynsolve.problem.candidates_build import assumed, candidates
 
         judged = candidates(values, parsed.candidates, given.D if given else None)
-        model = replace(robot.questions.model, assumed=assumed(values, parsed.candidates))
-        robot = replace(robot, questions=replace(robot.questions, candidates=judged, model=model))
+        asks = replace(robot.questions.model, assumed=assumed(values, parsed.candidates))
+        robot = replace(robot, questions=replace(robot.questions, candidates=judged, model=asks))
     return None if faults.errors else robot
 
 
