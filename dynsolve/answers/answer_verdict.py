@@ -164,7 +164,7 @@ class AnswerJudge:
                 for entry, (_, i, j) in zip(entries, _entries(base.name, compared), strict=True)
                 if entry.verdict is Verdict.WRONG
             ]
-            found = self.diagnoser.whole(wrong, compared, found)
+            found = self.diagnoser.matrices(wrong, compared, found)
         elif verdict is Verdict.FOLLOWS:
             used = (name for entry in entries for name in entry.follows_from)
             sources = in_order(self.hand_in.graph, used)

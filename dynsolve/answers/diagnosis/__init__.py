@@ -15,10 +15,11 @@ explanations one after the other, the nearest first, in the order of the list at
     substitution     one symbol, angle or function for another throughout
     changed_rules    an earlier step done otherwise, and all that follows from it
     terms            several such slips, each in a term of its own
+    whole_matrix     one slip that explains all the wrong entries of a matrix
 
-What they share: `wrong_entry` (the scalar that is wrong), `case` (it, and an explanation that is to
-hold of it), `parts` (an expression as terms),
-`term_writer` (terms in words).
+What they share: `wrong_entry` (the scalar that is wrong), `case` (it, and an explanation that is
+to hold of it), `own_steps` (what steps give from the student's own answers), `parts` (an
+expression as terms), `term_writer` (terms in words).
 
 `slips.configurations` are what is said of sets of configurations, which are held in numbers.
 

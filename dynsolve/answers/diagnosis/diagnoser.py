@@ -9,36 +9,33 @@ does, what differs is said, and no more.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.fraction import as_expr, equal
+from dynsolve.algebra.fraction import equal
 from dynsolve.algebra.fraction_matrix import fraction_of
-from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.diagnosis.case import Case, Explanation, in_common, likeness
-from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, ChangedDerivation, DerivationSlips
+from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, DerivationSlips
 from dynsolve.answers.diagnosis.differences import what_differs
 from dynsolve.answers.diagnosis.exchanges import HEAVY, Exchanges, TermSlip
 from dynsolve.answers.diagnosis.factors import FactorPairs
 from dynsolve.answers.diagnosis.mends import Exchange, Mend, Redoing
 from dynsolve.answers.diagnosis.one_place import ratio_of
+from dynsolve.answers.diagnosis.own_steps import OwnSteps
 from dynsolve.answers.diagnosis.parts import is_small, parts
 from dynsolve.answers.diagnosis.slips import SLIPS, slip
-from dynsolve.answers.diagnosis.steps import variants
 from dynsolve.answers.diagnosis.substitution import substitutions
 from dynsolve.answers.diagnosis.term_writer import TermWriter
 from dynsolve.answers.diagnosis.terms import TermDiagnoser
+from dynsolve.answers.diagnosis.whole_matrix import MatrixDiagnoser
 from dynsolve.answers.diagnosis.wrong_entry import DimensionCheck, WrongEntry
 from dynsolve.answers.judging.entry_comparison import substituted
 from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.graph import AnswerGraph
-from dynsolve.answers.judging.key_comparison import KeyComparison, Target
 from dynsolve.answers.verdict import Diagnosis
-from dynsolve.derivation.energy import velocities
-from dynsolve.errors import AlgebraError
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import families
@@ -64,12 +61,10 @@ class Diagnoser:
         derivation_slips: DerivationSlips,
         factors: FactorPairs,
     ) -> None:
-        self.derivation_slips = derivation_slips
         self.factors = factors
-        self._leading: dict[str, frozenset[str]] = {}
         self.problem = problem
         self.graph = graph
-        self.follow_through = follow_through
+        self.steps = OwnSteps(graph, follow_through, derivation_slips)
         self.dimensions = graph.answer_ring.dimensions
         self.ring = graph.answer_ring.ring
 
@@ -94,6 +89,11 @@ class Diagnoser:
     def dimension_check(self) -> DimensionCheck:
         """Finds terms that cannot be added."""
         return DimensionCheck(self.graph, self.words, bool(self.problem.values))
+
+    @cached_property
+    def matrices(self) -> MatrixDiagnoser:
+        """Finds the slip of a whole matrix."""
+        return MatrixDiagnoser(self.graph, self.steps, self.expected)
 
     def __call__(self, wrong: WrongEntry) -> tuple[Diagnosis, ...]:
         """The slips in one scalar."""
@@ -156,8 +156,8 @@ class Diagnoser:
     def _step_otherwise(self, case: Case) -> Iterator[Explanation]:
         """This step was done wrongly: a Jacobian at the frame's origin, a rule of d/dt left out."""
         node = case.wrong.target.node
-        for value, diagnosis in self._variants(node):
-            yield from self._redone(case, value, self._done_right(node), diagnosis)
+        for value, diagnosis in self.steps.done_otherwise(node):
+            yield from self._redone(case, value, self.steps.done_right(node), diagnosis)
 
     def _one_number(self, case: Case) -> Iterator[Explanation]:
         """One number for all of it: a sign, a factor."""
@@ -205,11 +205,11 @@ class Diagnoser:
         return self._earlier_step(case, omits=False)
 
     def _earlier_step(self, case: Case, omits: bool) -> Iterator[Explanation]:
-        key = self.graph.key(case.wrong.target.node)
-        for value, diagnosis, changed in self.derivation_slips.values(case.wrong.target.node):
+        node = case.wrong.target.node
+        for value, diagnosis, changed in self.steps.earlier.values(node):
             if SLIPS[diagnosis.code].omits == omits:
-                for found in self._redone(case, value, key, diagnosis):
-                    if found.holds(case) and self._fits_the_rest(case.wrong, changed):
+                for found in self._redone(case, value, self.graph.key(node), diagnosis):
+                    if found.holds(case) and self.steps.fits_the_rest(node, changed):
                         yield found
 
     def _several_terms(self, case: Case) -> Iterator[Explanation]:
@@ -236,30 +236,6 @@ class Diagnoser:
         if diagnosis.code not in OF_THE_MATRIX and before is not None and after is not None:
             yield self._told((Redoing(before, after),), self._refined(diagnosis, case.wrong))
 
-    def _fits_the_rest(self, wrong: WrongEntry, changed: ChangedDerivation) -> bool:
-        """Whether a slip of an earlier step agrees with all that the student wrote on the way.
-
-        What the student's own answer holds was not left out.
-        """
-        node = wrong.target.node
-        for name, own in self.follow_through.students.items():
-            if own.value is None or not changed.reached(name):
-                continue
-            if name == node:
-                if not _agree(changed(name), own.value, self.graph.key(name)):
-                    return False
-            elif name in self._before(node) and changed(name) != own.value:
-                return False
-        return True
-
-    def _before(self, node: str) -> frozenset[str]:
-        """The nodes that lead to a node."""
-        if node not in self._leading:
-            self._leading[node] = frozenset()
-            inputs = {name for route in self.graph.routes(node) for name in route.inputs}
-            self._leading[node] = frozenset(inputs).union(*map(self._before, inputs))
-        return self._leading[node]
-
     def _refined(self, one: Diagnosis, wrong: WrongEntry) -> Diagnosis:
         """A wrong sign of a potential energy, or of g, is the wrong sign of gravity."""
         quantity = self.dimension_check.quantity(wrong)
@@ -276,90 +252,6 @@ class Diagnoser:
         difference = mine - self.expected(wrong)
         return not difference.is_zero and not self.ring.depends_on_coordinates(difference)
 
-    # -- the step, the derivation ------------------------------------------------------------------
-
-    def nearest(self, node: str) -> Any:
-        """The student's own value of a node, or the value that their nearest answers lead to."""
-        choices = self.follow_through.choices(node)
-        value = choices[0].value if choices else None
-        return self.graph.key(node) if value is None else value
-
-    def _variants(self, node: str) -> Iterator[tuple[Any, Diagnosis]]:
-        """The values that a step gives when it is done wrongly, from the student's own inputs."""
-        if node in ("C", "christoffel"):
-            return
-        try:
-            yield from variants(
-                self.graph.robot,
-                node,
-                lambda name: self._done_right(name) if name == node else self.nearest(name),
-            )
-        except AlgebraError:  # inputs of the student's from which the step cannot be taken
-            return
-
-    def _done_right(self, node: str) -> Any:
-        """The value that the student's own inputs of a step lead to."""
-        derived = self.follow_through.derived(node) if self.follow_through.touched(node) else ()
-        return derived[0].value if derived else self.graph.key(node)
-
-    # -- matrices, differences ---------------------------------------------------------------------
-
-    def whole(
-        self, wrong: Sequence[WrongEntry], compared: KeyComparison, found: tuple[Diagnosis, ...]
-    ) -> tuple[Diagnosis, ...]:
-        """The slips of a matrix, given those of its entries: one for all, where one explains all.
-
-        `wrong` are its entries that are wrong; each must be mended by it.
-        """
-        mine = [[as_expr(w.value) for w in row] for row in compared.rows]
-        if len(mine) * len(mine[0]) == 1 or any(e is None for row in mine for e in row):
-            return found
-        given = Matrix.of(self.ring, [[e for e in row if e is not None] for row in mine])
-        if all(entry.is_zero for entry in given.entries):
-            return found
-        if wrong[0].name == "C" and self._is_transposed_coriolis(compared):
-            return (slip("transposed"),)
-        for value, right, diagnosis in self._of_matrix(wrong[0], _is_explained(found)):
-            if value == given and all(self._is_mended(entry, value, right) for entry in wrong):
-                return (diagnosis, *(d for d in found if d.code == "dimensions"))
-        return found
-
-    def _of_matrix(self, wrong: WrongEntry, is_explained: bool) -> Iterator[tuple[Any, Any, Diagnosis]]:
-        """What a matrix is under a slip, what it is without, and the slip.
-
-        Where one slip in one place explains it, what was done otherwise long before is no nearer.
-        """
-        target = wrong.target
-        right = target.of(self._done_right(target.node))
-        for value, diagnosis in (*self._variants(target.node), *self._transposed(target)):
-            yield target.of(value), right, diagnosis
-        key = target.of(self.graph.key(target.node))
-        for value, diagnosis, changed in self.derivation_slips.values(target.node):
-            is_nearer = SLIPS[diagnosis.code].omits or not is_explained
-            if is_nearer and self._fits_the_rest(wrong, changed):
-                yield target.of(value), key, diagnosis
-
-    def _is_mended(self, entry: WrongEntry, value: Any, right: Any) -> bool:
-        """Whether a slip of the whole matrix explains one of its entries."""
-        mine, wrong = entry.mine, value[entry.row, entry.column]
-        redoing = Redoing(wrong, right[entry.row, entry.column])
-        return mine is not None and redoing.applied(mine) == self.expected(entry)
-
-    def _transposed(self, target: Target) -> Iterator[tuple[Any, Diagnosis]]:
-        right = target.of(self.graph.key(target.node))
-        if isinstance(right, Matrix) and right.shape[0] == right.shape[1] > 1:
-            yield right.T, slip("transposed")
-
-    def _is_transposed_coriolis(self, compared: KeyComparison) -> bool:
-        """Whether the transpose of C gives the right C q̇."""
-        rows = compared.answer_value.rows or ()
-        n = self.graph.robot.n
-        mine = [as_expr(entry) for row in rows for entry in row]
-        if len(mine) != n * n or any(entry is None for entry in mine):
-            return False
-        C = Matrix.of(self.ring, [[e for e in mine[k::n] if e is not None] for k in range(n)])
-        return bool(C @ velocities(self.graph.robot) == self.graph.key("Cqd"))
-
     def difference(self, wrong: WrongEntry) -> Node | None:
         """The answer minus what was expected, in compact form."""
         mine = wrong.mine
@@ -369,31 +261,10 @@ class Diagnoser:
         return self.words.form(difference) if is_small(difference) else None
 
 
-def _is_explained(found: Iterable[Diagnosis]) -> bool:
-    """Whether one slip, and no list of what differs, was found in the entries of a matrix.
-
-    A term that is doubled, or one too many, may have a cause that says more.
-    """
-    slips = [one.code for one in found if one.code != "dimensions"]
-    return len(slips) == 1 and slips[0] not in _LISTS and slips[0] not in ("factor", "extra_term")
-
-
-_LISTS = ("terms_differ", "terms_missing", "trig_part")
-"""What says that something differs, and not why."""
-
-
 def _of_fractions(wrong: WrongEntry) -> Iterator[Diagnosis]:
     """Where fractions are expected nothing is told but the wrong sign of all of it."""
     if any(equal(-fraction_of(value), wrong.written.value) for value in wrong.expected):
         yield slip("sign_all")
-
-
-def _agree(changed: Any, own: Any, key: Any) -> bool:
-    """Whether a slip changes nothing that is right, entry by entry: what it changes is as it was written."""
-    if not isinstance(changed, Matrix) or not isinstance(own, Matrix) or changed.shape != own.shape:
-        return True  # parameters may be as many as the student chose
-    entries = zip(changed.entries, own.entries, key.entries, strict=True)
-    return all(new in (right, mine) for new, mine, right in entries)
 
 
 _IN_ORDER: tuple[Callable[[Diagnoser, Case], Iterator[Explanation]], ...] = (
