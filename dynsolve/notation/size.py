@@ -85,6 +85,8 @@ def _size(node: Node, known: dict[int, _Plain], level: int, most: Size) -> _Plai
         if level > most.depth:
             raise TooLargeError("depth")
         sizes = [_LEAF if type(p) in _LEAVES else _size(p, known, level + 1, most) for p in children(node)]
+        if not sizes:  # a matrix without entries
+            return _LEAF
         nodes, depths, terms, degrees = zip(*sizes, strict=True)
         found = 1 + sum(nodes), 1 + max(depths), *_RULES[kind](node, terms, degrees, most)
         for measure, here, bound in zip(Size._fields, found, most, strict=True):

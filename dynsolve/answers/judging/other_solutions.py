@@ -1,6 +1,7 @@
 """What is right without being the key's.
 
-Forces: those from outside may have been moved over to the side of the motors.
+Forces: those from outside may have been moved over to the side of the motors; the equation of a
+coordinate that no motor drives, ... = 0, may be multiplied by anything.
 
 The energy of springs: a constant of it is free, as the zero of height is.
 
@@ -40,6 +41,7 @@ class Other(StrEnum):
     WITH_GRAVITY = "right with gravity as an acceleration of the base; in the key it is a force on each link"
     SPRINGS_FROM_ELSEWHERE = "right; the energy of the springs is counted from elsewhere than in the key"
     WITHOUT_LOADS = "right with the forces from outside moved over: here τ is the left side, τ + Q the right"
+    UP_TO_FACTOR = "right: where no motor drives, the equation may be multiplied by a factor"
     WITHOUT_GRAVITY = "right with gravity as a force on each link; in the key the base accelerates instead"
     OF_C = "right with another choice of C than Christoffel's"
     OF_THE_PRODUCT = "these parameters leave Y open; the product is right"
@@ -64,7 +66,9 @@ def other_solution(
     if node in PARAMETERS:
         return Other.OF_THE_PRODUCT if _multiplies(graph, node, rows) else None
     if quantity is not None and quantity.family in (families.TAU, families.FORCE):
-        return Other.WITHOUT_LOADS if _is_what_motors_give(graph, quantity, rows, compare) else None
+        if _is_what_motors_give(graph, quantity, rows, compare):
+            return Other.WITHOUT_LOADS
+        return Other.UP_TO_FACTOR if _is_multiple(graph, quantity, rows, compare) else None
     if quantity is not None and quantity.family in (families.P, families.L, action_families.PS):
         return Other.SPRINGS_FROM_ELSEWHERE if _differs_by_springs(graph, quantity, rows[0][0]) else None
     if node == REFERENCE:
@@ -150,6 +154,23 @@ def _is_what_motors_give(
         key - Q if isinstance(key, Matrix) else Matrix.column(Q.ring, [key - Q[quantity.index[0] - 1, 0]])
     )
     return all(compare(entry, row[0]) is not None for entry, row in zip(forces.entries, rows, strict=True))
+
+
+def _is_multiple(
+    graph: AnswerGraph, quantity: Quantity, rows: Sequence[Sequence[WrittenEntry]], compare: EntryComparer
+) -> bool:
+    """Whether forces are right, those of passive coordinates, which are 0, up to a factor."""
+    robot, key = graph.robot, graph.key(quantity.rule)
+    first = 0 if isinstance(key, Matrix) else quantity.index[0] - 1
+    wanted = key.entries if isinstance(key, Matrix) else (key,)
+    for k, (right, (written,)) in enumerate(zip(wanted, rows, strict=True), first):
+        if compare(right, written) is not None:
+            continue
+        acceleration, given = robot.coordinates[k].name, written.value.numerator
+        own, its = (robot.ring.coefficient(one, acceleration, 2) for one in (given, right))
+        if k not in robot.actions.passive or own.is_zero or given * its != right * own:
+            return False
+    return True
 
 
 def _solves(

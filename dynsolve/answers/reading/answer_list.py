@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.motion_equations import MotionEquation
 from dynsolve.answers.reading.occurrences import readable
 from dynsolve.answers.reading.right_side import EXPECTED, RightSide
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
@@ -129,6 +130,15 @@ class AnswerList:
             free=found.free,
             occurrence=(origin.equation, member.index),
         )
+
+    def motion(self, equation: MotionEquation, tokens: list[Token], origin: Origin) -> None:
+        """Keep an equation of motion: of several that it may be, the first that is absent, in their order."""
+        forces = equation.forces
+        absent = [force for force in forces if force not in {answer.name for answer in self.answers}]
+        name = (absent or forces)[0]
+        answer = self.answer((name,), Member(0, tokens, equation.found), origin)
+        others = tuple(force for force in forces if force != name)
+        self.answers.append(replace(answer, alternatives=others))
 
     def unreadable(self, candidates: tuple[str, ...], error: ReadError, origin: Origin, index: int) -> Answer:
         """The record of a value that could not be read."""

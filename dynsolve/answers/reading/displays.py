@@ -81,7 +81,7 @@ class Equation:
     label: str = ""
 
 
-_OPENS = {"(": 1, "[": 1, "{": 1, "begin": 1, "⟨": 1, ")": -1, "]": -1, "}": -1, "close": -1, "⟩": -1}
+OPENS = {"(": 1, "[": 1, "{": 1, "begin": 1, "⟨": 1, ")": -1, "]": -1, "}": -1, "close": -1, "⟩": -1}
 _ENDINGS = frozenset({",", ";", ".", ":"})
 
 
@@ -120,7 +120,7 @@ def _unwrapped(tokens: list[Token]) -> list[Token]:
 
 def _is_one_sided(tokens: list[Token]) -> bool:
     r"""Whether a brace beside a system of equations, `\left\{ ... \right.`, has no other one."""
-    level = sum(_OPENS.get(t.kind, 0) for t in tokens if t.kind in ("(", ")"))
+    level = sum(OPENS.get(t.kind, 0) for t in tokens if t.kind in ("(", ")"))
     if not tokens or abs(level) != 1:
         return False
     return tokens[0 if level == 1 else -1].text in (
@@ -240,7 +240,7 @@ def _cut(row: list[Token]) -> list[tuple[Token | None, list[Token]]]:
     pieces: list[tuple[Token | None, list[Token]]] = [(None, [])]
     level = 0
     for token in row:
-        level = max(level + _OPENS.get(token.kind, 0), 0)
+        level = max(level + OPENS.get(token.kind, 0), 0)
         wide = token.text in SEPARATORS and token.kind == "command"
         if level == 0 and (wide or token.kind in ("separator", ",", ";", "&")):
             before, last = pieces[-1]
@@ -273,7 +273,7 @@ def _is_relation(token: Token) -> bool:
 def _is_equation(piece: list[Token]) -> bool:
     level = 0
     for token in piece:
-        level += _OPENS.get(token.kind, 0)
+        level += OPENS.get(token.kind, 0)
         if token.kind == "=" and level <= 0:
             return True
     return False
@@ -291,7 +291,7 @@ def _members(piece: list[Token]) -> list[list[Token]]:
     members: list[list[Token]] = [[]]
     level = 0
     for token in piece:
-        level = max(level + _OPENS.get(token.kind, 0), 0)
+        level = max(level + OPENS.get(token.kind, 0), 0)
         if token.kind == "=" and level == 0:
             members.append([])
         else:
@@ -304,7 +304,7 @@ def _without_remark(member: list[Token]) -> list[Token]:
     r"""A member without what is said of it: `m_2 l_1 \neq 0`, `c \in \mathbb{R}`; `m_1 < m_2` is no value"""
     level = 0
     for position, token in enumerate(member):
-        level += _OPENS.get(token.kind, 0)
+        level += OPENS.get(token.kind, 0)
         if level == 0 and position and _is_relation(token):
             said = [t.text for t in member[position + 1 :]]
             return member[:position] if token.text in _MEMBERSHIPS or said[:1] == ["0"] else member
@@ -317,7 +317,7 @@ def chain(tokens: list[Token]) -> list[list[Token]]:
     members: list[list[Token]] = [[]]
     level = 0
     for token in kept:
-        level = max(level + _OPENS.get(token.kind, 0), 0)
+        level = max(level + OPENS.get(token.kind, 0), 0)
         if token.kind == "=" and level == 0:
             members.append([])
         else:

@@ -27,6 +27,7 @@ from dynsolve.answers.reading.left_side import (
 )
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.matrix_parts import MatrixPart, entries_of, part_of
+from dynsolve.answers.reading.motion_equations import motion_equation
 from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.right_side import RightSide, read_right_side, why_no_value
 from dynsolve.answers.reading.shapes import fitted, is_gravity_vector, model_parts, shown
@@ -150,6 +151,8 @@ class EquationReader:
             return
         sides = read_left_sides(self.vocabulary, members)
         names = list(dict.fromkeys(side.candidates for side in sides if isinstance(side, NamedAnswers)))
+        if self._of_motion(members, names, origin):
+            return
         owners = tuple(name for candidates in names for name in candidates)
         read = [
             Member(index, tokens, read_right_side(self.vocabulary, tokens, owners))
@@ -168,6 +171,15 @@ class EquationReader:
             self.found.not_recognized.append(origin.of(members, "this says what a symbol of the problem is"))
         else:
             self._with_names(names, members, read, origin)
+
+    def _of_motion(self, members: list[list[Token]], names: list[tuple[str, ...]], origin: Origin) -> bool:
+        """Keep an equation of motion; whether the chain is one, no side naming more than all forces."""
+        if any(candidates[0] not in ("tau", "friction") for candidates in names):
+            return False
+        found = motion_equation(self.vocabulary, members)
+        if found is not None:
+            self.found.motion(found, [token for member in members for token in member], origin)
+        return found is not None
 
     def _part(self, part: MatrixPart, members: list[list[Token]], origin: Origin) -> None:
         """The entries of one row or column of a matrix, each as an answer of its own."""

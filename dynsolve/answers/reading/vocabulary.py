@@ -51,7 +51,8 @@ class Vocabulary:
     `missed` are names that were looked for before anything defined them;
     `orders` says for letters of Christoffel symbols which index counts the row (`index_order`).
     `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
-    its like are known; `defined` is what the student defined.
+    its like are known; `passive` are the generalized forces that are 0, since no motor drives their
+    coordinates; `defined` is what the student defined.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -60,6 +61,7 @@ class Vocabulary:
     quantities: Quantities
     masses: frozenset[str]
     has_inverse_functions: bool = False
+    passive: tuple[str, ...] = ()
     defined: dict[str, Meaning] = field(default_factory=dict)
     derived: dict[tuple[str, int], Value] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
@@ -72,7 +74,7 @@ class Vocabulary:
         """The names of the problem alone, for another hand-in."""
         return Vocabulary(
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
-            self.has_inverse_functions, subscripts=self.subscripts,
+            self.has_inverse_functions, self.passive, subscripts=self.subscripts,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
@@ -251,7 +253,10 @@ def vocabulary(problem: Problem) -> Vocabulary:
     if robot.ring.plan.references:
         _add_references(others, symbols, coordinates)
     masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
-    return Vocabulary(coordinates, symbols, others, quantities(robot), masses, has_arcs, subscripts=spoken)
+    passive = tuple(coordinates[k].force for k in robot.actions.passive)
+    return Vocabulary(
+        coordinates, symbols, others, quantities(robot), masses, has_arcs, passive, subscripts=spoken
+    )
 
 
 def _add_derivatives(

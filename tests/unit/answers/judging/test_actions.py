@@ -99,3 +99,35 @@ def test_the_sign_of_a_rate_is_read_as_people_write_it(text: str) -> None:
     problem = read_problem(ARM, "own.yaml")
     found = verdicts(check(problem, FileReader(problem)(text.encode(), "report.md")))
     assert found["friction"] == "correct"
+
+
+CART = """
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, theta: revolute}
+  bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + l*sin(theta), l*cos(theta), 0]}]
+passive: [theta]
+find: [tau]
+"""
+DRIVEN = "(M + m)*x_ddot + m*l*theta_ddot*cos(theta) - m*l*theta_dot^2*sin(theta)"
+
+
+@pytest.mark.parametrize(
+    ("text", "verdict", "note"),
+    [
+        ("m*l*x_ddot*cos(theta) + m*l^2*theta_ddot - m*g*l*sin(theta)", "correct", ""),
+        ("x_ddot*cos(theta) + l*theta_ddot - g*sin(theta)", "correct", "factor"),
+        ("g*sin(theta)/l - theta_ddot - x_ddot*cos(theta)/l", "correct", "factor"),
+        ("x_ddot*cos(theta) + l*theta_ddot + g*sin(theta)", "wrong", ""),
+        ("x_ddot*cos(theta) - g*sin(theta)", "wrong", ""),
+        ("0", "wrong", ""),
+    ],
+)
+def test_the_equation_of_a_passive_coordinate_may_be_multiplied_by_a_factor(
+    text: str, verdict: str, note: str
+) -> None:
+    found = judged(CART, "tau2", text)
+    assert found.verdict == verdict
+    assert note in "".join(found.notes)
+    driven = judged(CART, "f1", f"2*({DRIVEN})")
+    assert driven.verdict == "wrong"

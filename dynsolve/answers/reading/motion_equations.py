@@ -1,0 +1,134 @@
+r"""Equations of motion as mechanics courses write them: `(m + M) ẍ + m l θ̈ = F - b ẋ`, `... = 0`.
+
+No side of such an equation is the name of an answer alone.  The generalized force is the term
+that is a name of one, and everything else brought to the other side is the answer; where no term
+is one, the equation is that of a coordinate that no motor drives.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from dynsolve.answers.reading.displays import OPENS
+from dynsolve.answers.reading.left_side import NamedAnswers, UnknownSide, name_alone, read_left_side
+from dynsolve.answers.reading.right_side import RightSide, read_right_side
+from dynsolve.answers.reading.tokens.lexer import Token
+from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.notation.build import negated, total
+from dynsolve.notation.tree import ZERO, Node, Symbol
+from dynsolve.notation.walk import walk
+
+_INPUT = re.compile(r"(?:u|U|F|f|T|M|Q|tau)(?:[a-z]{0,3}|[1-9])")
+"""Names of a force or torque that drives a mechanism, as students write them."""
+
+_LONGEST_NAME = 12
+_SIGNS = ("+", "-")
+_OPERATORS = frozenset({"+", "-", "*", "/", "cdot", "times", "^"})
+
+
+@dataclass(frozen=True, slots=True)
+class MotionEquation:
+    """The generalized forces that one equation may give, and the value that it gives to one of them."""
+
+    forces: tuple[str, ...]
+    found: RightSide
+
+
+@dataclass(frozen=True, slots=True)
+class _Term:
+    """A term of one side with its sign; `forces` are those that it names, none of any other term."""
+
+    tokens: list[Token]
+    is_negative: bool
+    forces: tuple[str, ...] = ()
+
+
+def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> MotionEquation | None:
+    """The equation of motion that a chain a = b is; None of every other chain."""
+    if len(members) != 2:
+        return None
+    sides = [_terms(vocabulary, member) for member in members]
+    named = [(side, term) for side, terms in enumerate(sides) for term in terms if term.forces]
+    if len(named) > 1:
+        return None
+    left, right = (_rest(vocabulary, terms) for terms in sides)
+    if left is None or right is None:
+        return None
+    is_turned = left.value == ZERO if not named else named[0][1].is_negative == (named[0][0] == 1)
+    first, second = (right, left) if is_turned else (left, right)
+    value = total([first.value, negated(second.value)])
+    forces = named[0][1].forces if named else _undriven(vocabulary)
+    if not _is_of_motion(vocabulary, value):
+        return None
+    notes = tuple(dict.fromkeys((*left.notes, *right.notes)))
+    found = replace(left, value=value, notes=notes, references=(), free=(*left.free, *right.free))
+    return MotionEquation(forces, found)
+
+
+def _terms(vocabulary: Vocabulary, member: list[Token]) -> list[_Term]:
+    """The terms of a side, each with its sign."""
+    found: list[_Term] = []
+    level, piece, negative = 0, list[Token](), False
+    for token in member:
+        starts = level == 0 and token.kind in _SIGNS and not (piece and piece[-1].kind in _OPERATORS)
+        if starts:
+            if piece:
+                found.append(_Term(piece, negative))
+            piece, negative = [], token.kind == "-"
+        else:
+            piece.append(token)
+        level += OPENS.get(token.kind, 0)
+    found.append(_Term(piece, negative))
+    return [replace(term, forces=_forces(vocabulary, term.tokens)) for term in found]
+
+
+def _rest(vocabulary: Vocabulary, terms: Sequence[_Term]) -> RightSide | None:
+    """A side without the generalized force in it; None where it has no value."""
+    tokens: list[Token] = []
+    for term in terms:
+        if term.forces or not term.tokens:
+            continue
+        first = term.tokens[0]
+        if term.is_negative:
+            tokens.append(first._replace(kind="-", text="-", end=first.start, dots=0))
+        elif tokens:
+            tokens.append(first._replace(kind="+", text="+", end=first.start, dots=0))
+        tokens += term.tokens
+    if not tokens:
+        return RightSide(ZERO, (), (), (), is_definition=False)
+    found = read_right_side(vocabulary, tokens)
+    is_value = isinstance(found, RightSide) and isinstance(found.value, Node) and not found.references
+    return found if is_value and isinstance(found, RightSide) else None
+
+
+def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:
+    """The generalized forces that a term may be a name of: one with its index, else those that are driven."""
+    if not tokens or len(tokens) > _LONGEST_NAME:
+        return ()
+    name = name_alone(vocabulary, tokens)
+    if name in vocabulary.symbols or name in vocabulary.defined:
+        return ()
+    known = [q.force for q in vocabulary.coordinates]
+    side = read_left_side(vocabulary, tokens)
+    if isinstance(side, NamedAnswers):
+        forces = tuple(force for force in side.candidates if force in known)
+        if forces or not {"tau", "friction"} & set(side.candidates):
+            return forces
+    elif not isinstance(side, UnknownSide) or not side.is_name_alone or not _INPUT.fullmatch(side.key):
+        return ()
+    indexed = vocabulary.named(f"tau{name[1:]}") if name[1:].isdigit() else ()
+    return indexed or tuple(force for force in known if force not in vocabulary.passive)
+
+
+def _undriven(vocabulary: Vocabulary) -> tuple[str, ...]:
+    """The forces that an equation without one may be about: those that are 0; all where the file names none."""
+    return vocabulary.passive or tuple(q.force for q in vocabulary.coordinates)
+
+
+def _is_of_motion(vocabulary: Vocabulary, value: Node) -> bool:
+    """Whether a value holds an acceleration, and a parameter beside it."""
+    symbols = [part for part in walk(value) if isinstance(part, Symbol)]
+    names = {q.name for q in vocabulary.coordinates}
+    return any(symbol.dots == 2 for symbol in symbols) and any(s.name not in names for s in symbols)

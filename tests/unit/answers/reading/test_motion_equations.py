@@ -1,0 +1,45 @@
+"""Equations of motion whose sides are no names of answers: where the generalized force stands."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.unit.answers.reading.submissions import report, shown
+
+# of the crane, q1 is driven and q2 is passive
+CRANE = [
+    (r"(m + m_p)\ddot q_1 + m_p d_p\ddot q_2\cos q_2 = F", "f1: (m + m_p) q̈₁ + m_p d_p q̈₂ cos(q₂)"),
+    (r"m\ddot q_1 + m_p\ddot q_1 = u - f_v\dot q_1", "f1: m q̈₁ + m_p q̈₁ + f_v q̇₁"),
+    (r"m\ddot q_1 - F_x = - m_p\ddot q_1", "f1: m q̈₁ + m_p q̈₁"),
+    (r"-m\ddot q_1 = m_p\ddot q_1 - \tau", "f1: m_p q̈₁ + m q̈₁"),
+    (r"d_p\ddot q_2 + \ddot q_1\cos q_2 = -g_0\sin q_2", "tau2: d_p q̈₂ + q̈₁ cos(q₂) + g₀ sin(q₂)"),
+    (r"0 = \ddot q_1\cos q_2 + d_p\ddot q_2", "tau2: q̈₁ cos(q₂) + d_p q̈₂"),
+    (r"m\ddot q_1 = \tau_2", "tau2: m q̈₁"),
+]
+
+
+@pytest.mark.parametrize(("equation", "expected"), CRANE)
+def test_the_force_is_what_drives_or_that_of_the_passive_coordinate(equation: str, expected: str) -> None:
+    (answer,) = report(f"$${equation}$$", stem="crane").answers
+    assert f"{answer.name}: {shown(answer)}" == expected
+
+
+def test_equations_are_those_of_all_coordinates_in_their_order_where_the_file_names_none_passive() -> None:
+    found = report(r"$$M\ddot x = F$$ $$m\ddot\theta = 0$$ $$m l\ddot\theta = -g$$", stem="cart-pole").answers
+    assert [(a.name, a.alternatives) for a in found] == [("f1", ("tau2",)), ("tau2", ("f1",)), ("f1", ("tau2",))]
+
+
+@pytest.mark.parametrize("equation", [
+    r"\ddot q_1 = 0",
+    r"\ddot q_1 = \ddot q_2",
+    r"g_0\sin q_2 = 0",
+    r"m\ddot q_1 = F + u",
+    r"m\ddot q_1 + z = 0",
+    r"D \ddot q = 0",
+])  # fmt: skip
+def test_what_is_no_equation_of_motion_is_none(equation: str) -> None:
+    assert report(f"$${equation}$$", stem="crane").answers == ()
+
+
+def test_a_matrix_that_has_no_columns_by_itself_stops_nothing() -> None:
+    report(r"$$Y = \begin{bmatrix} m_1 \\ g_0 \end{bmatrix}$$ $$2 Y = m_1 \ddot q_1$$", stem="rp-parameters")
