@@ -123,7 +123,7 @@ def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:
 
 
 def _undriven(vocabulary: Vocabulary) -> tuple[str, ...]:
-    """The forces that an equation without one may be about: those that are 0; all where the file names none."""
+    """The forces that an equation without one may be about: those that are 0, else all."""
     return vocabulary.passive or tuple(q.force for q in vocabulary.coordinates)
 
 

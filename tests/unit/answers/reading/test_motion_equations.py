@@ -26,7 +26,11 @@ def test_the_force_is_what_drives_or_that_of_the_passive_coordinate(equation: st
 
 def test_equations_are_those_of_all_coordinates_in_their_order_where_the_file_names_none_passive() -> None:
     found = report(r"$$M\ddot x = F$$ $$m\ddot\theta = 0$$ $$m l\ddot\theta = -g$$", stem="cart-pole").answers
-    assert [(a.name, a.alternatives) for a in found] == [("f1", ("tau2",)), ("tau2", ("f1",)), ("f1", ("tau2",))]
+    assert [(a.name, a.alternatives) for a in found] == [
+        ("f1", ("tau2",)),
+        ("tau2", ("f1",)),
+        ("f1", ("tau2",)),
+    ]
 
 
 @pytest.mark.parametrize("equation", [
