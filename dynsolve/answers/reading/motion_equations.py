@@ -53,17 +53,20 @@ def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> M
     named = [(side, term) for side, terms in enumerate(sides) for term in terms if term.forces]
     if len(named) > 1:
         return None
-    left, right = (_rest(vocabulary, terms) for terms in sides)
-    if left is None or right is None:
+    rests = [_rest(vocabulary, terms) for terms in sides]
+    values = [rest.value for rest in rests if rest is not None and isinstance(rest.value, Node)]
+    if len(values) < 2:
         return None
-    is_turned = left.value == ZERO if not named else named[0][1].is_negative == (named[0][0] == 1)
-    first, second = (right, left) if is_turned else (left, right)
-    value = total([first.value, negated(second.value)])
+    is_turned = values[0] == ZERO if not named else named[0][1].is_negative == (named[0][0] == 1)
+    first, second = reversed(values) if is_turned else values
+    value = total([first, negated(second)])
     forces = named[0][1].forces if named else _undriven(vocabulary)
     if not _is_of_motion(vocabulary, value):
         return None
-    notes = tuple(dict.fromkeys((*left.notes, *right.notes)))
-    found = replace(left, value=value, notes=notes, references=(), free=(*left.free, *right.free))
+    read = [rest for rest in rests if rest is not None]
+    notes = tuple(dict.fromkeys(note for rest in read for note in rest.notes))
+    free = tuple(name for rest in read for name in rest.free)
+    found = RightSide(value, (), notes, free, is_definition=False)
     return MotionEquation(forces, found)
 
 
@@ -99,8 +102,7 @@ def _rest(vocabulary: Vocabulary, terms: Sequence[_Term]) -> RightSide | None:
     if not tokens:
         return RightSide(ZERO, (), (), (), is_definition=False)
     found = read_right_side(vocabulary, tokens)
-    is_value = isinstance(found, RightSide) and isinstance(found.value, Node) and not found.references
-    return found if is_value and isinstance(found, RightSide) else None
+    return found if isinstance(found, RightSide) and not found.references else None
 
 
 def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:
