@@ -1,18 +1,21 @@
 """What the parameters must satisfy for gravity to move nothing, in whatever configuration.
 
 A sum of products of what moves is 0 for every q where each of its coefficients is, and these are
-combinations of a few: the entries of a in g = Y a.  Masses and the acceleration of gravity are
-not 0, and no factors.
+combinations of a few: the entries of a in g = Y a.  Masses, the acceleration of gravity and the
+lengths of the table are positive, and no factors.
 
 Spong, Hutchinson, Vidyasagar, section 7.5.3 (2006), for g = Y a.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.positivity import is_positive
+from dynsolve.algebra.rationals import fraction
 from dynsolve.derivation.graph import Skipped
 from dynsolve.derivation.regressor import minimal_parameters
 from dynsolve.robot.model import Robot
@@ -20,7 +23,15 @@ from dynsolve.robot.model import Robot
 
 def never_zero(robot: Robot) -> frozenset[str]:
     """The names of the masses and of the acceleration of gravity."""
-    exprs = [*(body.mass for body in robot.bodies), *robot.gravity.entries]
+    return _names(robot, [*(body.mass for body in robot.bodies), *robot.gravity.entries])
+
+
+def table_lengths(robot: Robot) -> frozenset[str]:
+    """The names of the lengths in the table."""
+    return _names(robot, [length for joint in robot.joints for length in (joint.d, joint.a)])
+
+
+def _names(robot: Robot, exprs: Iterable[Expr]) -> frozenset[str]:
     generators = robot.ring.generators
     used = {i for e in exprs if e.poly for i, degree in enumerate(e.poly.degrees()) if degree > 0}
     return frozenset(generators[i].name for i in used if generators[i].kind == "symbol")
@@ -30,26 +41,30 @@ def balance(robot: Robot, gravity: Matrix) -> tuple[Expr, ...] | Skipped:
     """Expressions of parameters, all of which are 0 where g(q) is, for every q, the one that is asked for."""
     wanted = robot.questions.model.balanced
     forces = gravity if wanted is None else gravity - wanted
-    held = frozenset(
-        g.name
-        for g in robot.ring.generators
-        if any(e.poly and e.poly.degrees()[g.index] > 0 for e in robot.gravity.entries)
-    )
+    held = _names(robot, robot.gravity.entries)
     model = replace(robot.questions.model, known=held)
     found = minimal_parameters(replace(robot, questions=replace(robot.questions, model=model)), forces)
     if isinstance(found, Skipped):
         return found
-    return tuple(_without_factors(entry, never_zero(robot)) for entry in found.entries)
+    masses = never_zero(robot)
+    return tuple(_without_factors(entry, masses, table_lengths(robot)) for entry in found.entries)
 
 
-def _without_factors(expr: Expr, names: frozenset[str]) -> Expr:
-    """The expression over all powers of these names that all its terms share."""
+def _without_factors(expr: Expr, masses: frozenset[str], lengths: frozenset[str]) -> Expr:
+    """What is 0 where an expression is, all of these being positive; a length where nothing else is left."""
+    rest = _open_part(expr, masses | lengths)
+    return _open_part(expr, masses) if rest.is_number else rest
+
+
+def _open_part(expr: Expr, positive: frozenset[str]) -> Expr:
+    """The expression without the factors in which only what is `positive` stands, with positive numbers."""
     ring = expr.ring
-    terms = expr.poly.to_dict()
-    least = [min(column) for column in zip(*terms, strict=True)]
-    shared = [
-        int(e) if g.kind == "symbol" and g.name in names else 0
-        for g, e in zip(ring.generators, least, strict=True)
-    ]
-    rest = {tuple(int(a) - b for a, b in zip(e, shared, strict=True)): f for e, f in terms.items()}
-    return Expr(ring, ring.ctx.from_dict(rest))
+    names = {g.index: g.name for g in ring.generators}
+    content, factors = expr.poly.factor()
+    rest = ring.constant(fraction(content))
+    for factor, times in factors:
+        own = Expr(ring, factor)
+        used = {names[i] for i, degree in enumerate(factor.degrees()) if degree > 0}
+        if not (used <= positive and is_positive(own)):
+            rest = rest * own ** int(times)
+    return rest

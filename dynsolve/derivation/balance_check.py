@@ -1,16 +1,18 @@
 """Conditions on parameters, compared with numbers: where they hold, gravity must be what is asked for.
 
-Points are found by Newton's method, in which masses and the acceleration of gravity stay.
+Points are found by Newton's method, in which masses and the acceleration of gravity stay, and the
+lengths of the table where they can.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from random import Random
 
 from dynsolve.algebra.floats import evaluate
 from dynsolve.derivation.arm_values import draw_values
-from dynsolve.derivation.balance import never_zero
+from dynsolve.derivation.balance import never_zero, table_lengths
 from dynsolve.derivation.equilibrium_check import zero_along
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.derivation.verification import SEED
@@ -26,12 +28,12 @@ def balanced_points(robot: Robot, conditions: Sequence[Node]) -> Iterator[dict[s
     """Values of all parameters at which all conditions are 0, each with a configuration."""
     program = compile_trees(list(conditions))
     free = sorted(set(robot.parameters) - never_zero(robot))
+    places = [name for name in free if name not in table_lengths(robot)]
     random = Random(SEED)  # noqa: S311 - the same states every time are wanted
     for _ in range(STATES):
         start = draw_values(robot, random, lambda found: None)[0]
-        at = zero_along(free, program, start) if conditions else start
-        if at is not None:
-            yield at
+        found = (zero_along(names, program, start) for names in (places, free)) if conditions else (start,)
+        yield from islice((at for at in found if at is not None), 1)
 
 
 def is_balanced(robot: Robot, gravity: Node, at: Mapping[str, float]) -> bool:

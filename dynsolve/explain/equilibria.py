@@ -83,7 +83,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
         id="equilibria",
         stage=STAGE,
         title="Where nothing else moves" if steady else "Where nothing moves",
-        why=(*(moving.why(context) if steady else _AT_REST), *_held(context)),
+        why=(*(moving.why(context) if steady else _AT_REST), *_held(context), *_assumed(context, shown)),
         formula=equation(forces, Number(0)),
         source=moving.SOURCE if steady else SLOTINE_LI.section("3.1"),
         working=moving.working(context) if steady else at_rest,
@@ -104,6 +104,14 @@ def _held(context: Context) -> Prose:
         return ()
     passive = [Symbol(robot.coordinates[k].name) for k in robot.actions.passive]
     return ("Motors hold the others; what has none must be in balance: ", *listed(passive), ". ")
+
+
+def _assumed(context: Context, shown: ConfigurationForms) -> Prose:
+    """What the problem says of its parameters."""
+    assumed = context.robot.questions.model.assumed
+    if not assumed:
+        return ()
+    return ("Of the parameters it is given that ", side_by_side([*map(shown.inequality, assumed)]), ". ")
 
 
 def _existence(shown: ConfigurationForms, found: Equilibria) -> Iterator[Prose]:
@@ -198,7 +206,8 @@ def _balance(context: Context) -> Step:
         title="What balances gravity",
         why=("Multiplied out, ", letters.G, " is a sum of what moves, each with a coefficient of parameters. "
              "It is what it should be in every configuration where all the coefficients are. Those that are "
-             "combinations of others, and factors that are not 0, are left out."),
+             "combinations of others are left out, and so are factors that are positive, as masses and "
+             "lengths of the table are."),
         formula=equation(letters.G, goal),
         source=spong("7.5.3"),
         working=(equation(letters.G, context.form("g")),) if is_small(context.form("g")) else (),

@@ -119,7 +119,7 @@ _AT_HAND = {
     Stage.VECTORIZED: "You have the forces, one for each coordinate:",
     Stage.PARAMETERS: "You have the equations of motion, one for each coordinate:",
     Stage.CONSTRAINTS: "You have the forward kinematics, and the matrices of the model:",
-    Stage.EQUILIBRIA: "You have the matrices of the equations of motion:",
+    Stage.EQUILIBRIA: "Of the equations of motion you have:",
     Stage.FORWARD_DYNAMICS: "You have the matrices of the equations of motion:",
     Stage.TASK_INERTIA: "You have the Jacobian of the task and the inertia matrix:",
     Stage.DEFINITE: "You have the matrices, and what is assumed of their parameters.",
@@ -159,7 +159,11 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
         if "lambda" in context.wanted:
             yield from ((letters.D, "D"), (letters.C, "C"), (letters.G, "g"))
     elif stage is Stage.EQUILIBRIA:
-        yield from ((letters.D, "D"), (letters.G, "g"))
+        is_linear = not context.wanted.isdisjoint(("linear_A", "linear_B"))
+        is_moving = bool(robot.questions.model.steady)
+        yield from ((letters.D, "D"),) if is_linear or is_moving else ()
+        yield from ((letters.C, "C"),) if is_moving else ()
+        yield letters.G, "g"
     elif stage is Stage.FORWARD_DYNAMICS:
         yield from ((letters.D, "D"), (letters.C, "C"), (letters.G, "g"))
     elif stage is Stage.TASK_INERTIA:

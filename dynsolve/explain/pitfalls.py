@@ -214,6 +214,15 @@ def _parameters(robot: Robot) -> Iterator[Prose]:
 
 
 def _equilibria(robot: Robot) -> Iterator[Prose]:
+    asked = robot.questions.asked
+    if "equilibria" in asked:
+        yield ("A product is 0 where any of its factors is: every choice is a case of its own.",)
+        if _of_type(robot, JointType.REVOLUTE):
+            yield ("A sine or a cosine has each of its values at two angles of a turn, but 1 and -1.",)
+        if robot.questions.model.steady:
+            yield ("The rates that are constant stay in the equations of the others.",)
+    if asked.isdisjoint(("linear_A", "linear_B")):
+        return
     yield ("Differentiate first, then put the equilibrium in.",)
     yield ("The inverse of D stands before the derivatives of g, with a minus sign.",)
     if robot.actions.passive:

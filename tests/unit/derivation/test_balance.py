@@ -22,6 +22,13 @@ masses:
   - {mass: m2, link: 2, center: {near: [d2, 0, 0]}}
 find: [balance]
 """
+FRACTIONS = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1, center: {along: dc1}}, {mass: m2, link: 2, center: {along: dc2}}]
+find: [balance]
+"""
+RIGID = ARM.replace("[d1, 0, 0]", "[l1/2, 0, 0]")
 
 
 @pytest.mark.parametrize(
@@ -29,6 +36,8 @@ find: [balance]
     [
         (ARM, {"d2 = 0", "m1*d1 + m2*l1 = 0"}),
         (ARM.replace("[0, -g, 0]", "[0, 0, -g]"), set()),
+        (FRACTIONS, {"dc2 = 0", "m1*dc1 + m2 = 0"}),
+        (RIGID, {"d2 = 0", "l1 = 0"}),
         (ARM.replace("find:", "balance: {g: [m1*g*d1*cos(q1), 0]}\nfind:"), {"d2 = 0", "l1 = 0"}),
     ],
 )
@@ -37,17 +46,21 @@ def test_by_hand(problem: str, conditions: set[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("written", "code"),
+    ("problem", "written", "code"),
     [
-        ('["d2 = 0", "m1*d1 + m2*l1 = 0"]', ""),
-        ('["m2*d2 = 0 and d1 = -m2*l1/m1"]', ""),
-        ("[d2 = 0]", "not_balanced"),
-        ("[d2 = 0, d1 = 0]", "not_balanced"),
-        ('["d2 = 0", "m1*d1 + m2*l1 = 0", "l2 = 1"]', "condition_too_much"),
+        (FRACTIONS, "[dc2 = 0, m1*dc1 + m2 = 0]", ""),
+        (FRACTIONS, "[l2*dc2 = 0, l1*(m1*dc1 + m2) = 0]", ""),
+        (FRACTIONS, "[l2 = 0, m1*dc1 + m2 = 0]", "condition_too_much"),
+        (RIGID, "[d2 = 0, l1 = 0]", ""),
+        (ARM, '["d2 = 0", "m1*d1 + m2*l1 = 0"]', ""),
+        (ARM, '["m2*d2 = 0 and d1 = -m2*l1/m1"]', ""),
+        (ARM, "[d2 = 0]", "not_balanced"),
+        (ARM, "[d2 = 0, d1 = 0]", "not_balanced"),
+        (ARM, '["d2 = 0", "m1*d1 + m2*l1 = 0", "l2 = 1"]', "condition_too_much"),
     ],
 )
-def test_verdicts(written: str, code: str, tmp_path: Path) -> None:
-    (tmp_path / "problem.yaml").write_text(ARM, encoding="utf-8")
+def test_verdicts(problem: str, written: str, code: str, tmp_path: Path) -> None:
+    (tmp_path / "problem.yaml").write_text(problem, encoding="utf-8")
     (tmp_path / "answer.yaml").write_text(f"answers:\n  balance: {written}\n", encoding="utf-8")
     (found,) = dynsolve.check(tmp_path / "problem.yaml", tmp_path / "answer.yaml").answers
     assert [one.code for one in found.diagnosis] == ([code] if code else [])

@@ -104,3 +104,11 @@ def test_the_step_says_what_is_left_of_the_equations() -> None:
     assert steps["equilibria"].title == "Where nothing else moves"
     assert "has solutions where" in str(steps["equilibria"].notes)
     assert "the kinetic energy of the motion" in str(steps["equilibria_stability"].why)
+
+
+def test_the_step_and_the_hint_say_what_is_assumed_and_what_the_motion_leaves() -> None:
+    solution = dynsolve.solve(f"{ARM}assume: [l*W^2 > g]\n")
+    (why,) = (step.why for step in solution.steps if step.id == "equilibria")
+    assert "Of the parameters it is given that" in str(why)
+    hint = str(solution.hint("equilibria"))
+    assert "The rates that are constant stay" in hint and "The inverse of D" not in hint
