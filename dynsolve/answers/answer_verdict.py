@@ -105,7 +105,7 @@ class AnswerJudge:
         if compared.other is not None:
             notes.append(compared.other)
         notes += self._fewer(base.name)
-        if base.name == "C" and not self._is_christoffel(compared.answer_value):
+        if base.name == "C" and compared.other is None and not self._is_christoffel(compared.answer_value):
             is_skew = self._is_skew(compared.answer_value)
             notes.append(NOT_CHRISTOFFEL.format(("not " if not is_skew else "") + "skew-symmetric"))
         entries = tuple(EntryVerdict(index, Verdict.CORRECT) for index, _, _ in _entries(base.name, compared))

@@ -20,6 +20,10 @@ from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.robot.model import JointType, Robot
 
 
+_TURNS = 3
+"""So many whole turns either way are looked at."""
+
+
 class EquilibriumKey:
     """The equilibria of one problem: its g, the key's alternatives, and the numbers that it gives."""
 
@@ -38,7 +42,7 @@ class EquilibriumKey:
         theirs = [held_equations((part.node for part in one), names, self._periodic) for one in given]
         for conditions in self.alternatives:
             for q in self._points(tuple(conditions)):
-                if not any(one.hold(q) for one in theirs):
+                if not any(one.hold(turned) for turned in self._turned(q) for one in theirs):
                     return SetVerdict(False, "equilibria_missing")
         for number, one in enumerate(given, 1):
             points = list(self._points(tuple(part.node for part in one)))
@@ -60,19 +64,31 @@ class EquilibriumKey:
             if found is not None:
                 yield found
 
+    def _turned(self, q: dict[str, float]) -> Iterator[dict[str, float]]:
+        """The configuration, and those that are the same by whole turns of angles that turn together."""
+        yield q
+        for turns in range(-_TURNS, _TURNS + 1) if self._together else ():
+            yield q | {name: q[name] + 2 * pi * turns for name in self._together}
+
+    @property
+    def _turning(self) -> tuple[str, ...]:
+        return tuple(q.name for q in self.robot.coordinates if q.type is JointType.REVOLUTE)
+
     @cached_property
     def _periodic(self) -> frozenset[str]:
         """The angles in which the forces have the period 2π."""
+        return frozenset(name for name in self._turning if self._have_period([name]))
+
+    @cached_property
+    def _together(self) -> tuple[str, ...]:
+        """The other angles, where the forces have that period in all of them together, as with springs between."""
+        others = tuple(name for name in self._turning if name not in self._periodic)
+        return others if others and self._have_period(others) else ()
+
+    def _have_period(self, names: Sequence[str]) -> bool:
+        """Whether the forces are the same after a turn of these angles."""
         program = compile_trees([self.gravity])
         at = next(starts(self.robot, self.numbers))
-        turning = (q.name for q in self.robot.coordinates if q.type is JointType.REVOLUTE)
-        return frozenset(
-            name
-            for name in turning
-            if all(
-                abs(a - b) < CLOSE
-                for (a,), (b,) in zip(
-                    program.run(at)[0], program.run({**at, name: at[name] + 2 * pi})[0], strict=True
-                )
-            )
-        )
+        turned = {**at, **{name: at[name] + 2 * pi for name in names}}
+        pairs = zip(program.run(at)[0], program.run(turned)[0], strict=True)
+        return all(abs(a - b) < CLOSE for (a,), (b,) in pairs)

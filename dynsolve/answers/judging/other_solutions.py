@@ -3,6 +3,8 @@
 Forces: those from outside may have been moved over to the side of the motors; the equation of a
 coordinate that no motor drives, ... = 0, may be multiplied by anything.
 
+C q̇: friction may be counted in it.
+
 The energy of springs: a constant of it is free, as the zero of height is.
 
 Joint rates and accelerations: every x with Jᵀ (J x - b) = 0 solves J x = b, or comes as near to it as can
@@ -43,6 +45,7 @@ class Other(StrEnum):
     WITHOUT_LOADS = "right with the forces from outside moved over: here τ is the left side, τ + Q the right"
     UP_TO_FACTOR = "right: where no motor drives, the equation may be multiplied by a factor"
     WITHOUT_GRAVITY = "right with gravity as a force on each link; in the key the base accelerates instead"
+    WITH_FRICTION = "right with the friction in it, which is a term of its own in the key"
     OF_C = "right with another choice of C than Christoffel's"
     OF_THE_PRODUCT = "these parameters leave Y open; the product is right"
     SAME_CONSTRAINT = "right in another form of the same constraint"
@@ -71,6 +74,8 @@ def other_solution(
         return Other.UP_TO_FACTOR if _is_multiple(graph, quantity, rows, compare) else None
     if quantity is not None and quantity.family in (families.P, families.L, action_families.PS):
         return Other.SPRINGS_FROM_ELSEWHERE if _differs_by_springs(graph, quantity, rows[0][0]) else None
+    if node == "Cqd":
+        return Other.WITH_FRICTION if _holds_friction(graph, rows, compare) else None
     if node == REFERENCE:
         return Other.OF_C if _refers(graph, rows) else None
     return Other.OF_MANY if _solves(graph, node, rows, compare.values) else None
@@ -154,6 +159,16 @@ def _is_what_motors_give(
         key - Q if isinstance(key, Matrix) else Matrix.column(Q.ring, [key - Q[quantity.index[0] - 1, 0]])
     )
     return all(compare(entry, row[0]) is not None for entry, row in zip(forces.entries, rows, strict=True))
+
+
+def _holds_friction(
+    graph: AnswerGraph, rows: Sequence[Sequence[WrittenEntry]], compare: EntryComparer
+) -> bool:
+    """Whether a vector is C q̇ and friction together."""
+    if "friction" not in graph.answer_ring.rules:
+        return False
+    wanted = graph.key("Cqd") + graph.key("friction")
+    return all(compare(entry, row[0]) is not None for entry, row in zip(wanted.entries, rows, strict=True))
 
 
 def _is_multiple(

@@ -27,7 +27,7 @@ from dynsolve.answers.reading.left_side import (
 )
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.matrix_parts import MatrixPart, entries_of, part_of
-from dynsolve.answers.reading.motion_equations import motion_equation
+from dynsolve.answers.reading.motion_equations import motion_equation, says_what_drives
 from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.right_side import RightSide, read_right_side, why_no_value
 from dynsolve.answers.reading.shapes import fitted, is_gravity_vector, model_parts, shown
@@ -100,6 +100,8 @@ class EquationReader:
 
     def read_display(self, display: Display) -> None:
         """Read the equations of one display; each becomes an answer, a definition, or is listed."""
+        if not display.text.strip():
+            return
         try:
             tokens = prepared(display.text, self.macros)
             found = equations(tokens)
@@ -151,7 +153,7 @@ class EquationReader:
             return
         sides = read_left_sides(self.vocabulary, members)
         names = list(dict.fromkeys(side.candidates for side in sides if isinstance(side, NamedAnswers)))
-        if self._of_motion(members, names, origin):
+        if self._of_motion(members, names, origin) or self._says_what_drives(members, sides[0], origin):
             return
         owners = tuple(name for candidates in names for name in candidates)
         read = [
@@ -171,6 +173,15 @@ class EquationReader:
             self.found.not_recognized.append(origin.of(members, "this says what a symbol of the problem is"))
         else:
             self._with_names(names, members, read, origin)
+
+    def _says_what_drives(self, members: list[list[Token]], first: LeftSide, origin: Origin) -> bool:
+        """Leave alone what only calls the forces: τ = (u, 0), d/dt ∂L/∂ẋ - ∂L/∂x = F."""
+        forces = {"tau", *(q.force for q in self.vocabulary.coordinates)}
+        named = [n for n in first.candidates if n in forces] if isinstance(first, NamedAnswers) else []
+        if len(members) != 2 or not named or not says_what_drives(self.vocabulary, named, members[-1]):
+            return False
+        self.found.left_alone.append(origin.of(members, "it says what drives the joints"))
+        return True
 
     def _of_motion(self, members: list[list[Token]], names: list[tuple[str, ...]], origin: Origin) -> bool:
         """Keep an equation of motion; whether the chain is one, no side naming more than all forces."""

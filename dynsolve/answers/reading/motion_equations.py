@@ -24,6 +24,7 @@ _INPUT = re.compile(r"(?:u|U|F|f|T|M|Q|tau)(?:[a-z]{0,3}|[1-9])")
 """Names of a force or torque that drives a mechanism, as students write them."""
 
 _LONGEST_NAME = 12
+_BETWEEN = frozenset({"begin", "close", "\\\\", "&", ",", ";", "[", "]", "(", ")"})
 _SIGNS = ("+", "-")
 _OPERATORS = frozenset({"+", "-", "*", "/", "cdot", "times", "^"})
 
@@ -68,6 +69,26 @@ def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> M
     free = tuple(name for rest in read for name in rest.free)
     found = RightSide(value, (), notes, free, is_definition=False)
     return MotionEquation(forces, found)
+
+
+def says_what_drives(vocabulary: Vocabulary, names: Sequence[str], member: list[Token]) -> bool:
+    """Whether a side of forces only calls them by letters, and passive ones 0: `F - b ẋ`, `(u, 0)` of all."""
+    if any(term.forces for term in _terms(vocabulary, member)):
+        return True
+    if [token.text for token in member[-2:]] in (["^", "T"], ["^", "top"]):
+        member = member[:-2]
+    entries: list[list[Token]] = [[]]
+    for token in member:
+        if token.kind in _BETWEEN:
+            entries.append([])
+        else:
+            entries[-1].append(token)
+    given = [entry for entry in entries if entry]
+    zeros = [entry for entry in given if [token.text for token in entry] == ["0"]]
+    passive = [name for name in vocabulary.passive if name in names or "tau" in names]
+    return 0 < len(given) >= len(zeros) <= len(passive) and all(
+        len(entry) <= _LONGEST_NAME and _forces(vocabulary, entry) for entry in given if entry not in zeros
+    )
 
 
 def _terms(vocabulary: Vocabulary, member: list[Token]) -> list[_Term]:

@@ -13,6 +13,8 @@ from dynsolve.answers.reading.dh_tables import NAME, tables_of, without
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.given_values import read_value
+from dynsolve.answers.reading.headed_sets import headed_sets, read_headed
+from dynsolve.answers.reading.headed_sets import without as without_sets
 from dynsolve.answers.reading.left_side import NamedAnswers, read_left_side
 from dynsolve.answers.reading.limits import MAX_EQUATIONS, MAX_MACRO_LENGTH, MAX_MACROS
 from dynsolve.answers.reading.plain_lines import FORMULA, plain_lines
@@ -79,6 +81,8 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     text, macros = _macros(visible(source.text, latex))
     tables = tables_of(text, _names(reader)) if NAME in reader.vocabulary.quantities else []
     text = without(text, tables)
+    sets = headed_sets(text, reader)
+    text = without_sets(text, sets)
     names_answer = _answer_names(reader)
     text = text if latex else with_equations(text, names_answer)
     spans = list(islice(_displays(text, source, names_answer), 2 * MAX_EQUATIONS))
@@ -93,6 +97,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         waiting = list(reversed(macros))
         for table in tables:
             read_value(reader, NAME, source.place(table.start, 1), table.value.display(source))
+        read_headed(reader, source, sets)
         for offset, display in displays:
             while waiting and waiting[-1].offset <= offset:
                 found = waiting.pop()

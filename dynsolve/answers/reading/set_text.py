@@ -41,6 +41,7 @@ _OR = re.compile(r"\s(?:or|oder|eller|ou)\s|\s\|\|?\s|∨|\\(?:lor|vee)\b|;")
 _AND = re.compile(r"\s(?:and|und|og|et|y)\s|&&?|∧|\\(?:land|wedge)\b")
 _JOINTS = re.compile(rf"{_OR.pattern}|{_AND.pattern}|,")
 _COMMA = re.compile(",")
+_LEADING_AND = re.compile(r"\A\s*(?:and|und|og)\s(?=[^=]*=)")
 _LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 
 
@@ -93,8 +94,9 @@ def _spelled_out(text: str) -> str:
 def _either(text: str, is_value: Callable[[str], bool]) -> Iterator[Together]:
     """The alternatives of a text in which words stand for signs."""
     found: list[list[list[str]]] = []
-    for piece in _parts(_without_parentheses(text), _OR):
-        for number, one in enumerate(_listed(piece)):
+    pieces = _parts(_without_parentheses(text), _OR)
+    for piece in pieces:
+        for number, one in enumerate(_listed(piece, is_one_of=len(pieces) > 1)):
             first, *others = _parts(one, _AND)
             before = found[-1][-1] if found else []
             if before and "=" not in first and "=" in before[0] and (number or is_value(first)):
@@ -136,17 +138,26 @@ def _left(text: str) -> str:
     return text.split("=")[0].strip()
 
 
-def _listed(text: str) -> list[str]:
-    """q₂ = 0, π and q₂ ∈ {0, π}: further values of one equation, which commas part."""
+def _listed(text: str, is_one_of: bool) -> list[str]:
+    """q₂ = 0, π and q₂ ∈ {0, π}: further values of one equation, which commas part.
+
+    Where commas part equations, they are alternatives if `and` joins some, and hold together in a
+    text that `is_one_of` several alternatives.
+    """
     if (members := _MEMBERS.search(text)) is not None:
         values = _parts(members[1], _COMMA)
         return [f"{text[: members.start()]}= {values[0]}", *values[1:]]
-    pieces = _parts(text, _COMMA)
+    pieces = [_LEADING_AND.sub("", piece) for piece in _parts(text, _COMMA)]
     lefts = {_left(piece) for piece in pieces if "=" in piece}
-    if len(pieces) > 1 and (len(lefts) != 1 or "=" not in pieces[0]):
-        help = "write a list of alternatives, and join by `and` what holds together"
-        raise ReadError("a comma stands between equations", text.find(","), 1, help)
-    return pieces
+    if len(pieces) == 1 or (len(lefts) == 1 and "=" in pieces[0]):
+        return pieces
+    if all("=" in piece for piece in pieces):
+        if any(len(_parts(piece, _AND)) > 1 for piece in pieces):
+            return pieces
+        if is_one_of:
+            return [" and ".join(pieces)]
+    help = "write a list of alternatives, and join by `and` what holds together"
+    raise ReadError("a comma stands between equations", text.find(","), 1, help)
 
 
 def _without_parentheses(text: str) -> str:

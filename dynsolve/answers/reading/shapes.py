@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from dynsolve.answers.reading.grids import Grid, Value, transposed
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
@@ -26,35 +24,49 @@ from dynsolve.notation.walk import walk
 from dynsolve.quantities import families
 
 _LONGEST_SHOWN = 2_000
+_ZEROS = "0"
+"""What a vector of zeros is called until it is known what stands beside it."""
 
 
 def model_parts(vocabulary: Vocabulary, value: Value) -> dict[str, Value]:
-    """D, C or the vector C q̇, and g of a model [..][q̈] + [..][q̇] + [..], or [..][q̈] + [..] + [..]."""
+    """D, C or the vector C q̇, and g of a model [..][q̈] + [..][q̇] + [..], or [..][q̈] + [..] + [..].
+
+    Of several vectors that are one and the same by their rates, as C q̇ and friction, none is taken.
+    """
     if not isinstance(value, Grid) or not value.terms:
         return {}
     n = len(vocabulary.coordinates)
     parts: dict[str, Value] = {}
+    vectors: list[tuple[str, Value]] = []
     for term in value.terms:
-        part: Value = term
-        if term.factors and term.factors[0].shape != (n, n):
+        if not term.factors:
+            vectors.append((_vector_name(term), term))
+            continue
+        matrix, right = term.factors
+        name = {2: "D", 1: "C"}.get(right.is_rates, "")
+        if matrix.shape != (n, n) or not name or name in parts:
             return {}
-        if term.factors:
-            part, right = term.factors
-            name = {2: "D", 1: "C"}.get(right.is_rates, "")
-        else:
-            name = _vector_name(term, parts)
-        if name in parts or (term.factors and not name):
-            return {}
-        if name:
-            parts[name] = part
+        parts[name] = matrix
+    names = [name for name, _ in vectors]
+    zeros = "Cqd" if "g" in names else "g"
+    names = [zeros if name == _ZEROS else name for name in names]
+    parts |= {
+        name: vector
+        for name, (_, vector) in zip(names, vectors, strict=True)
+        if name and names.count(name) == 1
+    }
+    if "C" in parts:
+        parts.pop("Cqd", None)
     return parts if "D" in parts else {}
 
 
-def _vector_name(term: Grid, parts: Mapping[str, Value]) -> str:
+def _vector_name(term: Grid) -> str:
     """What a vector beside D q̈ is: C q̇ where it vanishes at rest, g where it holds no rates, else both."""
     entries = [entry for row in term.rows for entry in row]
+    if all(entry == ZERO for entry in entries):
+        return _ZEROS
     if not any(_has_rates(entry) for entry in entries):
-        return "g" if "g" not in parts else "Cqd"
+        return "g"
     return "Cqd" if all(_vanishes_at_rest(entry) for entry in entries) else ""
 
 

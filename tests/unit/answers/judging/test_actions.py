@@ -131,3 +131,13 @@ def test_the_equation_of_a_passive_coordinate_may_be_multiplied_by_a_factor(
     assert note in "".join(found.notes)
     driven = judged(CART, "f1", f"2*({DRIVEN})")
     assert driven.verdict == "wrong"
+
+
+def test_friction_may_be_counted_in_c() -> None:
+    found = judged(ARM, "C", [["fv"]])
+    assert found.verdict == "wrong"
+    viscous = ARM.replace(", coulomb: fc", "")
+    found = judged(viscous, "C", [["fv"]])
+    assert found.verdict == "correct"
+    assert "friction" in "".join(found.notes)
+    assert judged(viscous, "Cqd", [["-fv*q1_dot"]]).verdict == "wrong"

@@ -47,3 +47,24 @@ def test_what_is_no_equation_of_motion_is_none(equation: str) -> None:
 
 def test_a_matrix_that_has_no_columns_by_itself_stops_nothing() -> None:
     report(r"$$Y = \begin{bmatrix} m_1 \\ g_0 \end{bmatrix}$$ $$2 Y = m_1 \ddot q_1$$", stem="rp-parameters")
+
+
+@pytest.mark.parametrize("equation", [
+    r"\tau = \begin{bmatrix} F \\ 0 \end{bmatrix}",
+    r"\tau = (u, 0)^T",
+    r"\tau_2 = 0",
+    r"\frac{d}{dt}\frac{\partial L}{\partial \dot q_1} - \frac{\partial L}{\partial q_1} = F - f_v \dot q_1",
+])  # fmt: skip
+def test_what_only_calls_the_forces_by_letters_is_left_alone(equation: str) -> None:
+    found = report(f"$${equation}$$", stem="crane")
+    assert found.answers == found.not_recognized == ()
+    assert len(found.left_alone) == 1
+
+
+def test_a_model_of_several_vectors_is_one_of_all_forces() -> None:
+    model = (
+        r"\begin{bmatrix} m & 0 \\ 0 & I_p \end{bmatrix}\begin{bmatrix}\ddot q_1 \\ \ddot q_2\end{bmatrix}"
+        r"+ \begin{bmatrix} m_p\dot q_2^2 \\ 0 \end{bmatrix} + \begin{bmatrix} f_v\dot q_1 \\ 0 \end{bmatrix}"
+        r"+ \begin{bmatrix} 0 \\ m_p g_0 \end{bmatrix} = \begin{bmatrix} F \\ 0 \end{bmatrix}"
+    )
+    assert [answer.name for answer in report(f"$${model}$$", stem="crane").answers] == ["D", "g", "tau"]

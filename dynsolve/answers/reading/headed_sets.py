@@ -1,0 +1,113 @@
+r"""Sets in the lines of a report that a head names, as `Equilibria: $\theta = 0$ or $\theta = \pi$`.
+
+The head is a name of the set, with a colon behind it; what follows on its
+line, or the items of the list below, are the alternatives.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from dynsolve.answers.reading.configurations import read_configurations
+from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.sources import Source
+
+_MARK = r"(?:[ \t>*_#+$|-]|[0-9]{1,2}[.)][ \t]|\\(?:item|noindent|par|quad|,|;|:|!|\[|\())*"
+_FONT = r"(?:\\(?:text\w{0,2}|emph|underline|paragraph\*?|(?:sub){0,2}section\*?|math(?:rm|bf))[ \t]*\{)?"
+_LINE = re.compile(
+    rf"(?m)^{_MARK}(?P<shown>{_FONT}[*_]*(?P<head>[A-Za-z][A-Za-z \t'-]{{2,60}}?)[*_ \t}}]*[:=][*_ \t}}]*(?P<value>[^\n]*))$"
+)
+_ITEM = re.compile(r"\n(?:[ \t]*\n)?[ \t]*(?:[-*+•]|\(?[0-9a-z]{1,2}[.)]|\\item\b)[ \t]*(?P<value>[^\n]*)")
+_HEADS = {
+    "equilibria": re.compile(
+        r"(?:the |all )*equilibri(?:a|um)(?: (?:points?|configurations?|positions?|states?))?(?: are| is)?", re.I
+    ),
+    "singular": re.compile(
+        r"(?:the |all )*singular(?:ity|ities)?(?: (?:configurations?|positions?|points?|sets?))?(?: are| is)?", re.I
+    ),
+    "balance": re.compile(
+        r"(?:the )?(?:conditions? (?:for|of) )?(?:gravity )?balanc(?:e|ed|ing)(?: (?:conditions?|of gravity))?", re.I
+    ),
+}
+"""What a set is called at the head of a line."""
+
+_REMARK = re.compile(r"\((?=[^()=]*[^\W\d_]{4})[^()=]*\)|,?[ \t]+(?:both |all )?(?:un)?stable\b")
+_NAME = r"\$?\\?[A-Za-z]\w{0,9}(?:_\{?\w{1,3}\}?)?\$?"
+_ANY = re.compile(
+    rf"[,;]?[ \t]*(?:\b(?:with|for|and|where)[ \t]+)?(?:\b(?:any|all|every|arbitrary)[ \t]+{_NAME}"
+    rf"|{_NAME}[ \t]+(?:(?:is|are|may be|can be)[ \t]+)?(?:arbitrary|any(?:thing|where)?|free)\b)"
+)
+_TRAILING = re.compile(r"(?:[\s.,;]|\\\]|\\\)|\\\\|\$\$)+\Z")
+_RELATION = re.compile(r"=|∈|\\in\b|\bnone\b|\bno\b")
+_MATHEMATICS = re.compile(r"\$|\\[()\[\]]")
+_NOT_LINE_END = re.compile(r"[^\n]")
+_CLOSING = re.compile(r"(?:\\\]|\\\)|\$\$?)[ \t.,;]*\Z")
+_PAIRS = (("\\[", "\\]"), ("\\(", "\\)"))
+_BLANK = " \t$*_}"
+_MOST = 200
+"""So many lines are looked at."""
+
+
+@dataclass(frozen=True, slots=True)
+class HeadedSet:
+    """What stands behind the head of a set, between two offsets of the report."""
+
+    name: str
+    start: int
+    end: int
+    text: str
+
+
+def headed_sets(text: str, reader: EquationReader) -> list[HeadedSet]:
+    """The sets that heads name in a report."""
+    asked = [name for name in _HEADS if name in reader.vocabulary.quantities]
+    found: list[HeadedSet] = []
+    for line in _LINE.finditer(text) if asked else ():
+        name = next((name for name in asked if _HEADS[name].fullmatch(line["head"])), "")
+        if name and len(found) < _MOST and line.start() >= (found[-1].end if found else 0):
+            end, values = _values(text, line)
+            value = _value(values)
+            if value and _RELATION.search(value):
+                start = line.start("shown")
+                found.append(HeadedSet(name, start, _before_closing(text, start, end), value))
+    return found
+
+
+def _values(text: str, line: re.Match[str]) -> tuple[int, list[str]]:
+    """Where the values of a head end, and these: what stands on its line, else the items of the list below."""
+    if line["value"].strip(_BLANK):
+        return line.end(), [line["value"]]
+    end, values = line.end(), list[str]()
+    while len(values) < _MOST and (item := _ITEM.match(text, end)) is not None:
+        values.append(item["value"])
+        end = item.end()
+    return end, values
+
+
+def _before_closing(text: str, start: int, end: int) -> int:
+    """The end without the sign that closes a display which was opened before the start."""
+    shown = text[start:end]
+    closing = _CLOSING.search(shown)
+    is_inside = shown.count("$") % 2 == 1 or any(shown.count(a) < shown.count(b) for a, b in _PAIRS)
+    return start + closing.start() if closing is not None and is_inside else end
+
+
+def _value(values: list[str]) -> str:
+    """The values as alternatives of one text, without dollars, and what is said of them beside."""
+    plain = (_ANY.sub("", _REMARK.sub("", value)) for value in values)
+    return " ; ".join(_TRAILING.sub("", _MATHEMATICS.sub(" ", value)).strip() for value in plain)
+
+
+def read_headed(reader: EquationReader, source: Source, found: Iterable[HeadedSet]) -> None:
+    """Read sets that were found, each as an answer file gives it."""
+    for one in found:
+        read_configurations(reader, one.name, source.place(one.start, 1), one.text, None)
+
+
+def without(text: str, found: Iterable[HeadedSet]) -> str:
+    """The text with blanks for the sets that were found, as long as it was."""
+    for one in found:
+        text = text[: one.start] + _NOT_LINE_END.sub(" ", text[one.start : one.end]) + text[one.end :]
+    return text

@@ -1,0 +1,61 @@
+"""Sets behind their heads in a report: which alternatives each form has."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.answers.reading.files import read_submission
+from dynsolve.answers.submission import Submission
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem import read_problem
+
+CART = read_problem("""
+gravity: [0, -g, 0]
+model:
+  coordinates: {x: prismatic, theta: revolute}
+  bodies: [{mass: M, at: [x, 0, 0]}, {mass: m, at: [x + l*sin(theta), l*cos(theta), 0]}]
+find: [equilibria]
+""")
+
+
+def report(text: str) -> Submission:
+    return read_submission(CART, text, "report.md")
+
+
+TWO = "θ | θ - π"
+FORMS = [
+    (r"Equilibria: $\theta = 0$ and $\theta = \pi$, $x$ arbitrary.", TWO),
+    (r"**Equilibria:** $\theta = 0$ (unstable), $\theta = \pi$ (stable), for any $x$.", TWO),
+    ("The equilibrium points are: theta = 0 or theta = pi", TWO),
+    ("equilibria: theta = 0 or pi", TWO),
+    ("equilibria = theta = 0 or theta = pi", TWO),
+    ("## Equilibria:\n\n- $\\theta = 0$\n- $\\theta = \\pi$\n\n$$P = m g$$", TWO),
+    (r"\[ \text{Equilibria: } \theta = 0,\ \pi \]", TWO),
+    (r"$$\text{Equilibria: } \sin\theta = 0$$", "sin(θ)"),
+    (r"\textbf{Equilibria:} $\sin\theta = 0$.", "sin(θ)"),
+    ("Equilibria: x = 0 and theta = 0; x = 0 and theta = pi", "x & θ | x & θ - π"),
+    ("Equilibria: x = 0 and theta = 0, x = 0 and theta = pi", "x & θ | x & θ - π"),
+    ("Equilibria: x = 0, theta = 0; x = 0, theta = pi", "x & θ | x & θ - π"),
+]
+
+
+@pytest.mark.parametrize(("text", "expected"), FORMS)
+def test_a_head_names_the_set_that_stands_behind_it(text: str, expected: str) -> None:
+    (found,) = report(text).configurations
+    assert not found.fault
+    shown = [" & ".join(to_unicode(part.node) for part in one) for one in found.alternatives]
+    assert (found.name, " | ".join(shown)) == ("equilibria", expected)
+
+
+@pytest.mark.parametrize("text", [
+    "Equilibria: see below.",
+    "We look for equilibria: where gravity moves nothing, g(q) = 0",
+    "Equilibria",
+])  # fmt: skip
+def test_other_words_are_no_head(text: str) -> None:
+    assert report(text).configurations == ()
+
+
+def test_what_stands_around_a_head_is_read_as_ever() -> None:
+    found = report("$$P = M g$$\nEquilibria: $\\theta = 0$\n$$K = M g$$")
+    assert [answer.name for answer in found.answers] == ["P", "K"]
