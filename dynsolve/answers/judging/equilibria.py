@@ -19,7 +19,6 @@ from dynsolve.notation.tree import Node
 from dynsolve.notation.tree_values import Program, compile_trees
 from dynsolve.robot.model import JointType, Robot
 
-
 _TURNS = 3
 """So many whole turns either way are looked at."""
 
@@ -81,7 +80,7 @@ class EquilibriumKey:
 
     @cached_property
     def _together(self) -> tuple[str, ...]:
-        """The other angles, where the forces have that period in all of them together, as with springs between."""
+        """The other angles, where the forces have that period in all together, as with springs between."""
         others = tuple(name for name in self._turning if name not in self._periodic)
         return others if others and self._have_period(others) else ()
 

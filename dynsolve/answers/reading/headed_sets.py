@@ -16,19 +16,16 @@ from dynsolve.answers.reading.sources import Source
 
 _MARK = r"(?:[ \t>*_#+$|-]|[0-9]{1,2}[.)][ \t]|\\(?:item|noindent|par|quad|,|;|:|!|\[|\())*"
 _FONT = r"(?:\\(?:text\w{0,2}|emph|underline|paragraph\*?|(?:sub){0,2}section\*?|math(?:rm|bf))[ \t]*\{)?"
-_LINE = re.compile(
-    rf"(?m)^{_MARK}(?P<shown>{_FONT}[*_]*(?P<head>[A-Za-z][A-Za-z \t'-]{{2,60}}?)[*_ \t}}]*[:=][*_ \t}}]*(?P<value>[^\n]*))$"
-)
+_HEAD = r"(?P<head>[A-Za-z][A-Za-z \t'-]{2,60}?)[*_ \t}]*[:=][*_ \t}]*"
+_LINE = re.compile(rf"(?m)^{_MARK}(?P<shown>{_FONT}[*_]*{_HEAD}(?P<value>[^\n]*))$")
 _ITEM = re.compile(r"\n(?:[ \t]*\n)?[ \t]*(?:[-*+•]|\(?[0-9a-z]{1,2}[.)]|\\item\b)[ \t]*(?P<value>[^\n]*)")
+_PLACES = r"(?: (?:points?|configurations?|positions?|states?|sets?))?(?: are| is)?"
 _HEADS = {
-    "equilibria": re.compile(
-        r"(?:the |all )*equilibri(?:a|um)(?: (?:points?|configurations?|positions?|states?))?(?: are| is)?", re.I
-    ),
-    "singular": re.compile(
-        r"(?:the |all )*singular(?:ity|ities)?(?: (?:configurations?|positions?|points?|sets?))?(?: are| is)?", re.I
-    ),
+    "equilibria": re.compile(rf"(?:the |all )*equilibri(?:a|um){_PLACES}", re.IGNORECASE),
+    "singular": re.compile(rf"(?:the |all )*singular(?:ity|ities)?{_PLACES}", re.IGNORECASE),
     "balance": re.compile(
-        r"(?:the )?(?:conditions? (?:for|of) )?(?:gravity )?balanc(?:e|ed|ing)(?: (?:conditions?|of gravity))?", re.I
+        r"(?:the )?(?:conditions? (?:for|of) )?(?:gravity )?balanc(?:e|ed|ing)(?: conditions?| of gravity)?",
+        re.IGNORECASE,
     ),
 }
 """What a set is called at the head of a line."""
@@ -76,7 +73,7 @@ def headed_sets(text: str, reader: EquationReader) -> list[HeadedSet]:
 
 
 def _values(text: str, line: re.Match[str]) -> tuple[int, list[str]]:
-    """Where the values of a head end, and these: what stands on its line, else the items of the list below."""
+    """Where the values of a head end, and these: those of its line, else the items of the list below."""
     if line["value"].strip(_BLANK):
         return line.end(), [line["value"]]
     end, values = line.end(), list[str]()
