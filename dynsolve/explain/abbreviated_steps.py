@@ -231,8 +231,9 @@ class _LongModel:
         return _with(
             step,
             equation(letters.K, _QUADRATIC, self.formulas.kinetic_energy()),
-            " It is a quadratic form in the rates; its coefficients are the entries of D, which the "
-            "vectorized form gives as sums over the bodies.",
+            " It is a quadratic form in the rates; its coefficients are the entries of ",
+            letters.D,
+            ", which the vectorized form gives as sums over the bodies.",
         )
 
     def lagrangian(self, step: Step) -> Step:
@@ -291,9 +292,13 @@ class _LongModel:
             step,
             title="D, assembled from the Jacobians",
             why=(
-                "The forces above are written in the entries of D. They follow from the kinetic energy: ",
+                "The forces above are written in the entries of ",
+                letters.D,
+                ". They follow from the kinetic energy: ",
                 equation(letters.K, _QUADRATIC),
-                " makes D a sum over them, here multiplied out. It is symmetric, and depends on the "
+                " makes ",
+                letters.D,
+                " a sum over them, here multiplied out. It is symmetric, and depends on the "
                 "coordinates, but on no rate.",
             ),
             formula=self.direct.formula,

@@ -66,7 +66,11 @@ def skew_step(context: Context) -> Step:
         stage=STAGE,
         title="Check: Ḋ - 2C is skew-symmetric",
         why=(
-            "With C from the Christoffel symbols, N plus its transpose is zero, compared exactly, so that ",
+            "With ",
+            letters.C,
+            " from the Christoffel symbols, ",
+            name,
+            " plus its transpose is zero, compared exactly, so that ",
             equation(letters.transposed_product(letters.QD, name), Number(0)),
             " for all rates. Passivity follows from this.",
         ),
@@ -76,7 +80,10 @@ def skew_step(context: Context) -> Step:
         source=spong("7.5.1"),
         result=(*result, equation(Sum((name, Transpose(name))), Number(0))),
         hint=(
-            "A check at the end: with C from the Christoffel symbols, N plus its transpose must come out "
-            "as zero.",
+            "A check at the end: with ",
+            letters.C,
+            " from the Christoffel symbols, ",
+            name,
+            " plus its transpose must come out as zero.",
         ),
     )

@@ -163,7 +163,7 @@ def _products(context: Context) -> tuple[Line, ...]:
         return ()
     name = Product((_A, Power(letters.D, _MINUS_ONE), Transpose(_A)))
     return (
-        Line(("The inverse of D, its adjugate over its determinant:",),
+        Line(("The inverse of ", letters.D, ", its adjugate over its determinant:",),
              (equation(Power(letters.D, _MINUS_ONE), over),)),
         Line(("With it",), (equation(name, shown),)),
     )  # fmt: skip

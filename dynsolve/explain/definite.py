@@ -93,8 +93,8 @@ def _general(is_relative: bool) -> Step:
         title="What an inertia matrix is",
         why=(
             "An inertia matrix is symmetric. It is made of sines and cosines of angles, and at most "
-            f"quadratic in lengths.{chain} And it is positive definite for every q: its leading minors "
-            "are positive.",
+            f"quadratic in lengths.{chain} And it is positive definite in every configuration: its "
+            "leading minors are positive.",
         ),
         formula=Relation((minor, Number(0)), (">",)),
         source=spong("7.5"),
@@ -107,7 +107,7 @@ def reason(forms: Forms, found: Definiteness) -> Prose:
         return _not_positive(forms, found)
     if found.refusal is not None:
         return _refused(found)
-    all_positive = "Every leading minor is positive for every q"
+    all_positive = "Every leading minor is positive in every configuration"
     if found.answer is Answer.IF:
         return (f"{all_positive} exactly if ", *listed([inequality(forms, b) for b in found.conditions]), ".")
     return (f"{all_positive}.",)
@@ -143,7 +143,7 @@ def _not_positive(forms: Forms, found: Definiteness) -> Prose:
     if not where and found.minors[found.size - 1].is_number:
         return (equation(minor, forms.of(value)), " is not positive.")
     if not where:
-        return (minor, " is not positive for every q.")
+        return (minor, " is not positive in every configuration.")
     known = equation(minor, forms.of(value)) if extreme.bound.is_strict else minor
     return ("Where ", *listed(where), ", ", known, ", which is not positive.")
 

@@ -294,7 +294,9 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         notes=tuple(_cancelling(context, body)) if working and tells else (),
         hint=(
             "Half the mass times the square of the speed of the mass centre: add up the squares of the "
-            "components of v.",
+            "components of ",
+            v,
+            ".",
         ),
     )
 
@@ -360,14 +362,14 @@ def _rotational(context: Context, body: Body) -> Step:
         title=f"Rotational kinetic energy of {name_of(body)}",
         why=("The body does not turn.",)
         if still
-        else (f"ω and the tensor, both in {context.ground} coordinates.",),
+        else (w, f" and the tensor, both in {context.ground} coordinates."),
         formula=equation(Kw, Product((letters.HALF, letters.transposed_product(w, tensor)))),
         source=spong("7.2"),
         working=working,
         lines=way.lines,
         concluding=way.concluding,
         result=(equation(Kw, form),),
-        hint=("ω and the tensor, both in base coordinates.",),
+        hint=(w, f" and the tensor, both in {context.ground} coordinates."),
     )
 
 

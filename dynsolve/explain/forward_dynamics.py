@@ -56,4 +56,13 @@ def _inverse(context: Context) -> tuple[Line, ...]:
     shown = context.forms.of(quotient(adjugate(D), determinant(D)))
     if not is_small(shown):
         return ()
-    return (Line(("The inverse of D, its adjugate over its determinant:",), (equation(_INVERSE, shown),)),)
+    return (
+        Line(
+            (
+                "The inverse of ",
+                letters.D,
+                ", its adjugate over its determinant:",
+            ),
+            (equation(_INVERSE, shown),),
+        ),
+    )

@@ -80,7 +80,9 @@ class _Explained:
         why: Prose = (
             "The joint axes in the pose that is drawn, in world coordinates; the hand is at ",
             self._row(hand.at),
-            ". z lies along each joint axis in the direction that is given.",
+            ". ",
+            letters.bold("z"),
+            " lies along each joint axis in the direction that is given.",
         )
         return Step(
             id="axes",
@@ -131,7 +133,7 @@ class _Explained:
             id=f"frame{i}",
             stage=STAGE,
             title=f"Frame {i}",
-            why=_prose(self._why(i)),
+            why=self._prose(self._why(i)),
             source=self.source,
             result=(side_by_side(shown),),
             hint=_HINT if i else (),
@@ -179,7 +181,7 @@ class _Explained:
             id="DH",
             stage=STAGE,
             title="The Denavit-Hartenberg table",
-            why=_prose(why),
+            why=self._prose(why),
             source=self.source,
             notes=notes,
             table=table_of(self.context),
@@ -190,29 +192,30 @@ class _Explained:
     def _zero(self) -> str:
         if self.drawing.zero_is_drawn:
             return (
-                "Turning joints are at 0 as drawn, so that θ is the coordinate plus the angle that is drawn."
+                "Turning joints are at 0 as drawn, so that θ_i is the coordinate plus the angle that is "
+                "drawn."
             )
         return "The coordinates are the variables of the table, so that nothing is added to them."
 
+    def _prose(self, text: str) -> Prose:
+        """A sentence with its letters set: o_1, x_{i-1}, and θ_i as the columns of the table are called."""
+        pieces: list[Inline] = []
+        done = 0
+        for found in _LETTER.finditer(text):
+            written = found[2].strip("{}")
+            index = tree.Number(int(written)) if written.isdecimal() else tree.Words(written)
+            pieces += [text[done : found.start()], self._letter(found[1], index)]
+            done = found.end()
+        return tuple(piece for piece in (*pieces, text[done:]) if piece)
 
+    def _letter(self, base: str, index: Node) -> Node:
+        if base in _COLUMNS:
+            return letters.columns(self.context.robot, index)[_COLUMNS.index(base)]
+        return letters.bold(base, index)
+
+
+_COLUMNS = "θdaα"
 _LETTER = re.compile(r"(?<![A-Za-z])([oxzda]|θ|α)_(\{[^}]*\}|[0-9i])")
-
-
-def _prose(text: str) -> Prose:
-    """A sentence with its letters set: o_1, x_{i-1}, θ_i."""
-    pieces: list[Inline] = []
-    done = 0
-    for found in _LETTER.finditer(text):
-        written = found[2].strip("{}")
-        index = tree.Number(int(written)) if written.isdecimal() else tree.Words(written)
-        base = _GREEK.get(found[1], found[1])
-        letter = letters.bold(base, index) if base in ("o", "x", "z") else tree.Letter(base, index)
-        pieces += [text[done : found.start()], letter]
-        done = found.end()
-    return tuple(piece for piece in (*pieces, text[done:]) if piece)
-
-
-_GREEK = {"θ": "theta", "α": "alpha"}
 
 
 def _of_two(relation: Relation, i: int, following: str, side: str) -> str:
@@ -227,8 +230,8 @@ def _of_two(relation: Relation, i: int, following: str, side: str) -> str:
             )
         case Relation.INTERSECTING:
             return (
-                f"{both} meet, so that a is 0: o_{i} is the point where they do, and x_{i} is perpendicular "
-                f"to both. Of its two directions the one nearer to x_{i - 1} is taken."
+                f"{both} meet, so that a_{i} is 0: o_{i} is the point where they do, and x_{i} is "
+                f"perpendicular to both. Of its two directions the one nearer to x_{i - 1} is taken."
             )
         case Relation.PARALLEL:
             return (

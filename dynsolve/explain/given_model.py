@@ -97,7 +97,11 @@ def _of_inertia(context: Context, given: GivenModel) -> Step:
         id="K",
         stage=Stage.ENERGY,
         title="Kinetic energy",
-        why=("The problem gives D, and the kinetic energy is its quadratic form in the rates.",),
+        why=(
+            "The problem gives ",
+            letters.D,
+            ", and the kinetic energy is its quadratic form in the rates.",
+        ),
         formula=equation(letters.K, _QUADRATIC),
         source=spong("7.3"),
         working=working,
@@ -110,13 +114,14 @@ def _of_inertia(context: Context, given: GivenModel) -> Step:
 def inertia_step(context: Context, given: GivenModel) -> Step:
     """The D that is given, or that of K, beside the one read off from the forces."""
     same = context.values["D"] == context.values["D_direct"]
-    ends = " It is the D read off above, entry by entry." if same else " It is not the D read off above."
+    ends: Prose = (" It is" if same else " It is not", " the ", letters.D, " read off above")
+    ends += (", entry by entry.",) if same else (".",)
     if given.D is not None:
         return Step(
             id="D_direct",
             stage=Stage.VECTORIZED,
             title="D, as the problem gives it",
-            why=("Without the Lagrangian.", ends),
+            why=("Without the Lagrangian.", *ends),
             source=spong("7.3"),
             result=(equation(letters.D, context.form("D_direct")),),
             uses=(),
@@ -133,7 +138,7 @@ def inertia_step(context: Context, given: GivenModel) -> Step:
             "Without the Lagrangian: ",
             equation(letters.K, _QUADRATIC),
             ", so that entry (i, j) is the second derivative of the kinetic energy by two rates.",
-            ends,
+            *ends,
         ),
         formula=equation(Letter("d", Row((i, j))), second),
         source=spong("7.3"),

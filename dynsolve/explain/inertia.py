@@ -227,13 +227,17 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
             why = f"The body's axes are turned in frame {link}, as the problem gives them."
             return (why,), Product((frame, turned)), ()
         case AxesKind.REST:
-            why = (
-                "The body's axes are parallel to frame 0 at q = 0 and turn with the link: its rotation, "
-                "times the inverse of that at q = 0."
+            at_zero = equation(letters.Q, letters.bold("0"))
+            turning: Prose = (
+                "The body's axes are parallel to frame 0 at ",
+                at_zero,
+                " and turn with the link: its rotation, times the inverse of that at ",
+                at_zero,
+                ".",
             )
-            at_rest = Row((frame, Words("(0)")))
+            at_rest = Row((frame, Parenthesized(letters.bold("0"))))
             base = (letters.R(robot, 0),) if letters.has_base(robot) else ()
-            return (why,), Product((frame, Transpose(Parenthesized(at_rest)), *base)), ()
+            return turning, Product((frame, Transpose(Parenthesized(at_rest)), *base)), ()
         case AxesKind.BASE:
             why = f"The rotation from the base to the frame of {name_of(body)} is given by the problem."
             product = Product((letters.R(robot, 0), turned)) if letters.has_base(robot) else None
@@ -300,7 +304,8 @@ def _base_tensor(context: Context, body: Body) -> Step:
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
         why=(
-            f"ω is written in {context.ground} coordinates, so the tensor must be too: ",
+            letters.bold("omega"),
+            f" is written in {context.ground} coordinates, so the tensor must be too: ",
             R,
             f" leads from the body's axes to those of the {context.ground}.",
         ),

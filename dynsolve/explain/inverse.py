@@ -210,16 +210,16 @@ class _Explainer:
             notes=tuple(self._free_coordinates()),
             detail=Detail.BRIEF,
             uses=tuple(f"inverse_{name}" for name in names),
-            hint=(f"Put every choice among these into {self._task}: those that give what is asked are the "
-                  "solutions.",),
+            hint=("Put every choice among these into ", self._task,
+                  ": those that give what is asked are the solutions."),
             hint_title="The solutions",
         )  # fmt: skip
 
     @property
-    def _task(self) -> str:
+    def _task(self) -> Node:
         """What is to have given values."""
         task = self.context.robot.questions.task
-        return "H(q)" if task is not None and task.is_pose else "r(q)"
+        return letters.FRAME_OF_Q if task is not None and task.is_pose else letters.TASK_OF_Q
 
     def _rows(self) -> Iterator[tuple[Node | str, ...]]:
         """A branch a row: formulas that are short, and of the others which of their two is meant."""

@@ -15,6 +15,7 @@ from dynsolve.explain.target import Configuration, Lost, TargetForms
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import Degrees, Function, Negative, Node, Number, Relation, Symbol, equation
 from dynsolve.notation.walk import names_in, walk
+from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
 _DIGITS = 4
@@ -68,7 +69,7 @@ def _configuration(forms: TargetForms, one: Configuration, number: int) -> Step:
 def _where_from(one: Configuration) -> Prose:
     match one.branches:
         case ():
-            return ("Found in numbers, and put into r(q).",)
+            return ("Found in numbers, and put into ", letters.TASK_OF_Q, ".")
         case (branch,):
             return (f"Branch {branch} with these numbers.",)
     numbers = listed([str(branch) for branch in one.branches])
@@ -138,7 +139,7 @@ def _all(forms: TargetForms) -> Step:
         title="The configuration that reaches it"
         if one
         else f"The {len(found)} configurations that reach it",
-        why=(told(forms),),
+        why=told(forms),
         table=_table(forms),
         notes=tuple(_lost(forms)),
         detail=Detail.BRIEF,
@@ -148,14 +149,15 @@ def _all(forms: TargetForms) -> Step:
     )
 
 
-def told(forms: TargetForms) -> str:
+def told(forms: TargetForms) -> Prose:
     """How the configurations were found, and how they are known to be right."""
     if forms.is_searched:
         return (
-            "Newton's method from 200 configurations led to these, each put into r(q) to ten digits. "
-            "That there are no others is not proved."
+            "Newton's method from 200 configurations led to these, each put into ",
+            letters.TASK_OF_Q,
+            " to ten digits. That there are no others is not proved.",
         )
-    return "Each is put into r(q) to see that it gives the task."
+    return ("Each is put into ", letters.TASK_OF_Q, " to see that it gives the task.")
 
 
 def _table(forms: TargetForms) -> Table:

@@ -32,7 +32,7 @@ from dynsolve.robot.model import Joint, JointType
 
 STAGE = Stage.KINEMATICS
 
-_ZERO, _ONE = Number(0), Number(1)
+_ZERO, _ONE, _I = Number(0), Number(1), Symbol("i")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -49,15 +49,7 @@ def steps(context: Context) -> Iterator[Step]:
 
 def table_of(context: Context) -> Table:
     """The rows of the table as they are written."""
-    header: Prose = (Symbol("i"), Symbol("theta"), Symbol("d"), Symbol("a"), Symbol("alpha"))
-    if not context.standard:
-        header = (
-            Symbol("i"),
-            Letter("theta", Symbol("i")),
-            Letter("d", Symbol("i")),
-            Letter("a", Words("i-1")),
-            Letter("alpha", Words("i-1")),
-        )
+    header: Prose = (_I, *letters.columns(context.robot, _I))
     if context.robot.is_tree:
         rows = ((str(joint.index), str(joint.parent), *joint.written) for joint in context.robot.joints)
         return Table((header[0], "from", *header[1:]), tuple(rows))
@@ -66,29 +58,42 @@ def table_of(context: Context) -> Table:
 
 def _table(context: Context) -> Step:
     robot = context.robot
+    theta, d, a, alpha = letters.columns(robot, _I)
     if context.standard:
         why: Prose = (
-            "Each row takes frame i-1 to frame i by four motions: a rotation by θ about ",
+            "Each row takes frame i-1 to frame i by four motions: a rotation by ",
+            theta,
+            " about ",
             _axis("z", "i-1"),
             ", a translation by ",
-            Symbol("d"),
+            d,
             " along it, a translation by ",
-            Symbol("a"),
+            a,
             " along ",
             _axis("x", "i"),
-            " and a rotation by α about that. ",
+            " and a rotation by ",
+            alpha,
+            " about that. ",
         )
     else:
         why = (
-            "Each row takes frame i-1 to frame i by four motions: a rotation by α about ",
+            "Each row takes frame i-1 to frame i by four motions: a rotation by ",
+            alpha,
+            " about ",
             _axis("x", "i-1"),
             ", a translation by ",
-            Symbol("a"),
-            " along it, a rotation by θ about ",
+            a,
+            " along it, a rotation by ",
+            theta,
+            " about ",
             _axis("z", "i"),
             " and a translation by ",
-            Symbol("d"),
-            " along that. ",
+            d,
+            " along that. Craig numbers ",
+            a,
+            " and ",
+            alpha,
+            " of row i by i-1. ",
         )
     if any(joint.type for joint in robot.joints):
         why += ("The star marks a joint variable: ", *_kinds(context))
@@ -195,10 +200,8 @@ def _times(*factors: Node) -> Node:
 
 
 def _general(context: Context) -> Step:
-    i, before = Symbol("i"), Words("i-1")
-    theta, d = Letter("theta", i), Letter("d", i)
+    theta, d, a, alpha = letters.columns(context.robot, _I)
     if context.standard:
-        a, alpha = Letter("a", i), Letter("alpha", i)
         rows: tuple[tuple[Node, ...], ...] = (
             (_cos(theta), Negative(_times(_sin(theta), _cos(alpha))), _times(_sin(theta), _sin(alpha)),
              _times(a, _cos(theta))),
@@ -208,7 +211,6 @@ def _general(context: Context) -> Step:
         )  # fmt: skip
         motions = (("z", theta), ("z", d), ("x", a), ("x", alpha))
     else:
-        a, alpha = Letter("a", before), Letter("alpha", before)
         rows = (
             (_cos(theta), Negative(_sin(theta)), _ZERO, a),
             (_times(_sin(theta), _cos(alpha)), _times(_cos(theta), _cos(alpha)), Negative(_sin(alpha)),
@@ -219,7 +221,7 @@ def _general(context: Context) -> Step:
         motions = (("x", alpha), ("x", a), ("z", theta), ("z", d))
     product = Product(tuple(_motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
     matrix = Matrix((*rows, (_ZERO, _ZERO, _ZERO, _ONE)))
-    name = Letter("A", i, style="bold")
+    name = Letter("A", _I, style="bold")
     return Step(
         id="A",
         stage=STAGE,
@@ -237,24 +239,19 @@ def _general(context: Context) -> Step:
 
 
 def _motion(axis: str, amount: Node, turns: bool) -> Node:
-    """Rot_{z,θ_i} or Trans_{z,d_i}"""
+    """Rot_{z,θ} or Trans_{z,d}"""
     return Letter("Rot" if turns else "Trans", Row((Words(axis), Words(","), amount)), style="upright")
 
 
 def _row(context: Context, joint: Joint) -> Step:
     i = joint.index
-    theta, d, a, alpha = joint.written
-    given = side_by_side([
-        equation(Symbol("theta"), theta),
-        equation(Symbol("d"), d),
-        equation(Symbol("a"), a),
-        equation(Symbol("alpha"), alpha),
-    ])  # fmt: skip
+    columns = letters.columns(context.robot, Number(i))
+    given = side_by_side([equation(*pair) for pair in zip(columns, joint.written, strict=True)])
     match joint.type:
         case JointType.REVOLUTE:
-            why: Prose = ("Only θ varies: a revolute joint.",)
+            why: Prose = ("Only ", columns[0], " varies: a revolute joint.")
         case JointType.PRISMATIC:
-            why = ("Only ", Symbol("d"), " varies: a prismatic joint.")
+            why = ("Only ", columns[1], " varies: a prismatic joint.")
         case None:
             why = ("Nothing varies: a fixed frame.",)
     return Step(

@@ -17,11 +17,8 @@ from dynsolve.explain.signs import shorthands
 from dynsolve.explain.textbook_letters import SHAPES, Line, textbook
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.characters import GREEK
-from dynsolve.notation.names import split
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Words, equation
-from dynsolve.quantities import letters
-from dynsolve.quantities.letters import index_of
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.shapes import MASS
 from dynsolve.robot.units import node as unit_node
@@ -139,7 +136,7 @@ def notation(
     shown = tuple(
         _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
     )
-    return Notation((*_counting(occurring - own), *_numbers(style), *_bold(occurring, style)), shown)
+    return Notation((*_counting(occurring - own), *_numbers(style), *_bold(occurring)), shown)
 
 
 def _told(line: Line, style: Style) -> Line:
@@ -189,15 +186,7 @@ def _numbers(style: Style) -> Iterator[Inline]:
         yield f"Numbers are exact, and shown with {style.digits} significant digits. "
 
 
-def _bold(occurring: set[Kind], style: Style) -> Prose:
-    """That a bold letter is not the same as a name of the problem, where both occur."""
-    pairs: list[Prose] = []
-    for base in sorted(style.bold):
-        shapes = {shape for vector, kind, shape in occurring if (vector, kind) == (base, "bold")}
-        names = sorted(name for _, kind, name in occurring if kind == "name" and split(name)[0] == base)
-        if shapes and names:
-            index = "".join(split(names[0])[1])
-            pairs.append(
-                (letters.bold(base, index_of(index) if index else None), " is not ", Symbol(names[0]))
-            )
-    return (*listed(pairs), ": a bold letter is a vector or a matrix.") if pairs else ()
+def _bold(occurring: set[Kind]) -> Iterator[Inline]:
+    """What a bold letter is."""
+    if any(kind == "bold" for _, kind, _ in occurring):
+        yield "Bold letters are vectors and matrices."

@@ -144,7 +144,7 @@ def _energy(robot: Robot) -> Iterator[Prose]:
     if points:
         yield ("A point has no tensor, and so no rotational energy: that holds for ", *_bodies(points), ".")
     if len(points) < len(robot.bodies):
-        yield ("ω and the tensor must be in the same frame.",)
+        yield (letters.bold("omega"), " and the tensor must be in the same frame.")
     if any(spring.law for spring in robot.actions.springs):
         yield ("The energy of a spring has a ½, and the stretch is squared as a whole, with its rest.",)
     if any(motor.ratio != robot.ring.one for motor in robot.actions.motors):
@@ -176,7 +176,10 @@ def _torque(robot: Robot) -> Iterator[Prose]:
 
 def _vectorized(robot: Robot) -> Iterator[Prose]:
     if robot.n > 1:
-        yield ("D is symmetric. If yours is not, look for the slip in the forces.",)
+        yield (
+            letters.D,
+            " is symmetric. If yours is not, look for the slip in the forces.",
+        )
         yield ("The rates stay inside C: each of its terms holds one rate, each term of ",
                Product((letters.C, letters.QD)), " two.")  # fmt: skip
         yield (
@@ -202,7 +205,11 @@ def _inverse(robot: Robot) -> Iterator[Prose]:
     if _of_type(robot, JointType.REVOLUTE):
         yield ("A cosine or a sine alone leaves two angles, and each is a branch of its own.",)
         yield ("atan2 takes y first, and knows all four quadrants; arctan(y/x) knows two.",)
-    yield ("Put each solution into r(q): what was squared on the way may have brought one too many.",)
+    yield (
+        "Put each solution into ",
+        letters.TASK_OF_Q,
+        ": what was squared on the way may have brought one too many.",
+    )
 
 
 def _parameters(robot: Robot) -> Iterator[Prose]:
@@ -224,13 +231,23 @@ def _equilibria(robot: Robot) -> Iterator[Prose]:
     if asked.isdisjoint(("linear_A", "linear_B")):
         return
     yield ("Differentiate first, then put the equilibrium in.",)
-    yield ("The inverse of D stands before the derivatives of g, with a minus sign.",)
+    yield (
+        "The inverse of ",
+        letters.D,
+        " stands before the derivatives of ",
+        letters.G,
+        ", with a minus sign.",
+    )
     if robot.actions.passive:
         yield ("What no motor drives has no column in B, but its row stays.",)
 
 
 def _forward_dynamics(robot: Robot) -> Iterator[Prose]:
-    yield ("The inverse of D stands before the whole sum of forces, from the left.",)
+    yield (
+        "The inverse of ",
+        letters.D,
+        " stands before the whole sum of forces, from the left.",
+    )
     yield ("What stands beside the inertial forces, on their side, goes over with a minus sign.",)
     if robot.actions.passive:
         yield ("What no motor drives is accelerated, too: its force is 0, and its row stays.",)

@@ -123,7 +123,9 @@ def _accelerations(context: Context) -> Step:
     wanted = Sum((_R_DDOT, Negative(turned)))
     why = (
         equation(_R_DDOT, Sum((Product((_J, letters.QDD)), turned))),
-        ": what J̇ brings without the joints' accelerations is taken off first. The rest ",
+        ": what ",
+        letters.bold("J", dots=1),
+        " brings without the joints' accelerations is taken off first. The rest ",
         *_solved_by(context, J, right, letters.QDD), *state_prose(context),
     )  # fmt: skip
     return Step(

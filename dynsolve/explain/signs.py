@@ -3,9 +3,10 @@
 The names of the problem are kept as they are, and so are the shorthands s_1 and c_12.  A letter of the
 textbook that would look like one of them is set otherwise:
 
-- a scalar in another letter, the entry c_12 of C beside c_12 = cos(θ_1 + θ_2) as C_12 (`ALTERNATIVES`);
-- a vector or a matrix is bold, on paper always, and in a terminal where it has to be seen: the axis **z**_1
-  beside the coordinate z_1 of a mass centre, the term **g** beside the number g.
+- a scalar in another letter, the energy P_1 beside a length P_1 as U_1 (`ALTERNATIVES`), and the entry
+  c_12 of C as C_12 wherever c_1 is a cosine: it would be read as cos(θ_1 + θ_2);
+- a vector or a matrix is bold, on paper and in a terminal: the axis **z**_1 beside the coordinate z_1 of a
+  mass centre, the term **g** beside the number g.
 
 To give a letter another one, add it to `ALTERNATIVES`.  The choices are told in the list of notation
 (`explain.notation_list`).
@@ -13,19 +14,17 @@ To give a letter another one, add it to `ALTERNATIVES`.  The choices are told in
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import chain, combinations, product
 
 from dynsolve.explain.forms import parallel_coordinates
 from dynsolve.explain.style import shown_digits, style_of
 from dynsolve.notation.printing import Sign, Style, shorthand
-from dynsolve.notation.tree import Function, Letter, Node, Number, Sum, Symbol
+from dynsolve.notation.tree import Function, Node, Sum, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
-from dynsolve.quantities.robot_stages import stages_of
-from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
 
 ALTERNATIVES: dict[tuple[str, int], str] = {
@@ -54,12 +53,12 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
     taken = frozenset(_own(robot, style))
     found: dict[Sign, str] = {}
     for (base, count), other in ALTERNATIVES.items():
-        if not taken.isdisjoint(_printed(_scalars(robot, base, count))):
+        read_as_cosine = (base, count) == ("c", 2) and style.shorthand
+        if read_as_cosine or not taken.isdisjoint(_printed(_scalars(robot, base, count))):
             found[base, "italic", count] = other
-    bold = frozenset(letter.base for letter in _vectors(robot) if not taken.isdisjoint(_printed([letter])))
     decimal = style.decimal or digits is not None
     shown = (digits or shown_digits(robot)) if decimal else 0
-    return replace(style, letters=found, bold=bold, decimal=decimal, digits=shown)
+    return replace(style, letters=found, bold=True, decimal=decimal, digits=shown)
 
 
 def _printed(nodes: Iterable[Node]) -> Iterator[str]:
@@ -85,18 +84,7 @@ def _names(robot: Robot) -> list[str]:
 
 def _own(robot: Robot, style: Style) -> Iterator[str]:
     """The names of the problem and the shorthands, as a terminal prints them."""
-    names = _names(robot)
-    if not robot.gravity.is_zero:
-        names.append("g")  # the formula of the potential energy has it, though gravity may be a number here
-    for body in robot.bodies:
-        if body.shape is not None and body.shape.formulas:
-            names += (letter for letter, _ in body.shape.letters)  # those of the formulas of its moments
-    names += robot.questions.reached
-    if Stage.INVERSE in stages_of(robot):
-        names += CONSTANTS_OF_SOLUTIONS
-    if Stage.PARAMETERS in stages_of(robot):
-        names.append("a")  # a column of the table, beside the column of the parameters
-    yield from _printed(map(Symbol, names))
+    yield from _printed(map(Symbol, (*_names(robot), *robot.questions.reached)))
     yield from map(UnicodePrinter(style).text, shorthands(robot, style))
 
 
@@ -123,22 +111,3 @@ def _scalars(robot: Robot, base: str, count: int) -> Iterator[Node]:
     places = range(1, robot.n + 1)
     for indices in product(places, repeat=count):
         yield letters.entry(base, *indices)
-
-
-def _vectors(robot: Robot) -> Iterator[Letter]:
-    """The bold letters of the textbook."""
-    yield from (letters.J, letters.Q, letters.D, letters.C, letters.G, letters.GRAVITY, letters.TAU)
-    yield from (letters.PARAMETERS, letters.REGRESSOR)
-    yield from map(letters.bold, ("A", "N", "E", "U", "r", "v", "omega", "x", "z", "o"))
-    numbered: tuple[Callable[[int], Letter], ...] = (letters.A, letters.z, letters.o, _bold("x"), _bold("J"))
-    frames = [letter(i) for letter in numbered for i in range(len(robot.joints) + 1)]
-    yield from frames
-    yield from (letters.bold(base, Number(joint.index)) for joint in robot.joints for base in ("H", "R"))
-    for body in robot.bodies:
-        yield letters.rc(body)
-        yield letters.tensor(robot, body)
-        yield from (letters.of_body(base, body, "bold") for base in ("R", "v", "omega"))
-
-
-def _bold(base: str) -> Callable[[int], Letter]:
-    return lambda i: letters.bold(base, Number(i))

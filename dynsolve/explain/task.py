@@ -212,7 +212,13 @@ def _left_out(task: Task) -> Iterator[Prose]:
     still = [axis for row, axis in enumerate("xyz", 1) if row not in moving]
     if task.is_default and still:
         rows = "row of " if len(still) == 1 else "rows of "
-        yield ("This is ", letters.JV, f" without the {rows}", *listed(still), ", zero for every q.")
+        yield (
+            "This is ",
+            letters.JV,
+            f" without the {rows}",
+            *listed(still),
+            ", zero in every configuration.",
+        )
 
 
 def _twist(context: Context) -> Step:

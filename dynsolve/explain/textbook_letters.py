@@ -62,7 +62,6 @@ class Line:
 
 
 _I, _J, _K = Symbol("i"), Symbol("j"), Symbol("k")
-_TABLE = ("theta", "d", "a", "alpha")
 SHAPES = {
     "m": "mass",
     "l": "length",
@@ -79,7 +78,7 @@ SHAPES = {
 def textbook(robot: Robot) -> Iterator[Line]:
     """The lines of the textbook's letters, in the order of the derivation."""
     ground = "the world w" if letters.has_base(robot) else "frame 0" if robot.has_table else "the world"
-    yield from _kinematics(ground, letters.H(robot, 0).sup)
+    yield from _kinematics(letters.columns(robot, _I), ground, letters.H(robot, 0).sup)
     yield from _questions(robot)
     yield from _bodies(robot, ground)
     if Stage.NEWTON_EULER in asked_stages(robot.questions):
@@ -103,9 +102,8 @@ def _kinds(signs: Iterable[Node]) -> Iterator[Kind]:
     return (kind for sign in signs if (kind := kind_of(sign, PLAIN)))
 
 
-def _kinematics(ground: str, above: Node | None) -> Iterator[Line]:
-    row = tuple(Letter(name, _I) for name in _TABLE)
-    yield _line(row, "row i of the Denavit-Hartenberg table", "", *(("", "name", name) for name in _TABLE))
+def _kinematics(columns: Sequence[Node], ground: str, above: Node | None) -> Iterator[Line]:
+    yield _line(columns, "columns of the Denavit-Hartenberg table")
     yield _line(
         [Letter(name, style="upright") for name in MOTIONS], "rotation about, translation along an axis"
     )
@@ -118,8 +116,8 @@ def _kinematics(ground: str, above: Node | None) -> Iterator[Line]:
     yield _line(letters.bold("0"), "zero vector or matrix")
     yield _each([(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")])
     yield _each([
-        (letters.J, "Jacobian of the last frame"), (letters.JV, "linear part of J"),
-        (letters.JW, "angular part of J"), (_numbered("J"), "column i of J"),
+        (letters.J, "Jacobian of the last frame"), (letters.JV, "its linear part"),
+        (letters.JW, "its angular part"), (_numbered("J"), "its column i"),
     ])  # fmt: skip
     velocities = [(letters.bold("v"), "velocity"), (letters.bold("omega"), "angular velocity")]
     yield _each(velocities, " of the last frame")
@@ -251,13 +249,14 @@ def _dynamics(machine: str) -> Iterator[Line]:
     yield _line(letters.TAU, "column of the generalized forces")
     yield from _actions()
     yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")])
-    yield _line(letters.bold("D", Words("p")), "D where the bodies are point masses")
+    yield _line(letters.bold("D", Words("p")), "inertia matrix of the masses alone, as points")
     yield _line(_entry("c", _I, _J, _K), "Christoffel symbol")
-    yield _line(letters.C, "matrix of the Coriolis and centrifugal terms")
-    yield _line(_entry("c", _K, _J), "entry (k, j) of C")
+    yield _each(
+        [(letters.C, "matrix of the Coriolis and centrifugal terms"), (_entry("c", _K, _J), "its entries")]
+    )
     yield _each([(letters.G, "column of the gravity terms"), (_entry("g", _K), "its entries")])
     yield from _linear()
-    yield _each([(letters.bold("N"), "Ḋ - 2C"), (_entry("n", _I, _J), "its entries")])
+    yield _each([(letters.bold("N"), "matrix that is skew-symmetric"), (_entry("n", _I, _J), "its entries")])
 
 
 def _actions() -> Iterator[Line]:
@@ -270,7 +269,7 @@ def _actions() -> Iterator[Line]:
     yield _each(motor, " of the rotor of motor i")
     spin = letters.bold("omega", Words("link")), letters.bold("omega", Row((Words("link"), _I)))
     yield _line(spin, "angular velocity of the link that carries a motor")
-    yield _line(letters.DM, "what the rotors add to D")
+    yield _line(letters.DM, "what the rotors add to the inertia matrix")
     rotor = letters.bold("n", Row((Words("m"), _I)))
     yield _line(rotor, "moment that the rotor of motor i takes from its link", "N m")
     yield _line(letters.DISSIPATION, "Rayleigh's dissipation function", "W")

@@ -78,8 +78,9 @@ def _inertia(context: Context) -> Step:
         stage=STAGE,
         title="D, read off from the forces",
         why=(
-            "Entry (i, j) is the factor of the j-th acceleration in the i-th generalized force. D is "
-            "symmetric, and may depend on the coordinates, but on no rate.",
+            "Entry (i, j) is the factor of the j-th acceleration in the i-th generalized force. ",
+            letters.D,
+            " is symmetric, and may depend on the coordinates, but on no rate.",
         ),
         formula=equation(_d(_I, _J), letters.partial_derivative(Letter("tau", _I), Letter("q", _J, dots=2))),
         source=spong("7.3"),
@@ -163,10 +164,14 @@ def _inertia_direct(context: Context) -> Step:
         why=(
             "Without the Lagrangian: ",
             equation(letters.K, Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))),
-            f", so D is a sum over the bodies{_named_otherwise(robot)}.",
+            ", so ",
+            letters.D,
+            f" is a sum over the bodies{_named_otherwise(robot)}.",
             " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
             *((" The rotors add ", letters.DM, ".") if rotors else ()),
-            " It gives the same D, entry by entry." if same else " It does not give the same D.",
+            " It gives the same " if same else " It does not give the same ",
+            letters.D,
+            ", entry by entry." if same else ".",
         ),
         formula=equation(letters.D, sum_of([BigSum(total, i, Number(1), name), *rotors])),
         source=spong("7.2.2"),
@@ -242,7 +247,9 @@ def _coriolis(context: Context) -> Step:
         if none or context.robot.n == 1
         else (
             (
-                "Other matrices C give the same ",
+                "Other matrices ",
+                letters.C,
+                " give the same ",
                 Cqd,
                 ", which is all that the equations of motion fix. This choice makes ",
                 SKEW,
@@ -255,7 +262,11 @@ def _coriolis(context: Context) -> Step:
 
 def _gravity(context: Context) -> Step:
     still, springs = context.values["g"].is_zero, bool(context.robot.actions.springs)
-    why: Prose = ("Directly, without τ: the partial derivatives of the potential energy.",)
+    why: Prose = (
+        "Directly, without ",
+        letters.TAU,
+        ": the partial derivatives of the potential energy.",
+    )
     if springs and not still:
         why += (" The forces of the springs are part of it.",)
     if still:
@@ -269,7 +280,11 @@ def _gravity(context: Context) -> Step:
         source=spong("7.3"),
         result=(equation(letters.G, context.form("g")),),
         uses=("P",),
-        hint=("Directly, without τ: the partial derivatives of the potential energy.",),
+        hint=(
+            "Directly, without ",
+            letters.TAU,
+            ": the partial derivatives of the potential energy.",
+        ),
         entries=letters.entries("g", context.robot.n, 1),
         detail=Detail.BRIEF,
     )

@@ -58,8 +58,8 @@ class Style:
     as a decimal of so many significant digits.
 
     Letters of the textbook that would be taken for something else are set otherwise:
-    `letters` maps their base, style and number of lower indices to another base, and those of
-    `bold` are shown bold where a notation has one weight only, in a terminal.
+    `letters` maps their base, style and number of lower indices to another base; with `bold`
+    vectors and matrices are bold in a terminal too, as they always are on paper.
     """
 
     shorthand: Mapping[str, str] = field(default_factory=dict)
@@ -68,7 +68,7 @@ class Style:
     stars: frozenset[str] = frozenset()
     digits: int = 0
     letters: Mapping[Sign, str] = field(default_factory=dict)
-    bold: frozenset[str] = frozenset()
+    bold: bool = False
 
     def number(self, node: Number) -> str | None:
         """A number with a decimal point, where the style wants that and a fraction is not as good."""

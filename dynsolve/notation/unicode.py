@@ -138,16 +138,12 @@ class UnicodePrinter(FormulaPrinter):
     star = "⋆"
     compound = FormulaPrinter.compound | {Quotient}
 
-    def __init__(self, style: Style = PLAIN) -> None:
-        super().__init__(style)
-        self._bold = frozenset(map(self._base, style.bold))
-
     def _base(self, base: str) -> str:
         return GREEK.get(base, base)
 
     def _styled(self, base: str, style: str) -> str:
         base = self._base(printable(base))
-        if style == "bold" and base in self._bold:
+        if style == "bold" and self.style.bold:
             return bold_letter(base)
         return script_letter(base) if style == "script" else base
 

@@ -50,6 +50,17 @@ def R(robot: Robot, i: int) -> Letter:
     return bold("R", Number(i), Words("w") if has_base(robot) else Number(0))
 
 
+def columns(robot: Robot, row: Node) -> tuple[Node, Node, Node, Node]:
+    """θ, d, a, α: what the columns of the table are called, as a coordinate θ_1 is another thing.
+
+    Where the problem calls something so, the entries of a row are θ_i, d_i, a_i and α_i.
+    """
+    names = {*robot.parameters, *(q.name for q in robot.coordinates)}
+    if names.isdisjoint(("theta", "d", "a", "alpha")):
+        return Symbol("theta"), Symbol("d"), Symbol("a"), Symbol("alpha")
+    return Letter("theta", row), Letter("d", row), Letter("a", row), Letter("alpha", row)
+
+
 def has_base(robot: Robot) -> bool:
     """Whether the problem turns or moves frame 0 in the world."""
     ring = robot.ring
@@ -96,6 +107,8 @@ NULLSPACE = Row((Letter("N", style="script"), Parenthesized(bold("J", Symbol("r"
 RANGESPACE = Row((Letter("R", style="script"), Parenthesized(bold("J", Symbol("r")))))
 LOST = Row((Letter("N", style="script"), Parenthesized(Transpose(bold("J", Symbol("r"))))))
 TASK = bold("r")
+TASK_OF_Q = Row((TASK, Parenthesized(Q)))
+FRAME_OF_Q = Row((bold("H"), Parenthesized(Q)))
 J_TASK = bold("J", Symbol("r"))
 WEIGHTS = bold("W")
 K = Letter("K", style="script")
@@ -181,8 +194,9 @@ def height(robot: Robot, index: Node) -> Letter:
 
 
 def tensor(robot: Robot, body: Body) -> Letter:
-    """I_1, the tensor in the body's own frame; I_1^b where a parameter has that name."""
-    return bold("I", index_of(body.name), Words("b") if is_taken(robot, "I", body) else None)
+    """I_1, the tensor in the body's own frame; I_1^b in a problem that calls a parameter I_1 or I_2."""
+    taken = any(is_taken(robot, "I", other) for other in robot.bodies)
+    return bold("I", index_of(body.name), Words("b") if taken else None)
 
 
 def energy_part(part: str, body: Body) -> Letter:

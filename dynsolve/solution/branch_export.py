@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.notation.python import PythonPrinter
-from dynsolve.notation.unicode import UnicodePrinter
 
 if TYPE_CHECKING:
+    from dynsolve.document import Prose
     from dynsolve.explain.configurations import ConfigurationForms
 
 _DIGITS = 15
@@ -20,13 +20,13 @@ def branch_results(forms: ConfigurationForms, python: PythonPrinter) -> list[dic
     return [{name: python.text(value) for name, value in branch.items()} for branch in branches]
 
 
-def beside_branches(forms: ConfigurationForms, unicode: UnicodePrinter) -> Iterator[tuple[str, Any]]:
+def beside_branches(forms: ConfigurationForms, write: Callable[[Prose], str]) -> Iterator[tuple[str, Any]]:
     """What stands beside `inverse` where the target is given in numbers.
 
     `inverse_decimals` are the same configurations in numbers (angles in radians), without the coordinates
     that are free, which `inverse_free` names for each; `inverse_outside` names those beyond their
     limits, where there are any limits; `inverse_why` says why there is none, or that they were found
-    in numbers.
+    in numbers. `write` writes prose as text.
     """
     if forms.target is None:
         return
@@ -41,5 +41,5 @@ def beside_branches(forms: ConfigurationForms, unicode: UnicodePrinter) -> Itera
         yield "inverse_free", [list(one.free) for one in found]
     if forms.robot.questions.limits:
         yield "inverse_outside", [list(one.outside) for one in found]
-    why = told(forms.target) if found else "".join(map(str, reason(forms.target)))
-    yield "inverse_why", why
+    why = told(forms.target) if found else reason(forms.target)
+    yield "inverse_why", write(why)

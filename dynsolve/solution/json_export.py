@@ -116,7 +116,7 @@ class _Exporter:
 
             results |= dict(beside_equilibria(self.configurations, self.python))
         if "inverse" in results:
-            results |= dict(beside_branches(self.configurations, self.unicode))
+            results |= dict(beside_branches(self.configurations, self.prose))
         return results | dict(table_results(self.solution, self.python))
 
     def value(self, quantity: Quantity) -> Any:

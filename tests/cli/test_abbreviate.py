@@ -32,7 +32,7 @@ def test_never_writes_everything_out() -> None:
 def test_always_names_what_recurs_in_a_short_model() -> None:
     ran = dynsolve("solve", "planar-2r", "--abbreviate", "always", "--stage", "vectorized")
     assert "    h = -m₂ l₁ l_c2 s₂" in ran.out.splitlines()
-    assert "    C q̇ = ⎡h (2q̇₁ q̇₂ + q̇₂²)⎤" in ran.out
+    assert "    𝐂 𝐪̇ = ⎡h (2q̇₁ q̇₂ + q̇₂²)⎤" in ran.out
     assert "m₂ l₁ l_c2 s₂ q̇" not in ran.out
     assert "c₁₁₂ = -½ ∂d₁₁/∂q₂ = -h" in ran.out
     assert "Abbreviations" not in dynsolve("solve", "planar-2r").out

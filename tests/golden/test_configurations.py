@@ -119,8 +119,8 @@ find: [singular]
 """
     steps = {step["id"]: step for step in solve_json(text)["steps"]}
     assert all("the rank is 2 instead of 3" in steps[name]["why"] for name in ("singular_1", "singular_2"))
-    assert steps["singular_1"]["text"].endswith("w = [[s₁], [-c₁], [0]]")
-    assert steps["singular_2"]["text"].endswith("w = [[c₁ c₂], [s₁ c₂], [s₂]]")
+    assert steps["singular_1"]["text"].endswith("𝐰 = [[s₁], [-c₁], [0]]")
+    assert steps["singular_2"]["text"].endswith("𝐰 = [[c₁ c₂], [s₁ c₂], [s₂]]")
 
 
 def test_a_jacobian_that_nobody_could_take_apart_is_left_out_with_its_reason() -> None:

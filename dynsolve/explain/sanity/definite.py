@@ -37,7 +37,13 @@ def definite_step(context: Context) -> Step | None:
         return None
     why, result = found
     square = equation(letters.transposed_product(letters.QD, letters.D), Product((Number(2), letters.K)))
-    start: Prose = ("Since ", square, ", D must be positive definite where masses and moments of inertia ")
+    start: Prose = (
+        "Since ",
+        square,
+        ", ",
+        letters.D,
+        " must be positive definite where masses and moments of inertia ",
+    )
     return Step(
         id="definite",
         stage=Stage.VECTORIZED,

@@ -125,7 +125,7 @@ def inertia_rate(context: Context) -> tuple[Line, ...]:
         for (i, j), terms in rates.items()
     ]
     count = context.robot.n * (context.robot.n + 1) // 2
-    by: Prose = ("The rate of D by the chain rule, entry by entry",)
+    by: Prose = ("The rate of ", letters.D, " by the chain rule, entry by entry")
     by += ("; the other entries are constant:",) if len(rates) < count else (":",)
     return (Line(by, tuple(shown)),)
 

@@ -234,7 +234,9 @@ def rotational(context: Context, body: Body) -> Rotation | None:
     turned = Product((Transpose(letters.of_body("R", body, "bold")), w))
     multiplied = Product((Transpose(context.form(f"R{b}")), context.form(f"w{b}")))
     why: Prose = (
-        "It is shorter in the axes of the body, where ω is ",
+        "It is shorter in the axes of the body, where ",
+        letters.bold("omega"),
+        " is ",
         turned,
         *_named(context, R, base, own),
         ", since ",

@@ -41,12 +41,12 @@ def step(id: str, problem: str = ACTING):
     ("id", "formula"),
     [
         ("Ps", "P_s = ½ k (q₂ - q₁ - δ)²"),
-        ("P", "𝒫 = P₁ + P₂ + P_s = -Σᵢ₌₁² mᵢ 𝐠₀ᵀ r_ci + P_s"),
-        ("Km", "K_m = Σᵢ₌₁² ½ I_mi (k_ri q̇ₖ + zᵀ ω_link)²"),
+        ("P", "𝒫 = P₁ + P₂ + P_s = -Σᵢ₌₁² mᵢ 𝐠₀ᵀ 𝐫_ci + P_s"),
+        ("Km", "K_m = Σᵢ₌₁² ½ I_mi (k_ri q̇ₖ + 𝐳ᵀ 𝛚_link)²"),
         ("friction", "τ_fk = ∂ℛ/∂q̇ₖ + f_ck sgn(q̇ₖ)"),
         ("tau1", "τ₁ + Q₁ = d/dt (∂𝓛/∂q̇₁) - ∂𝓛/∂q₁ + τ_f1"),
-        ("Cqd", "C q̇ + 𝐠 = τ + Q - D q̈ - τ_f"),
-        ("model", "D q̈ + C q̇ + τ_f + 𝐠 = τ + Q"),
+        ("Cqd", "𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐐 - 𝐃 𝐪̈ - 𝛕_f"),
+        ("model", "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝛕_f + 𝐠 = 𝛕 + 𝐐"),
     ],
 )
 def test_each_stands_in_the_formula_of_its_step(id: str, formula: str) -> None:
@@ -88,4 +88,4 @@ def test_a_robot_on_which_nothing_acts_has_none_of_it() -> None:
     assert not {"Ps", "Km", "friction", "Dm"} & {one.id for one in solution(plain).steps}
     formula = step("model", plain).formula
     assert formula is not None
-    assert shown(formula, plain) == "D q̈ + C q̇ + 𝐠 = τ"
+    assert shown(formula, plain) == "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = 𝛕"

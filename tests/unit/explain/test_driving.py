@@ -17,8 +17,8 @@ CONSTRAINT = "constraints: [tip.x - k]\n"
     [
         ("", "τ₁"),
         (FORCE, "τ₁ + Q₁"),
-        (CONSTRAINT, "τ₁ + (A_cᵀ λ)₁"),
-        (FORCE + CONSTRAINT, "τ₁ + Q₁ + (A_cᵀ λ)₁"),
+        (CONSTRAINT, "τ₁ + (𝐀_cᵀ 𝛌)₁"),
+        (FORCE + CONSTRAINT, "τ₁ + Q₁ + (𝐀_cᵀ 𝛌)₁"),
     ],
 )
 def test_a_row_says_what_acts(more: str, row: str) -> None:
@@ -31,9 +31,9 @@ def test_a_row_says_what_acts(more: str, row: str) -> None:
 @pytest.mark.parametrize(
     ("more", "rest", "conserved"),
     [
-        ("", "C q̇ + g = τ - D q̈", "As long as τ₁ = 0, "),
-        (FORCE, "C q̇ + g = τ + Q - D q̈", "As long as τ₁ + Q₁ = 0, "),
-        (CONSTRAINT, "C q̇ + g = τ + A_cᵀ λ - D q̈", "As long as τ₁ + (A_cᵀ λ)₁ = 0, "),
+        ("", "𝐂 𝐪̇ + 𝐠 = 𝛕 - 𝐃 𝐪̈", "As long as τ₁ = 0, "),
+        (FORCE, "𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐐 - 𝐃 𝐪̈", "As long as τ₁ + Q₁ = 0, "),
+        (CONSTRAINT, "𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐀_cᵀ 𝛌 - 𝐃 𝐪̈", "As long as τ₁ + (𝐀_cᵀ 𝛌)₁ = 0, "),
     ],
 )
 def test_what_is_read_off_and_conserved_counts_all_that_acts(more: str, rest: str, conserved: str) -> None:

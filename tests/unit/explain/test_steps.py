@@ -110,7 +110,7 @@ def test_an_arm_that_only_slides_is_not_said_to_turn() -> None:
     text = everything_said("cartesian-pp")
     assert "revolute" not in text and "an angle" not in text and "torque is" not in text
     assert "lengths (prismatic joints)" in text
-    assert "D is constant, so every Christoffel symbol is zero." in text
+    assert "𝐃 is constant, so every Christoffel symbol is zero." in text
     assert "is a length, so what drives it is a force." in text
 
 
@@ -145,7 +145,7 @@ def test_a_pitfall_is_told_once() -> None:
 
 def test_a_centre_on_the_origin_is_not_said_to_be_elsewhere() -> None:
     assert not any("is not the origin" in text for text in everything_said("cartesian-pp").splitlines())
-    assert "at the far end of link 2, o₂" in said(step("cartesian-pp", "rc2").why, "cartesian-pp")
+    assert "at the far end of link 2, 𝐨₂" in said(step("cartesian-pp", "rc2").why, "cartesian-pp")
 
 
 COUPLED = """
@@ -189,8 +189,8 @@ def test_no_parallel_axis_where_the_point_is_the_centre() -> None:
 
 
 def test_a_tensor_is_not_called_like_its_entry() -> None:
-    assert shown("planar-2r", "I_body1")[0].startswith("I₁^b = ")
-    assert shown("in3140-rp", "I_body1")[0].startswith("I₁ = ")
+    assert shown("planar-2r", "I_body1")[0].startswith("𝐈₁^b = ")
+    assert shown("in3140-rp", "I_body1")[0].startswith("𝐈₁ = ")
 
 
 def test_a_shape_with_its_formula_and_its_letters() -> None:
@@ -216,7 +216,7 @@ def test_without_masses_it_ends_with_the_jacobian() -> None:
 
 def test_the_checks_are_shown() -> None:
     assert "exactly equal" in said(step("planar-2r", "agreement").why, "planar-2r")
-    assert shown("planar-2r", "skew")[-1] == "N + Nᵀ = 0"
+    assert shown("planar-2r", "skew")[-1] == "𝐍 + 𝐍ᵀ = 0"
 
 
 def test_levels_of_detail() -> None:
@@ -246,26 +246,26 @@ masses:
 
 
 def test_a_letter_of_the_formula_is_not_another_thing_of_the_problem() -> None:
-    assert formula(NAMED, "P1") == "P₁ = m₂ G η₁, P₁ = -m₂ 𝐠₀ᵀ r_c1"
+    assert formula(NAMED, "P1") == "P₁ = m₂ G η₁, P₁ = -m₂ 𝐠₀ᵀ 𝐫_c1"
     assert shown_working(NAMED, "P1")[0] == "η₁ = h₁/2"
     assert formula(NAMED, "P2").startswith("P₂ = (m₁ + M) G η₂, ")
     assert shown_working("box-cylinder-rod-sphere", "P2")[0] == "η₂ = h + l₂ s₂/2"
-    assert "D = m₂ J_v1ᵀ J_v1 + (m₁ + M) J_v2ᵀ J_v2" in shown_working(NAMED, "D_direct")
+    assert "𝐃 = m₂ 𝐉_v1ᵀ 𝐉_v1 + (m₁ + M) 𝐉_v2ᵀ 𝐉_v2" in shown_working(NAMED, "D_direct")
 
 
 def test_a_mass_without_a_symbol_is_called_after_its_body() -> None:
-    assert formula("numeric-2r", "P1") == "P₁ = m₁ g h₁, P₁ = -m₁ 𝐠₀ᵀ r_c1"
-    assert formula("numeric-2r", "Kvp") == "K_vp = ½ m_p v_pᵀ v_p"
+    assert formula("numeric-2r", "P1") == "P₁ = m₁ g h₁, P₁ = -m₁ 𝐠₀ᵀ 𝐫_c1"
+    assert formula("numeric-2r", "Kvp") == "K_vp = ½ m_p 𝐯_pᵀ 𝐯_p"
 
 
 def test_where_a_centre_comes_from() -> None:
-    assert "from the near end of link 1, o₀" in said(step("planar-2r", "rc1").why, "planar-2r")
+    assert "from the near end of link 1, 𝐨₀" in said(step("planar-2r", "rc1").why, "planar-2r")
     assert shown_working("planar-2r", "rc1")[0] == (
-        "r_c1¹ = (R₁⁰)ᵀ (o₀ - o₁) + [[l_c1], [0], [0]] = [[-l₁], [0], [0]] + [[l_c1], [0], [0]]"
+        "𝐫_c1¹ = (𝐑₁⁰)ᵀ (𝐨₀ - 𝐨₁) + [[l_c1], [0], [0]] = [[-l₁], [0], [0]] + [[l_c1], [0], [0]]"
         " = [[l_c1 - l₁], [0], [0]]"
     )
     assert shown_working("in3140-rp", "rc1")[0] == (
-        "r_c1¹ = ½ (R₁⁰)ᵀ (o₀ - o₁) = ½ [[0], [-L₁], [0]] = [[0], [-L₁/2], [0]]"
+        "𝐫_c1¹ = ½ (𝐑₁⁰)ᵀ (𝐨₀ - 𝐨₁) = ½ [[0], [-L₁], [0]] = [[0], [-L₁/2], [0]]"
     )
 
 
@@ -275,12 +275,12 @@ def test_numbers_that_go_in_are_named() -> None:
     assert "the bodies 1, 2 and p, counted in this order" in said(
         step("numeric-2r", "D_direct").why, "numeric-2r"
     )
-    assert "is ⅓ of the way along link 2, from o₁ to o₂." in said(step(NAMED, "rc2").why, NAMED)
+    assert "is ⅓ of the way along link 2, from 𝐨₁ to 𝐨₂." in said(step(NAMED, "rc2").why, NAMED)
     assert "given by its coordinates in frame 1" in said(step("rp-vertical", "rc1").why, "rp-vertical")
 
 
 def test_c_and_g_are_read_off_too() -> None:
-    assert shown("in3140-rp", "Cqd") == ["C q̇ = [[2m₂ L₂ θ̇₁ L̇₂], [-m₂ L₂ θ̇₁²]]", "𝐠 = [[0], [0]]"]
+    assert shown("in3140-rp", "Cqd") == ["𝐂 𝐪̇ = [[2m₂ L₂ θ̇₁ L̇₂], [-m₂ L₂ θ̇₁²]]", "𝐠 = [[0], [0]]"]
     assert "No term remains at rest here." in said(step("in3140-rp", "Cqd").why, "in3140-rp")
     assert "Nothing remains" not in said(step("planar-2r", "Cqd").why, "planar-2r")
     assert "No term has rates here." in said(step("cartesian-pp", "Cqd").why, "cartesian-pp")
@@ -324,8 +324,8 @@ def test_fixed_rows_scaled_joints_and_the_world() -> None:
     assert "the body belongs to the ground and does not move." in said(step(ODD, "rc1").why, ODD)
     assert "belongs to the ground" not in said(step(ODD, "rc2").why, ODD)
     assert "world coordinates" in text and "base coordinates" not in text
-    assert formula(ODD, "R2").startswith("R₂ = R₀^w [[")
-    assert formula(ODD, "J2") == "𝐉₂ = [[2z₃], [0]]"  # J is a moment of inertia here
+    assert formula(ODD, "R2").startswith("𝐑₂ = 𝐑₀^w [[")
+    assert formula(ODD, "J2") == "𝐉₂ = [[2𝐳₃], [𝟎]]"  # J is a moment of inertia here
 
 
 def test_a_body_without_mass_has_no_weight() -> None:
@@ -341,7 +341,7 @@ def test_several_columns_that_are_zero_are_listed_as_in_a_sentence() -> None:
 
 def test_a_shared_column_is_worked_out() -> None:
     (working,) = shown_working("planar-2r-remote", "J1")
-    assert working.startswith("z₀ × (o₂ - o₀) - z₁ × (o₂ - o₁) = ") and working.endswith(
+    assert working.startswith("𝐳₀ × (𝐨₂ - 𝐨₀) - 𝐳₁ × (𝐨₂ - 𝐨₁) = ") and working.endswith(
         "[[-l₁ s₁], [l₁ c₁], [0]]"
     )
 
@@ -367,7 +367,7 @@ def test_a_long_list_of_zeros_is_not_printed() -> None:
 
 def test_what_agrees_is_said_in_a_sentence() -> None:
     assert said(step("planar-2r", "agreement").why, "planar-2r") == (
-        "D, C q̇ and 𝐠, read off from the forces and assembled directly, are exactly equal."
+        "𝐃, 𝐂 𝐪̇ and 𝐠, read off from the forces and assembled directly, are exactly equal."
     )
 
 
@@ -385,7 +385,7 @@ def test_frame_i_is_before_the_mass_in_the_modified_convention() -> None:
     assert "comes after the mass" not in text and "before the mass" not in text
     assert "Frame 1 is the one to take, at the near end" in text
     assert "Frame 2, after the mass, moves with the next link." in text
-    assert "from o₁, half the way on" in said(step(CRAIG, "rc1").why, CRAIG)
+    assert "from 𝐨₁, half the way on" in said(step(CRAIG, "rc1").why, CRAIG)
 
 
 def test_a_frame_comes_after_the_mass_where_the_mass_is_on_the_link() -> None:
@@ -426,5 +426,5 @@ def test_one_polynomial_has_one_spelling_with_either_sign() -> None:
 
 def test_axes_of_frame_0_at_rest_are_worked_out() -> None:
     assert shown_working("spherical-rrp", "R1") == [
-        "R₁ = [[c₁, 0, s₁], [s₁, 0, -c₁], [0, 1, 0]] [[1, 0, 0], [0, 0, -1], [0, 1, 0]]ᵀ"
+        "𝐑₁ = [[c₁, 0, s₁], [s₁, 0, -c₁], [0, 1, 0]] [[1, 0, 0], [0, 0, -1], [0, 1, 0]]ᵀ"
     ]

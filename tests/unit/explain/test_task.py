@@ -65,7 +65,7 @@ def test_the_stages_are_numbered_as_they_come() -> None:
 def test_a_hint_tells_no_result() -> None:
     solution = dynsolve.solve(ARM + TASK + "find: [Jr_dot, vP]")
     text = "\n".join(line.text for line in render(solution.hint("task"), 200, solution.style))
-    assert "J_r = ∂r/∂q" in text and "v_P = J_vP q̇" in text and "Look out:" in text
+    assert "𝐉_r = ∂𝐫/∂𝐪" in text and "𝐯_P = 𝐉_vP 𝐪̇" in text and "Look out:" in text
     for name in ("r", "Jr", "Jr_dot", "JvP"):
         assert to_unicode(solution.forms(name).rows[0][0], solution.style) not in text.partition("\n1. ")[2]
 

@@ -95,7 +95,7 @@ def test_where_one_identity_does_all_it_is_named_and_no_line_is_spent() -> None:
 def test_the_rotation_along_the_axes_of_the_body_where_that_is_shorter() -> None:
     found = lines("elbow-3r", "Kw2")
     assert found[0].startswith(
-        "It is shorter in the axes of the body, where ω is R₂ᵀ ω₂ (with s₁² + c₁² = 1)"
+        "It is shorter in the axes of the body, where 𝛚 is 𝐑₂ᵀ 𝛚₂ (with s₁² + c₁² = 1)"
     )
     assert found[1].endswith(" = [[s₂ θ̇₁], [c₂ θ̇₁], [θ̇₂]]")
     assert found[-3:] == [
