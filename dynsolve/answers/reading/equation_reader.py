@@ -341,7 +341,8 @@ class EquationReader:
             self._unknown_side(first, members, read, origin)
             return
         for member in read:
-            if isinstance(member.found, RightSide) and model_parts(self.vocabulary, member.found.value):
+            found = member.found
+            if isinstance(found, RightSide) and _is_value(found) and model_parts(self.vocabulary, found.value):
                 self.found.answers += self.found.value([("tau",)], member, origin)
                 return
         for member in read[1:]:
@@ -382,6 +383,8 @@ class EquationReader:
         elif side.is_name_alone and isinstance(last, RightSide):
             self.define(side.key, last, side.has_arguments)
             self.found.left_alone.append(origin.of(members, _DEFINITION))
+        elif side.is_name_alone and read and all(_is_abstract(member.found) for member in read):
+            self.found.left_alone.append(origin.of(members, "it holds names of the derivation alone"))
         else:
             if side.is_name_alone and faults:
                 self.vocabulary.broken[side.key] = faults[-1].message
@@ -403,6 +406,10 @@ def _is_read(side: LeftSide, is_named: bool) -> bool:
     if isinstance(side, UnknownSide):
         return is_named and not side.is_name_alone
     return not isinstance(side, NamedAnswers)
+
+
+def _is_abstract(found: RightSide | ReadError) -> bool:
+    return isinstance(found, RightSide) and isinstance(found.value, Abstract)
 
 
 def _is_value(found: RightSide | ReadError) -> bool:

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 from dynsolve.answers.reading.limits import MAX_ENTRIES, MAX_INVERSE, MAX_NODES
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import ONE, ZERO, Matrix, Negative, Node, Product, Quotient, Sum
+from dynsolve.notation.tree import ONE, ZERO, Matrix, Negative, Node, Product, Quotient, Reference, Sum
+from dynsolve.notation.walk import walk
 
 _TEXT = "name a part of it with an abbreviation"
 
@@ -193,6 +194,8 @@ def inverse(value: Grid) -> Value:
     (n, columns), help = value.shape, "multiply the equation by it, or write its inverse out"
     if n != columns:
         raise ReadError(f"a {n}×{columns} matrix has no inverse", help="check the shapes")
+    if n > MAX_INVERSE and any(isinstance(part, Reference) for part in walk(value.node)):
+        return Abstract("the inverse of a matrix of the derivation")
     if n > MAX_INVERSE:
         raise ReadError(f"the inverse of a matrix of more than {MAX_INVERSE} rows", help=help)
     divisor = _determinant(value.rows)

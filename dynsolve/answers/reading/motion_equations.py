@@ -7,7 +7,6 @@ is one, the equation is that of a coordinate that no motor drives.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -15,13 +14,10 @@ from dynsolve.answers.reading.displays import OPENS
 from dynsolve.answers.reading.left_side import NamedAnswers, UnknownSide, name_alone, read_left_side
 from dynsolve.answers.reading.right_side import RightSide, read_right_side
 from dynsolve.answers.reading.tokens.lexer import Token
-from dynsolve.answers.reading.vocabulary import Vocabulary
+from dynsolve.answers.reading.vocabulary import DRIVING, Vocabulary
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import ZERO, Node, Symbol
 from dynsolve.notation.walk import walk
-
-_INPUT = re.compile(r"(?:u|U|F|f|T|M|Q|tau)(?:[a-z]{0,3}|[1-9])")
-"""Names of a force or torque that drives a mechanism, as students write them."""
 
 _LONGEST_NAME = 12
 _BETWEEN = frozenset({"begin", "close", "\\\\", "&", ",", ";", "[", "]", "(", ")"})
@@ -139,7 +135,7 @@ def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:
         forces = tuple(force for force in side.candidates if force in known)
         if forces or not {"tau", "friction"} & set(side.candidates):
             return forces
-    elif not isinstance(side, UnknownSide) or not side.is_name_alone or not _INPUT.fullmatch(side.key):
+    elif not isinstance(side, UnknownSide) or not side.is_name_alone or not DRIVING.fullmatch(side.key):
         return ()
     indexed = vocabulary.named(f"tau{name[1:]}") if name[1:].isdigit() else ()
     return indexed or tuple(force for force in known if force not in vocabulary.passive)

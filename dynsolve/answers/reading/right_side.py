@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from dynsolve.answers.reading.grammar.brackets import MIRRORED, SYMMETRIC_NOTE
 from dynsolve.answers.reading.grammar.formula import FormulaReader
 from dynsolve.answers.reading.grammar.names import unknown
+from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.limits import check_size
 from dynsolve.answers.reading.name_splitting import split_names
@@ -24,10 +25,12 @@ _WAYS: tuple[frozenset[str], ...] = (
     frozenset({"inertia"}),
     frozenset({"spaces"}),
     frozenset({"decimals"}),
+    frozenset({"vectors"}),
 )
 """How a value may be read.
 
-As it stands; a bare I_1 as the moment of inertia; blanks between entries; 0,5 as a decimal.
+As it stands; a bare I_1 as the moment of inertia; blanks between entries; 0,5 as a decimal; c and h as the
+vector C q̇.
 """
 
 
@@ -70,7 +73,8 @@ def read_right_side(
         found = _read(vocabulary, piece, owners, options)
         if isinstance(found, RightSide) and _has_shape(vocabulary, found, owners):
             return found
-        if first is None or (isinstance(first, ReadError) and isinstance(found, RightSide)):
+        is_better = isinstance(first, ReadError) and isinstance(found, RightSide) and "vectors" not in options
+        if first is None or is_better:
             first = found
     assert first is not None
     if isinstance(first, RightSide):
@@ -192,4 +196,6 @@ def _may_help(options: frozenset[str], tokens: list[Token]) -> bool:
         return any(t.kind == "name" and t.text[0] in "IJ" for t in tokens)
     if "decimals" in options:
         return bool(_decimal_commas(tokens))
+    if "vectors" in options:
+        return any(t.text in OWN_LETTERS for t in tokens)
     return any(t.kind == "[" for t in tokens)

@@ -25,6 +25,9 @@ from dynsolve.robot.model_questions import reference
 
 _VECTORS = ("q", "theta", "Theta")
 _RUNNING = re.compile(r"(?:[vwcml]|omega|lin|rot)?[ijkn]{1,3}(?:-?1)?")
+DRIVING = re.compile(r"(?:u|U|F|f|T|M|Q|tau)(?:[a-z]{0,3}|[1-9])")
+"""Names of a force or torque that drives a mechanism, as students write them."""
+
 _SHORTHAND = re.compile(r"([sScC])([0-9]+)")
 
 
@@ -88,6 +91,16 @@ class Vocabulary:
     def turn(self, index: str, angle: Node) -> None:
         """Keep the student's own angle with a subscript."""
         self.angles[index] = angle
+
+    def driving_force(self, name: str) -> str:
+        """The force that a letter means which drives a mechanism: u_2, or the F of the only motor; else empty."""
+        if not DRIVING.fullmatch(name) or name in self.symbols or name in self.defined:
+            return ""
+        known = [q.force for q in self.coordinates]
+        indexed = [n for n in self.named(f"tau{name[1:]}") if n in known] if name[1:].isdigit() else []
+        driven = [force for force in known if force not in self.passive]
+        found = indexed or (driven if len(driven) == 1 else [])
+        return found[0] if found else ""
 
     def symbol(self, name: str) -> Meaning | None:
         """The symbol of the problem, or what the student defined, of that key."""

@@ -9,6 +9,10 @@ from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.quantities.spelling import key
 
 
+PSEUDO_INVERSE = "pinv"
+"""What the name of a pseudo-inverse ends in: J^# is a name of its own."""
+
+
 @dataclass(slots=True)
 class Scripts:
     """What stands behind a factor: the mark of a joint variable, powers, T, primes."""
@@ -56,8 +60,9 @@ class Form:
     @property
     def text(self) -> str:
         """The name as messages show it."""
-        index = self.index.strip("_{}")
-        return f"{self.base}_{{{index}}}" if index else self.base
+        index = self.index.strip("_{}").removesuffix(PSEUDO_INVERSE)
+        mark = "^#" if self.index.endswith(PSEUDO_INVERSE) else ""
+        return (f"{self.base}_{{{index}}}" if index else self.base) + mark
 
 
 def index_text(tokens: list[Token]) -> str:

@@ -26,7 +26,7 @@ from dynsolve.answers.reading.grammar import (
 )
 from dynsolve.answers.reading.grammar.forms import Form, Scripts
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grammar.scripts import ACCENTS, BEGINS
+from dynsolve.answers.reading.grammar.scripts import ACCENTS, BAR, BEGINS
 from dynsolve.answers.reading.grids import (
     Abstract,
     Grid,
@@ -276,7 +276,7 @@ class FormulaReader(Reader):
     def begins_with_name(self) -> bool:
         """Whether a name stands here that is no function, call or derivative."""
         token = self.token
-        accented = token.kind == "command" and token.text in ACCENTS
+        accented = token.kind == "command" and (token.text in ACCENTS or token.text == BAR)
         if token.kind not in ("name", "letter") and not accented:
             return False
         return not (
@@ -320,7 +320,7 @@ class FormulaReader(Reader):
     def command(self, token: Token) -> Value:
         """What a LaTeX command begins: an accent, a function, a fraction, a derivative."""
         name = token.text
-        if name in ACCENTS or name == "script":
+        if name in ACCENTS or name in (BAR, "script"):
             return names.value_of(self, self.form())
         if (function := functions.name_of(token, self.vocabulary)) is not None:
             return functions.read(self, function)

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import re
 
-from dynsolve.answers.reading.grammar.forms import Form
+from dynsolve.answers.reading.grammar.forms import PSEUDO_INVERSE, Form
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grammar.references import only_coordinates, skip_arguments
+from dynsolve.answers.reading.grammar.references import only_coordinates, placeholder, skip_arguments
+from dynsolve.answers.reading.grammar.scripts import BAR
 from dynsolve.answers.reading.grids import Abstract, Value
 from dynsolve.answers.reading.vocabulary import is_running
 from dynsolve.notation.tree import (
     Symbol,
 )
+from dynsolve.quantities.families import HOLD_FORCES
 
 _ZERO_LEVELS = frozenset("h0 H0 z0 y0 h href hzero hb P0h zref".split())
 _ANGLES = ("theta", "phi", "varphi", "th")
 _POTENTIAL = re.compile(r"P.*|L")
 _LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*|[xyz],?[qt].*)")
+_HOLDS_FORCES = re.compile(rf"(?:{'|'.join(sorted(HOLD_FORCES))})[0-9]*")
 _HEIGHT = re.compile(r"h[1-9a-z][0-9]*")
 
 
@@ -48,6 +51,15 @@ def letter(reader: Reader, form: Form, name: str) -> Value | None:
     lone = only_coordinate(reader, form, name)
     if lone is not None:
         return lone
+    if _HOLDS_FORCES.fullmatch(reader.owner) and not reader.naming:
+        forces = vocabulary.driving_force(name) or ("tau" if name == "u" else "")
+        if forces:
+            reader.references.setdefault(forces)
+            return reader.with_scripts(placeholder(vocabulary, forces), form.scripts, form.start)
+    if name.endswith((PSEUDO_INVERSE, BAR)) and not reader.naming:
+        reader.names_used += 1
+        vocabulary.missed.add(name)
+        return Abstract(f"{form.text} is a name for another matrix")
     if vocabulary.is_vector(name) and form.dots <= 2:
         skip_arguments(reader)
         reader.names_used += 1

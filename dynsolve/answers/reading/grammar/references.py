@@ -17,14 +17,14 @@ from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.spelling import key
 
 OWN_LETTERS = frozenset({"h", "c"})
-"""Letters that name an answer on the left alone: on the right they are the student's own."""
+"""Letters that name an answer on the left alone: on the right they are the student's own, but for a last guess."""
 
 
 def quantity(reader: Reader, form: Form, name: str) -> Value | None:
     """The answer that a name stands for, as placeholders; None where it is none."""
     vocabulary = reader.vocabulary
     names = vocabulary.named(name)
-    if name in OWN_LETTERS and not reader.naming:
+    if name in OWN_LETTERS and not reader.naming and "vectors" not in reader.options:
         return None
     if form.script and name.startswith("I"):
         names = tuple(n for n in names if vocabulary.quantities[n].family is families.I)

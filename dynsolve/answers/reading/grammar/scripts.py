@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from dynsolve.answers.reading.grammar.cursor import Cursor
 from dynsolve.answers.reading.grammar.exponents import bounded, constant, raised_number
-from dynsolve.answers.reading.grammar.forms import Form, Scripts, index_text, is_angle
+from dynsolve.answers.reading.grammar.forms import PSEUDO_INVERSE, Form, Scripts, index_text, is_angle
 from dynsolve.answers.reading.grids import Value
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.vocabulary import Vocabulary
@@ -27,6 +27,10 @@ _PARTS = {
 }
 """What stands as the superscript of a kinetic energy for its translation, v, and its rotation, w."""
 
+BAR = "bar"
+r"""The accent that makes another name: `\bar J` is the student's own, and so is a pseudo-inverse `J^\#`."""
+
+_PSEUDO = frozenset({"sharp", "dagger", "dag", "ddagger"})
 _TRANSPOSES = frozenset({"T", "t", "Tr", "intercal", "top"})
 
 
@@ -49,6 +53,9 @@ class ScriptCursor(Cursor):
         token = self.take()
         if token.kind == "command" and token.text in ACCENTS:
             form = self.accented(token)
+        elif token.kind == "command" and token.text == BAR:
+            form = self.under(token)
+            form.index += BAR
         elif token.kind == "command" and token.text == "script":
             form = self.under(token)
             form.script = True
@@ -103,6 +110,8 @@ class ScriptCursor(Cursor):
                     form.angle = tokens
             elif kind == "^" and (part := self.energy_part(form)):
                 form.index += part
+            elif kind == "^" and self.pseudo_inverse():
+                form.index += PSEUDO_INVERSE
             elif kind == "[" and self.is_index(form):
                 self.take()
                 form.index += self.take().text
@@ -139,6 +148,17 @@ class ScriptCursor(Cursor):
             self.take()
             self.group()
         return part
+
+    def pseudo_inverse(self) -> bool:
+        r"""Whether the superscript marks another matrix, which is taken: `J^\#`, `J^\dagger`, `J^+`."""
+        braced = self.peek(1).kind == "{"
+        mark, after = self.peek(2 if braced else 1), self.peek(3 if braced else 2)
+        is_mark = mark.text in _PSEUDO if mark.kind == "command" else mark.kind == "+"
+        ends = after.kind == "}" if braced else mark.kind == "command" or after.kind in ("=", "end")
+        if is_mark and ends:
+            self.take()
+            self.group()
+        return is_mark and ends
 
     def star_is_mark(self, form: Form) -> bool:
         """Whether the star here touches a coordinate's name and no factor follows."""

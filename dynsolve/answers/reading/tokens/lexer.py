@@ -339,7 +339,9 @@ def _command(piece: Token) -> Token | None:
     name = name.removesuffix("*") if len(name) > 1 else name
     if name in _LAYOUT and name not in SEPARATORS:
         return None
-    if name in ("(", ")", "[", "]", "$", "#", "%", "_"):
+    if name == "#":
+        return piece._replace(kind="command", text="sharp")
+    if name in ("(", ")", "[", "]", "$", "%", "_"):
         message = f"`\\{name}` cannot stand inside an equation"
         raise ReadError(message, piece.start, 2, "write the formula alone")
     sign = _SIGN_COMMANDS.get(name)

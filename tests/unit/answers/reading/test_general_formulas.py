@@ -1,0 +1,61 @@
+"""General formulas of redundant and constrained robots: names of matrices, which answer nothing by themselves."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.answers.reading.files import read_submission
+from dynsolve.answers.submission import Submission
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.problem import read_problem
+
+LINE = read_problem("""
+gravity: none
+dh: [{theta: q1* + 90deg, alpha: 90deg}, {d: q2*}]
+masses: [{mass: m, link: 2, center: origin}]
+constraints: [tip.x - k]
+find: [D, Cqd, Ac, lambda]
+""")
+SLIDER = read_problem("""
+gravity: none
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+passive: [y]
+constraints: [x - y]
+find: [lambda]
+""")
+
+
+def report(text: str) -> Submission:
+    return read_submission(LINE, f"$${text}$$", "report.md")
+
+
+@pytest.mark.parametrize("text", [
+    r"J^\# = J^T (J J^T)^{-1}",
+    r"J^{\dagger} = J^T (J J^T)^{-1}",
+    r"J^+ = J^T (J J^T)^{-1}",
+    r"J^{+} = J^T (J J^T)^{-1}",
+    r"J_W^{\#} = J^T (J J^T)^{-1}",
+    r"\bar{J} = M^{-1} J^T (J M^{-1} J^T)^{-1}",
+    r"A_M^{\#} = M^{-1} A^T (A M^{-1} A^T)^{-1}",
+    r"\lambda = (A_M^{\#})^T (c - \tau) - (A M^{-1} A^T)^{-1} \dot A \dot q",
+    r"\ddot q = (I - A_M^\# A) M^{-1} (\tau - c)",
+    r"M \ddot q + c = \tau + A^T \lambda",
+])  # fmt: skip
+def test_names_of_pseudo_inverses_are_left_alone(text: str) -> None:
+    found = report(text)
+    assert found.answers == found.not_recognized == ()
+    assert len(found.left_alone) == 1
+
+
+def test_a_pseudo_inverse_that_is_written_out_stands_for_its_value() -> None:
+    found = report(r"J^\# = \begin{bmatrix} m & 0 \\ 0 & m \end{bmatrix}, \quad D = J^\#")
+    (answer,) = found.answers
+    assert answer.node is not None
+    assert to_unicode(answer.node) == "[[m, 0], [0, m]]"
+
+
+@pytest.mark.parametrize(("value", "expected"), [("m F", "[[m f1]]"), ("u m", "[[f1 m]]"), ("m F_2", "[[m f2]]")])
+def test_letters_of_what_drives_are_forces_in_the_multipliers(value: str, expected: str) -> None:
+    (answer,) = read_submission(SLIDER, rf"$$\lambda = {value}$$", "report.md").answers
+    assert answer.node is not None
+    assert to_unicode(answer.node) == expected
