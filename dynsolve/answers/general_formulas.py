@@ -6,9 +6,10 @@ asked for, and nothing else in the file gives it, it is what the student's own a
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from dynsolve.answers.submission import Answer, Submission
+from dynsolve.quantities import families
 from dynsolve.quantities.index import Quantities
 
 
@@ -21,9 +22,15 @@ def general_formulas(submission: Submission, asked: Collection[str], named: Quan
         if (
             answer.node is not None
             and answer.references
-            and all(is_given(named, name, given) for name in answer.references)
+            and all(is_given(named, name, given) for name in needed(named, answer.name, answer.references))
         ):
             yield answer
+
+
+def needed(named: Quantities, name: str, references: Iterable[str]) -> list[str]:
+    """What a formula of an answer needs: what stands in it, but for forces that are its inputs."""
+    forces = (families.TAU, families.FORCE) if name in families.HOLD_FORCES else ()
+    return [other for other in references if named[other].family not in forces]
 
 
 def is_given(named: Quantities, name: str, given: Collection[str]) -> bool:

@@ -22,7 +22,7 @@ from dynsolve.answers.definite_verdict import judged_verdicts
 from dynsolve.answers.diagnosis.changed_rules import DerivationSlips
 from dynsolve.answers.diagnosis.diagnoser import Diagnoser
 from dynsolve.answers.diagnosis.factors import FactorPairs
-from dynsolve.answers.general_formulas import general_formulas, is_given
+from dynsolve.answers.general_formulas import general_formulas, is_given, needed
 from dynsolve.answers.judging.answer_ring import AnswerRing
 from dynsolve.answers.judging.configurations import ConfigurationKey
 from dynsolve.answers.judging.entry_comparison import EntryComparer
@@ -207,7 +207,8 @@ class Judge:
         named, given = self.graph.quantities, self.hand_in.chains
         found = []
         for one in self.submission.left_alone:
-            lacking = [name for name in one.needs if not is_given(named, name, given)]
+            needs = needed(named, one.answers[0], one.needs) if one.answers else one.needs
+            lacking = [name for name in needs if not is_given(named, name, given)]
             if lacking and not any(is_given(named, name, given) for name in one.answers):
                 why = f"{lacking[0]} stands in it and is given nowhere: this is a definition"
                 found.append(replace(one, why=why))

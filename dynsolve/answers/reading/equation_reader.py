@@ -342,7 +342,11 @@ class EquationReader:
             return
         for member in read:
             found = member.found
-            if isinstance(found, RightSide) and _is_value(found) and model_parts(self.vocabulary, found.value):
+            if (
+                isinstance(found, RightSide)
+                and _is_value(found)
+                and model_parts(self.vocabulary, found.value)
+            ):
                 self.found.answers += self.found.value([("tau",)], member, origin)
                 return
         for member in read[1:]:

@@ -93,7 +93,7 @@ class Vocabulary:
         self.angles[index] = angle
 
     def driving_force(self, name: str) -> str:
-        """The force that a letter means which drives a mechanism: u_2, or the F of the only motor; else empty."""
+        """The force that a letter of what drives means: u_2, or the F of the only motor; else empty."""
         if not DRIVING.fullmatch(name) or name in self.symbols or name in self.defined:
             return ""
         known = [q.force for q in self.coordinates]

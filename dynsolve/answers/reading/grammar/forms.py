@@ -8,7 +8,6 @@ from fractions import Fraction
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.quantities.spelling import key
 
-
 PSEUDO_INVERSE = "pinv"
 """What the name of a pseudo-inverse ends in: J^# is a name of its own."""
 

@@ -17,7 +17,7 @@ from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.spelling import key
 
 OWN_LETTERS = frozenset({"h", "c"})
-"""Letters that name an answer on the left alone: on the right they are the student's own, but for a last guess."""
+"""Letters that name an answer on the left alone: on the right the student's own, but for a last guess."""
 
 
 def quantity(reader: Reader, form: Form, name: str) -> Value | None:

@@ -1,9 +1,10 @@
-"""General formulas of redundant and constrained robots: names of matrices, which answer nothing by themselves."""
+"""General formulas of redundant and constrained robots: names of matrices, which answer nothing alone."""
 
 from __future__ import annotations
 
 import pytest
 
+from dynsolve.answers.judge import check
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.submission import Submission
 from dynsolve.notation.unicode import to_unicode
@@ -54,8 +55,22 @@ def test_a_pseudo_inverse_that_is_written_out_stands_for_its_value() -> None:
     assert to_unicode(answer.node) == "[[m, 0], [0, m]]"
 
 
-@pytest.mark.parametrize(("value", "expected"), [("m F", "[[m f1]]"), ("u m", "[[f1 m]]"), ("m F_2", "[[m f2]]")])
+@pytest.mark.parametrize(
+    ("value", "expected"), [("m F", "[[m f1]]"), ("u m", "[[f1 m]]"), ("m F_2", "[[m f2]]")]
+)
 def test_letters_of_what_drives_are_forces_in_the_multipliers(value: str, expected: str) -> None:
     (answer,) = read_submission(SLIDER, rf"$$\lambda = {value}$$", "report.md").answers
     assert answer.node is not None
     assert to_unicode(answer.node) == expected
+
+
+def test_forces_in_a_formula_of_the_multipliers_need_not_be_given() -> None:
+    text = r"""
+    $$D = \begin{bmatrix} m q_2^2 & 0 \\ 0 & m \end{bmatrix}, \quad
+      c(q, \dot q) = \begin{bmatrix} 2 m q_2 \dot q_1 \dot q_2 \\ -m q_2 \dot q_1^2 \end{bmatrix}$$
+    $$A = \begin{bmatrix} -q_2 s_1 & c_1 \end{bmatrix}, \quad
+      \dot A = \begin{bmatrix} -\dot q_2 s_1 - q_2 c_1 \dot q_1 & -s_1 \dot q_1 \end{bmatrix}$$
+    $$\lambda = (A D^{-1} A^T)^{-1} (A D^{-1} (c - u) - \dot A \dot q)$$
+    """
+    judged = check(LINE, read_submission(LINE, text, "report.md"))
+    assert {answer.name: str(answer.verdict) for answer in judged.answers}["lambda"] == "correct"
