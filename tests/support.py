@@ -68,14 +68,32 @@ def record_of(folder: Path) -> list[tuple[object, ...]]:
     return sorted(rows, key=repr)
 
 
-def solve_json(problem: Path | str) -> dict[str, Any]:
-    """The JSON of a solution; `problem` is a path, or the text of a problem file."""
-    return _solved(problem) if isinstance(problem, Path) else _solved.__wrapped__(problem)
+def solved(problem: Path | str) -> dynsolve.Solution:
+    """The solution of a problem, by its name, its path or its text: one for all tests of a process.
+
+    What it has derived and written once, no other test waits for.
+    """
+    by_name = isinstance(problem, str) and "\n" not in problem
+    return _solved(problem_file(str(problem)) if by_name else problem)
 
 
 @cache
-def _solved(problem: Path | str) -> dict[str, Any]:
-    return json.loads(json.dumps(dynsolve.solve(problem).to_json()))
+def _solved(problem: Path | str) -> dynsolve.Solution:
+    return dynsolve.solve(problem)
+
+
+def solve_json(problem: Path | str) -> dict[str, Any]:
+    """The JSON of a solution; `problem` is a path, or the text of a problem file."""
+    return _json_of(problem) if isinstance(problem, Path) else _plain(dynsolve.solve(problem))
+
+
+@cache
+def _json_of(problem: Path) -> dict[str, Any]:
+    return _plain(solved(problem))
+
+
+def _plain(solution: dynsolve.Solution) -> dict[str, Any]:
+    return json.loads(json.dumps(solution.to_json()))
 
 
 def numbers(entries: Any, values: Mapping[str, float]) -> Any:

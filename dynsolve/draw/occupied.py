@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -78,6 +79,8 @@ class Taken:
 
     def __init__(self) -> None:
         self._cells: set[tuple[int, int]] = set()
+        self._rows: dict[int, list[int]] = {}
+        """The columns of each row, in order: made when cells in a box are counted, until more are taken."""
 
     def add(self, paths: Iterable[Path]) -> None:
         """Take the cells under the lines of paths, and inside their areas."""
@@ -90,6 +93,7 @@ class Taken:
 
     def add_line(self, a: Point, b: Point) -> None:
         """Take the cells under a line."""
+        self._rows = {}
         steps = max(1, math.ceil(math.dist(a, b) / (CELL * 0.7)))
         for k in range(steps + 1):
             t = k / steps
@@ -97,6 +101,7 @@ class Taken:
 
     def _fill(self, pieces: list[tuple[Point, Point]]) -> None:
         """Take the cells whose middle is inside, by counting the edges to its left."""
+        self._rows = {}
         heights = [y for piece in pieces for _, y in piece]
         for row in range(math.floor(min(heights) / CELL), math.floor(max(heights) / CELL) + 1):
             y = (row + 0.5) * CELL
@@ -121,10 +126,19 @@ class Taken:
 
     def inside(self, box: Box) -> int:
         """How many taken cells a box touches."""
-        columns = range(math.floor(box.left / CELL), math.floor(box.right / CELL) + 1)
-        rows = range(math.floor(box.top / CELL), math.floor(box.bottom / CELL) + 1)
-        cells = self._cells
-        return sum((column, row) in cells for row in rows for column in columns)
+        first, last = math.floor(box.left / CELL), math.floor(box.right / CELL)
+        rows = self._in_rows()
+        return sum(
+            bisect_right(columns, last) - bisect_left(columns, first)
+            for row in range(math.floor(box.top / CELL), math.floor(box.bottom / CELL) + 1)
+            if (columns := rows.get(row))
+        )
+
+    def _in_rows(self) -> dict[int, list[int]]:
+        if not self._rows:
+            for column, row in sorted(self._cells):
+                self._rows.setdefault(row, []).append(column)
+        return self._rows
 
 
 def _steps(a: Point, b: Point) -> int:

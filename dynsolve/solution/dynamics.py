@@ -26,6 +26,7 @@ from dynsolve.solution.method import verify_method
 from dynsolve.solution.numbers.given import Given
 
 if TYPE_CHECKING:
+    from dynsolve.document import Picture
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
     from dynsolve.solution.numbers.results import Numbers
 
@@ -100,6 +101,21 @@ class Dynamics:
     def style(self) -> Style:
         """How the formulas of a report look: s_1 for sin θ_1, and no sign with two meanings."""
         return report_style(self.robot, self.digits)
+
+    def picture(self, star: bool = False) -> Picture:
+        """The manipulator with its frames, drawn once however many reports show it.
+
+        With `star` the joint variables carry their marks.
+        """
+        if star not in self._pictures:
+            from dynsolve.draw import picture
+
+            self._pictures[star] = picture(self.problem, star=star)
+        return self._pictures[star]
+
+    @cached_property
+    def _pictures(self) -> dict[bool, Picture]:
+        return {}
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:

@@ -87,13 +87,11 @@ def _drawn(problem: Problem, style: Style) -> Drawn:
 def _with_picture(document: Document, solution: Dynamics, star: bool) -> Document:
     """The document with the manipulator drawn before its first section."""
     from dynsolve.document import Heading
-    from dynsolve.draw import picture
 
     blocks = document.blocks
     sections = (k for k, block in enumerate(blocks) if isinstance(block, Heading) and block.level > 1)
     place = next(sections, len(blocks))
-    drawn = picture(solution.problem, star=star)
-    return replace(document, blocks=(*blocks[:place], drawn, *blocks[place:]))
+    return replace(document, blocks=(*blocks[:place], solution.picture(star), *blocks[place:]))
 
 
 def report_style(solution: Dynamics, star: bool = False) -> Style:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
 from pathlib import Path
 
 import pytest
@@ -13,14 +12,9 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities.stages import COURSE
 from dynsolve.render.terminal import render
 from tests.cli.running import dynsolve
-from tests.support import STEMS
+from tests.support import STEMS, solved
 
 SMALL = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
-
-
-@lru_cache
-def solved(problem: str) -> package.Solution:
-    return package.solve(problem)
 
 
 def hint(problem: str, stage: str) -> str:

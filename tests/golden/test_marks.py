@@ -14,13 +14,12 @@ from typing import Any
 
 import pytest
 
-import dynsolve
 from dynsolve.answers.judge import Checker, Judge
 from dynsolve.answers.marking.marks import mark
 from dynsolve.answers.marking.policy import Policy
 from dynsolve.problem import load
 from tests.conftest import LARGE
-from tests.support import STEMS, TEXTBOOKS, problem_file
+from tests.support import STEMS, TEXTBOOKS, problem_file, solved
 
 ROUNDINGS = tuple(map(Fraction, ("1", "1/2", "1/100")))
 OF = Fraction(4)
@@ -31,7 +30,7 @@ ROBOTS = sorted(STEMS - LARGE)  # the answers of large arms go over the bounds o
 @cache
 def _key(stem: str) -> dict[str, Any]:
     """The answers of the key, as `dynsolve solve --json` prints them."""
-    results = dynsolve.solve(str(problem_file(stem)), states=1).to_json()["results"]
+    results = solved(stem).to_json()["results"]
     names = ("Jv", "Jw", "P", "K", "L", "tau", "D", "C", "g")
     transforms = {f"A{i}": matrix for i, matrix in enumerate(results["A"], 1)}
     bodies = {f"K{body['name']}": body["K"] for body in results["bodies"]}

@@ -16,8 +16,8 @@ from pathlib import Path
 
 import pytest
 
-import dynsolve
 from dynsolve.solution.reports import Format, report
+from tests.support import solved
 
 HOSTILE = (
     r"50% of a_1 & b #2 $x^2$ ~ <script>document.title='taken'</script> \input{/etc/passwd} {x} "
@@ -51,7 +51,7 @@ def needed(tool: str) -> str:
 @cache
 def made(problem: Path | str, format: Format, star: bool = False, fragment: bool = False) -> bytes:
     """A report; `problem` is a path, or the text of a problem file."""
-    return report(dynsolve.solve(problem), format, star=star, fragment=fragment)
+    return report(solved(problem), format, star=star, fragment=fragment)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ import math
 import random
 import re
 from collections.abc import Iterator, Sequence
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -40,15 +39,10 @@ from dynsolve.notation.tree_values import compile_trees, evaluate
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import definition_blocks, solution_document
 from tests.robots import robots
-from tests.support import ROOT
+from tests.support import ROOT, solved
 
 LONG = ("puma560", "stanford-6")
 SHORT = ("planar-2r", "elbow-3r", "puma560-first3", "crustcrawler-2r", "in3140-rp")
-
-
-@lru_cache
-def solved(problem: str) -> dynsolve.Solution:
-    return dynsolve.solve(problem)
 
 
 def short(problem: str) -> Abbreviated:

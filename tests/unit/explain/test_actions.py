@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import pytest
 
-import dynsolve
 from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import to_unicode
+from tests.support import solved
 
 ACTING = """
 gravity: [0, -g, 0]
@@ -23,17 +21,12 @@ forces: [{link: 2, force: [F, 0, 0]}]
 """
 
 
-@lru_cache
-def solution(problem: str) -> dynsolve.Solution:
-    return dynsolve.solve(problem)
-
-
 def shown(node: Node, problem: str = ACTING) -> str:
-    return " ".join(to_unicode(node, solution(problem).style).split())
+    return " ".join(to_unicode(node, solved(problem).style).split())
 
 
 def step(id: str, problem: str = ACTING):
-    (found,) = (one for one in solution(problem).steps if one.id == id)
+    (found,) = (one for one in solved(problem).steps if one.id == id)
     return found
 
 
@@ -85,7 +78,7 @@ def test_the_terms_of_a_force_say_what_they_are() -> None:
 
 def test_a_robot_on_which_nothing_acts_has_none_of_it() -> None:
     plain = ACTING.split("friction:")[0]
-    assert not {"Ps", "Km", "friction", "Dm"} & {one.id for one in solution(plain).steps}
+    assert not {"Ps", "Km", "friction", "Dm"} & {one.id for one in solved(plain).steps}
     formula = step("model", plain).formula
     assert formula is not None
     assert shown(formula, plain) == "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝐠 = 𝛕"

@@ -18,7 +18,7 @@ from dynsolve.explain.forms import Forms
 from dynsolve.notation.tree import Symbol
 from dynsolve.notation.walk import walk
 from dynsolve.robot.model import Robot
-from tests.support import ACTING, STEMS
+from tests.support import ACTING, STEMS, solved
 
 NUMERIC = {"numeric-2r"}
 
@@ -66,6 +66,6 @@ def test_as_many_as_the_rank_of_the_regressor(problem: str) -> None:
 @pytest.mark.parametrize(("problem", "own"), [("stanford-6", ["I6zz"]), ("puma560", [])])
 def test_one_that_is_a_symbol_already_is_counted_too(problem: str, own: list[str]) -> None:
     """d₆₆ of the Stanford arm is I_6zz: a base parameter without a definition."""
-    short = dynsolve.solve(problem).abbreviated()
+    short = solved(problem).abbreviated()
     assert short is not None
     assert [symbol.name for symbol in short.kept] == own

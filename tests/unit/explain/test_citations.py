@@ -11,13 +11,12 @@ from functools import lru_cache
 
 import pytest
 
-import dynsolve
 from dynsolve.document import Document, Text
 from dynsolve.explain.citations import BOOKS, CRAIG, LYNCH_PARK, SPONG, spong
 from dynsolve.explain.step import Detail, Step
 from dynsolve.render.references import formulas
 from dynsolve.solution.documents import solution_document
-from tests.support import STEMS
+from tests.support import STEMS, solved
 
 LONG = {"puma560", "panda-7r", "stanford-6"}
 SHORT = sorted(STEMS - LONG)
@@ -48,7 +47,7 @@ CONTENTS = [
 
 @lru_cache
 def steps(problem: str) -> tuple[Step, ...]:
-    return dynsolve.solve(problem).steps
+    return solved(problem).steps
 
 
 def opening(document: Document) -> str:
@@ -91,7 +90,7 @@ def test_a_section_that_nobody_checked_is_an_error() -> None:
     ],
 )
 def test_each_book_that_is_cited_is_named_once_in_full(problem: str, books: list[object]) -> None:
-    document = solution_document(dynsolve.solve(problem))
+    document = solution_document(solved(problem))
     begun = opening(document)
     assert [book for book in BOOKS if book.full in begun] == books
     shown = [formula.source for formula in formulas(document.blocks)]
@@ -100,12 +99,12 @@ def test_each_book_that_is_cited_is_named_once_in_full(problem: str, books: list
 
 @pytest.mark.parametrize("detail", Detail)
 def test_a_book_is_named_where_it_is_cited_and_no_other(detail: Detail) -> None:
-    document = solution_document(dynsolve.solve("planar-2r"), detail)
+    document = solution_document(solved("planar-2r"), detail)
     sources = {formula.source for formula in formulas(document.blocks) if formula.source}
     assert sources and all(source.startswith("§") for source in sources)
     assert [book for book in BOOKS if book.full in opening(document)] == [SPONG]
 
 
 def test_json_names_the_book_with_each_section() -> None:
-    step = dynsolve.solve("planar-2r").to_json()["steps"][0]
+    step = solved("planar-2r").to_json()["steps"][0]
     assert step["source"] == "Spong et al. §3.2"

@@ -8,7 +8,6 @@ from functools import lru_cache
 
 import pytest
 
-import dynsolve
 from dynsolve.document import Block, Document, Fold, Heading, Note, Table, Text
 from dynsolve.explain.notation_list import COUNTING, notation
 from dynsolve.explain.sign_kinds import Kind, formulas_in, kind_of, kinds_in
@@ -22,7 +21,7 @@ from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.notation.walk import children
 from dynsolve.render import latex, markdown
 from dynsolve.solution.documents import solution_document
-from tests.support import ALL_PROBLEMS
+from tests.support import ALL_PROBLEMS, solved
 
 LONG = ["puma560", "stanford-6"]
 SHORT = sorted({path.stem for path in ALL_PROBLEMS} - {*LONG, "panda-7r"})
@@ -45,11 +44,6 @@ masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]
 """
 
 PRINTERS = (UnicodePrinter, LatexPrinter, MathMLPrinter, TypstPrinter)
-
-
-@lru_cache
-def solved(problem: str) -> dynsolve.Solution:
-    return dynsolve.solve(problem)
 
 
 @lru_cache

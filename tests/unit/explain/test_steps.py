@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import pytest
 
-import dynsolve
 from dynsolve.document import Prose
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.quantities.stages import COURSE
-from tests.support import STEMS
+from tests.support import STEMS, solved
 
 SMALL = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
-
-
-@lru_cache
-def solved(problem: str) -> dynsolve.Solution:
-    return dynsolve.solve(problem)
 
 
 def step(problem: str, id: str) -> Step:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import pytest
 from hypothesis import given, settings
 
@@ -16,12 +14,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.summary import TITLE
 from tests.robots import robots
-from tests.support import STEMS
-
-
-@lru_cache
-def solved(problem: str) -> dynsolve.Solution:
-    return dynsolve.solve(problem)
+from tests.support import STEMS, solved
 
 
 def table(problem: str) -> list[list[str]]:

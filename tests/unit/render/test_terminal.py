@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import pytest
 
-import dynsolve
 from dynsolve.document import Document, Fold, Formula, Heading, List, Note, Table, Text
 from dynsolve.explain.step import Detail
 from dynsolve.explain.writing import side_by_side
@@ -16,6 +13,7 @@ from dynsolve.notation.unicode import width
 from dynsolve.render.terminal import render
 from dynsolve.render.terminal_breaking import break_sum
 from dynsolve.solution.documents import solution_document
+from tests.support import solved
 
 LIBRARY = ["in3140-rp", "planar-2r", "rp-vertical", "numeric-2r", "puma560-first3"]
 
@@ -136,11 +134,6 @@ def test_a_sum_is_broken_outside_its_parentheses() -> None:
 
 def test_escape_codes_do_not_reach_the_terminal() -> None:
     assert not any("\x1b" in line for line in lines(Heading("bad \x1b[31m title"), Text(("\x1b]0;x\x07",))))
-
-
-@lru_cache
-def solved(stem: str) -> dynsolve.Solution:
-    return dynsolve.solve(stem)
 
 
 @pytest.mark.parametrize("columns", [60, 80, 132])

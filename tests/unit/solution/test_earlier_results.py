@@ -7,12 +7,11 @@ from functools import lru_cache
 
 import pytest
 
-import dynsolve
 from dynsolve.document import Block, Fold, Formula, Uses
 from dynsolve.render import markdown
 from dynsolve.render.references import numbered
 from dynsolve.solution.documents import solution_document
-from tests.support import ALL_PROBLEMS
+from tests.support import ALL_PROBLEMS, solved
 
 LONG = ["puma560", "stanford-6"]
 SHORT = sorted({path.stem for path in ALL_PROBLEMS} - {*LONG, "panda-7r"})
@@ -21,7 +20,7 @@ PROBLEMS = [*SHORT, *(pytest.param(name, marks=pytest.mark.slow) for name in LON
 
 @lru_cache
 def folds(problem: str) -> tuple[Fold, ...]:
-    blocks: tuple[Block, ...] = solution_document(dynsolve.solve(problem)).blocks
+    blocks: tuple[Block, ...] = solution_document(solved(problem)).blocks
     return tuple(block for block in blocks if isinstance(block, Fold))
 
 
@@ -55,7 +54,7 @@ def test_c_is_made_of_all_christoffel_symbols() -> None:
 
 @pytest.mark.parametrize("problem", PROBLEMS)
 def test_a_reference_is_to_an_equation_before_it(problem: str) -> None:
-    document = solution_document(dynsolve.solve(problem))
+    document = solution_document(solved(problem))
     numbers = numbered(document)
     seen: set[str] = set()
     for fold in folds(problem):

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-import dynsolve
 from dynsolve.document import Document, Fold, Text
 from dynsolve.explain.step import Detail
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
+from tests.support import solved
 
 
 def said(document: Document) -> dict[str, str]:
@@ -42,7 +42,7 @@ ELBOW = [
 
 @pytest.fixture(scope="module")
 def elbow() -> dict[str, str]:
-    return said(solution_document(dynsolve.solve("elbow-3r")))
+    return said(solution_document(solved("elbow-3r")))
 
 
 @pytest.mark.parametrize(("title", "begins"), ELBOW)
@@ -52,7 +52,7 @@ def test_what_holds_for_several_is_said_once(title: str, begins: str, elbow: dic
 
 @pytest.mark.parametrize("name", ["elbow-3r", "inf3480-rpr"])
 def test_no_long_sentence_stands_twice_and_references_lead_to_what_is_shown(name: str) -> None:
-    solution = dynsolve.solve(name)
+    solution = solved(name)
     for detail in (Detail.NORMAL, Detail.FULL):
         sentences = said(solution_document(solution, detail))
         long = [text for text in sentences.values() if len(text) > 60]

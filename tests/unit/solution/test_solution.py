@@ -15,7 +15,7 @@ from dynsolve.errors import ProblemError, UsageError, VerificationError
 from dynsolve.notation.text import read
 from dynsolve.problem.library import bundled, find
 from dynsolve.solution.symbolic import to_sympy
-from tests.support import LIBRARY, numbers
+from tests.support import LIBRARY, numbers, solved
 
 q1, q2, q1_dot, q2_dot = sympy.symbols("q1 q2 q1_dot q2_dot", real=True)
 m2, l1, lc2, g = sympy.symbols("m2 l1 lc2 g", real=True)
@@ -117,7 +117,7 @@ def test_a_parameter_may_have_a_name_that_python_keeps() -> None:
     "path", [path for path in LIBRARY if path.stem not in ("panda-7r", "puma560")], ids=lambda p: p.stem
 )
 def test_json_and_numpy_say_the_same(path: Path) -> None:
-    solution = dynsolve.solve(path)
+    solution = solved(path)
     results = json.loads(json.dumps(solution.to_json()))["results"]
     rng = np.random.default_rng(3)
     values = {name: rng.uniform(0.5, 1.5) for name in solution.robot.parameters}

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-import dynsolve
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
 from dynsolve.explain.context import Context
@@ -22,11 +21,12 @@ from dynsolve.explain.step import Step
 from dynsolve.notation.text import read
 from dynsolve.notation.unicode import to_unicode
 from tests.robots import robots
+from tests.support import solved
 
 
 @lru_cache
 def context(problem: str) -> Context:
-    solution = dynsolve.solve(problem)
+    solution = solved(problem)
     return Context(solution.robot, solution.values, solution.forms, solution.agreement)
 
 
@@ -44,7 +44,7 @@ def said(problem: str, id: str) -> str:
 def rows(problem: str, id: str) -> list[list[str]]:
     step = check(problem, id)
     assert step is not None and step.table is not None
-    style = dynsolve.solve(problem).style
+    style = solved(problem).style
     return [
         [part if isinstance(part, str) else to_unicode(part, style) for part in row]
         for row in step.table.rows
@@ -111,7 +111,7 @@ def test_the_determinant_of_the_planar_arm() -> None:
     step = check("planar-2r", "definite")
     assert step is not None
     (shown,) = step.result
-    assert to_unicode(shown, dynsolve.solve("planar-2r").style).startswith("d₁₁ d₂₂ - d₁₂² = ")
+    assert to_unicode(shown, solved("planar-2r").style).startswith("d₁₁ d₂₂ - d₁₂² = ")
     assert said("in3140-rp", "definite").endswith(
         "d₁₁ and d₂₂ are sums of masses and moments times squares, which never all vanish, and the other "
         "entries are zero."
@@ -133,7 +133,7 @@ masses:
 def test_body_by_body_where_the_determinants_are_long() -> None:
     step = check(TILTED, "definite")
     assert step is not None
-    style = dynsolve.solve(TILTED).style
+    style = solved(TILTED).style
     assert [to_unicode(line, style) for line in step.result] == [
         "2K₁ = (m₁ x₁² + C₁) q̇₁²",
         "2K₂ = (m₂ x₂² + C₂) q̇₂²",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import pytest
 from hypothesis import given, settings
 
@@ -13,15 +11,10 @@ from dynsolve.document import Prose
 from dynsolve.explain.step import Step
 from dynsolve.notation.unicode import to_unicode
 from tests.robots import robots
-from tests.support import STEMS
+from tests.support import STEMS, solved
 from tests.unit.explain.working.evaluated import members
 
 FAMILIAR = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
-
-
-@lru_cache
-def solved(problem: str) -> dynsolve.Solution:
-    return dynsolve.solve(problem)
 
 
 def step(problem: str, id: str) -> Step:

@@ -16,7 +16,7 @@ from dynsolve.notation.text import read
 from dynsolve.notation.tree import Degrees, Node, Number
 from dynsolve.solution.numbers.rounding import rounded, significant, without_constants
 from dynsolve.solution.numbers.substitution import Substitution
-from tests.support import STEMS
+from tests.support import STEMS, solved
 
 SMALL = sorted(STEMS - {"puma560", "panda-7r", "stanford-6"})
 
@@ -28,7 +28,7 @@ def tree(text: str) -> Node:
 @pytest.mark.parametrize("problem", SMALL)
 def test_it_does_not_matter_when_the_numbers_are_put_in(problem: str) -> None:
     """Solving with numbers gives what putting numbers into the solution gives, held in SymPy."""
-    solution = dynsolve.solve(problem)
+    solution = solved(problem)
     names = solution.robot.parameters
     values = {name: f"{3 * i + 2}/{7 + i}" for i, name in enumerate(names) if name not in ("beta", "alpha")}
     valued = solution.with_values(**{name.replace("lambda", "lambda_"): v for name, v in values.items()})
