@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dynsolve.quantities import letters
-from dynsolve.quantities.family import Family, of_robot
+from dynsolve.quantities.family import Family, Owner, of_robot
 from dynsolve.quantities.stages import Stage
 
 H_C = Family(
@@ -35,5 +35,18 @@ LAMBDA = Family(
     spellings=("lam", "lambda_", "mu"),
 )
 
-FAMILIES: tuple[Family, ...] = (H_C, AC, AC_DOT, LAMBDA)
+LAMBDA_ENTRY = Family(
+    name="lambda{i}",
+    rule="lambda",
+    owner=Owner.CONSTRAINT,
+    stage=Stage.CONSTRAINTS,
+    letter=lambda robot, i: letters.entry("lambda", i),
+    spellings=("lam{i}",),
+    part_of="lambda",
+)
+
+FAMILIES: tuple[Family, ...] = (H_C, AC, AC_DOT, LAMBDA, LAMBDA_ENTRY)
 """The records above, in their order."""
+
+MULTIPLIERS = (LAMBDA, LAMBDA_ENTRY)
+"""λ, and its entries."""

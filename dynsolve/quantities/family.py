@@ -41,6 +41,8 @@ class Owner(Enum):
     """A force from outside."""
     TASK = 8
     """A component of the task."""
+    CONSTRAINT = 9
+    """A constraint."""
 
 
 class Kind(Enum):

@@ -125,6 +125,7 @@ class Owners:
             Owner.POINT: len(self.named),
             Owner.LOAD: self.loads,
             Owner.TASK: len(self.task_names),
+            Owner.CONSTRAINT: self.constraints,
         }
         if owner in count:
             return ((i,) for i in range(1, count[owner] + 1))
@@ -134,7 +135,7 @@ class Owners:
     def template_values(self, owner: Owner, index: tuple[int, ...]) -> dict[str, str]:
         """The values of the fields in a family's templates; see `dynsolve.quantities.family`."""
         match owner:
-            case Owner.ROW | Owner.LOAD | Owner.TASK:
+            case Owner.ROW | Owner.LOAD | Owner.TASK | Owner.CONSTRAINT:
                 return {"i": str(index[0])}
             case Owner.BODY:
                 return {"b": self.bodies[index[0] - 1]}

@@ -8,6 +8,7 @@ inputs                        names of generalized forces in λ and q̈: what th
 own_names                     what a name inside a value stands for
 route, task_routes            one way to an answer; those by way of the task's Jacobian
 own_constraint                A_c by its rows, its rate, and λ by A_cᵀ λ, where the constraint holds
+moved_multipliers             equations of motion in which A_cᵀ λ stands
 recursion_routes              the ways from the recursions to a force
 graph                         which answers lead to which, by which routes
 entry_comparison              whether two scalars are equal

@@ -21,7 +21,8 @@ from dynsolve.answers.judging.answer_values import AnswerValue, AnswerValues
 from dynsolve.answers.judging.entry_comparison import EntryComparer
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparer, KeyComparison
-from dynsolve.answers.judging.own_constraint import with_own_constraint
+from dynsolve.answers.judging.moved_multipliers import with_moved_multipliers
+from dynsolve.answers.judging.own_constraint import OwnConstraint, with_own_constraint
 from dynsolve.answers.judging.own_parameters import as_matrix, own_parameters
 from dynsolve.answers.judging.zero_height import potential_at_zero_height
 from dynsolve.answers.submission import Answer
@@ -56,8 +57,15 @@ class ComparedHandIn:
         self.graph = AnswerGraph(self.answer_ring, potential, self._own_parameters())
         self.compare = KeyComparer(self.graph, self.compare_entry, values.changed)
         compared = {name: self.compare(name, last(chains)) for name, chains in self.chains.items()}
-        self.comparisons = with_own_constraint(self.graph, compared)
+        self.comparisons = (
+            self._on_constraint(compared) if self.graph.robot.questions.constraints else compared
+        )
         self.assembled_coriolis = self._assembled_coriolis()
+
+    def _on_constraint(self, compared: Mapping[str, KeyComparison]) -> dict[str, KeyComparison]:
+        """The comparisons where the student may choose the matrix of the constraint, and where λ stands."""
+        own = OwnConstraint(self.graph)
+        return with_moved_multipliers(own, with_own_constraint(own, compared), self.compare)
 
     def _own_parameters(self) -> Mapping[str, Matrix]:
         """The parameters a of τ = Y a that the student chose."""

@@ -43,6 +43,9 @@ class Other(StrEnum):
     WITH_GRAVITY = "right with gravity as an acceleration of the base; in the key it is a force on each link"
     SPRINGS_FROM_ELSEWHERE = "right; the energy of the springs is counted from elsewhere than in the key"
     WITHOUT_LOADS = "right with the forces from outside moved over: here τ is the left side, τ + Q the right"
+    WITHOUT_MULTIPLIERS = (
+        "right with the forces of the constraint moved over: here τ + A_cᵀ λ is the right side"
+    )
     UP_TO_FACTOR = "right: where no motor drives, the equation may be multiplied by a factor"
     WITHOUT_GRAVITY = "right with gravity as a force on each link; in the key the base accelerates instead"
     WITH_FRICTION = "right with the friction in it, which is a term of its own in the key"

@@ -36,13 +36,10 @@ _TRIES, _STEPS, _CLOSE = 60, 40, 1e-7
 
 
 def with_own_constraint(
-    graph: AnswerGraph, comparisons: Mapping[str, KeyComparison]
+    own: OwnConstraint, comparisons: Mapping[str, KeyComparison]
 ) -> dict[str, KeyComparison]:
     """The comparisons, those of A_c, its rate and λ being right where they belong together."""
     found = dict(comparisons)
-    if not graph.robot.questions.constraints or not {"Ac", "Ac_dot", "lambda"} & found.keys():
-        return found
-    own = _OwnConstraint(graph)
     for name, is_right in (("Ac", own.matrix), ("Ac_dot", own.rate), ("lambda", own.multipliers)):
         compared = found.get(name)
         if compared is None or compared.answer_value.rows is None or not compared.rows:
@@ -59,7 +56,7 @@ def with_own_constraint(
     return found
 
 
-class _OwnConstraint:
+class OwnConstraint:
     """The key's constraint, and the matrix that the student writes for it (`rows`)."""
 
     def __init__(self, graph: AnswerGraph) -> None:
@@ -80,15 +77,19 @@ class _OwnConstraint:
     def matrix(self, value: AnswerValue) -> Other | None:
         """Whether the rows span the key's, at every state on the constraint."""
         assert value.rows is not None
+        return Other.SAME_CONSTRAINT if self.keeps(value.rows) else None
+
+    def keeps(self, rows: Rows) -> bool:
+        """Whether a matrix keeps the same constraint: its rows span the key's at every state on it."""
         key = self._key("Ac")
         for at in self.states:
-            mine, theirs = self._numbers(value.rows, at), self._numbers(key, at)
+            mine, theirs = self._numbers(rows, at), self._numbers(key, at)
             if mine is None or theirs is None:
-                return None
+                return False
             rank = len(orthonormal(theirs))
             if len(orthonormal(mine)) != rank or len(orthonormal([*theirs, *mine])) != rank:
-                return None
-        return Other.SAME_CONSTRAINT if self.states else None
+                return False
+        return bool(self.states)
 
     def rate(self, value: AnswerValue) -> Other | None:
         """Whether it is the rate of the student's matrix."""

@@ -119,7 +119,7 @@ def _rest(vocabulary: Vocabulary, terms: Sequence[_Term]) -> RightSide | None:
     if not tokens:
         return RightSide(ZERO, (), (), (), is_definition=False)
     found = read_right_side(vocabulary, tokens)
-    return found if isinstance(found, RightSide) and not found.references else None
+    return found if isinstance(found, RightSide) and vocabulary.are_multipliers(found.references) else None
 
 
 def _forces(vocabulary: Vocabulary, tokens: list[Token]) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ what the student defined.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -17,6 +18,7 @@ from dynsolve.answers.reading.index_order import USUAL, in_usual_order
 from dynsolve.notation.names import split
 from dynsolve.notation.tree import Function, Node, Sum, Symbol
 from dynsolve.problem.model import Problem
+from dynsolve.quantities.constraint_families import MULTIPLIERS
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.index import Quantities, Shape, quantities
 from dynsolve.quantities.spelling import key, open_index, subscripts
@@ -229,6 +231,10 @@ class Vocabulary:
         """Whether the answer of that name is a space, which vectors span."""
         found = self.quantities.canonical(name)
         return found is not None and self.quantities[found].family.kind is Kind.SPAN
+
+    def are_multipliers(self, names: Iterable[str]) -> bool:
+        """Whether no name is that of an answer but λ, or an entry of it."""
+        return all(self.quantities[name].family in MULTIPLIERS for name in names)
 
     def shape(self, name: str) -> Shape:
         """Rows and columns of an answer; None for a scalar, and for what is none."""

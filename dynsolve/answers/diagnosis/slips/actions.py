@@ -1,4 +1,4 @@
-"""Slips of what acts beside gravity: friction, springs, rotors, forces from outside."""
+"""Slips of what acts beside gravity: friction, springs, rotors, forces from outside and of constraints."""
 
 from __future__ import annotations
 
@@ -18,6 +18,15 @@ _MASSES = ("m1*l1^2*q1_dot^2/2 + m2*(l1^2*q1_dot^2 + l2^2*(q1_dot+q2_dot)^2"
            " + 2*l1*l2*cos(q2)*q1_dot*(q1_dot+q2_dot))/2")  # fmt: skip
 _TAU2 = ("m2*(l2^2+l1*l2*cos(q2))*q1_ddot + m2*l2^2*q2_ddot + m2*l1*l2*sin(q2)*q1_dot^2"
          " + m2*g*l2*cos(q1+q2) + k*(q2-q1-delta) + Im2*kr2*q1_ddot + Im2*kr2^2*q2_ddot")  # fmt: skip
+
+_BLADE = """
+gravity: none
+model:
+  coordinates: {x: prismatic, y: prismatic, phi: revolute}
+  bodies: [{mass: m, at: [x, y, 0], turn: phi, about: [0, 0, 1], inertia: {zz: J}}]
+constraints: [{rates: x'*sin(phi) - y'*cos(phi)}]
+find: [tau, Ac, lambda]
+"""
 
 SLIPS = (
     Slip("friction_missing", "friction left out", "Friction is left out.",
@@ -74,4 +83,9 @@ masses: [{mass: m1, link: 1}]
 forces: [{link: 1, force: [0, F, 0]}]
 find: [tau_static]
 """, "tau_static", [["-l1*cos(q1)*F"]])),
+    Slip("constraint_forces", "the forces of the constraint",
+         "The forces of the constraint are not A_cᵀ λ; without them the equation is right.",
+         "Beside λ stand the derivatives of its constraint by the coordinates, with one sign everywhere.",
+         Example(_BLADE, "tau", [["m*x_ddot - lambda1*sin(phi)"], ["m*y_ddot - lambda1*cos(phi)"],
+                 ["J*phi_ddot"]])),
 )  # fmt: skip

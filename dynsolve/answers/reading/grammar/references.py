@@ -88,7 +88,7 @@ def _has_rates(reader: Reader) -> bool:
 def placeholder(vocabulary: Vocabulary, name: str) -> Value:
     """What stands for an answer: a reference to it, or the matrix of those to its entries."""
     shape = vocabulary.shape(name)
-    if shape is None:
+    if shape is None or (shape == (1, 1) and vocabulary.are_multipliers([name])):
         return Reference(name)
     rows, columns = shape
     return Grid(
