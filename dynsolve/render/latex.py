@@ -23,11 +23,12 @@ from dynsolve.document import (
 from dynsolve.notation.latex import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Row, Words
-from dynsolve.render.columns import Cell, Columns
+from dynsolve.render.latex_displays import aligned, gathered, in_columns
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import TypesetPage, leads_on, prose_columns
-from dynsolve.render.references import is_long, last_display, numbered, running_title, slug
+from dynsolve.render.page import TypesetPage, prose_columns
+from dynsolve.render.page_ends import leads_on
+from dynsolve.render.references import is_long, numbered, running_title, sections, slug
 from dynsolve.render.typesetting import Line
 
 PAGE = 46.9
@@ -42,7 +43,6 @@ _COLUMN_SPACE = 1.3  # around a column of a table, in em
 _NARROWEST = 12.0
 _MARGIN = 0.8
 _QUAD = 0.9  # what a comma between formulas takes more in LaTeX
-_MOST_LINES = 60  # what TeX holds in memory at once is bounded
 _TALL = (r"\frac", r"\sum", r"\begin")
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
 
@@ -57,29 +57,24 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\parskip}{3pt plus 1pt}
 \setlength{\emergencystretch}{4em}
 \setlength{\jot}{2pt}
-\setcounter{tocdepth}{1}
 \setcounter{MaxMatrixCols}{30}
 \renewcommand{\arraystretch}{1.12}
-\allowdisplaybreaks[3]
 \clubpenalty=9000 \widowpenalty=9000
 \AtBeginDocument{\setlength{\abovedisplayskip}{5pt plus 2pt}\setlength{\belowdisplayskip}{5pt plus 2pt}}
 \makeatletter
 \renewcommand\section{\@startsection{section}{1}{0pt}{-14pt plus -4pt}{5pt}{\Large\bfseries}}
 \renewcommand\subsection{\@startsection{subsection}{2}{0pt}{-9pt plus -3pt}{2pt}{\normalsize\bfseries}}
-\renewcommand\l@section{\@dottedtocline{1}{0pt}{1.6em}}
-\newcommand\reportcontents{{\medskip\parskip=0pt\@starttoc{toc}\par}}
+\newcommand\contentsrow[2]{\@dottedtocline{1}{0pt}{1.6em}{#1}{\pageref{#2}}}
 \makeatother
 \pagestyle{myheadings}
 """
 
-# The source of a formula; equations in columns: a row, a cell of a width with its name and the rest;
-# no page ends after a display or before a heading from here on.
+# The source of a formula; equations in columns: a row, a cell of a width with its name and the rest.
 _MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
 \providecommand{\equationrow}[1]{\par\noindent\strut#1}
 \providecommand{\equationcell}[4]{\makebox[#1\dimexpr\linewidth-3.4em\relax][l]{%
   \makebox[#2em][r]{$\displaystyle #3$}$\displaystyle {}#4$}}
 \providecommand{\equationnumber}[1]{\hfill\refstepcounter{equation}(\theequation)#1}
-\providecommand{\nopageends}{\postdisplaypenalty=10000 \csname @secpenalty\endcsname=10000 }
 """
 
 
@@ -104,7 +99,7 @@ def render_fragment(document: Document, style: Style = PLAIN) -> str:
     r"""A fragment for \input into another document; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
     body = "\n".join(page.blocks(document.blocks))
-    begin = "\\begingroup\\allowdisplaybreaks[3]\\emergencystretch=4em\\renewcommand{\\arraystretch}{1.12}"
+    begin = "\\begingroup\\emergencystretch=4em\\renewcommand{\\arraystretch}{1.12}"
     return f"{_NEEDS}{_MACROS}{begin}\n{body}\n\\par\\endgroup\n"
 
 
@@ -156,43 +151,62 @@ class _Page(TypesetPage):
         printer = _Printer(style)
         super().__init__(printer, latex_notation(printer), numbered(document), width, _NUMBER)
         self.prefix = slug(document)
-        self.has_contents = self.contents_are_due = contents
-        self.last_display = last_display(document)
+        self.sections = sections(document) if contents else ()
+        self.contents_are_due = contents
+        self.close(document)
+        self.end_is_due = True
 
     def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
         """The blocks one after the other, formulas that follow each other in one display.
 
-        From the end of the last display on no page ends, so that no sentence stands alone on one.
+        A paragraph stays with the display after it, and the last rows of the document on one page.
         """
         in_text = False
-        for is_formula, run in groupby(blocks, lambda block: isinstance(block, Formula)):
-            group = list(run)
-            if any(block is self.last_display for block in group):
-                yield "\\nopageends"
-            if is_formula:
-                yield from self.formulas(block for block in group if isinstance(block, Formula))
+        kinds = groupby(blocks, lambda block: (isinstance(block, Formula), self.closes(block)))
+        for (are_formulas, close), run in kinds:
+            if close and self.end_is_due:
+                self.end_is_due = False
+                yield "\\samepage"
+            if are_formulas:
+                yield from ["\\nopagebreak"] * in_text
+                yield from self.formulas(block for block in run if isinstance(block, Formula))
                 in_text = True
                 continue
-            for block in group:
+            for block in run:
                 if in_text:
-                    yield ""
+                    yield "\\nopagebreak" if isinstance(block, Equations) else ""
                 yield from self.block(block)
                 in_text = isinstance(block, Text | Uses)
 
     def heading(self, heading: Heading) -> Iterator[str]:
         """A heading keeps the number that it has in the whole derivation."""
         command = ("section", "section", "subsection")[heading.level - 1]
-        found = _NUMBERED.fullmatch(heading.text)
-        words = f"{found[1]}\\quad {self.words(found[2])}" if found else self.words(heading.text)
+        words = self.numbered_words(heading)
         if heading.level == 2 and self.contents_are_due:
             self.contents_are_due = False
-            yield "\\reportcontents"
-        yield f"\\{command}*{{{words}}}"
-        if command == "section" and self.has_contents:
-            yield f"\\addcontentsline{{toc}}{{section}}{{{words}}}"
+            yield from self.contents()
+        label = f"\\label{{{self.page_of(heading)}}}" if heading in self.sections else ""
+        yield f"\\{command}*{{{words}}}{label}"
+
+    def contents(self) -> Iterator[str]:
+        """The sections with their pages; as tall when TeX does not know these yet, so two runs are enough."""
+        yield "{\\medskip\\parskip=0pt"
+        for heading in self.sections:
+            yield f"\\contentsrow{{{self.numbered_words(heading)}}}{{{self.page_of(heading)}}}"
+        yield "\\par}"
+
+    def page_of(self, section: Heading) -> str:
+        """The label of a section."""
+        return f"{self.prefix}:section-{self.sections.index(section) + 1}"
+
+    def numbered_words(self, heading: Heading) -> str:
+        """The words of a heading after its number, where it has one."""
+        found = _NUMBERED.fullmatch(heading.text)
+        return f"{found[1]}\\quad {self.words(found[2])}" if found else self.words(heading.text)
 
     def text(self, text: Text) -> Iterator[str]:
-        yield self.prose(text.parts) + r"\nopagebreak" * leads_on(text.parts)
+        keep = leads_on(text.parts) or self.closes(text)
+        yield self.prose(text.parts) + r"\nopagebreak" * keep
 
     def formula(self, formula: Formula) -> Iterator[str]:
         yield from self.formulas([formula])
@@ -200,20 +214,22 @@ class _Page(TypesetPage):
     def formulas(self, formulas: Iterable[Formula]) -> Iterator[str]:
         """Displays: formulas of one line together, one that is broken alone."""
         rows: list[tuple[Line, str]] = []
+        keep = False
         for formula in formulas:
+            last, keep = self.kept(formula), self.closes(formula)
             columns = self.columns(formula)
             lines = [] if columns else self.typesetter(formula).set(formula)
             label = self.label(formula)
             if len(lines) == 1:
                 rows.append((lines[0], label))
                 continue
-            yield from _gathered(rows)
+            yield from gathered(rows, keep)
             rows = []
             if columns:
-                yield from _in_columns(columns, label)
+                yield from in_columns(columns, label, last)
             elif lines:
-                yield from _aligned(lines, label)
-        yield from _gathered(rows)
+                yield from aligned(lines, label, last)
+        yield from gathered(rows, keep)
 
     def label(self, formula: Formula) -> str:
         """What stands beside a formula: its number, or its source."""
@@ -224,9 +240,9 @@ class _Page(TypesetPage):
     def equations(self, equations: Equations) -> Iterator[str]:
         columns = self.equation_columns(equations)
         if columns is not None:
-            yield from _in_columns(columns, "")
+            yield from in_columns(columns, last=self.kept(equations))
         else:
-            yield from _aligned(self.unnumbered.equations(equations.nodes), "")
+            yield from aligned(self.unnumbered.equations(equations.nodes), last=self.kept(equations))
 
     def reference(self, label: str, number: int) -> str:
         return f"\\eqref{{{self.prefix}:{label}}}"
@@ -253,7 +269,7 @@ class _Page(TypesetPage):
             rows = "\n".join(body[start : start + size])
             above = "" if start else f"{head} \\hline\\rule{{0pt}}{{2.6ex}}%\n"
             yield f"{{\\centering\\begin{{tabular}}{{{columns}}}\n{above}{rows}\n\\end{{tabular}}\\par}}"
-        yield "\\nopagebreak\\medskip" if table is self.last_display else "\\medskip"
+        yield "\\nopagebreak\\medskip" if self.closes(table) else "\\medskip"
 
     def column_kinds(self, table: Table, fixed: bool) -> str:
         """The columns of a tabular, of `fixed` widths or as wide as they are.
@@ -292,49 +308,3 @@ class _Page(TypesetPage):
 
     def verbatim(self, text: str) -> str:
         return f"\\texttt{{{latex_text(text)}}}"
-
-
-def _in_columns(columns: Columns, label: str) -> Iterator[str]:
-    """Rows of equations between which a page may end, the number at the end of the last."""
-    yield "\\begingroup\\parskip=1pt\\lineskiplimit=2pt\\lineskip=3pt"
-    last = len(columns.rows) - 1
-    for place, row in enumerate(columns.rows):
-        cells = "".join(_cell(cell, columns) for cell in row)
-        number = f"\\equationnumber{{{label}}}" if label and place == last else ""
-        yield f"\\equationrow{{{cells}{number}}}"
-    yield "\\par\\endgroup"
-
-
-def _cell(cell: Cell, columns: Columns) -> str:
-    indent = r"\qquad " if cell.line.indented else ""
-    share = f"{cell.span / columns.count:.4f}"
-    return f"\\equationcell{{{share}}}{{{columns.name:.2f}}}{{{cell.line.left}}}{{{indent}{cell.line.right}}}"
-
-
-def _gathered(rows: Sequence[tuple[Line, str]]) -> Iterator[str]:
-    """Formulas of one line each, one under the other."""
-    if not rows:
-        return
-    texts = [line.alone for line, _ in rows]
-    if len(rows) == 1:
-        label = rows[0][1]
-        star = "" if label else "*"
-        yield f"\\begin{{equation{star}}}{label}\n{texts[0]}\n\\end{{equation{star}}}"
-        return
-    body = " \\\\\n".join(text + (label or r" \notag") for text, (_, label) in zip(texts, rows, strict=True))
-    yield f"\\begin{{gather}}\n{body}\n\\end{{gather}}"
-
-
-def _aligned(lines: Sequence[Line], label: str) -> Iterator[str]:
-    """One formula on several lines, the number beside the last; a very long one in several displays."""
-    for start in range(0, len(lines), _MOST_LINES):
-        part = lines[start : start + _MOST_LINES]
-        number = label if start + _MOST_LINES >= len(lines) else ""
-        last = len(part) - 1
-        rows = []
-        for place, line in enumerate(part):
-            tag = (number if place == last else r" \notag") if number else ""
-            rows.append(line.aligned("\\qquad ") + tag)
-        star = "" if number else "*"
-        body = " \\\\\n".join(rows)
-        yield f"\\begin{{align{star}}}\n{body}\n\\end{{align{star}}}"

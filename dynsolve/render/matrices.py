@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dynsolve.document import Formula
 from dynsolve.notation.tree import ZERO, Entry, Letter, Matrix, Node, Number, Row, Words
-from dynsolve.notation.walk import children
+from dynsolve.notation.walk import children, walk
 
 _SHALLOW = 4
 
@@ -14,6 +14,11 @@ def holds_matrix(node: Node, depth: int = _SHALLOW) -> bool:
     if isinstance(node, Matrix):
         return True
     return depth > 0 and any(holds_matrix(part, depth - 1) for part in children(node))
+
+
+def height(node: Node) -> int:
+    """How many rows the highest matrix in a formula has."""
+    return max((len(part.rows) for part in walk(node) if isinstance(part, Matrix)), default=1)
 
 
 def entries_by_value(matrix: Matrix) -> list[tuple[Node, list[tuple[int, int]]]]:

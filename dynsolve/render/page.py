@@ -14,6 +14,7 @@ from typing import Generic, TypeVar
 
 from dynsolve.document import (
     Block,
+    Document,
     Equations,
     Fold,
     Formula,
@@ -33,8 +34,10 @@ from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.tree import Node
 from dynsolve.render.columns import FEWEST, Columns, in_columns
 from dynsolve.render.line_breaking import Notation
+from dynsolve.render.matrices import height
+from dynsolve.render.page_ends import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, closing
 from dynsolve.render.prose import ProseWriter
-from dynsolve.render.references import runs, with_results
+from dynsolve.render.references import runs, unfolded, with_results
 from dynsolve.render.typesetting import Typesetter
 
 _Piece = TypeVar("_Piece")
@@ -163,11 +166,6 @@ class Page(ABC, Generic[_Piece]):
         """A formula in a sentence."""
 
 
-def leads_on(parts: Prose) -> bool:
-    """Whether a sentence ends with a colon, and so belongs on one page with what follows."""
-    return bool(parts) and isinstance(parts[-1], str) and parts[-1].rstrip().endswith(":")
-
-
 _PROSE = 30
 """Cells with more letters than this are sentences, which are broken."""
 
@@ -216,6 +214,7 @@ class TypesetPage(MarkupPage):
         self.notation, self.ruler = notation, Ruler(printer.style)
         self.width, self.number = width, number
         self.unnumbered = Typesetter(notation, self.ruler, width)
+        self.closing: tuple[Block, ...] = ()
 
     def typesetter(self, formula: Formula) -> Typesetter:
         """The typesetter of a formula; one with a number or its source beside it has less room."""
@@ -238,6 +237,35 @@ class TypesetPage(MarkupPage):
             return None
         room = self.width - self.number
         return in_columns(Typesetter(self.notation, self.ruler, room).each(equations.nodes), room)
+
+    def rows(self, block: Block) -> int:
+        """How many rows a block has on a page, at least."""
+        match block:
+            case Formula():
+                columns = self.columns(block)
+                if columns:
+                    return len(columns.rows)
+                return max(len(self.typesetter(block).set(block)), height(block.node))
+            case Equations():
+                columns = self.equation_columns(block)
+                return len(columns.rows) if columns else len(self.unnumbered.equations(block.nodes))
+            case Table():
+                return len(block.rows) + 1
+            case List():
+                return len(block.items)
+        return 1
+
+    def close(self, document: Document) -> None:
+        """Let no page end in the last rows of a document."""
+        self.closing = closing(unfolded(document.blocks), self.rows)
+
+    def closes(self, block: Block) -> bool:
+        """Whether a block is among those between which no page ends."""
+        return any(block is one for one in self.closing)
+
+    def kept(self, block: Block) -> int:
+        """How many of the last rows of a display are on one page."""
+        return LAST_OF_DOCUMENT if self.closes(block) else LAST_OF_DISPLAY
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence."""

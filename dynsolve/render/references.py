@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import zip_longest
 from textwrap import shorten
 
-from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Note, Text, Uses
+from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Text, Uses
 
 
 def numbered(document: Document, level: int | None = None) -> dict[str, int]:
@@ -28,8 +28,12 @@ _LONGEST_HEADER = 60
 
 def is_long(document: Document) -> bool:
     """Whether a document wants a table of contents: from five sections on."""
-    sections = [block for block in document.blocks if isinstance(block, Heading) and block.level == 2]
-    return len(sections) >= _MANY_SECTIONS
+    return len(sections(document)) >= _MANY_SECTIONS
+
+
+def sections(document: Document) -> tuple[Heading, ...]:
+    """The headings of the sections of a document."""
+    return tuple(block for block in document.blocks if isinstance(block, Heading) and block.level == 2)
 
 
 def running_title(title: str) -> str:
@@ -39,13 +43,6 @@ def running_title(title: str) -> str:
     'RP manipulator'
     """
     return shorten(title, _LONGEST_HEADER, placeholder="…") if len(title) > _LONGEST_HEADER else title
-
-
-def last_display(document: Document) -> Block | None:
-    """The last block that is no sentence, where sentences follow: these are not left alone on a page."""
-    blocks = list(_unfolded(document.blocks))
-    displays = [block for block in blocks if not isinstance(block, Heading | Text | Note | Uses)]
-    return displays[-1] if displays and displays[-1] is not blocks[-1] else None
 
 
 def runs(labels: Iterable[str], numbers: Mapping[str, int]) -> list[list[str]]:
@@ -65,16 +62,16 @@ def runs(labels: Iterable[str], numbers: Mapping[str, int]) -> list[list[str]]:
 
 def formulas(blocks: Iterable[Block], level: int | None = None) -> Iterator[Formula]:
     """The displayed formulas, those in folds too; in folds of up to `level` alone."""
-    return (block for block in _unfolded(blocks, level) if isinstance(block, Formula))
+    return (block for block in unfolded(blocks, level) if isinstance(block, Formula))
 
 
-def _unfolded(blocks: Iterable[Block], level: int | None = None) -> Iterator[Block]:
+def unfolded(blocks: Iterable[Block], level: int | None = None) -> Iterator[Block]:
     """The blocks, in place of a fold those in it, or nothing where it belongs to a higher level."""
     for block in blocks:
         if not isinstance(block, Fold):
             yield block
         elif level is None or block.level <= level:
-            yield from _unfolded(block.blocks, level)
+            yield from unfolded(block.blocks, level)
 
 
 def with_results(blocks: Sequence[Block]) -> list[Block]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import zip_longest
 
 from dynsolve.document import (
     Block,
@@ -22,9 +23,10 @@ from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.columns import Columns
 from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import TypesetPage, leads_on, prose_columns
+from dynsolve.render.page import TypesetPage, prose_columns
+from dynsolve.render.page_ends import introduces, runs_of_rows
 from dynsolve.render.prose import visible
-from dynsolve.render.references import is_long, last_display, numbered, running_title
+from dynsolve.render.references import is_long, numbered, running_title
 from dynsolve.render.typesetting import Line
 
 PAGE = 45.0
@@ -55,13 +57,13 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 }
 #let formula(body, side) = displayed(breakable: false,
   grid(columns: (1fr, auto, 1fr), align: (left, center, right + horizon), [], body, side))
+#let held(rows) = grid.cell(rowspan: rows, breakable: false, [])
 #let formula-lines(..cells) = displayed(
   grid(columns: (1fr, auto, auto, 1fr), column-gutter: (0pt, 0.28em, 0pt), row-gutter: 0.6em,
-    align: (left, right + horizon, left + horizon, right + horizon),
-    ..cells.pos().chunks(3).map(row => ([], ..row)).flatten()))
+    align: (left, right + horizon, left + horizon, right + horizon), ..cells))
 #let columned(count, ..cells) = displayed(
-  grid(columns: (1fr,) * count + (3em,), row-gutter: 0.65em,
-    align: (x, y) => if x == count { right + horizon } else { left + horizon }, ..cells))
+  grid(columns: (0pt,) + (1fr,) * count + (3em,), row-gutter: 0.65em,
+    align: (x, y) => if x == count + 1 { right + horizon } else { left + horizon }, ..cells))
 #let note(body) = {
   block(inset: (left: 0.8em, y: 0.3em), stroke: (left: 1.5pt + luma(150)), text(9.3pt, body))
 }
@@ -120,16 +122,18 @@ class _Page(TypesetPage):
         printer = TypstPrinter(style)
         super().__init__(printer, typst_notation(printer), numbered(document), PAGE, _NUMBER)
         self.contents_are_due = is_long(document)
-        self.last_display = last_display(document)
+        self.close(document)
 
-    def block(self, block: Block) -> Iterator[str]:
-        """One block; the last display stays on the page of the sentences that follow it."""
-        if block is self.last_display:
-            yield "#block(sticky: true, width: 100%)["
-            yield from super().block(block)
-            yield "]"
-        else:
-            yield from super().block(block)
+    def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
+        """The blocks, in a sticky block what stays on the page of the next."""
+        listed = list(blocks)
+        for block, following in zip_longest(listed, listed[1:]):
+            if introduces(block, following) or self.closes(block):
+                yield "#block(sticky: true, width: 100%)["
+                yield from self.block(block)
+                yield "]"
+            else:
+                yield from self.block(block)
 
     def heading(self, heading: Heading) -> Iterator[str]:
         if heading.level == 2 and self.contents_are_due:
@@ -138,15 +142,14 @@ class _Page(TypesetPage):
         yield f"#heading(level: {heading.level})[{self.words(heading.text)}]"
 
     def text(self, text: Text) -> Iterator[str]:
-        prose = self.prose(text.parts)
-        yield f"#block(sticky: true)[{prose}]" if leads_on(text.parts) else f"{prose}\n"
+        yield f"{self.prose(text.parts)}\n"
 
     def formula(self, formula: Formula) -> Iterator[str]:
         columns = self.columns(formula)
         if columns is not None:
-            yield _in_columns(columns, self.side(formula))
+            yield _in_columns(columns, self.side(formula), self.kept(formula))
         elif lines := self.typesetter(formula).set(formula):
-            yield _display(lines, self.side(formula))
+            yield _display(lines, self.side(formula), self.kept(formula))
 
     def side(self, formula: Formula) -> str:
         """What stands beside a formula: its number, which others refer to, or its source."""
@@ -157,15 +160,15 @@ class _Page(TypesetPage):
     def equations(self, equations: Equations) -> Iterator[str]:
         columns = self.equation_columns(equations)
         if columns is not None:
-            yield _in_columns(columns, "")
+            yield _in_columns(columns, "", self.kept(equations))
         else:
-            yield _display(self.unnumbered.equations(equations.nodes), "")
+            yield _display(self.unnumbered.equations(equations.nodes), "", self.kept(equations))
 
     def reference(self, label: str, number: int) -> str:
         return f"#link(<eq-{label}>)[{super().reference(label, number)}]"
 
     def uses(self, sentence: str) -> Iterator[str]:
-        yield f"#block(sticky: true)[{sentence}]"
+        yield sentence
 
     def list(self, items: Sequence[Prose]) -> Iterator[str]:
         yield from (f"- {self.prose(item)}" for item in items)
@@ -197,32 +200,40 @@ class _Page(TypesetPage):
         return f"#raw({quoted(visible(text))});"
 
 
-def _display(lines: Sequence[Line], side: str) -> str:
+def _display(lines: Sequence[Line], side: str, last: int) -> str:
     """A formula in the middle of the page, `side` at the end of its last line.
 
-    A page may end between two lines, and what stands at the side is there once.
+    A page may end between two lines, but not in so many at the end; what stands at the side is there once.
     """
     if len(lines) == 1:
         return f"#formula({_math(lines[0].alone)}, [{side}])"
-    last = len(lines) - 1
-    cells = (
-        f"{_math(line.left)}, {_math(_right(line))}, [{side if place == last else ''}]"
-        for place, line in enumerate(lines)
-    )
+    cells: list[str] = []
+    for line, run in zip(lines, _held(len(lines), last), strict=True):
+        cells += [*run, _math(line.left), _math(_right(line)), "[]"]
+    cells[-1] = f"[{side}]"
     return f"#formula-lines({', '.join(cells)})"
 
 
-def _in_columns(columns: Columns, side: str) -> str:
+def _held(count: int, last: int) -> Iterator[list[str]]:
+    """What stands before each row: at the first of a run of rows a cell as high as all, which holds them."""
+    for run in runs_of_rows(count, last):
+        yield [f"held({run})"]
+        yield from [[]] * (run - 1)
+
+
+def _in_columns(columns: Columns, side: str, last: int) -> str:
     """Equations in columns, `side` at the end of the last row."""
-    last = len(columns.rows) - 1
+    count = len(columns.rows)
     cells: list[str] = []
-    for place, row in enumerate(columns.rows):
+    for row, run in zip(columns.rows, _held(count, last), strict=True):
+        cells += run
         for cell in row:
             name = f"box(width: {columns.name:.2f}em, align(right, {_math(cell.line.left)}))"
             cells.append(f"grid.cell(colspan: {cell.span}, {name} + h(0.28em) + {_math(_right(cell.line))})")
         if rest := columns.count - sum(cell.span for cell in row):
             cells.append(f"grid.cell(colspan: {rest}, [])")
-        cells.append(f"[{side if place == last else ''}]")
+        cells.append("[]")
+    cells[-1] = f"[{side}]"
     return f"#columned({columns.count}, {', '.join(cells)})"
 
 

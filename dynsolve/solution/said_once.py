@@ -14,7 +14,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.latex import to_latex
 from dynsolve.notation.tree import Node
-from dynsolve.render.page import leads_on
+from dynsolve.render.page_ends import leads_on
 
 _OF = re.compile(r"\b(body|coordinate|column|frame) (\w+)", re.IGNORECASE)
 _SHORT = 60

@@ -61,6 +61,8 @@ class Typeset:
     code: int
     log: str
     pdf: Path
+    settled: bool = True
+    """Whether a further run would find the references where they are."""
 
     @property
     def pages(self) -> int:
@@ -83,10 +85,12 @@ def typeset(source: str, folder: Path) -> Typeset:
     options = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
     command = [program, *options, "-draftmode", "report.tex"]
     done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
+    first = (folder / "report.aux").read_bytes() if done.returncode == 0 else b""
     if done.returncode == 0:
         done = subprocess.run([program, *options, "report.tex"], cwd=folder, capture_output=True, check=False)
     log = (folder / "report.log").read_text(encoding="utf-8", errors="replace")
-    return Typeset(done.returncode, log, folder / "report.pdf")
+    settled = done.returncode == 0 and (folder / "report.aux").read_bytes() == first
+    return Typeset(done.returncode, log, folder / "report.pdf", settled)
 
 
 def text_of(pdf: Path) -> str:
@@ -102,5 +106,5 @@ def lines_of(pdf: Path) -> list[list[str]]:
     return [[line for line in page.splitlines() if line.strip()] for page in pages]
 
 
-FEWEST_LINES = 5
+FEWEST_LINES = 8
 """A page with fewer, the one above it with its title and number among them, is nearly empty."""
