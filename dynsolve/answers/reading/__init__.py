@@ -25,9 +25,9 @@ Every equation ends as an answer, in `not_recognized`, which the student is show
 `left_alone`, each with its reason: a path through `equation_reader` that leaves no record is a fault.
 
 `configurations` reads sets: singular configurations, branches of the inverse kinematics; `set_text`
-takes apart what words join in them, `loose_lists` finds the lists in what YAML refuses, `span_text` the
-vectors of a space;
-`verdicts` what is said of matrices.  `headed_sets` finds sets behind their heads in a report.
+takes apart what words join in them, `coordinate_formulas` reads their formulas, `loose_lists` finds the
+lists in what YAML refuses, `span_text` the vectors of a space, `displayed_sets` those of a report;
+`headed_sets` those behind their heads; `verdicts` what is said of matrices.
 `definitions` reads the names that an answer file declares under `symbols:` and `let:`;
 `own_coordinates` are those that count a coordinate the other way, `own_names` keeps what follows
 from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row,

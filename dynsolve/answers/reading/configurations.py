@@ -14,33 +14,37 @@ with a letter that means nothing else, for all whole multiples.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import groupby, islice, product
 
 from dynsolve.answers.reading import yaml_values
+from dynsolve.answers.reading.coordinate_formulas import (
+    EITHER,
+    OPPOSITE,
+    coordinate_named,
+    function_named,
+    has_coordinate,
+    value,
+)
 from dynsolve.answers.reading.displays import chain
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.loose_lists import loose_node
-from dynsolve.answers.reading.right_side import RightSide, read_right_side
 from dynsolve.answers.reading.set_text import alternatives, joined
-from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.reading.yaml_values import NotYaml, YamlNode
 from dynsolve.answers.submission import ConfigurationAnswer, Part, Place
 from dynsolve.errors import ReadError
 from dynsolve.notation.build import negated, total
-from dynsolve.notation.tree import ZERO, Node, Reference
-from dynsolve.notation.walk import names_in, walk, with_atan2_exchanged
+from dynsolve.notation.tree import ZERO, Node
+from dynsolve.notation.walk import mapped, names_in, with_atan2_exchanged
 from dynsolve.quantities.family import Kind
 from dynsolve.quantities.spelling import key
 
 MOST_ITEMS = 64
 """More alternatives, with every ± written out, are not read."""
 
-_EITHER = re.compile(r"±|\\pm\b|\+/-")
-_OPPOSITE = re.compile(r"∓|\\mp\b|-/\+")
 _NONE = re.compile(r"(?:none|no solutions?|empty|unreachable|out of reach|∅)\.?", re.IGNORECASE)
 
 
@@ -58,30 +62,72 @@ def read_configurations(
     `takes_x_first` says that the student's atan2 takes x first.
     """
     kind = reader.vocabulary.quantities[name].family.kind
-    written = text.strip() if node is None else ""
     try:
         source, root = (text, _parsed(text)) if node is None else (text, node)
-        written = source[root.start : root.end].strip()
-        items = list(islice(_alternatives(reader.vocabulary, source, root, kind), MOST_ITEMS + 1))
+    except ReadError as error:
+        reader.found.configurations.append(_answer(name, place, text.strip(), (), error))
+        return
+    alternatives, fault = _read(reader.vocabulary, kind, _alternatives(reader.vocabulary, source, root, kind))
+    if takes_x_first:
+        alternatives = tuple(tuple(_turned_round(part) for part in one) for one in alternatives)
+    written = source[root.start : root.end].strip()
+    reader.found.configurations.append(_answer(name, place, written, alternatives, fault))
+
+
+def read_equations(reader: EquationReader, name: str, texts: Sequence[str], place: Place) -> None:
+    """Read a set that is given by equations alone: alternatives, or formulas of branches in their order."""
+    kind = reader.vocabulary.quantities[name].family.kind
+    items = _in_equations(texts) if kind is Kind.BRANCHES else _of_texts(reader.vocabulary, [texts])
+    found, fault = _read(reader.vocabulary, kind, items)
+    reader.found.configurations.append(_answer(name, place, "; ".join(texts), found, fault))
+
+
+def is_set(vocabulary: Vocabulary, text: str) -> bool:
+    """Whether a text is read as alternatives of equations in coordinates."""
+    try:
+        found, fault = _read(vocabulary, Kind.EQUATIONS, _of_texts(vocabulary, [[text]]))
+    except ReadError:
+        return False
+    names = [names_in(part.node) for one in found for part in one]
+    coordinates = {q.name for q in vocabulary.coordinates}
+    return (
+        fault is None
+        and bool(names)
+        and all(
+            not within.isdisjoint(coordinates) and within.isdisjoint(vocabulary.reached) for within in names
+        )
+    )
+
+
+def _read(
+    vocabulary: Vocabulary, kind: Kind, alternatives: Iterator[_Item]
+) -> tuple[tuple[tuple[Part, ...], ...], ReadError | None]:
+    """The alternatives as trees, or why they cannot be read."""
+    try:
+        items = list(islice(alternatives, MOST_ITEMS + 1))
         if len(items) > MOST_ITEMS:
             raise ReadError(f"more than {MOST_ITEMS} alternatives", 0, 1, "write fewer")
-        read = tuple(tuple(_part(reader.vocabulary, *part) for part in item) for item in items)
+        read = tuple(tuple(_parts(vocabulary, item)) for item in items)
         if kind is Kind.EQUATIONS:
-            _check_values(reader.vocabulary, items, read)
-        if takes_x_first:
-            read = tuple(tuple(_turned_round(part) for part in item) for item in read)
+            _check_values(vocabulary, items, read)
     except ReadError as error:
-        found = ConfigurationAnswer(name, place, written, fault=error.message, expected=error.help)
-    else:
-        found = ConfigurationAnswer(name, place, written, read)
-    reader.found.configurations.append(found)
+        return (), error
+    return read, None
+
+
+def _answer(
+    name: str, place: Place, text: str, read: tuple[tuple[Part, ...], ...], fault: ReadError | None
+) -> ConfigurationAnswer:
+    if fault is None:
+        return ConfigurationAnswer(name, place, text, read)
+    return ConfigurationAnswer(name, place, text, fault=fault.message, expected=fault.help)
 
 
 def _check_values(vocabulary: Vocabulary, items: Iterable[_Item], read: Iterable[Sequence[Part]]) -> None:
     """The 0 of `[0, pi]` is a value of an unknown coordinate."""
     for item, parts in zip(items, read, strict=True):
         for (_, text), part in zip(item, parts, strict=True):
-            if "=" not in text and not _has_coordinate(vocabulary, part.node):
+            if "=" not in text and not has_coordinate(vocabulary, part.node):
                 raise ReadError(f"`{text.strip()[:60]}` is no equation", 0, 1, "write [q2 = 0, q2 = pi]")
 
 
@@ -109,12 +155,14 @@ def _alternatives(vocabulary: Vocabulary, text: str, root: YamlNode, kind: Kind)
         yield from _branches(vocabulary, text, root, items)
     elif not (len(items) == 1 and _is_none(text, items[0])):
         for texts in _texts(text, items):
-            each = [
-                alternatives(one, partial(_is_name, vocabulary), partial(_is_value, vocabulary))
-                for one in texts
-            ]
-            for chosen in product(*each):
-                yield from _signed(tuple(("", equation) for one in chosen for equation in one))
+            yield from _of_texts(vocabulary, texts)
+
+
+def _of_texts(vocabulary: Vocabulary, texts: Iterable[Sequence[str]]) -> Iterator[_Item]:
+    """Every choice of one alternative of each of several texts, which hold together."""
+    each = [alternatives(one, partial(_is_name, vocabulary), partial(_is_value, vocabulary)) for one in texts]
+    for chosen in product(*each):
+        yield from _signed(tuple(("", equation) for one in chosen for equation in one))
 
 
 def _branches(
@@ -176,17 +224,17 @@ def _is_none(text: str, node: YamlNode) -> bool:
 
 def _equations(text: str, node: YamlNode) -> Iterator[str]:
     """{q1: [pi/2, -pi/2], q2: 0}: a value, or one of several, for each coordinate."""
-    for name, value in node.entries():
-        items = yaml_values.items_of(text, value) if value.style == "list" else [value]
+    for name, given in node.entries():
+        items = yaml_values.items_of(text, given) if given.style == "list" else [given]
         values = " or ".join(yaml_values.word(text, item) for item in items)
         yield f"{yaml_values.word(text, name)} = {values}"
 
 
 def _signed(parts: _Item) -> Iterator[_Item]:
     """Both signs of every ± as alternatives of their own."""
-    if any(_EITHER.search(text) or _OPPOSITE.search(text) for _, text in parts):
+    if any(EITHER.search(text) or OPPOSITE.search(text) for _, text in parts):
         for sign, other in (("+", "-"), ("-", "+")):
-            yield tuple((name, _OPPOSITE.sub(other, _EITHER.sub(sign, text))) for name, text in parts)
+            yield tuple((name, OPPOSITE.sub(other, EITHER.sub(sign, text))) for name, text in parts)
     else:
         yield parts
 
@@ -199,29 +247,42 @@ def _is_name(vocabulary: Vocabulary, letter: str) -> bool:
 def _is_value(vocabulary: Vocabulary, text: str) -> bool:
     """Whether no coordinate stands in a text, which may begin with ±."""
     try:
-        return not _has_coordinate(vocabulary, _value(vocabulary, prepared(_EITHER.sub("+", text))))
+        return not has_coordinate(vocabulary, value(vocabulary, prepared(EITHER.sub("+", text))))
     except ReadError:
         return False
 
 
-def _has_coordinate(vocabulary: Vocabulary, node: Node) -> bool:
-    return not names_in(node).isdisjoint(q.name for q in vocabulary.coordinates)
+def _parts(vocabulary: Vocabulary, item: _Item) -> Iterator[Part]:
+    """The formulas of an alternative; a sine or cosine that is given stands for itself until its angle is."""
+    known: dict[Node, Node] = {}
+    for name, text in item:
+        turned = function_named(vocabulary, name) if name else None
+        if turned is not None:
+            known[turned] = _replaced(value(vocabulary, chain(prepared(text))[-1]), known)
+            continue
+        part = _part(vocabulary, name, text)
+        yield Part(part.coordinate, _replaced(part.node, known)) if name else part
+        known = {node: value for node, value in known.items() if part.coordinate not in names_in(node)}
+
+
+def _replaced(node: Node, known: Mapping[Node, Node]) -> Node:
+    return mapped(node, lambda part: known.get(part, part)) if known else node
 
 
 def _part(vocabulary: Vocabulary, name: str, text: str) -> Part:
     """A formula of an alternative: of a coordinate, or what is 0."""
-    members = [_value(vocabulary, tokens) for tokens in chain(prepared(text))]
+    tokens = chain(prepared(text))
     if not name:
+        members = [value(vocabulary, member) for member in tokens]
         if len(members) == 1:
             return Part("", members[0])
         if len(members) == 2:
             return Part("", members[0] if _is_zero(members[1]) else total([members[0], negated(members[1])]))
         raise ReadError(f"`{text.strip()[:60]}` is no equation", 0, 1, "write sin(q2) = 0")
-    found = vocabulary.symbol(key(name))
-    q = vocabulary.coordinate(found.value) if found is not None and isinstance(found.value, Node) else None
-    if q is None:
+    coordinate = coordinate_named(vocabulary, name)
+    if not coordinate:
         raise ReadError(f"{name} is no coordinate", 0, 1, "a branch gives a formula for each coordinate")
-    return Part(q.name, members[-1])
+    return Part(coordinate, value(vocabulary, tokens[-1]))
 
 
 def _turned_round(part: Part) -> Part:
@@ -230,17 +291,3 @@ def _turned_round(part: Part) -> Part:
 
 def _is_zero(node: Node) -> bool:
     return node == ZERO
-
-
-def _value(vocabulary: Vocabulary, tokens: list[Token]) -> Node:
-    found = read_right_side(vocabulary, tokens)
-    if not isinstance(found, RightSide):
-        raise found
-    if found.free:
-        raise ReadError(f"{found.free[0]} is no name of this problem", 0, 1, "write it in its symbols")
-    if not isinstance(found.value, Node):
-        raise ReadError("a single expression is expected", 0, 1, "write one formula")
-    for part in walk(found.value):
-        if isinstance(part, Reference):
-            raise ReadError(f"{part} stands in it", 0, 1, "write it in the coordinates: sin(q2) = 0")
-    return found.value

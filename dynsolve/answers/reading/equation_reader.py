@@ -40,7 +40,7 @@ from dynsolve.answers.submission import NotRecognized
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node, Symbol
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.notation.walk import walk
+from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities.spelling import key
 
 _CONTROL = re.compile(r"unknown (?:symbol `[Kk]_?\{?[pPdDiI]\}?`|command `\\tilde`)")
@@ -252,8 +252,14 @@ class EquationReader:
             return ""
         own = key(named[0][0].text)
         values = _values(read)
-        is_own = bool(values) and not self.vocabulary.is_answer(own) and not self.any_fits(names[0], values)
-        return own if is_own else ""
+        if not values or self.any_fits(names[0], values):
+            return ""
+        return own if not self.vocabulary.is_answer(own) or self._are_of_target(values) else ""
+
+    def _are_of_target(self, values: list[RightSide]) -> bool:
+        """Whether the values of the task stand in one, as in D = (x² + y² - l₁² - l₂²)/(2 l₁ l₂)."""
+        nodes = [found.value for found in values if isinstance(found.value, Node)]
+        return not names_in(*nodes).isdisjoint(self.vocabulary.reached)
 
     def _states_constant(
         self, members: list[list[Token]], names: list[tuple[str, ...]], read: list[Member]

@@ -10,6 +10,7 @@ from operator import itemgetter
 
 from dynsolve.answers.reading.asides import read_aside
 from dynsolve.answers.reading.dh_tables import NAME, tables_of, without
+from dynsolve.answers.reading.displayed_sets import DisplayedSets
 from dynsolve.answers.reading.displays import Display, continued, is_label
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.given_values import read_value
@@ -81,8 +82,8 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     text, macros = _macros(visible(source.text, latex))
     tables = tables_of(text, _names(reader)) if NAME in reader.vocabulary.quantities else []
     text = without(text, tables)
-    sets = headed_sets(text, reader)
-    text = without_sets(text, sets)
+    headed = headed_sets(text, reader)
+    text = without_sets(text, headed)
     names_answer = _answer_names(reader)
     text = text if latex else with_equations(text, names_answer)
     spans = list(islice(_displays(text, source, names_answer), 2 * MAX_EQUATIONS))
@@ -95,9 +96,10 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     displays, unread = continued(displays[:MAX_EQUATIONS]), displays[MAX_EQUATIONS:]
     while True:
         waiting = list(reversed(macros))
+        sets = DisplayedSets(reader, text, {one.name for one in headed})
         for table in tables:
             read_value(reader, NAME, source.place(table.start, 1), table.value.display(source))
-        read_headed(reader, source, sets)
+        read_headed(reader, source, headed)
         for offset, display in displays:
             while waiting and waiting[-1].offset <= offset:
                 found = waiting.pop()
@@ -105,7 +107,8 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
             if display.aside:
                 read_aside(reader, display)
             else:
-                reader.read_display(display)
+                sets.read_display(offset, display)
+        sets.settle()
         if not reader.begins_anew():
             break
     for _, display in unread[:1]:

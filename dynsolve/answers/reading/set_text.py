@@ -22,7 +22,7 @@ WHOLE_NUMBERS = range(4)
 _WORD = re.compile(
     r"\\(?:text|textrm|textnormal|mathrm|mbox)\s*\{\s*(or|and|oder|und|eller|og|ou|et)\s*\}", re.IGNORECASE
 )
-_SPACE = re.compile(r"\\[,;:!]|\\q?quad\b|[$~]")
+_SPACE = re.compile(r"\\[,;:! ]|\\q?quad\b|[$~]")
 _EQUALS = re.compile(r"==")
 _DETERMINANT = re.compile(r"\s*(?:\\?det\b|\||\\lvert|\\left\s*\|)[^=]*=(?=[^=]+=)")
 _FOLLOWS = re.compile(
@@ -39,7 +39,7 @@ _MEMBERS = re.compile(r"(?:\\in\b|∈|\bin\b|=)\s*\\?\{((?:[^{}]|\{[^{}]*\})*?)\
 _WHOLE = re.compile(r"(?<![A-Za-z_\\])([kn])(?![A-Za-z_0-9])")
 _OR = re.compile(r"\s(?:or|oder|eller|ou)\s|\s\|\|?\s|∨|\\(?:lor|vee)\b|;")
 _AND = re.compile(r"\s(?:and|und|og|et|y)\s|&&?|∧|\\(?:land|wedge)\b")
-_JOINTS = re.compile(rf"{_OR.pattern}|{_AND.pattern}|,")
+_JOINTS = re.compile(rf"{_OR.pattern}|{_AND.pattern}|{_FOLLOWS.pattern}|,")
 _COMMA = re.compile(",")
 _LEADING_AND = re.compile(r"\A\s*(?:and|und|og)\s(?=[^=]*=)")
 _LEVELS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
@@ -88,7 +88,15 @@ def _spelled_out(text: str) -> str:
     if (modulo := _MODULO.search(text)) is not None:
         by = next(group for group in modulo.groups() if group is not None)
         text = text[: modulo.start()] + (" + k*pi" if _HALF_TURN.fullmatch(by) else "")
-    return text
+    return _with_or(text)
+
+
+def _with_or(text: str) -> str:
+    """`a = 0, b = 0 or c = 0` with `or` for its commas."""
+    choices = _parts(text, _OR)
+    if len(choices) < 2 or "=" not in choices[-1] or _AND.search(text) is not None:
+        return text
+    return " or ".join(_parts(text, _COMMA))
 
 
 def _either(text: str, is_value: Callable[[str], bool]) -> Iterator[Together]:

@@ -30,6 +30,28 @@ _CLOSING = re.compile(r"\s*(?:\\right\s*)?(\\?\}|\]|\))\s*\Z")
 _RAISED = "¹²³⁴⁵⁶"
 
 
+_JACOBIAN = (
+    r"(?:\\(?:left|big|Big))?\(?\s*\{?\\?(?:mathbf|bm|boldsymbol)?\{?J\}?\s*(?:_\{?[a-z]+\}?)?(?:\([^()]*\))?"
+)
+_TURNED_OVER = r"\s*\^\s*\{?\s*(?:T|\\top|\\intercal|\\mathrm\{T\}|\\mathsf\{T\})\s*\}?"
+_NULL = r"\s*\\?(?:mathcal|mathrm|operatorname|text)?\s*\{?\s*(?:N|[Kk]er(?:nel)?|[Nn]ull(?:space)?)\s*\}?\s*"
+_RANGE = r"\s*\\?(?:mathcal|mathrm|operatorname|text)?\s*\{?\s*(?:R|[Rr]ange|[Ii]m(?:age)?)\s*\}?\s*"
+_SPACES = {
+    "lost": re.compile(rf"{_NULL}{_JACOBIAN}{_TURNED_OVER}.*|\s*\\?(?:text|mathrm)?\{{?\s*lost\b.*"),
+    "nullspace": re.compile(rf"{_NULL}(?:{_JACOBIAN}.*)?"),
+    "rangespace": re.compile(rf"{_RANGE}(?:{_JACOBIAN}.*)?"),
+}
+
+
+def space_named(text: str) -> str:
+    r"""The answer that a text is the name of; empty for any other.
+
+    >>> [space_named(text) for text in (r"\mathcal{N}(J_r)", r"\ker J^T", "R(J)", "N_1")]
+    ['nullspace', 'lost', 'rangespace', '']
+    """
+    return next((name for name, pattern in _SPACES.items() if pattern.fullmatch(text.strip())), "")
+
+
 def span_text(value: PlacedText, is_name: Callable[[str], bool]) -> PlacedText:
     """The text of the vectors alone; `is_name` says whether a word has a meaning in the problem."""
     text = value.text.strip().strip("$").strip()

@@ -56,8 +56,9 @@ class Vocabulary:
     `missed` are names that were looked for before anything defined them;
     `orders` says for letters of Christoffel symbols which index counts the row (`index_order`).
     `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
-    its like are known; `passive` are the generalized forces that are 0, since no motor drives their
-    coordinates; `defined` is what the student defined.
+    its like are known, `reached` what the values of the task are called where the inverse kinematics is
+    asked for; `passive` are the generalized forces that are 0, since no motor drives their coordinates;
+    `defined` is what the student defined.
     """
 
     coordinates: tuple[Coordinate, ...]
@@ -67,6 +68,7 @@ class Vocabulary:
     masses: frozenset[str]
     has_inverse_functions: bool = False
     passive: tuple[str, ...] = ()
+    reached: frozenset[str] = frozenset()
     defined: dict[str, Meaning] = field(default_factory=dict)
     derived: dict[tuple[str, int], Value] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
@@ -79,7 +81,7 @@ class Vocabulary:
         """The names of the problem alone, for another hand-in."""
         return Vocabulary(
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
-            self.has_inverse_functions, self.passive, subscripts=self.subscripts,
+            self.has_inverse_functions, self.passive, self.reached, subscripts=self.subscripts,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
@@ -264,8 +266,8 @@ def vocabulary(problem: Problem) -> Vocabulary:
     symbols = {key(name): Symbol(name) for name in robot.parameters}
     symbols |= {key(q.name): Symbol(q.name) for q in coordinates}
     has_arcs = not robot.questions.asked.isdisjoint(_HOLD_ANGLES)
-    if "inverse" in robot.questions.asked:
-        symbols |= {key(name): Symbol(name) for name in robot.questions.reached}
+    reached = robot.questions.reached if "inverse" in robot.questions.asked else ()
+    symbols |= {key(name): Symbol(name) for name in reached}
     others: dict[str, Symbol] = {"pi": Symbol("pi")}
     spoken = subscripts(coordinates)
     _add_derivatives(others, symbols, spoken)
@@ -274,7 +276,8 @@ def vocabulary(problem: Problem) -> Vocabulary:
     masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
     passive = tuple(coordinates[k].force for k in robot.actions.passive)
     return Vocabulary(
-        coordinates, symbols, others, quantities(robot), masses, has_arcs, passive, subscripts=spoken
+        coordinates, symbols, others, quantities(robot), masses, has_arcs, passive, frozenset(reached),
+        subscripts=spoken,
     )
 
 

@@ -1,0 +1,160 @@
+r"""Sets in the displays of a report, where no name stands before them.
+
+    $$ \det J = l_1 l_2 \sin q_2 = 0 \Rightarrow q_2 = 0, \pi $$
+    $$ q_2 = \pm\arccos\frac{x^2 + y^2 - l_1^2 - l_2^2}{2 l_1 l_2} $$
+
+A display of equations that name coordinates alone on the left, with the values of the task on the right,
+is part of a branch of the inverse kinematics.  One of equations in coordinates is an alternative of
+`singular` or `equilibria` where the words before it speak of these.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Set
+from dataclasses import dataclass, field, replace
+
+from dynsolve.answers.reading.configurations import is_set, read_equations
+from dynsolve.answers.reading.coordinate_formulas import coordinate_named, function_named, names_within
+from dynsolve.answers.reading.displays import Display
+from dynsolve.answers.reading.equation_reader import EquationReader
+from dynsolve.answers.reading.placed_text import placed
+from dynsolve.answers.reading.set_text import joined
+from dynsolve.answers.reading.span_text import space_named, span_text
+from dynsolve.answers.submission import Place
+from dynsolve.quantities.spelling import key
+
+_SPEAKS_OF = {
+    "singular": re.compile(r"singular|rank|invertib|determinant|\\det\b|\bdet\b", re.IGNORECASE),
+    "inverse": re.compile(r"invers|reach|solution|branch|elbow", re.IGNORECASE),
+    "equilibria": re.compile(r"equilibri|at rest\b|balance", re.IGNORECASE),
+}
+"""The words that announce a set of equations."""
+
+_BEFORE = 600
+"""So far before a display its words are looked for."""
+
+_LAYOUT = re.compile(
+    r"\\(?:label|tag)\*?\{[^{}]*\}|\\(?:begin|end)\{(?:aligned|cases|split|array)\}(?:\{[lcr]*\})?"
+)
+_GOES_ON = re.compile(r"\s*&?\s*[-+=]")
+_ROW = re.compile(r"\\\\(?:\[[^\[\]]{0,20}\])?")
+_ALIGN = re.compile(r"&\s*=|=\s*&")
+_ARROW = re.compile(r"\\(?:implies|iff|(?:Long)?(?:left)?[rR]ightarrow|to)\b|[⇒⇔⟹⟺→]")
+_IS_STATEMENT = re.compile(r"=|\\in\b|∈")
+_ZERO = re.compile(r"=\s*0(?:\s|\\[,;:! ]|\\q?quad|[.,;])*\Z")
+_DETERMINANT = re.compile(
+    r"\s*(?:\\?det\b|\||\\lvert|\\left\s*\||\\mathrm\{det\}|\\operatorname\{det\})[^=]*="
+)
+
+
+@dataclass
+class DisplayedSets:
+    """Gathers the sets of one report; `text` is the report, `told` are those that it gives behind a head."""
+
+    reader: EquationReader
+    text: str
+    told: Set[str] = frozenset()
+    found: dict[str, tuple[Place, list[str]]] = field(default_factory=dict)
+
+    def read_display(self, offset: int, display: Display) -> None:
+        """Read a display without the equations of a set, which are kept."""
+        if (space := self._space(display)) is not None:
+            display = space
+        rows = _rows(display.text)
+        if not any(self._may_be_one(offset, _plain(row)) for row in rows):
+            self.reader.read_display(display)
+            return
+        for row in rows:  # what one defines may stand in the next
+            text = _plain(row)
+            name = self._set_of(offset, text)
+            if name is not None:
+                where = display.locate(0, len(display.text))
+                self.found.setdefault(name, (where, []))[1].append(text)
+            left = row if name is None else _determinant(row)
+            if left:
+                self.reader.read_display(replace(display, text=left))
+
+    def _space(self, display: Display) -> Display | None:
+        r"""`\mathcal{N}(J) = span{...}` as the vectors of an answer; None for any other display."""
+        left, sign, right = display.text.partition("=")
+        name = space_named(left)
+        if not sign or not name or not self.reader.vocabulary.is_space(name):
+            return None
+
+        def is_name(word: str) -> bool:
+            return self.reader.vocabulary.symbol(key(word)) is not None
+
+        return replace(display, text=f"{name} = {span_text(placed([(right, 0)]), is_name).text}")
+
+    def settle(self) -> None:
+        """Make the answers of what was gathered."""
+        for name, (place, texts) in self.found.items():
+            read_equations(self.reader, name, texts, place)
+
+    def _may_be_one(self, offset: int, text: str) -> bool:
+        """Whether a row is part of a set, or may be when those before it are read."""
+        is_formula = "inverse" in self.reader.vocabulary.quantities and self._is_unknown(
+            text.partition("=")[0]
+        )
+        return is_formula or self._set_of(offset, text) is not None
+
+    def _set_of(self, offset: int, text: str) -> str | None:
+        """The answer that the equations of a display belong to."""
+        vocabulary = self.reader.vocabulary
+        asked = [name for name in _SPEAKS_OF if name in vocabulary.quantities and name not in self.told]
+        if not asked or not _IS_STATEMENT.search(text):
+            return None
+        words = self.text[max(offset - _BEFORE, 0) : offset] + text
+        spoken = self._spoken_of(asked, words)
+        has_begun = not spoken and "inverse" in self.found
+        if "inverse" in asked and self._are_branches(text, has_begun or spoken == "inverse"):
+            return "inverse"
+        return spoken if spoken not in ("", "inverse") and is_set(vocabulary, text) else None
+
+    def _are_branches(self, text: str, is_announced: bool) -> bool:
+        """Whether every equation gives a coordinate, or its sine or cosine, by what is to be reached.
+
+        Where the inverse kinematics `is_announced`, further ones may go on without that.
+        """
+        vocabulary = self.reader.vocabulary
+        pairs = [equation.partition("=") for equation in joined(text)]
+        if not all(sign and self._is_unknown(left) for left, sign, _ in pairs):
+            return False
+        within = {name for *_, right in pairs for name in names_within(vocabulary, right)}
+        return is_announced or not within.isdisjoint(vocabulary.reached)
+
+    def _is_unknown(self, text: str) -> bool:
+        vocabulary = self.reader.vocabulary
+        return bool(coordinate_named(vocabulary, text)) or function_named(vocabulary, text) is not None
+
+    @staticmethod
+    def _spoken_of(asked: list[str], words: str) -> str:
+        """Which of the sets the words speak of last."""
+        ends = {name: [found.end() for found in _SPEAKS_OF[name].finditer(words)] for name in asked}
+        told = {name: found[-1] for name, found in ends.items() if found}
+        return max(told, key=lambda name: told[name]) if told else ""
+
+
+def _rows(text: str) -> list[str]:
+    """The rows of a display that is no matrix; one that begins with a sign goes on with the row before."""
+    bare = _LAYOUT.sub(" ", text)
+    found: list[str] = []
+    for row in [text] if "\\begin" in bare else _ROW.split(bare):
+        if found and _GOES_ON.match(row):
+            found[-1] += row
+        elif row.strip():
+            found.append(row)
+    return found
+
+
+def _plain(row: str) -> str:
+    """A row without what only sets it."""
+    return _ALIGN.sub("=", _LAYOUT.sub(" ", row)).strip().rstrip(".,;").strip()
+
+
+def _determinant(row: str) -> str:
+    """The `det J = l_1 l_2 s_2` of a row that goes on with `= 0`; empty for any other."""
+    first = _ARROW.split(row)[0]
+    value = _ZERO.sub("", first) if _DETERMINANT.match(first) else ""
+    return value if "=" in value else ""

@@ -1,0 +1,87 @@
+"""Singular configurations, branches and spaces in reports, where students write no name before them."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.answers.judge import check
+from dynsolve.answers.reading.files import FileReader
+from dynsolve.problem import read_problem
+
+TWO_LINKS = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+task: [tip.x, tip.y]
+reach: [px, py]
+state: {q2: 0}
+find: [det, singular, inverse, nullspace, rangespace, lost]
+"""
+NUMBERS = """
+dh: [{theta: q1*, a: 1}, {theta: q2*, a: 1}]
+reach: [1, 1]
+find: [inverse]
+"""
+ELBOW = """
+dh: [{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, a: a2}, {theta: q3*, a: a3}]
+reach: [x, y, z]
+find: [singular, inverse]
+"""
+RPR = """
+dh: [{theta: q1*, d: d1, alpha: 90deg}, {theta: 90deg, d: q2*, alpha: 90deg}, {theta: q3*, a: a3}]
+find: [det, singular]
+"""
+BALANCE = """
+gravity: [0, -g, 0]
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+find: [singular, equilibria]
+"""
+
+ATAN = r"\operatorname{atan2}"
+C2 = r"\frac{p_x^2 + p_y^2 - l_1^2 - l_2^2}{2 l_1 l_2}"
+Q1 = rf"q_1 = {ATAN}(p_y, p_x) - {ATAN}(l_2 \sin q_2, l_1 + l_2 \cos q_2)"
+
+# (the problem, the report, the verdicts)
+REPORTS = [
+    (TWO_LINKS, r"$$\det J = l_1 l_2 \sin q_2 = 0 \quad\Rightarrow\quad q_2 = 0, \pi$$",
+     {"det": "correct", "singular": "correct"}),
+    (TWO_LINKS, r"$$|J| = l_1 l_2 s_2$$ The arm is singular where $$\sin q_2 = 0 \text{ or } q_2 = \pi.$$",
+     {"singular": "correct"}),
+    (TWO_LINKS, "Singular configurations:\n\n$$q_2 = 0$$", {"singular": "wrong"}),
+    (TWO_LINKS, "We look at\n\n$$q_2 = 0$$", {"singular": "missing"}),
+    (TWO_LINKS, rf"$$q_2 = \pm\arccos {C2}$$ $${Q1}$$", {"inverse": "correct", "singular": "missing"}),
+    (TWO_LINKS, rf"$$D = {C2}$$ $$q_2 = {ATAN}(\pm\sqrt{{1 - D^2}}, D)$$ $${Q1}$$", {"inverse": "correct"}),
+    (TWO_LINKS, rf"\begin{{align}} D &= {C2} \\ q_2 &= \pm\arccos D, \\ {Q1.replace('=', '&=', 1)}"
+                r"\end{align}",
+     {"inverse": "correct"}),
+    (TWO_LINKS, rf"$$\cos q_2 = {C2}, \quad \sin q_2 = \pm\sqrt{{1 - \cos^2 q_2}}$$"
+                rf" $$q_2 = {ATAN}(\sin q_2, \cos q_2)$$ $${Q1}$$", {"inverse": "correct"}),
+    (TWO_LINKS, rf"$$c_2 = {C2} \Rightarrow q_2 = \pm\cos^{{-1}}(c_2)$$ $${Q1}$$", {"inverse": "correct"}),
+    (TWO_LINKS, rf"$$q_2 = \arccos {C2}$$ $${Q1.replace('-', '+')}$$", {"inverse": "wrong"}),
+    (NUMBERS, "Both solutions:\n\n$$q_1 = 0, \\quad q_2 = \\pi/2$$\n\n$$q_1 = \\pi/2, \\quad q_2 = -\\pi/2$$",
+     {"inverse": "correct"}),
+    (ELBOW, r"Singularities: $$s_3 = 0 \quad \text{or} \quad a_2 c_2 + a_3 c_{23} = 0$$",
+     {"singular": "correct"}),
+    (ELBOW, rf"$$r = \sqrt{{x^2 + y^2}}, \quad s = z - d_1$$"
+            rf" $$D = \frac{{r^2 + s^2 - a_2^2 - a_3^2}}{{2 a_2 a_3}}$$"
+            rf" $$\theta_1 = {ATAN}(y, x)$$ $$\theta_3 = {ATAN}(\pm\sqrt{{1 - D^2}}, D)$$"
+            rf" $$\theta_2 = {ATAN}(s, r) - {ATAN}(a_3 s_3, a_2 + a_3 c_3)$$", {"inverse": "correct"}),
+    (RPR, r"$$\det J = a_3 s_3 (q_2 + a_3 s_3) = 0$$", {"det": "correct", "singular": "correct"}),
+    (RPR, "The rank is less for\n\n$$s_3 = 0$$\n\nand also for\n\n$$q_2 = -a_3 s_3$$",
+     {"singular": "correct"}),
+    (BALANCE, r"Singular: $$\sin q_2 = 0$$ In equilibrium $$\cos q_1 = 0 \text{ and } \sin q_2 = 0$$",
+     {"singular": "correct", "equilibria": "correct"}),
+    (TWO_LINKS, r"$$\mathcal{N}(J) = \mathrm{span}\left\{"
+                r"\begin{bmatrix} l_2 \\ -l_1 - l_2 \end{bmatrix}\right\}$$"
+                r" $$\mathcal{R}(J) = \text{span}\{[-s_1, c_1]^T\}$$"
+                r" $$\ker J^T = \alpha \begin{bmatrix} c_1 \\ s_1 \end{bmatrix}$$",
+     {"nullspace": "correct", "rangespace": "correct", "lost": "correct"}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("problem", "text", "verdicts"), REPORTS)
+def test_sets_of_a_report(problem: str, text: str, verdicts: dict[str, str]) -> None:
+    read = read_problem(problem, "own.yaml")
+    for ending in (".md", ".tex"):
+        report = check(read, FileReader(read)(text + "\n", f"answer{ending}"))
+        found = {answer.name: answer.verdict for answer in report.answers}
+        assert {name: found.get(name) for name in verdicts} == verdicts, report.answers
