@@ -276,7 +276,14 @@ def vocabulary(problem: Problem) -> Vocabulary:
     masses = frozenset(name for name in robot.parameters if split(name)[0] in ("m", "M", "g", "I", "J"))
     passive = tuple(coordinates[k].force for k in robot.actions.passive)
     return Vocabulary(
-        coordinates, symbols, others, quantities(robot), masses, has_arcs, passive, frozenset(reached),
+        coordinates,
+        symbols,
+        others,
+        quantities(robot),
+        masses,
+        has_arcs,
+        passive,
+        frozenset(reached),
         subscripts=spoken,
     )
 
