@@ -68,7 +68,7 @@ REPORTS = [
     (RPR, r"$$\det J = a_3 s_3 (q_2 + a_3 s_3) = 0$$", {"det": "correct", "singular": "correct"}),
     (RPR, "The rank is less for\n\n$$s_3 = 0$$\n\nand also for\n\n$$q_2 = -a_3 s_3$$",
      {"singular": "correct"}),
-    (BALANCE, r"Singular: $$\sin q_2 = 0$$ In equilibrium $$\cos q_1 = 0 \text{ and } \sin q_2 = 0$$",
+    (BALANCE, "It is singular at\n\n$$s_2 = 0$$\n\nIn equilibrium\n\n$$c_1 = 0 \\text{ and } s_2 = 0$$",
      {"singular": "correct", "equilibria": "correct"}),
     (TWO_LINKS, r"$$\mathcal{N}(J) = \mathrm{span}\left\{"
                 r"\begin{bmatrix} l_2 \\ -l_1 - l_2 \end{bmatrix}\right\}$$"
