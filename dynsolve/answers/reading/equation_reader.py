@@ -16,7 +16,7 @@ from dynsolve.answers.reading.by_content import meant
 from dynsolve.answers.reading.displays import Display, Equation, equations, is_label
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
 from dynsolve.answers.reading.grids import Abstract, Grid
-from dynsolve.answers.reading.index_order import defined_order
+from dynsolve.answers.reading.index_order import defined_order, order_of_pair
 from dynsolve.answers.reading.left_side import (
     LeftSide,
     NamedAnswers,
@@ -148,6 +148,8 @@ class EquationReader:
             self.vocabulary.orders |= [order]
             self.found.left_alone.append(origin.of(members, "it says what the indices mean"))
             return
+        if (pair := order_of_pair(members)) is not None:
+            self.vocabulary.orders |= [pair]
         if (part := part_of(self.vocabulary, members[0])) is not None:
             self._part(part, members, origin)
             return

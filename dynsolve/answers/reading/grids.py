@@ -38,7 +38,7 @@ class Grid:
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
-        return len(self.rows), len(self.rows[0])
+        return len(self.rows), len(self.rows[0]) if self.rows else 0
 
     @property
     def node(self) -> Matrix:
@@ -54,6 +54,8 @@ class Abstract:
 
 
 Value = Node | Grid | Abstract
+
+_ANY_SIZE = Abstract("a matrix of any size is named here")
 
 
 def grid(rows: Iterable[Iterable[Node]]) -> Grid:
@@ -86,11 +88,18 @@ def mapped(value: Grid, change: object) -> Grid:
     return Grid(tuple(tuple(change(entry) for entry in row) for row in value.rows))
 
 
+def _of_any_size(value: Value) -> bool:
+    """Whether a value is the name of a matrix that may have any size, as Y and a have."""
+    return isinstance(value, Grid) and 0 in value.shape
+
+
 def total(terms: Sequence[Value]) -> Value:
     """The sum of terms, all scalars or all matrices of one shape."""
     for term in terms:
         if isinstance(term, Abstract):
             return term
+    if len(terms) > 1 and any(map(_of_any_size, terms)):
+        return _ANY_SIZE
     grids = [term for term in terms if isinstance(term, Grid)]
     if not grids:
         return Sum(tuple(terms))  # type: ignore[arg-type]
@@ -120,6 +129,8 @@ def times(left: Value, right: Value, sign: str = "") -> Value:
         return left
     if isinstance(right, Abstract):
         return right
+    if _of_any_size(left) or _of_any_size(right):
+        return _ANY_SIZE
     if not isinstance(left, Grid) and not isinstance(right, Grid):
         return Product((*left.factors, right)) if type(left) is Product else Product((left, right))
     if not isinstance(left, Grid):

@@ -8,6 +8,7 @@ the index that the term with the minus is derived by.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 
 from dynsolve.answers.reading.tokens.lexer import Token
 
@@ -27,6 +28,20 @@ def defined_order(members: Sequence[list[Token]]) -> tuple[str, int] | None:
     if len(terms) != 3 or len(minus) != 1 or minus[0] not in index:
         return None
     return letter, index.index(minus[0])
+
+
+def order_of_pair(members: Sequence[list[Token]]) -> tuple[str, int] | None:
+    """The letter and the place of the row where a chain says c_112 = c_121: the row is what both begin with.
+
+    Symbols are equal in the two indices that do not count the row.
+    """
+    found = [_indexed(member) for member in members]
+    named = [(letter, index) for letter, index in found if len(index) == 3 and index.isdecimal()]
+    for (letter, first), (other, second) in pairwise(named):
+        is_pair = letter == other and first != second and first[0] == second[0] and first[1:] == second[:0:-1]
+        if is_pair:
+            return letter, 0
+    return None
 
 
 def in_usual_order(name: str, orders: Mapping[str, int]) -> str:

@@ -20,7 +20,7 @@ from dynsolve.notation.tree import (
     Symbol,
 )
 from dynsolve.notation.unicode import printable
-from dynsolve.notation.walk import walk
+from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities import families
 
 _LONGEST_SHOWN = 2_000
@@ -29,13 +29,15 @@ _ZEROS = "0"
 
 
 def model_parts(vocabulary: Vocabulary, value: Value) -> dict[str, Value]:
-    """D, C or the vector C q̇, and g of a model [..][q̈] + [..][q̇] + [..], or [..][q̈] + [..] + [..].
+    """D, C or the vector C q̇, and g of a model [..][q̈] + [..][q̇] + [..], or [..][q̈] + [..] + [..]; Y and a.
 
     Of several vectors that are one and the same by their rates, as C q̇ and friction, none is taken.
     """
+    n = len(vocabulary.coordinates)
+    if isinstance(value, Grid) and value.factors:
+        return _regressor_parts(vocabulary, value)
     if not isinstance(value, Grid) or not value.terms:
         return {}
-    n = len(vocabulary.coordinates)
     parts: dict[str, Value] = {}
     vectors: list[tuple[str, Value]] = []
     for term in value.terms:
@@ -58,6 +60,14 @@ def model_parts(vocabulary: Vocabulary, value: Value) -> dict[str, Value]:
     if "C" in parts:
         parts.pop("Cqd", None)
     return parts if "D" in parts else {}
+
+
+def _regressor_parts(vocabulary: Vocabulary, value: Grid) -> dict[str, Value]:
+    """Y and a of their product, a being free of everything that moves."""
+    Y, a = value.factors
+    moving = {q.name for q in vocabulary.coordinates}
+    is_regressor = "Y" in vocabulary.quantities and value.shape == (len(moving), 1) and not Y.quantity
+    return {"Y": Y, "a": a} if is_regressor and names_in(a.node).isdisjoint(moving) else {}
 
 
 def _vector_name(term: Grid) -> str:

@@ -175,6 +175,8 @@ class Vocabulary:
         """The one coordinate of a letter, where that is written without its index: theta for theta1."""
         letter = {"th": "theta", "ell": "l"}.get(name.lower(), name.lower())
         same = [q for q in self.coordinates if split(q.name)[0].lower() == letter]
+        if not same and len(self.coordinates) == 1 and letter in ("q", "theta", "th", "x"):
+            same = list(self.coordinates)
         if not same and letter in ("theta", "phi", "varphi"):
             same = [q for q in self.coordinates if q.type is JointType.REVOLUTE]
         return Symbol(same[0].name) if len(same) == 1 else None

@@ -28,11 +28,12 @@ def only_coordinate(reader: Reader, form: Form, name: str) -> Value | None:
     r"""The coordinate that `\dot\theta` is where there is only one θ: in a scalar, without a transpose."""
     if reader.naming or form.scripts.transposed or not (form.dots or form.scripts.mark or name in _ANGLES):
         return None
-    if reader.vocabulary.shape(reader.owner) is not None or any(
-        t.text in ("T", "top") for t in reader.tokens
-    ):
+    is_matrix = reader.vocabulary.shape(reader.owner) not in (None, (1, 1))
+    if is_matrix or any(t.text in ("T", "top") for t in reader.tokens):
         return None
     symbol = reader.vocabulary.only_coordinate(name)
+    if name == "q" and reader.references:  # beside D and C it is the vector
+        return None
     if symbol is None or (reader.token.kind == "(" and only_coordinates(reader, reader.position)):
         return None
     value = rate(symbol, reader.vocabulary, form.dots + form.scripts.primes)

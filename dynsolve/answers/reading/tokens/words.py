@@ -7,7 +7,7 @@ import re
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.errors import ReadError
 
-_FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc".split())
+_FUNCTIONS = frozenset("sin cos tan sqrt cot sec csc sgn sign".split())
 _SYMMETRIC = frozenset({"sym", "symm", "symmetric"})
 _WORD_AS_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_\{?[A-Za-z0-9,]+\}?)?")
 _WORDS = frozenset("and og where hvor der with med so such or eller for då da".split())

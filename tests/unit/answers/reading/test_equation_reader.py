@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
+from dynsolve.answers.reading.files import read_submission
+from dynsolve.problem import read_problem
 from tests.unit.answers.reading.submissions import named, report, shown
+
+ONE = read_problem("""
+dh: [{theta: q1*, a: l}]
+masses: [{mass: m, link: 1}]
+friction: {q1: {coulomb: fc}}
+""")
 
 
 def test_what_stands_after_a_comma_is_not_dropped() -> None:
@@ -89,3 +97,28 @@ def test_equations_without_a_name_are_listed() -> None:
     found = report("$$x + y = 3$$ $$v_2^2 = l_1^2$$ $$K = m_1$$")
     assert [refused.text for refused in found.not_recognized][:1] == ["x + y = 3"]
     assert named(found) == [("K", "")]
+
+
+def test_a_pair_of_equal_christoffel_symbols_says_which_index_is_the_row() -> None:
+    first = report("$$c_{112} = c_{121} = m_1$$ $$c_{211} = -m_1$$").answers
+    assert {a.name for a in first[:-1]} == {"c121", "c211"}
+    assert first[-1].name == "c112"
+    assert [a.name for a in report("$$c_{121} = c_{211} = m_1$$").answers] == ["c121", "c211"]
+
+
+def test_y_and_a_are_what_a_product_of_theirs_holds() -> None:
+    product = (
+        r"\begin{bmatrix} \ddot q_1 & g_0 \\ 0 & \ddot q_2 \end{bmatrix}"
+        r"\begin{bmatrix} m_1 \\ m_2 \end{bmatrix}"
+    )
+    for left in ("Y a", r"Y(q, \dot q, \ddot q)\, \pi", r"\tau"):
+        found = report(f"$${left} = {product}$$", stem="rp-parameters")
+        assert [a.name for a in found.answers] == ["Y", "a", "tau"]
+    assert report(r"$$\tau = Y a$$", stem="rp-parameters").answers == ()
+
+
+def test_a_single_coordinate_may_be_written_by_the_usual_letters() -> None:
+    for letter in ("q", r"\theta", r"\theta_1"):
+        text = rf"$$m l^2\ddot{{{letter}}} = \tau - f_c\,\text{{sgn}}\,\dot{{{letter}}}$$"
+        (answer,) = read_submission(ONE, text, "report.md").answers
+        assert shown(answer) == "m l² q̈₁ + f_c sgn(q̇₁)"
