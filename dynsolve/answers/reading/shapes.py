@@ -64,6 +64,7 @@ def model_parts(vocabulary: Vocabulary, value: Value) -> dict[str, Value]:
 
 def _regressor_parts(vocabulary: Vocabulary, value: Grid) -> dict[str, Value]:
     """Y and a of their product, a being free of everything that moves."""
+    assert value.factors
     Y, a = value.factors
     moving = {q.name for q in vocabulary.coordinates}
     is_regressor = "Y" in vocabulary.quantities and value.shape == (len(moving), 1) and not Y.quantity
