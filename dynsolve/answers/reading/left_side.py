@@ -94,7 +94,9 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
         return UnknownSide("", error.family, False, error.message)
     except ReadError:
         return None
-    candidates = _named(vocabulary, value, reader.candidates)
+    candidates = tuple(
+        name for name in _named(vocabulary, value, reader.candidates) if vocabulary.is_formula(name)
+    )
     if candidates:
         return NamedAnswers(candidates)
     own = name_alone(vocabulary, tokens)

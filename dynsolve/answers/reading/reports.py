@@ -22,11 +22,12 @@ from dynsolve.answers.reading.plain_lines import FORMULA, plain_lines
 from dynsolve.answers.reading.report_text import visible
 from dynsolve.answers.reading.shapes import shown
 from dynsolve.answers.reading.sources import Source
+from dynsolve.answers.reading.spoken_verdicts import spoken_verdicts
 from dynsolve.answers.reading.tables import with_equations
 from dynsolve.answers.reading.tokens.lexer import Token, closing_brace, tokenize
 from dynsolve.answers.reading.tokens.macros import Macro
 from dynsolve.answers.reading.tokens.prepare import prepared
-from dynsolve.answers.submission import NotRecognized, Place
+from dynsolve.answers.submission import NotRecognized, Place, VerdictAnswer
 from dynsolve.errors import ReadError
 
 _ENVIRONMENT = (
@@ -82,6 +83,9 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     text, macros = _macros(visible(source.text, latex))
     tables = tables_of(text, _names(reader)) if NAME in reader.vocabulary.quantities else []
     text = without(text, tables)
+    verdicts = list[VerdictAnswer]()
+    if "definite" in reader.vocabulary.quantities:
+        verdicts, text = spoken_verdicts(reader.vocabulary.candidates, source, text)
     headed = headed_sets(text, reader)
     text = without_sets(text, headed)
     names_answer = _answer_names(reader)
@@ -100,6 +104,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
         for table in tables:
             read_value(reader, NAME, source.place(table.start, 1), table.value.display(source))
         read_headed(reader, source, headed)
+        reader.found.verdicts += verdicts
         for offset, display in displays:
             while waiting and waiting[-1].offset <= offset:
                 found = waiting.pop()

@@ -58,6 +58,7 @@ class Vocabulary:
     `masses` are the masses, the moments of inertia and g; `has_inverse_functions` says that arccos and
     its like are known, `reached` what the values of the task are called where the inverse kinematics is
     asked for; `passive` are the generalized forces that are 0, since no motor drives their coordinates;
+    `candidates` are the matrices that are to be judged;
     `defined` is what the student defined.
     """
 
@@ -69,6 +70,7 @@ class Vocabulary:
     has_inverse_functions: bool = False
     passive: tuple[str, ...] = ()
     reached: frozenset[str] = frozenset()
+    candidates: tuple[str, ...] = ()
     defined: dict[str, Meaning] = field(default_factory=dict)
     derived: dict[tuple[str, int], Value] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
@@ -81,7 +83,8 @@ class Vocabulary:
         """The names of the problem alone, for another hand-in."""
         return Vocabulary(
             self.coordinates, self.symbols, self.others, self.quantities, self.masses,
-            self.has_inverse_functions, self.passive, self.reached, subscripts=self.subscripts,
+            self.has_inverse_functions, self.passive, self.reached, self.candidates,
+            subscripts=self.subscripts,
         )  # fmt: skip
 
     def define(self, name: str, meaning: Meaning) -> None:
@@ -220,6 +223,10 @@ class Vocabulary:
         quantity = self.quantities.get(name)
         return quantity is not None and quantity.family.is_answer
 
+    def is_formula(self, name: str) -> bool:
+        """Whether an answer is a formula or a matrix of these, and no set and no verdict."""
+        return self.set_named(name) is None and self.verdicts_named(name) is None
+
     def set_named(self, name: str) -> str | None:
         """The answer of that name that is a set of equations, or of branches; None for any other."""
         found = self.quantities.canonical(name)
@@ -286,6 +293,7 @@ def vocabulary(problem: Problem) -> Vocabulary:
         has_arcs,
         passive,
         frozenset(reached),
+        tuple(candidate.name for candidate in robot.questions.candidates),
         subscripts=spoken,
     )
 
