@@ -94,7 +94,8 @@ def _spelled_out(text: str) -> str:
 def _with_or(text: str) -> str:
     """`a = 0, b = 0 or c = 0` with `or` for its commas."""
     choices = _parts(text, _OR)
-    if len(choices) < 2 or "=" not in choices[-1] or _AND.search(text) is not None:
+    is_list = len(choices) > 1 and "=" in choices[-1] and len(_parts(choices[-1], _COMMA)) == 1
+    if not is_list or ";" in text or _AND.search(text) is not None:
         return text
     return " or ".join(_parts(text, _COMMA))
 
