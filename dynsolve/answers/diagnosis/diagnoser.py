@@ -10,12 +10,13 @@ does, what differs is said, and no more.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.algebra.fraction import equal
+from dynsolve.algebra.fraction import RationalExpr, as_expr, cancelled, equal, is_zero
 from dynsolve.algebra.fraction_matrix import fraction_of
 from dynsolve.answers.diagnosis.case import Case, Explanation, in_common, likeness
 from dynsolve.answers.diagnosis.changed_rules import OF_THE_MATRIX, DerivationSlips
@@ -36,6 +37,7 @@ from dynsolve.answers.judging.entry_comparison import substituted
 from dynsolve.answers.judging.follow_through import FollowThrough
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.verdict import Diagnosis
+from dynsolve.notation.build import split_sign
 from dynsolve.notation.tree import Node
 from dynsolve.problem.model import Problem
 from dynsolve.quantities import families
@@ -99,7 +101,7 @@ class Diagnoser:
         """The slips in one scalar."""
         mine = wrong.mine
         if not all(isinstance(value, Expr) for value in wrong.expected):
-            return tuple(_of_fractions(wrong))
+            return tuple(self._of_fractions(wrong))
         if mine is None or not is_small(mine):
             return ()
         found = tuple(dict.fromkeys(self._named(wrong, mine)))
@@ -136,10 +138,48 @@ class Diagnoser:
         if is_small(case.expected) and not constant:
             yield from what_differs(self.words, case.mine, case.expected)
 
+    def _of_fractions(self, wrong: WrongEntry) -> Iterator[Diagnosis]:
+        """What differs above the denominator of the nearest value, where the answer's may be that one."""
+        written, nearest = wrong.written.value, fraction_of(wrong.expected[0])
+        value, below = nearest.numerator, nearest.denominator
+        if split_sign(self.words.form(below))[0] < 0:
+            value, below = -value, -below
+        if written.numerator.is_number and written.denominator.is_number:
+            value, below = substituted(value, self._numbers), substituted(below, self._numbers)
+        above = as_expr(cancelled(RationalExpr(written.numerator * below, written.divisor)))
+        if above is None or not is_small(above):
+            if any(equal(-fraction_of(value), written) for value in wrong.expected):
+                yield slip("sign_all")
+            return
+        case = Case(wrong, *self._with_numbers(above, value))
+        if is_zero(case.mine + case.expected):
+            whole = as_expr(cancelled(RationalExpr(value, below)))
+            is_term = whole is not None and len(parts(whole)) == 1
+            yield slip("sign", term=self.words.of(whole)) if whole and is_term else slip("sign_all")
+            return
+        for explain in _OF_TERMS:
+            found = next((one for one in explain(self, case) if one.holds(case)), None)
+            if found is not None:
+                yield from (self._over(below, told) for told in found.told())
+                return
+
+    def _over(self, below: Expr, told: Diagnosis) -> Diagnosis:
+        """What is told of a numerator, with its denominator."""
+        if below.is_number:
+            return told
+        message = f"Over {self.words.of(below)}: {told.message[0].lower()}{told.message[1:]}"
+        return replace(told, message=message)
+
+    @property
+    def _numbers(self) -> dict[int, Fraction]:
+        """The numbers of the problem file, by the places of their symbols in the ring."""
+        indices = self.ring.symbol_indices
+        given = self.problem.values.items()
+        return {indices[name, 0]: value for name, value in given if (name, 0) in indices}
+
     def _with_numbers(self, mine: Expr, expected: Expr) -> tuple[Expr, Expr]:
         """Both with the numbers of the problem file, as far as the answer has numbers for symbols."""
-        indices = self.ring.symbol_indices
-        put = {indices[name, 0]: value for name, value in self.problem.values.items() if (name, 0) in indices}
+        put = self._numbers
         if not put or not mine.poly:
             return mine, expected
         degrees = mine.poly.degrees()
@@ -261,12 +301,6 @@ class Diagnoser:
         return self.words.form(difference) if is_small(difference) else None
 
 
-def _of_fractions(wrong: WrongEntry) -> Iterator[Diagnosis]:
-    """Where fractions are expected nothing is told but the wrong sign of all of it."""
-    if any(equal(-fraction_of(value), wrong.written.value) for value in wrong.expected):
-        yield slip("sign_all")
-
-
 _IN_ORDER: tuple[Callable[[Diagnoser, Case], Iterator[Explanation]], ...] = (
     Diagnoser._step_otherwise,
     Diagnoser._one_number,
@@ -278,3 +312,11 @@ _IN_ORDER: tuple[Callable[[Diagnoser, Case], Iterator[Explanation]], ...] = (
     Diagnoser._several_terms,
 )
 """The explanations in the order in which they are tried: the first that holds is told."""
+
+_OF_TERMS = (
+    Diagnoser._one_number,
+    Diagnoser._one_place,
+    Diagnoser._one_substitution,
+    Diagnoser._several_terms,
+)
+"""Those that look at terms alone."""

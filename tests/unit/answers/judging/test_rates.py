@@ -54,6 +54,33 @@ def test_the_sign_of_a_fraction_is_told() -> None:
     assert "sign_all" in {one.code for one in found.diagnosis}
 
 
+@pytest.mark.parametrize(
+    ("entry", "says"),
+    [
+        ("-(vx*(l1*cos(q1) - l2*cos(q1+q2)) + vy*(l1*sin(q1) + l2*sin(q1+q2)))/(l1*l2*sin(q2))",
+         "Over l₁ l₂ s₂: the sign of -v_x l₂ c₁₂ is wrong."),
+        ("-(vx*(l1*cos(q1) + l2*sin(q1+q2)) + vy*(l1*sin(q1) + l2*sin(q1+q2)))/(l1*l2*sin(q2))",
+         "where c₁₂ belongs"),
+    ],
+)  # fmt: skip
+def test_a_slip_above_a_denominator_is_told(entry: str, says: str) -> None:
+    found = judged(ELBOW, "qd", [[QD[0]], [entry]])
+    assert [one.message for one in found.diagnosis if says in one.message]
+
+
+def test_only_the_number_with_the_wrong_sign_is_told() -> None:
+    """Sapienza Robotics 1, exam 11 September 2019, exercise 1: (16, -0.125, -5.375)."""
+    arm = """
+dh: [{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, a: a2}, {theta: q3*, a: a3}]
+acceleration: [0, 0, 0]
+values: {d1: 5, a2: 4, a3: 3}
+state: {q1: 90deg, q2: 45deg, q3: 90deg, q1': 1, q2': 2, q3': -2}
+find: [qdd]
+"""
+    found = judged(arm, "qdd", [["16"], ["0.125"], ["-5.375"]])
+    assert [one.message for one in found.diagnosis] == ["The sign of -⅛ is wrong."]
+
+
 def test_rates_follow_from_a_jacobian_that_is_wrong() -> None:
     J = [["-l1*sin(q1)", "-l2*sin(q1+q2)"], ["l1*cos(q1)", "l2*cos(q1+q2)"]]
     qd = [
