@@ -16,6 +16,7 @@ from flint.utils.flint_exceptions import FlintError
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.fraction import RationalExpr
+from dynsolve.algebra.generators import is_sign
 from dynsolve.algebra.rationals import rational_value
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import Evaluator, Unreduced
@@ -73,6 +74,7 @@ class AnswerEvaluator(Evaluator):
         super().__init__(ring)
         self._lookup = lookup
         self._known = KnownValues() if known is None else known
+        self._sign_generators = [ring.generator(g.index) for g in ring.generators if is_sign(g.node)]
         self._references = 0
         self._roots: dict[Function, RationalExpr] = {}
 
@@ -109,7 +111,19 @@ class AnswerEvaluator(Evaluator):
             raise AlgebraError("the denominator is zero", "check what stands below the fraction line")
         if value.divisor is None and value.numerator.is_number:
             return RationalExpr(self.ring.one / value.numerator.number)
-        return RationalExpr(value.denominator, value.numerator)
+        signs, rest = self._without_signs(value.numerator)
+        if rest.is_number:
+            return RationalExpr(value.denominator * signs / rest.number)
+        return RationalExpr(value.denominator * signs, rest)
+
+    def _without_signs(self, expr: Expr) -> tuple[Expr, Expr]:
+        """The signs sgn q̇ that are factors of an expression, and what is left: 1 / sgn q̇ = sgn q̇."""
+        found = self.ring.one
+        for sign in self._sign_generators:
+            quotient, rest = divmod(expr.poly, sign.poly)
+            if not rest:
+                found, expr = found * sign, Expr(self.ring, quotient)
+        return found, expr
 
     def reference(self, node: Reference) -> RationalExpr:
         """The value of another answer."""

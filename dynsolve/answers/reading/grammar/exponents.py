@@ -37,8 +37,16 @@ def bounded(value: Fraction, sign: Token) -> Fraction:
     return value
 
 
+def magnitude(x: Node) -> Node:
+    """|x| as x sgn x."""
+    return Product((x, Function("sgn", x)))
+
+
 def raise_to(base: Node, power: Fraction) -> Node:
-    """base^power; a half is a root."""
+    """base^power; a half is a root, and |x|² is x²."""
+    match base:
+        case Product((x, Function("sgn"))) if power % 2 == 0 and base == magnitude(x):
+            base = x
     if power.denominator == 2:
         root = Function("sqrt", base)
         return root if power > 0 else Quotient(Number(1), root)

@@ -308,13 +308,15 @@ class FormulaReader(Reader):
         return names.value_of(self, form)
 
     def norm(self) -> Value:
-        """The length of a vector, of which the square alone is read."""
+        """The absolute value of a scalar, or the length of a vector, of which the square alone is read."""
         opening = self.take()
         value = self.inner(self.until("|", opening))
         scripts = Scripts()
-        if not isinstance(value, Node) and self.script(scripts) and scripts.powers == [Fraction(2)]:
+        if self.script(scripts) and scripts.powers == [Fraction(2)]:
             return self.with_scripts(value, scripts, opening.start)
-        message = "a length or an absolute value cannot be read"
+        if isinstance(value, Node):
+            return self.with_scripts(functions.applied(self, "abs", value, opening), scripts, opening.start)
+        message = "the length of a vector cannot be read"
         raise ReadError(message, opening.start, 1, "write it out; |v|^2 is read for a vector v")
 
     def command(self, token: Token) -> Value:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from dynsolve.answers.reading.grammar.exponents import magnitude
 from dynsolve.answers.reading.grammar.forms import Scripts
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
@@ -16,13 +17,13 @@ _NAMES = {"sin": "sin", "cos": "cos", "tan": "tan", "sqrt": "sqrt", "cot": "cot"
 _NAMES |= (
     {name.capitalize(): name for name in _NAMES} | {name.upper(): name for name in _NAMES} | {"cosec": "csc"}
 )
-_NAMES |= {"sgn": "sgn", "sign": "sgn", "signum": "sgn"}
+_NAMES |= {"sgn": "sgn", "sign": "sgn", "signum": "sgn", "abs": "abs", "Abs": "abs"}
 _INVERSES = {name: name for name in ("asin", "acos", "atan", "atan2")}
 _INVERSES |= {f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan", "tan2")}
 _INVERSES |= {name.capitalize(): meant for name, meant in _INVERSES.items()}
 _RECIPROCALS = {"cot": ("cos", "sin"), "sec": ("", "cos"), "csc": ("", "sin")}
 _ELSEWHERE = frozenset(
-    "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh abs max min pow "
+    "exp log ln asin acos atan atan2 arcsin arccos arctan sinh cosh tanh max min pow "
     "sind cosd root det inv simplify eval exec open input print import".split()
 )
 
@@ -180,6 +181,8 @@ def applied(reader: Reader, function: str, argument: Value, name: Token) -> Valu
     reader.symbols.setdefault("")
     if (degrees := _degrees_meant(argument)) and function != "sqrt":
         reader.notes.setdefault(f"{degrees} is read as {degrees} rad; degrees are written {degrees}°")
+    if function == "abs":
+        return magnitude(argument)
     if function in _RECIPROCALS:
         above, below = _RECIPROCALS[function]
         return Quotient(Function(above, argument) if above else Number(1), Function(below, argument))

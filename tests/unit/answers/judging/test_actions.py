@@ -93,12 +93,23 @@ def test_what_is_left_of_the_forces_is_less_the_students_own_friction() -> None:
         r"$$\tau_f = f_v \dot{q}_1 + f_c \operatorname{sgn}(\dot{q}_1)$$",
         r"$$\boldsymbol{\tau}_f = f_v \dot q_1 + f_c \mathrm{sgn}(\dot q_1)$$",
         "friction = fv*q1' + fc*sign(q1')",
+        "friction = fv*q1' + fc*q1'/abs(q1')",
+        "friction = fv*q1' + fc*Abs(q1')/q1'",
+        r"$$\tau_f = f_v \frac{|\dot{q}_1|^2}{\dot{q}_1} + f_c \frac{\dot{q}_1}{|\dot{q}_1|}$$",
+        r"$$\tau_f = f_v \dot{q}_1 + f_c \frac{\left|\dot{q}_1\right|}{\dot{q}_1}$$",
     ],
 )
 def test_the_sign_of_a_rate_is_read_as_people_write_it(text: str) -> None:
     problem = read_problem(ARM, "own.yaml")
     found = verdicts(check(problem, FileReader(problem)(text.encode(), "report.md")))
     assert found["friction"] == "correct"
+
+
+@pytest.mark.parametrize("text", ["friction = fv*abs(q1') + fc*sgn(q1')", "friction = fv*q1' + fc*abs(q1')"])
+def test_an_absolute_value_is_no_rate_and_no_sign(text: str) -> None:
+    problem = read_problem(ARM, "own.yaml")
+    found = verdicts(check(problem, FileReader(problem)(text.encode(), "report.md")))
+    assert found["friction"] == "wrong"
 
 
 CART = """
