@@ -28,6 +28,7 @@ from dynsolve.solution.numbers.given import Given
 if TYPE_CHECKING:
     from dynsolve.document import Picture
     from dynsolve.explain.abbreviations import Abbreviate, Abbreviated
+    from dynsolve.explain.context import Context
     from dynsolve.solution.numbers.results import Numbers
 
 CHECKED = ("J", "D", "C", "g", "friction", "tau", "K", "P")
@@ -120,7 +121,15 @@ class Dynamics:
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """The whole derivation, step by step."""
-        return tuple(self.explain())
+        from dynsolve.explain import explain
+
+        return tuple(explain(self._context))
+
+    @cached_property
+    def _context(self) -> Context:
+        from dynsolve.explain.context import Context
+
+        return Context(self.robot, self.values, self.forms, self.agreement, self.problem.normals)
 
     def explain(
         self, stages: Iterable[str] | None = None, short: Abbreviated | None = None
@@ -128,11 +137,9 @@ class Dynamics:
         """The steps of some stages, in the order of the course; with `short`, in its names."""
         from dynsolve.explain import explain
         from dynsolve.explain.abbreviated_steps import in_names
-        from dynsolve.explain.context import Context
 
-        context = Context(self.robot, self.values, self.forms, self.agreement, self.problem.normals)
-        steps = explain(context, stages)
-        return steps if short is None else in_names(steps, context, short)
+        steps = iter(self.steps) if stages is None else explain(self._context, stages)
+        return steps if short is None else in_names(steps, self._context, short)
 
     def abbreviated(self, abbreviate: Abbreviate | str = "always") -> Abbreviated | None:
         """D, C and g with constants and recurring terms named; compared with the independent computation.

@@ -99,6 +99,12 @@ def test_arrows_of_angles_turn_as_the_axes_say(name: str) -> None:
 
 
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
+def test_every_robot_is_drawn_with_its_letters(path: Path) -> None:
+    root = ET.fromstring(to_svg(drawn(path)))  # noqa: S314 - our own
+    assert len(root.findall("{http://www.w3.org/2000/svg}text")) > 8
+
+
+@pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
 def test_everything_is_inside_the_picture(path: Path) -> None:
     picture = drawn(path)
     frame = picture.frame
