@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
+from functools import cache
 
 import pytest
 
@@ -46,11 +46,12 @@ masses: [{mass: m1, link: 1}, {mass: m2, link: 2}, {mass: m3, link: 3}]
 PRINTERS = (UnicodePrinter, LatexPrinter, MathMLPrinter, TypstPrinter)
 
 
-@lru_cache
+@cache
 def document(problem: str, detail: Detail = Detail.FULL) -> Document:
     return solution_document(solved(problem), detail)
 
 
+@cache
 def signs(problem: str) -> set[Node]:
     """Every name, letter and shorthand of a report, without the letters inside indices."""
     style = solved(problem).style
