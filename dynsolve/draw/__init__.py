@@ -13,9 +13,12 @@ From the table to a pose:
 
 What is drawn of it:
 
-    parts         where cylinders, boxes and links stand along the chain
-    solids        those as paths, from back to front; `links` the tubes between them
-    annotate      axes of frames, joint variables, mass centres, gravity
+    parts         where the joints stand along the chain, and the links between them
+    bodies        how large the uniform bodies on the links are, and how they lie
+    solids        the joints as paths, with all else from back to front: `links` the tubes between them,
+                  `body_solids` the bodies; `primitives` drums, blocks and balls
+    annotate      axes of frames, mass centres, gravity
+    joint_angles  the angles of the joints, from the line from which each is counted
     lengths       lengths with their heads
     labels        where labels stand; `typography` how wide they are
     scene         all of it together
@@ -104,7 +107,4 @@ def picture(problem: Problem, *, star: bool = True) -> Picture:
     from dynsolve.draw.svg import to_svg
 
     drawn = scene(problem, star)
-    return Picture(to_svg(drawn), CAPTION, to_latex_picture(drawn))
-
-
-CAPTION = "The manipulator with its frames; not to scale."
+    return Picture(to_svg(drawn), drawn.caption, to_latex_picture(drawn))

@@ -1,4 +1,4 @@
-"""The annotations around a robot: axes of frames, joint variables, lengths, mass centres, gravity.
+"""The annotations around a robot: axes of frames, mass centres, gravity.
 
 Each function gives paths, and the labels that belong to them.
 """
@@ -13,33 +13,24 @@ from itertools import pairwise
 from dynsolve.draw import paths
 from dynsolve.draw.labels import Wanted
 from dynsolve.draw.occupied import Taken
-from dynsolve.draw.parts import RADIUS, TUBE, JointBody
+from dynsolve.draw.parts import TUBE
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import AXIS, Pose
 from dynsolve.draw.typography import typeset
 from dynsolve.draw.vectors import (
     Point,
     Vector,
-    cross,
     dot,
-    length,
     moved,
     point_to_segment,
-    scale,
-    scaled,
-    subtract,
-    unit,
 )
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Row, Symbol, Words
 from dynsolve.quantities import letters
-from dynsolve.robot.model import JointType
 
 _END_ON = 0.06
 """The foreshortening below which an axis is drawn as a point or a cross in a circle."""
 
-_RING = 1.75 * RADIUS
-_ARC = 31.0
 _SAME = 5.0
 _MARK = 6.0
 """The radius of the mark of a mass centre."""
@@ -47,16 +38,20 @@ _MARK = 6.0
 
 @dataclass
 class Notes:
-    """Paths and labels as they are collected; `taken` is what is drawn so far."""
+    """Paths and labels as they are collected; `taken` is what is drawn so far.
+
+    `behind` are the paths that the body of the robot is drawn over.
+    """
 
     style: Style
     taken: Taken
     paths: list[Path] = field(default_factory=list)
+    behind: list[Path] = field(default_factory=list)
     wanted: list[Wanted] = field(default_factory=list)
 
-    def draw(self, *paths: Path) -> None:
+    def draw(self, *paths: Path, behind: bool = False) -> None:
         """Add paths."""
-        self.paths += paths
+        (self.behind if behind else self.paths).extend(paths)
         self.taken.add(paths)
 
     def label(
@@ -132,62 +127,6 @@ def _end_on(origin: Point, toward: bool, radius: float, notes: Notes) -> None:
     (x, y), s = origin, 0.7 * radius
     for a, b in (((x - s, y - s), (x + s, y + s)), ((x - s, y + s), (x + s, y - s))):
         notes.draw(Path(paths.line(a, b), paths.FRAME, 1.4))
-
-
-# -- joint variables -------------------------------------------------------------------------------
-
-
-def joint_angles(pose: Pose, written: Sequence[Node], notes: Notes) -> None:
-    """The angles of revolute joints: arcs in a flat view, arrows around the axis in space."""
-    for part in pose.parts.joints:
-        if part.type is JointType.REVOLUTE:
-            (_flat_angle if pose.view.flat else _ring)(pose, part, written[part.row - 1], notes)
-
-
-def _flat_angle(pose: Pose, part: JointBody, node: Node, notes: Notes) -> None:
-    """θ_i from the x axis before the joint to the one after it, turning as the joint's axis says."""
-    view, leg = pose.view, pose.skeleton.legs[part.row - 1]
-    center = view.point(part.center)
-    first = view.direction(leg.before)
-    angle = leg.angle % (2 * math.pi)
-    if dot(leg.axis, view.toward) < 0:
-        angle = -angle
-    second = (first[1], -first[0])
-    if math.dist(view.point(leg.start), center) > 1.0:
-        end = (center[0] + first[0] * (_ARC + 14), center[1] + first[1] * (_ARC + 14))
-        notes.draw(Path(paths.line(center, end), paths.GREY, 0.9, dashed=True))
-    radius = _ARC if abs(angle) > 0.5 else _ARC + 16.0
-    p, q = (first[0] * radius, first[1] * radius), (second[0] * radius, second[1] * radius)
-    short = angle - math.copysign(min(6.0 / radius, abs(angle) / 2), angle)
-    tip = paths.on_ellipse(center, p, q, angle)
-    before = paths.on_ellipse(center, p, q, short - math.copysign(1e-3, angle))
-    notes.draw(
-        Path(paths.arc(center, p, q, 0.0, short), paths.VARIABLE, 1.4),
-        Path(paths.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.0), None, fill=paths.VARIABLE),
-    )
-    middle = [paths.on_ellipse(center, p, q, angle * part_of) for part_of in (0.5, 0.35, 0.65)]
-    toward = (middle[0][0] - center[0], middle[0][1] - center[1])
-    notes.label(node, middle, toward, paths.VARIABLE, "variable")
-
-
-def _ring(pose: Pose, part: JointBody, node: Node, notes: Notes) -> None:
-    """An arrow around a joint's axis, in front of its cylinder, in the positive sense."""
-    view = pose.view
-    center = view.point(part.center)
-    lean = dot(part.axis, view.toward)
-    front = subtract(view.toward, scale(part.axis, lean))
-    front = unit(front) if length(front) > 0.05 else unit(cross(part.axis, view.up))
-    side = cross(part.axis, front)
-    p, q = scaled(view.direction(front), _RING), scaled(view.direction(side), _RING)
-    half = math.radians(105)
-    tip, before = paths.on_ellipse(center, p, q, half), paths.on_ellipse(center, p, q, half - 0.22)
-    notes.draw(
-        Path(paths.arc(center, p, q, -half, half - 0.2), paths.WHITE, 3.6),
-        Path(paths.arc(center, p, q, -half, half - 0.2), paths.VARIABLE, 1.4),
-        Path(paths.head(tip, (tip[0] - before[0], tip[1] - before[1]), 8.5), None, fill=paths.VARIABLE),
-    )
-    anchors = [paths.on_ellipse(center, p, q, t) for t in (half, -half, half / 2, -half / 2, 0.0)]
-    notes.label(node, anchors, (tip[0] - center[0], tip[1] - center[1]), paths.VARIABLE, "variable")
 
 
 # -- mass centres and gravity ----------------------------------------------------------------------

@@ -43,7 +43,7 @@ def drawn_arm(figure: ArmFigure, problem: Problem, style: Style) -> Picture | No
         _arrow(arrow, at, pose, notes)
     labels = place(notes.wanted, notes.taken)
     lines = (*body, *notes.paths, *leads(labels))
-    scene = Scene("", figure.caption, lines, labels, framed(lines, labels), style)
+    scene = Scene("", figure.caption, figure.caption, lines, labels, framed(lines, labels), style)
     return Picture(to_svg(scene), figure.caption, to_latex_picture(scene))
 
 

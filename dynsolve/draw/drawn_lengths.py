@@ -42,13 +42,15 @@ class TableRow:
 class RobotNumbers:
     """A robot in numbers: its rows in picture lengths, and the value of every parameter.
 
-    `unit` is the value that is drawn with length 1; `base` turns frame 0 in the world.
+    `unit` is the value that is drawn with length 1; `base` turns frame 0 in the world.  `given` are the
+    parameters whose number is the file's own.
     """
 
     rows: tuple[TableRow, ...]
     values: Mapping[str, float]
     unit: float
     base: Rotation = IDENTITY
+    given: frozenset[str] = frozenset()
 
 
 def numbers(problem: Problem) -> RobotNumbers:
@@ -85,7 +87,7 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
     )
     x, y, z = ([finite(entry, values) for entry in row] for row in robot.base_rotation.rows)
     base = tuple(zip(x, y, z, strict=True))
-    return RobotNumbers(rows, values, unit, (base[0], base[1], base[2]))
+    return RobotNumbers(rows, values, unit, (base[0], base[1], base[2]), frozenset(given))
 
 
 def _has_vanished(robot: Robot, values: Mapping[str, float]) -> bool:

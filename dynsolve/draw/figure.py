@@ -52,7 +52,7 @@ def figure_scene(figure: Figure, style: Style) -> Scene:
         _name_angle(angle, notes)
     labels = place(notes.wanted, notes.taken)
     drawn_paths = (*notes.paths, *leads(labels))
-    return Scene("", figure.caption, drawn_paths, labels, framed(drawn_paths, labels), style)
+    return Scene("", figure.caption, figure.caption, drawn_paths, labels, framed(drawn_paths, labels), style)
 
 
 _LOOKS = {

@@ -28,7 +28,7 @@ _FAR = 22.0
 _STRUCK = 25.0
 """What each cell under a label costs that something is drawn on."""
 
-_NEAR, _ROOM = 4.0, 2.5
+_NEAR, _ROOM = 6.0, 2.5
 """What each cell costs that something is drawn on, and that comes nearer to a label than this room."""
 
 _CLOSE, _BARRED = 5.0, 3.0

@@ -4,65 +4,51 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from dynsolve.draw import paths
-from dynsolve.draw.occupied import Box, bounds
-from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, TUBE, Parts
+from dynsolve.draw.bodies import DrawnBody
+from dynsolve.draw.body_solids import covers
+from dynsolve.draw.parts import TUBE, Parts, is_inside
 from dynsolve.draw.paths import Path
-from dynsolve.draw.vectors import Point, Vector, between, distance, dot, length, scale, subtract
+from dynsolve.draw.primitives import Solid
+from dynsolve.draw.vectors import Point, Vector, between, distance
 from dynsolve.draw.view import View
-from dynsolve.robot.model import JointType
 
 _PIECE = 5.0
 """How long the pieces are that a link is cut into."""
 
 
-@dataclass(frozen=True, slots=True)
-class Solid:
-    """Paths that belong together; what is nearer the viewer is drawn later.
-
-    A piece of a straight tube says which tube it is of, and from where to where it
-    goes on paper, `first` and `last` counting pieces.
-    """
-
-    depth: float
-    paths: tuple[Path, ...]
-    tube: int = -1
-    first: int = 0
-    last: int = 0
-    ends: tuple[Point, Point] = ((0.0, 0.0), (0.0, 0.0))
-
-    @property
-    def box(self) -> Box:
-        """The area of paper that it covers."""
-        return bounds(self.paths)
-
-
-def link_pieces(parts: Parts, view: View) -> Iterator[Solid]:
-    """The tubes between the parts in pieces, and the elbows between the tubes."""
+def link_pieces(parts: Parts, view: View, bodies: Sequence[DrawnBody] = ()) -> Iterator[Solid]:
+    """The tubes between the parts in pieces, and the elbows between the tubes; nothing inside a body."""
     sink = 0.5 if view.flat else 0.0
     tube = 0
     for number, way in enumerate(parts.links):
         for k, point in enumerate(way):
-            if (number or k) and not _inside(point, parts, view):
+            if (number or k) and not _hidden(point, parts, view, bodies):
                 elbow = Path(paths.circle(view.point(point), TUBE), fill=paths.LINK)
                 yield Solid(view.depth(point) - 1e-3 - sink, (elbow,))
             if k:
                 tube += 1
-                yield from _tube(way[k - 1], point, parts, view, sink, tube)
+                for piece in _tube(way[k - 1], point, view, sink, tube):
+                    if not _hidden(between(way[k - 1], point, piece[0]), parts, view, bodies):
+                        yield piece[1]
 
 
-def _tube(a: Vector, b: Vector, parts: Parts, view: View, sink: float, tube: int) -> Iterator[Solid]:
-    """A straight tube in short pieces; what lies inside a joint is left out."""
+def _hidden(point: Vector, parts: Parts, view: View, bodies: Sequence[DrawnBody]) -> bool:
+    """Whether a point of a link is inside a joint or a body."""
+    return is_inside(point, parts, view) or covers(bodies, point, view)
+
+
+def _tube(a: Vector, b: Vector, view: View, sink: float, tube: int) -> Iterator[tuple[float, Solid]]:
+    """A straight tube in short pieces, each with the part of the way at which its middle is."""
     if math.dist(view.point(a), view.point(b)) < 0.5:
         return
     pieces = max(1, math.ceil(distance(a, b) * view.size / _PIECE))
     for k in range(pieces):
-        middle = between(a, b, (k + 0.5) / pieces)
-        if not _inside(middle, parts, view):
-            ends = view.point(between(a, b, k / pieces)), view.point(between(a, b, (k + 1) / pieces))
-            yield Solid(view.depth(middle) - sink, _drawn(*ends), tube, k, k, ends)
+        part = (k + 0.5) / pieces
+        ends = view.point(between(a, b, k / pieces)), view.point(between(a, b, (k + 1) / pieces))
+        yield part, Solid(view.depth(between(a, b, part)) - sink, _drawn(*ends), tube, k, k, ends)
 
 
 def _drawn(a: Point, b: Point) -> tuple[Path, ...]:
@@ -108,15 +94,3 @@ def _merged(a: Solid, b: Solid) -> Solid:
         a, b = b, a
     ends = a.ends[0], b.ends[1]
     return replace(a, paths=_drawn(*ends), last=b.last, ends=ends)
-
-
-def _inside(point: Vector, parts: Parts, view: View) -> bool:
-    """Whether a point lies in a cylinder or a box."""
-    for part in parts.joints:
-        offset = scale(subtract(point, part.center), view.size)
-        height = dot(offset, part.axis)
-        across = length(subtract(offset, scale(part.axis, height)))
-        wide = RADIUS if part.type is JointType.REVOLUTE else BOX - 1.0
-        if abs(height) < HALF_HEIGHT - 1.0 and across < wide - 1.0:
-            return True
-    return False

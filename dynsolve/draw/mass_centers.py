@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
 from dynsolve.draw.drawn_lengths import RobotNumbers, finite
 from dynsolve.draw.skeleton import MassCenter, Skeleton, near_and_far
@@ -59,10 +60,11 @@ def _mass(
     if written in exact:
         return MassCenter(body.name, exact[written], body.is_point, body.link)
     ends = (into(frame.axes, subtract(end, frame.origin)) for end in (near, far))
-    center, from_, rate = _local_center(robot, numbers, body, free, share, *ends)
+    center, from_, rate, chosen = _local_center(robot, numbers, body, free, share, *ends)
     place = add(frame.origin, applied(frame.axes, center))
     start = None if from_ is None else add(frame.origin, applied(frame.axes, from_))
-    return MassCenter(body.name, place, body.is_point, body.link, start, free[0] if start else "", rate)
+    symbol = free[0] if start else ""
+    return MassCenter(body.name, place, body.is_point, body.link, start, symbol, rate, chosen)
 
 
 def _local_center(
@@ -73,8 +75,8 @@ def _local_center(
     share: float,
     near: Vector,
     far: Vector,
-) -> tuple[Vector, Vector | None, float]:
-    """The centre in its frame; the origin of its only free symbol, and the rate of that symbol."""
+) -> tuple[Vector, Vector | None, float, tuple[tuple[str, float], ...]]:
+    """The centre in its frame; the origin of its only free symbol and its rate; the values of all of them."""
     values = dict(numbers.values) | dict.fromkeys(free, 0.0)
     rate = 0.0
 
@@ -94,9 +96,9 @@ def _local_center(
             values[name] = share * _best(step, subtract(middle, start), distance(near, far), len(free))
         found = center()
     except (ValueError, ZeroDivisionError, OverflowError):
-        return middle, None, 0.0
+        return middle, None, 0.0, ()
     measured = len(free) == 1 and rate > NEAR and distance(start, found) > NEAR
-    return found, start if measured else None, rate
+    return found, start if measured else None, rate, tuple((name, values[name]) for name in free)
 
 
 def _best(direction: Vector, wanted: Vector, size: float, symbols: int) -> float:
@@ -115,27 +117,27 @@ def _best(direction: Vector, wanted: Vector, size: float, symbols: int) -> float
 def free_symbols(robot: Robot, body: Body) -> list[str]:
     """The parameters of a mass centre that the table does not have."""
     fixed = names_in(*(node for joint in robot.joints for node in joint.written))
-    return [name for name in _symbols_of(robot, body) if name not in fixed]
+    return [name for name in symbols_of(robot, body.center.entries) if name not in fixed]
 
 
-def _symbols_of(robot: Robot, body: Body) -> list[str]:
-    """The parameters that move a mass centre."""
+def symbols_of(robot: Robot, written: Sequence[Expr]) -> list[str]:
+    """The parameters on which some lengths depend."""
     ring = robot.ring
     ones = dict.fromkeys((q.name for q in robot.coordinates), 0.0)
     values = {name: 1.0 + place / 7 for place, name in enumerate(ring.parameters)} | ones
     values["pi"] = 3.0
 
-    def center() -> tuple[float, ...]:
+    def lengths() -> tuple[float, ...]:
         try:
-            return tuple(evaluate(entry, values) for entry in body.center.entries)
+            return tuple(evaluate(entry, values) for entry in written)
         except (ValueError, ZeroDivisionError, OverflowError):
             return ()
 
     found = []
-    usual = center()
+    usual = lengths()
     for name in ring.parameters:
         kept, values[name] = values[name], values[name] + 0.5
-        if center() != usual:
+        if lengths() != usual:
             found.append(name)
         values[name] = kept
     return found

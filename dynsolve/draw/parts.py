@@ -6,11 +6,12 @@ it is put where it meets no other part.  Sizes are in picture units.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from dynsolve.draw.skeleton import Leg, Skeleton
-from dynsolve.draw.vectors import NEAR, Vector, along, distance, dot, scale, subtract, unit
+from dynsolve.draw.vectors import NEAR, Vector, along, distance, dot, length, scale, subtract, unit
 from dynsolve.draw.view import View
 from dynsolve.robot.model import JointType
 
@@ -28,6 +29,9 @@ _ROOM = 44.0
 """The length of a leg that has room for its joint in the middle."""
 
 _PARALLEL = 0.99
+
+
+NO_SLEEVES: Mapping[int, float] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,8 +54,8 @@ class Parts:
     ground_normal: Vector
 
 
-def arrange(pose: Skeleton, view: View, up: Vector) -> Parts:
-    """Put the parts of a robot along its chain."""
+def arrange(pose: Skeleton, view: View, up: Vector, sleeves: Mapping[int, float] = NO_SLEEVES) -> Parts:
+    """Put the parts of a robot along its chain, those that slide in a body at the end of that body."""
     joints: list[JointBody] = []
     for row, leg in enumerate(pose.legs, 1):
         if leg.type is None:
@@ -59,6 +63,8 @@ def arrange(pose: Skeleton, view: View, up: Vector) -> Parts:
         places = _places(
             pose, row, leg, view, up, first=not joints and distance(leg.foot, pose.frames[0].origin) < NEAR
         )
+        if row in sleeves:
+            places = [along(leg.foot, leg.axis, sleeves[row]), *places]
         center = next((p for p in places if _is_clear(p, joints, view)), places[0])
         joints.append(JointBody(row, leg.type, center, leg.axis))
     ground, normal = _ground(pose, joints, view, up)
@@ -166,3 +172,15 @@ def straightened(way: Sequence[Vector]) -> tuple[Vector, ...]:
 
 def _in_line(a: Vector, b: Vector, c: Vector) -> bool:
     return abs(dot(unit(subtract(b, a)), unit(subtract(c, b)))) > 1 - 1e-9
+
+
+def is_inside(point: Vector, parts: Parts, view: View) -> bool:
+    """Whether a point lies in a cylinder or a box."""
+    for part in parts.joints:
+        offset = scale(subtract(point, part.center), view.size)
+        height = dot(offset, part.axis)
+        across = length(subtract(offset, scale(part.axis, height)))
+        wide = RADIUS if part.type is JointType.REVOLUTE else BOX - 1.0
+        if abs(height) < HALF_HEIGHT - 1.0 and across < wide - 1.0:
+            return True
+    return False

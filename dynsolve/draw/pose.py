@@ -11,13 +11,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
+from dynsolve.draw.bodies import DrawnBody
 from dynsolve.draw.orientation import Orientation
 from dynsolve.draw.parts import Parts
-from dynsolve.draw.skeleton import Skeleton
+from dynsolve.draw.skeleton import Leg, Skeleton
 from dynsolve.draw.vectors import (
     NEAR,
     Point,
     along,
+    cross,
     distance,
     dot,
     point_to_segment,
@@ -30,14 +32,18 @@ from dynsolve.robot.model import JointType, Robot
 AXIS = 44.0
 """How long the axes of frames are drawn."""
 
+MANY = 4
+"""A robot with more rows than that has more to write beside it than there is room for."""
+
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """A robot in its pose, seen from where it shows best."""
+    """A robot in its pose, seen from where it shows best, with the uniform bodies on its links."""
 
     skeleton: Skeleton
     parts: Parts
     view: View
+    bodies: tuple[DrawnBody, ...] = ()
 
 
 Choice = tuple[float, ...]
@@ -146,6 +152,22 @@ def taste(robot: Robot, pose: Pose, choice: Choice) -> float:
                 total += 12.0 * _shortfall(angle, 0.7) + 1.2 * abs(angle - 0.8)
     else:
         total += 0.5 * abs(choice[-2] - math.radians(35))
+        if len(pose.skeleton.legs) <= MANY:
+            total += sum(_hidden_angle(leg, pose.view) for leg in pose.skeleton.legs)
     first, last = pose.skeleton.frames[0].origin, pose.skeleton.frames[-1].origin
     reach = pose.view.direction(subtract(last, first))[0]
     return total + 1.5 * max(0.0, 1.0 - reach)
+
+
+def _hidden_angle(leg: Leg, view: View) -> float:
+    """The cost of an angle in space that is small, or very large, or behind its joint."""
+    if leg.type is not JointType.REVOLUTE:
+        return 0.0
+    angle = leg.angle % (2 * math.pi)
+    side = cross(leg.axis, leg.before)
+    behind = sum(
+        max(0.0, -dot(leg.before, view.toward) * math.cos(t) - dot(side, view.toward) * math.sin(t))
+        for t in (0.0, angle / 2, angle)
+    )
+    flat = _shortfall(abs(dot(leg.axis, view.toward)), 0.6)  # an arc that is seen from its edge
+    return 12.0 * _shortfall(angle, 0.7) + 0.8 * abs(angle - 1.1) + 2.0 * behind + 12.0 * flat

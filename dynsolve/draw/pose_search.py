@@ -7,15 +7,16 @@ are improved a coordinate at a time, so the same robot always gets the same pose
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from random import Random
 
+from dynsolve.draw.bodies import drawn_bodies, sleeves
 from dynsolve.draw.drawn_lengths import RobotNumbers
 from dynsolve.draw.mass_centers import with_masses
 from dynsolve.draw.orientation import Orientation
-from dynsolve.draw.parts import arrange
-from dynsolve.draw.pose import Choice, Pose, cost_of, taste
+from dynsolve.draw.parts import NO_SLEEVES, arrange
+from dynsolve.draw.pose import MANY, Choice, Pose, cost_of, taste
 from dynsolve.draw.skeleton import skeleton
 from dynsolve.draw.vectors import NEAR, Point
 from dynsolve.draw.view import facing, oblique
@@ -27,13 +28,16 @@ WIDTH, HEIGHT = 500.0, 390.0
 LARGEST = 150.0
 """The most picture units that a length of 1 takes."""
 
-_MANY, _MORE = 4, 1.35
-"""A robot with more rows than that is drawn larger, for there is more to write beside it."""
+_MORE = 1.35
+"""How much larger a robot with many rows is drawn, for there is more to write beside it."""
+
+_FEW, _SOME = 5, 1.2
+"""With more rows and bodies than that, a robot is drawn that much larger."""
 
 _TURNS = tuple(math.radians(15 * k) for k in range(-11, 13))
 _SLIDES = (0.6, 0.75, 0.9, 1.05)
 _AZIMUTHS = tuple(math.radians(10 * k + 5) for k in range(-9, 9))
-_ELEVATIONS = tuple(math.radians(angle) for angle in (18, 24, 30))
+_ELEVATIONS = tuple(math.radians(angle) for angle in (18, 24, 30, 36))
 _SAMPLES, _IMPROVED, _ROUNDS = 260, 3, 3
 _SEED = 1955
 
@@ -45,20 +49,22 @@ def best_pose(
     options = options_of(robot, orientation)
     if q is not None:
         options = [*((value,) for value in q), *options[robot.n :]]
+    slid_in = sleeves(robot, numbers)
     random = Random(_SEED)  # noqa: S311 - the same poses every time are wanted
     remembered: dict[Choice, float] = {}
 
     def cost(choice: Choice) -> float:
         if choice not in remembered:
-            pose = pose_of(robot, numbers, orientation, choice)
+            pose = pose_of(robot, numbers, orientation, choice, slid_in)
             remembered[choice] = round(cost_of(pose, orientation) + taste(robot, pose, choice), 6)
         return remembered[choice]
 
     tried = [tuple(_pick(random, values) for values in options) for _ in range(_SAMPLES)]
     starts = sorted(set(tried), key=lambda choice: (cost(choice), choice))[:_IMPROVED]
     best = min((improved(start, options, cost) for start in starts), key=lambda c: (cost(c), c))
-    pose = pose_of(robot, numbers, orientation, best)
-    return replace(pose, skeleton=with_masses(robot, numbers, pose.skeleton))
+    pose = pose_of(robot, numbers, orientation, best, slid_in)
+    body = with_masses(robot, numbers, pose.skeleton)
+    return replace(pose, skeleton=body, bodies=drawn_bodies(robot, numbers, body))
 
 
 def _pick(random: Random, values: Sequence[float]) -> float:
@@ -83,16 +89,24 @@ def improved(choice: Choice, options: Sequence[Sequence[float]], cost: Callable[
     return choice
 
 
-def pose_of(robot: Robot, numbers: RobotNumbers, orientation: Orientation, choice: Choice) -> Pose:
+def pose_of(
+    robot: Robot,
+    numbers: RobotNumbers,
+    orientation: Orientation,
+    choice: Choice,
+    slid_in: Mapping[int, float] = NO_SLEEVES,
+) -> Pose:
     """The robot with these values of its coordinates, seen so."""
     body = skeleton(robot, numbers, choice[: robot.n])
     if orientation.normal:
         view = facing(orientation.normal, orientation.up)
     else:
         view = oblique(orientation.up, orientation.ahead, choice[-2], choice[-1])
-    room = _MORE if len(robot.joints) > _MANY else 1.0
+    room = (
+        _MORE if len(robot.joints) > MANY else _SOME if len(robot.joints) + len(robot.bodies) > _FEW else 1.0
+    )
     view = view.sized(room * _size([view.point(point) for point in body.path]))
-    return Pose(body, arrange(body, view, orientation.up), view)
+    return Pose(body, arrange(body, view, orientation.up, slid_in), view)
 
 
 def _size(points: Sequence[Point]) -> float:

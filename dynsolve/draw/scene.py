@@ -9,6 +9,7 @@ from fractions import Fraction
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.draw import annotate, paths
 from dynsolve.draw.drawn_lengths import RobotNumbers, numbers
+from dynsolve.draw.joint_angles import has_parallels, joint_angles
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimension, row_lengths
 from dynsolve.draw.occupied import Box, Taken, bounds
@@ -27,15 +28,22 @@ MARGIN = 14.0
 SLIDE = 0.9
 """How far out a slide is drawn whose letter stands in a drawing."""
 
+CAPTION = "The manipulator with its frames; not to scale."
+PARALLELS = "Dashed lines at a joint are parallel to the x axes between which its angle is counted."
+
 _STAR = Style(star=True, decimal=True)
 _PLAIN = Style(decimal=True)
 
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """Paths from back to front, labels on top of them, and the box that holds everything."""
+    """Paths from back to front, labels on top of them, and the box that holds everything.
+
+    `caption` stands under it in a report, `description` is for those who cannot see it.
+    """
 
     title: str
+    caption: str
     description: str
     paths: tuple[Path, ...]
     labels: tuple[Label, ...]
@@ -49,19 +57,20 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     values = numbers(problem)
     world = orientation(robot, values)
     pose = best_pose(robot, values, world, as_drawn(problem, values))
-    body = solids(pose.parts, pose.view, world.up)
+    body = solids(pose.parts, pose.view, world.up, pose.bodies)
     notes = annotate.Notes(_STAR if star else _PLAIN, Taken())
     notes.taken.add(body)
     annotate.frames(pose, notes)
-    annotate.joint_angles(pose, [joint.written[0] for joint in robot.joints], notes)
+    joint_angles(pose, [joint.written[0] for joint in robot.joints], notes)
     annotate.masses(pose, notes)
     for length in (*row_lengths(robot, pose), *_center_lengths(pose)):
         dimension(length, pose, notes)
     _gravity(world, pose, body, notes)
     labels = place(notes.wanted, notes.taken)
-    paths = (*body, *notes.paths, *leads(labels))
+    paths = (*notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
+        f"{CAPTION} {PARALLELS}" if has_parallels(pose) else CAPTION,
         _description(problem),
         paths,
         labels,

@@ -67,7 +67,8 @@ class MassCenter:
     """A mass centre.
 
     `from_` is where its one free `symbol` is measured from, if it has just one;
-    `rate` is how far the centre moves as that grows by 1.
+    `rate` is how far the centre moves as that grows by 1.  `chosen` are the values that its
+    free symbols are drawn with.
     """
 
     name: str
@@ -77,6 +78,7 @@ class MassCenter:
     from_: Vector | None = None
     symbol: str = ""
     rate: float = 1.0
+    chosen: tuple[tuple[str, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,12 @@ import math
 from collections.abc import Sequence
 
 from dynsolve.draw import paths
-from dynsolve.draw.links import Solid, joined, link_pieces
+from dynsolve.draw.bodies import DrawnBody
+from dynsolve.draw.body_solids import body_solids
+from dynsolve.draw.links import joined, link_pieces
 from dynsolve.draw.parts import BOX, HALF_HEIGHT, RADIUS, JointBody, Parts
 from dynsolve.draw.paths import Path
+from dynsolve.draw.primitives import END_ON, JOINT, Solid, block, drum, nearer
 from dynsolve.draw.vectors import (
     Point,
     Vector,
@@ -25,15 +28,15 @@ from dynsolve.draw.vectors import (
 from dynsolve.draw.view import View
 from dynsolve.robot.model import JointType
 
-_END_ON = 0.999
 _GROUND = 30.0
 
 
-def solids(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
+def solids(parts: Parts, view: View, up: Vector, bodies: Sequence[DrawnBody] = ()) -> tuple[Path, ...]:
     """All of a robot's body, from back to front."""
     turning = [part for part in parts.joints if part.type is JointType.REVOLUTE]
     sliding = [part for part in parts.joints if part.type is JointType.PRISMATIC]
-    found = [*link_pieces(parts, view), *(cylinder(part, view) for part in turning)]
+    found = [*link_pieces(parts, view, bodies), *body_solids(bodies, parts, view, up)]
+    found += (cylinder(part, view) for part in turning)
     found += (box(part, view, up) for part in sliding)
     found.sort(key=lambda solid: round(solid.depth, 6))
     return (*ground(parts, view), *(path for solid in joined(found) for path in solid.paths))
@@ -43,54 +46,20 @@ def solids(parts: Parts, view: View, up: Vector) -> tuple[Path, ...]:
 
 
 def cylinder(part: JointBody, view: View) -> Solid:
-    """A revolute joint: a cylinder along its axis."""
-    axis = part.axis if dot(part.axis, view.toward) >= 0 else scale(part.axis, -1.0)
-    depth = view.depth(part.center)
-    center = view.point(part.center)
-    across, lift = _half_axes(axis, view, RADIUS)
-    if dot(axis, view.toward) > _END_ON:
-        dot_path = Path(paths.circle(center, 2.2), None, fill=paths.BLACK)
-        return Solid(depth + 1.0, (Path(paths.circle(center, RADIUS), fill=paths.CAP), dot_path))
-    near = view.point(along(part.center, axis, view.space(HALF_HEIGHT)))
-    far = view.point(along(part.center, axis, -view.space(HALF_HEIGHT)))
-    # cos t runs across the axis, sin t along it towards the viewer: the far end shows its lower half
-    body = (
-        *paths.arc(far, across, lift, math.pi, 2 * math.pi),
-        *paths.arc(near, across, lift, 0.0, math.pi, move=False),
-        ("Z", ()),
-    )
-    return Solid(
-        depth, (Path(body, fill=paths.SIDE), Path(paths.ellipse(near, across, lift), fill=paths.CAP))
-    )
-
-
-def _half_axes(axis: Vector, view: View, radius: float) -> tuple[Point, Point]:
-    """The half axes, on paper, of a circle around an axis; the second points along the axis on paper."""
-    if abs(dot(axis, view.toward)) > _END_ON:
-        return (radius, 0.0), (0.0, -radius)
-    across = unit(cross(axis, view.toward))
-    along_axis = cross(across, axis)
-    x, y = view.direction(across)
-    u, v = view.direction(along_axis)
-    forward = view.direction(axis)
-    sign = 1.0 if u * forward[0] + v * forward[1] >= 0 else -1.0
-    return (x * radius, y * radius), (sign * u * radius, sign * v * radius)
+    """A revolute joint: a cylinder along its axis, a circle with its middle where it is seen end on."""
+    solid = drum(part.center, part.axis, RADIUS, HALF_HEIGHT, view, JOINT)
+    if abs(dot(part.axis, view.toward)) <= END_ON:
+        return solid
+    middle = Path(paths.circle(view.point(part.center), 2.2), None, fill=paths.BLACK)
+    return Solid(solid.depth + 1.0, (*solid.paths, middle))
 
 
 def box(part: JointBody, view: View, up: Vector) -> Solid:
     """A prismatic joint: a box along its axis."""
-    first = part.axis
-    second = _crosswise(first, view, up)
-    third = cross(first, second)
-    halves = ((first, HALF_HEIGHT + 2.0), (second, BOX - 1.0), (third, BOX - 1.0))
-    faces = [
-        (axis if dot(axis, view.toward) > 0 else scale(axis, -1.0), half, k)
-        for k, (axis, half) in enumerate(halves)
-        if abs(dot(axis, view.toward)) > 1e-3
-    ]
-    faces.sort(key=lambda face: round(dot(face[0], view.toward), 6))
-    paths = tuple(_face(part.center, face, halves, view, up) for face in faces)
-    return Solid(view.depth(part.center) + (1.0 if view.flat else 0.0), paths)
+    second = _crosswise(part.axis, view, up)
+    axes = part.axis, second, cross(part.axis, second)
+    halves = HALF_HEIGHT + 2.0, BOX - 1.0, BOX - 1.0
+    return nearer(block(part.center, axes, halves, view, up, JOINT), 1.0 if view.flat else 0.0)
 
 
 def _crosswise(axis: Vector, view: View, up: Vector) -> Vector:
@@ -100,31 +69,6 @@ def _crosswise(axis: Vector, view: View, up: Vector) -> Vector:
         if length(level) > 0.3:
             return unit(level)
     return any_normal(axis)
-
-
-def _face(
-    center: Vector,
-    face: tuple[Vector, float, int],
-    halves: Sequence[tuple[Vector, float]],
-    view: View,
-    up: Vector,
-) -> Path:
-    normal, half, k = face
-    middle = along(center, normal, view.space(half))
-    (a, a_half), (b, b_half) = (halves[j] for j in range(3) if j != k)
-    corners = [
-        along(along(middle, a, view.space(s * a_half)), b, view.space(t * b_half))
-        for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))
-    ]
-    lit = dot(normal, up)
-    fill = (
-        paths.CAP
-        if view.flat or lit > 0.4
-        else paths.SIDE
-        if dot(normal, view.right) < 0.4
-        else paths.DARK_SIDE
-    )
-    return Path(paths.polygon([view.point(corner) for corner in corners]), fill=fill)
 
 
 # -- the ground ------------------------------------------------------------------------------------
