@@ -1,0 +1,72 @@
+"""Uniform bodies in a picture: their forms, and their sizes where the picture knows them."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.draw.bodies import DrawnBody, Form, drawn_bodies, sleeves
+from dynsolve.draw.drawn_lengths import numbers
+from dynsolve.draw.mass_centers import with_masses
+from dynsolve.draw.primitives import BODY
+from dynsolve.draw.skeleton import skeleton
+from dynsolve.draw.vectors import dot
+from dynsolve.problem import load, read_problem
+from dynsolve.problem.model import Problem
+from tests.support import LIBRARY
+from tests.unit.draw.pictures import drawn
+
+TELESCOPE = next(path for path in LIBRARY if path.stem == "box-cylinder-rod-sphere")
+
+ARM = """
+dh: [{{theta: q1*, a: l1}}]
+values: {{l1: 0.5, r: 0.1}}
+masses: [{{mass: m1, link: 1, center: midpoint, shape: {shape}}}]
+"""
+
+
+def bodies(problem: Problem, q: float = 0.0) -> tuple[DrawnBody, ...]:
+    robot, values = problem.robot, numbers(problem)
+    return drawn_bodies(robot, values, with_masses(robot, values, skeleton(robot, values, [q] * robot.n)))
+
+
+@pytest.mark.parametrize(
+    ("shape", "form", "halves"),
+    [
+        ("{box: {x: l1, y: 0.2, z: b}}", Form.BOX, (0.5, 0.2, None)),
+        ("{sphere: {radius: 0.1}}", Form.BALL, (0.2, 0.2, 0.2)),
+        ("{sphere: {radius: c}}", Form.BALL, (None, None, None)),
+        ("{rod: {length: l1, axis: x}}", Form.ROUND, (0.5, None, None)),
+        ("{cylinder: {radius: r, length: l1, axis: x}}", Form.ROUND, (0.5, 0.2, 0.2)),
+    ],
+)
+def test_sides_that_are_known(shape: str, form: Form, halves: tuple[float | None, ...]) -> None:
+    """Half of each side over the longest length of the table; a letter without a number has no length."""
+    (body,) = bodies(read_problem(ARM.format(shape=shape).encode(), "arm.yaml"))
+    assert body.form is form
+    assert body.halves == pytest.approx(halves)
+    assert min(body.on_paper(100.0)) >= 3.0
+
+
+def test_every_body_of_the_telescope_is_drawn() -> None:
+    """A cylinder upright, a box and a rod along the arm, a sphere at its tip."""
+    problem = load(TELESCOPE)
+    found = bodies(problem, 0.6)
+    assert [body.form for body in found] == [Form.ROUND, Form.BOX, Form.ROUND, Form.BALL]
+    assert [body.link for body in found] == [1, 2, 3, 3]
+    upright, box, rod, _ = found
+    assert abs(dot(upright.axes[upright.main], (0.0, 0.0, 1.0))) == pytest.approx(1.0)
+    assert abs(dot(box.axes[2], rod.axes[rod.main])) == pytest.approx(1.0)
+    colours = {path.fill for path in drawn(TELESCOPE).paths}
+    assert {BODY.top, BODY.side} <= colours
+
+
+def test_a_slide_stands_at_the_end_of_the_body_that_it_slides_in() -> None:
+    problem = load(TELESCOPE)
+    (row, reach), *others = sleeves(problem.robot, numbers(problem)).items()
+    box = bodies(problem)[1]
+    assert (row, others) == (3, [])
+    assert reach == pytest.approx(2 * (box.halves[2] or 0.0))
+
+
+def test_point_masses_have_no_body() -> None:
+    assert bodies(read_problem(ARM.format(shape="point").encode(), "arm.yaml")) == ()
