@@ -146,9 +146,7 @@ def _axes(robot: Robot, numbers: RobotNumbers, body: Body, pose: Skeleton, rest:
 
 
 def _columns(robot: Robot, numbers: RobotNumbers, R: Matrix) -> Rotation:
-    rows: Sequence[Sequence[float]] = [
-        [finite(entry, numbers.values) for entry in row] for row in R.rows
-    ]
+    rows: Sequence[Sequence[float]] = [[finite(entry, numbers.values) for entry in row] for row in R.rows]
     x, y, z = ((rows[0][k], rows[1][k], rows[2][k]) for k in range(3))
     return x, y, z
 
