@@ -16,7 +16,7 @@ def _of_link(stem: str, base: str, dimension: Dimension, dots: int = 0, *spellin
         shape=(3, 1),
         letter=lambda robot, i: letters.in_link(base, i, dots),
         dimension=dimension,
-        fallback_spellings=spellings,
+        spellings=spellings,
     )
 
 
@@ -26,7 +26,7 @@ WL = _of_link("wl", "omega", PER_SECOND, 0, "omega{i}", "w{i}")
 WDL = _of_link("wdl", "omega", times(PER_SECOND, PER_SECOND), 1, "omegadot{i}", "omega{i}dot", "alpha{i}")
 """ω̇_i of frame i."""
 
-AL = _of_link("al", "a", ACCELERATION, 0, "a{i}", "ae{i}", "vdot{i}")
+AL = _of_link("al", "a", ACCELERATION, 0, "a{i}", "ae{i}", "vdot{i}", "v{i}dot")
 """The acceleration of the origin of frame i; in the modified convention with that of the base."""
 
 ACL = Family(
@@ -36,14 +36,14 @@ ACL = Family(
     shape=(3, 1),
     letter=of_body(lambda body: letters.center_in_link("a", body)),
     dimension=ACCELERATION,
-    fallback_spellings=("ac{b}", "vcdot{b}", "vdotc{b}"),
+    spellings=("ac{b}", "vcdot{b}", "vdotc{b}", "vc{b}dot", "vC{b}dot", "vCdot{b}"),
 )
 """The acceleration of a body's mass centre; in the modified convention with that of the base."""
 
-FL = _of_link("fl", "f", FORCE, 0, "f{i}", "F{i}")
+FL = _of_link("fl", "f", FORCE, 0, "f{i}")
 """The force that the link before exerts on link i."""
 
-NL = _of_link("nl", "n", ENERGY, 0, "n{i}", "N{i}", "mu{i}")
+NL = _of_link("nl", "n", ENERGY, 0, "n{i}", "mu{i}")
 """The moment that the link before exerts on link i, about o_{i-1}, in the modified convention about o_i."""
 
 FAMILIES: tuple[Family, ...] = (WL, WDL, AL, ACL, FL, NL)

@@ -33,7 +33,7 @@ lists in what YAML refuses, `span_text` the vectors of a space, `displayed_sets`
 from a name of the student's own, `vector_entries` a vector C q̇ that is given row by row,
 `matrix_parts` one row or column of a matrix, `dh_tables` tables of Denavit-Hartenberg parameters with
 their `dh_heads` and `dh_cells`,
-`motion_equations` equations of motion whose sides name no answer,
+`motion_equations` equations of motion whose sides name no answer, `no_answers` what names one and gives none,
 `by_content` names that mean an answer only where their value says so, `index_order` what the indices
 of a Christoffel symbol mean.  The values of an answer file are read by `given_values`; they come from
 `yaml_values` (what YAML says) and `yaml_scalars` (what stands between quotes), or, where YAML refuses
@@ -41,8 +41,8 @@ the file, from `answer_lines`; `placed_text` keeps where each character of a val
 
 Modules import only those of earlier layers: text (`limits`, `sources`, `tokens`, `displays`), names
 (`grids`, `index_order`, `vocabulary`, `name_splitting`), `grammar`, equations (`shapes`, `own_names`,
-`left_side`, `right_side`, `motion_equations`, `vector_entries`, `matrix_parts`, `by_content`, `occurrences`,
-`answer_list`, `equation_reader`, `asides`, `given_values`, `definitions`), formats (the rest).
+`left_side`, `right_side`, `motion_equations`, `no_answers`, `vector_entries`, `matrix_parts`, `by_content`,
+`occurrences`, `answer_list`, `equation_reader`, `asides`, `given_values`, `definitions`), formats (the rest).
 
 To read one more format, write a file that finds its displays, and name its ending in `files`; one
 more notation is a row or a module of `grammar`.

@@ -15,7 +15,7 @@ from dynsolve.answers.reading.answer_list import AnswerList, Member, Origin
 from dynsolve.answers.reading.by_content import meant
 from dynsolve.answers.reading.displays import Display, Equation, equations, is_label
 from dynsolve.answers.reading.grammar.references import OWN_LETTERS
-from dynsolve.answers.reading.grids import Abstract, Grid
+from dynsolve.answers.reading.grids import Abstract
 from dynsolve.answers.reading.index_order import defined_order, order_of_pair
 from dynsolve.answers.reading.left_side import (
     LeftSide,
@@ -27,10 +27,11 @@ from dynsolve.answers.reading.left_side import (
 )
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.matrix_parts import MatrixPart, entries_of, part_of
-from dynsolve.answers.reading.motion_equations import motion_equation, says_what_drives
+from dynsolve.answers.reading.motion_equations import motion_equation
+from dynsolve.answers.reading.no_answers import calls_forces, is_inertia_force, states_constant
 from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.right_side import RightSide, read_right_side, why_no_value
-from dynsolve.answers.reading.shapes import fitted, is_gravity_vector, model_parts, shown
+from dynsolve.answers.reading.shapes import fitted, model_parts, shown
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.macros import Macro
 from dynsolve.answers.reading.tokens.prepare import prepared
@@ -38,9 +39,9 @@ from dynsolve.answers.reading.vector_entries import entry_of
 from dynsolve.answers.reading.vocabulary import Meaning, Vocabulary
 from dynsolve.answers.submission import NotRecognized
 from dynsolve.errors import ReadError
-from dynsolve.notation.tree import Node, Symbol
+from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.notation.walk import names_in, walk
+from dynsolve.notation.walk import names_in
 from dynsolve.quantities.spelling import key
 
 _CONTROL = re.compile(r"unknown (?:symbol `[Kk]_?\{?[pPdDiI]\}?`|command `\\tilde`)")
@@ -148,14 +149,16 @@ class EquationReader:
             self.vocabulary.orders |= [order]
             self.found.left_alone.append(origin.of(members, "it says what the indices mean"))
             return
-        if (pair := order_of_pair(members)) is not None:
-            self.vocabulary.orders |= [pair]
+        self.vocabulary.orders |= order_of_pair(members)
         if (part := part_of(self.vocabulary, members[0])) is not None:
             self._part(part, members, origin)
             return
         sides = read_left_sides(self.vocabulary, members)
         names = list(dict.fromkeys(side.candidates for side in sides if isinstance(side, NamedAnswers)))
-        if self._of_motion(members, names, origin) or self._says_what_drives(members, sides[0], origin):
+        if self._of_motion(members, names, origin):
+            return
+        if calls_forces(self.vocabulary, members, sides[0]):
+            self.found.left_alone.append(origin.of(members, "it says what drives the joints"))
             return
         owners = tuple(name for candidates in names for name in candidates)
         read = [
@@ -171,19 +174,10 @@ class EquationReader:
         elif own := self._own_letter(members, sides, names, read):
             self.define(own, _values(read)[0])
             self.found.left_alone.append(origin.of(members, _DEFINITION))
-        elif self._states_constant(members, names, read):
+        elif read and states_constant(self.vocabulary, members, names, _values(read)):
             self.found.not_recognized.append(origin.of(members, "this says what a symbol of the problem is"))
         else:
             self._with_names(names, members, read, origin)
-
-    def _says_what_drives(self, members: list[list[Token]], first: LeftSide, origin: Origin) -> bool:
-        """Leave alone what only calls the forces: τ = (u, 0), d/dt ∂L/∂ẋ - ∂L/∂x = F."""
-        forces = {"tau", *(q.force for q in self.vocabulary.coordinates)}
-        named = [n for n in first.candidates if n in forces] if isinstance(first, NamedAnswers) else []
-        if len(members) != 2 or not named or not says_what_drives(self.vocabulary, named, members[-1]):
-            return False
-        self.found.left_alone.append(origin.of(members, "it says what drives the joints"))
-        return True
 
     def _of_motion(self, members: list[list[Token]], names: list[tuple[str, ...]], origin: Origin) -> bool:
         """Keep an equation of motion; whether the chain is one, no side naming more than all forces."""
@@ -263,34 +257,6 @@ class EquationReader:
         nodes = [found.value for found in values if isinstance(found.value, Node)]
         return not names_in(*nodes).isdisjoint(self.vocabulary.reached)
 
-    def _states_constant(
-        self, members: list[list[Token]], names: list[tuple[str, ...]], read: list[Member]
-    ) -> bool:
-        """Whether `g = 9.81 m/s^2` says what a symbol of the problem is, no value fitting the answer."""
-        first = members[0]
-        if names == [("g",)] and self._is_gravity(_values(read)):
-            return True
-        if names == [("D",)] and [token.text for token in first] == ["B"] and self._is_input(_values(read)):
-            return True
-        if len(names) > 1 or len(first) > 1 or key(first[0].text) not in self.vocabulary.symbols:
-            return False
-        if any(token.kind in ("begin", "[") for member in members for token in member):
-            return False
-        return bool(read) and not self.any_fits(names[0], _values(read))
-
-    def _is_input(self, values: list[RightSide]) -> bool:
-        """Whether B is the matrix of the inputs, B u: one of constants, or of another shape than D."""
-        shape = self.vocabulary.shape("D")
-        return any(
-            isinstance(found.value, Grid)
-            and (found.value.shape != shape or not any(isinstance(p, Symbol) for p in walk(found.value.node)))
-            for found in values
-        )
-
-    def _is_gravity(self, values: list[RightSide]) -> bool:
-        """Whether a value is the vector of the acceleration of gravity, [0, 0, -g], and not its torques."""
-        return any(is_gravity_vector(found.value, len(self.vocabulary.coordinates)) for found in values)
-
     def any_fits(self, candidates: tuple[str, ...], values: list[RightSide]) -> bool:
         """Whether one of the values has the shape of one of the answers."""
         return any(fitted(self.vocabulary, candidates, found.value) for found in values)
@@ -303,7 +269,9 @@ class EquationReader:
         said = ""
         for member in read:
             found = member.found
-            if _is_value(found):
+            if is_inertia_force(self.vocabulary, names, member.tokens):
+                self.found.left_alone.append(origin.of(members, "it is a vector of the recursions"))
+            elif _is_value(found):
                 self.found.answers += self.found.value(names, member, origin)
             elif not isinstance(found, ReadError):
                 said = said or why_no_value(found)

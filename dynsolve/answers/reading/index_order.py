@@ -30,18 +30,17 @@ def defined_order(members: Sequence[list[Token]]) -> tuple[str, int] | None:
     return letter, index.index(minus[0])
 
 
-def order_of_pair(members: Sequence[list[Token]]) -> tuple[str, int] | None:
-    """The letter and the place of the row where a chain says c_112 = c_121: the row is what both begin with.
+def order_of_pair(members: Sequence[list[Token]]) -> dict[str, int]:
+    """The place of the row by the letter, where a chain says c_112 = c_121: it is what both begin with.
 
     Symbols are equal in the two indices that do not count the row.
     """
     found = [_indexed(member) for member in members]
     named = [(letter, index) for letter, index in found if len(index) == 3 and index.isdecimal()]
     for (letter, first), (other, second) in pairwise(named):
-        is_pair = letter == other and first != second and first[0] == second[0] and first[1:] == second[:0:-1]
-        if is_pair:
-            return letter, 0
-    return None
+        if letter == other and first != second and first[0] == second[0] and first[1:] == second[:0:-1]:
+            return {letter: 0}
+    return {}
 
 
 def in_usual_order(name: str, orders: Mapping[str, int]) -> str:

@@ -297,7 +297,7 @@ class FormulaReader(Reader):
                 frames[kind] = frame[0].text
         if "^" in frames and self.token.text == "hat":
             return self.unit_vector()
-        if "^" not in frames or self.token.kind not in ("name", "letter"):
+        if "^" not in frames or not self.begins_with_name():
             raise ReadError(
                 f"nothing stands before this `{sign.text}`", sign.start, 1, "a script follows its base"
             )

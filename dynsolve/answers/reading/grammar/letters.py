@@ -9,9 +9,10 @@ from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.references import only_coordinates, placeholder, skip_arguments
 from dynsolve.answers.reading.grammar.scripts import BAR
-from dynsolve.answers.reading.grids import Abstract, Value
+from dynsolve.answers.reading.grids import Abstract, Value, grid
 from dynsolve.answers.reading.vocabulary import is_running
 from dynsolve.notation.tree import (
+    Number,
     Symbol,
 )
 from dynsolve.quantities.families import HOLD_FORCES
@@ -21,6 +22,7 @@ _ANGLES = ("theta", "phi", "varphi", "th")
 _POTENTIAL = re.compile(r"P.*|L")
 _LETTERS = re.compile(r"(?:z|o|R|r|p|x|y|e|n|a|u|s)(?:[0-9a-z]*|[xyz]theta[0-9]*|[xyz],?[qt].*)")
 _HOLDS_FORCES = re.compile(rf"(?:{'|'.join(sorted(HOLD_FORCES))})[0-9]*")
+_UNIT_VECTORS = "ijk"
 _HEIGHT = re.compile(r"h[1-9a-z][0-9]*")
 
 
@@ -57,6 +59,9 @@ def letter(reader: Reader, form: Form, name: str) -> Value | None:
         if forces:
             reader.references.setdefault(forces)
             return reader.with_scripts(placeholder(vocabulary, forces), form.scripts, form.start)
+    if name in _UNIT_VECTORS and not form.dots and vocabulary.shape(reader.owner) == (3, 1):
+        vector = grid([[Number(int(place == _UNIT_VECTORS.index(name)))] for place in range(3)])
+        return reader.with_scripts(vector, form.scripts, form.start)
     if name.endswith((PSEUDO_INVERSE, BAR)) and not reader.naming:
         reader.names_used += 1
         vocabulary.missed.add(name)

@@ -11,7 +11,7 @@ from dynsolve.notation.tree import (
     Reference,
     Symbol,
 )
-from dynsolve.quantities import families
+from dynsolve.quantities import families, recursion_families
 from dynsolve.quantities.family import Owner
 from dynsolve.quantities.index import Quantities
 from dynsolve.quantities.spelling import key
@@ -54,9 +54,16 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
 def _framed(quantities: Quantities, form: Form, names: tuple[str, ...]) -> tuple[tuple[str, ...], bool]:
     """The quantity in view of the frame that stands as its exponent: H_1^0, H_2^1."""
     powers = form.scripts.powers
+    in_link = tuple(n for n in names if quantities[n].family in recursion_families.FAMILIES)
+    if in_link and not powers and form.key not in quantities:
+        return tuple(dict.fromkeys((*in_link, *names))), False
     if not powers or not names:
         return names, False
     first, frame = quantities[names[0]], powers[0]
+    if in_link and frame == quantities[in_link[0]].index[0]:
+        return in_link, True
+    if first.family is families.FORCE and frame == first.index[0]:  # Craig's F_i: the inertia force of a link
+        return (), True
     if first.family.owner is Owner.ROW and frame.denominator == 1 and frame >= 0:
         i = first.index[0]
         if frame == 0 and (first.family is families.H or i == 1):
