@@ -290,7 +290,7 @@ class _LongModel:
             return replace(step, result=(equation(letters.D, self.short.D),))
         return replace(
             step,
-            title="D, assembled from the Jacobians",
+            title="The inertia matrix, assembled from the Jacobians",
             why=(
                 "The forces above are written in the entries of ",
                 letters.D,

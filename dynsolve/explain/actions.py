@@ -163,7 +163,7 @@ def rotor_part_step(context: Context) -> Iterator[Step]:
         yield Step(
             id="Dm",
             stage=Stage.VECTORIZED,
-            title="What the rotors add to D",
+            title="What the rotors add to the inertia matrix",
             why=("The factors in ", equation(letters.KM, Product((letters.HALF, quadratic))), "."),
             source=siciliano("7.1.1"),
             result=(equation(letters.DM, context.form("Dm")),),

@@ -64,7 +64,7 @@ def skew_step(context: Context) -> Step:
     return Step(
         id="skew",
         stage=STAGE,
-        title="Check: Ḋ - 2C is skew-symmetric",
+        title="Check: a matrix that must be skew-symmetric",
         why=(
             "With ",
             letters.C,
@@ -78,7 +78,7 @@ def skew_step(context: Context) -> Step:
         lines=rate,
         entries=letters.entries("n", robot.n, robot.n),
         source=spong("7.5.1"),
-        result=(*result, equation(Sum((name, Transpose(name))), Number(0))),
+        result=(*result, equation(Sum((name, Transpose(name))), letters.bold("0"))),
         hint=(
             "A check at the end: with ",
             letters.C,

@@ -9,11 +9,12 @@ from dynsolve.document import Prose
 from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
-from dynsolve.explain.jacobian import ZERO, coordinate_column
+from dynsolve.explain.jacobian import ZERO, coordinate_column, crosses_named
 from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import kinetic
 from dynsolve.explain.working.proved import SILENT
+from dynsolve.explain.working.sums import sum_named
 from dynsolve.explain.writing import are_counted, is_small, listed, name_of, side_by_side, spong, sum_of
 from dynsolve.notation.tree import (
     BigSum,
@@ -175,6 +176,7 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
         why=(f"{why}.",),
         formula=equation(*members),
         source=spong("7.2.3" if name == "P" else "7.2.2"),
+        concluding=sum_named(context, [name + body.name for body in context.robot.bodies], name),
         result=(equation(letter, context.form(name)),),
         notes=notes,
         detail=Detail.BRIEF,
@@ -223,6 +225,7 @@ def _jacobians(context: Context, body: Body) -> Step:
         formula=side_by_side([linear, angular]) if beside else linear,
         source=spong("7.2.2"),
         working=() if beside else (angular,),
+        concluding=crosses_named(context, body.link, context.values[f"rc{b}"]),
         result=(
             equation(letters.jv(body), context.form(f"Jv{b}")),
             equation(letters.jw(body), context.form(f"Jw{b}")),
@@ -383,5 +386,6 @@ def _kinetic(context: Context, body: Body) -> Step:
         why=("The sum of the linear and the rotational part.",),
         formula=equation(K, parts),
         source=spong("7.2"),
+        concluding=sum_named(context, (f"Kv{body.name}", f"Kw{body.name}"), f"K{body.name}"),
         result=(equation(K, context.form(f"K{body.name}")),),
     )

@@ -120,7 +120,7 @@ def inertia_step(context: Context, given: GivenModel) -> Step:
         return Step(
             id="D_direct",
             stage=Stage.VECTORIZED,
-            title="D, as the problem gives it",
+            title="The inertia matrix, as the problem gives it",
             why=("Without the Lagrangian.", *ends),
             source=spong("7.3"),
             result=(equation(letters.D, context.form("D_direct")),),
@@ -133,7 +133,7 @@ def inertia_step(context: Context, given: GivenModel) -> Step:
     return Step(
         id="D_direct",
         stage=Stage.VECTORIZED,
-        title="D, from the kinetic energy",
+        title="The inertia matrix, from the kinetic energy",
         why=(
             "Without the Lagrangian: ",
             equation(letters.K, _QUADRATIC),

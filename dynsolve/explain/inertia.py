@@ -17,12 +17,12 @@ from dynsolve.explain.mass_centers import is_given_by, mass_center_step
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.products import product_named
+from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import is_small, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
     Negative,
     Node,
-    Number,
     Parenthesized,
     Product,
     Row,
@@ -81,6 +81,8 @@ def steps(context: Context) -> Iterator[Step]:
             yield _parallel_axis(context, body)
         yield orientation_step(context, body) if placed else _rotation(context, body, tells=body is framed)
         yield _base_tensor(context, body)
+        if context.robot.n <= MOST_JOINTS:
+            yield _half_turned(context, body)
 
 
 # -- the tensor ------------------------------------------------------------------------------------
@@ -106,7 +108,7 @@ def _point(context: Context, body: Body) -> Step:
             " are needed.",
         ),
         source=spong("7.2.1"),
-        result=(equation(tensor, Number(0)),),
+        result=(equation(tensor, letters.bold("0")),),
     )
 
 
@@ -316,6 +318,24 @@ def _base_tensor(context: Context, body: Body) -> Step:
         result=(equation(inertia_, base),),
         notes=notes,
         detail=Detail.BRIEF if is_small(base) else Detail.NORMAL,
+    )
+
+
+def _half_turned(context: Context, body: Body) -> Step:
+    """I Rᵀ, from which R (I Rᵀ) is one product."""
+    b = body.name
+    R, tensor = letters.of_body("R", body, "bold"), letters.tensor(context.robot, body)
+    product = context.values[f"I_body{b}"] @ context.values[f"R{b}"].T
+    return Step(
+        id=f"half_turned{b}",
+        stage=STAGE,
+        title=f"The last two factors for {name_of(body)}, multiplied first",
+        why=(R, " times this product is the tensor above."),
+        source=spong("7.2.1"),
+        result=(equation(Product((tensor, Transpose(R))), context.show(product)),),
+        uses=(f"I_body{b}", f"R{b}"),
+        detail=Detail.FULL,
+        is_task=False,
     )
 
 

@@ -11,7 +11,8 @@ from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.working.products import product_named
+from dynsolve.explain.working.identities import Identity, said
+from dynsolve.explain.working.products import product_named, used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import block_of, column_of, craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
@@ -193,6 +194,19 @@ def _turning_named(context: Context, joint: Joint | None) -> Prose:
     z = axis(context.values[f"H{joint_frame(context.robot, joint)}"])
     lever = _lever(context, joint)
     return product_named(context, algebra.skew(z), lever, algebra.cross(z, lever))
+
+
+def crosses_named(context: Context, link: int, point: algebra.Matrix) -> Prose:
+    """The identities by which the columns z × (p - o) up to a link become what is printed."""
+    used: dict[Identity, None] = {}
+    if context.robot.n > MOST_JOINTS:
+        return ()
+    for joint in context.robot.path(link):
+        if joint.type is JointType.REVOLUTE:
+            start = context.values[f"H{joint_frame(context.robot, joint)}"]
+            z, lever = axis(start), point - origin(start)
+            used |= dict.fromkeys(used_in_product(context, algebra.skew(z), lever, algebra.cross(z, lever)))
+    return ("The cross products, with ", *said(list(used)), ":") if used else ()
 
 
 def _working(context: Context, k: int, in_letters: Node, linear: Matrix | None) -> tuple[Node, ...]:

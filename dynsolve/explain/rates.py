@@ -204,7 +204,7 @@ def _notes(J: Matrix, right: Matrix, solved: Node) -> Iterator[Prose]:
     if rank < J.shape[1] and is_solvable(J, right):
         yield (
             "Every motion of the joints that the task does not see may be added: ",
-            solved, " with ", equation(Product((_J, solved)), Number(0)), ".",
+            solved, " with ", equation(Product((_J, solved)), letters.bold("0")), ".",
         )  # fmt: skip
     if rank < min(J.shape):
         yield (f"The rank is {rank} here, less than it can be: ", Product((_J, _JT)), " has no inverse.")
@@ -229,7 +229,7 @@ _SPACES = {
         "Motions of the joints that the task does not see",
         "Every motion of the joints with ",
         letters.NULLSPACE,
-        equation(Product((_J, letters.QD)), Number(0)),
+        equation(Product((_J, letters.QD)), letters.bold("0")),
     ),
     "rangespace": _Space(
         "Velocities of the task that are possible",
@@ -241,7 +241,7 @@ _SPACES = {
         "Motions of the task that are lost",
         "Across all possible velocities. A force along them needs no torque: ",
         letters.LOST,
-        equation(Product((_JT, _F)), Number(0)),
+        equation(Product((_JT, _F)), letters.bold("0")),
     ),
 }
 

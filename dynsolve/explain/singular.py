@@ -118,8 +118,8 @@ def _loss(context: Context, forms: ConfigurationForms, found: SingularSet, case:
     there = tree.Matrix(tuple(tuple(map(form, row)) for row in loss.jacobian.rows))
     formula = Relation(
         (
-            equation(Row((Transpose(w), J)), Number(0)),
-            equation(letters.TAU, Row((Transpose(J), w)), Number(0)),
+            equation(Row((Transpose(w), J)), letters.bold("0")),
+            equation(letters.TAU, Row((Transpose(J), w)), letters.bold("0")),
         ),
         ("⇒",),
     )

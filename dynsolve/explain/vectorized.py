@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from dynsolve.document import Prose
 from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
+from dynsolve.explain.body_parts import angular_name, linear_name, part_step
 from dynsolve.explain.christoffel import SLOPES, christoffel_step
 from dynsolve.explain.closing import closing_step, driving_side
 from dynsolve.explain.context import Context
@@ -31,7 +32,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Body, Robot
+from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import Method
 
 STAGE = Stage.VECTORIZED
@@ -52,7 +53,7 @@ def steps(context: Context) -> Iterator[Step]:
         yield _inertia_direct(context) if given is None else inertia_step(context, given)
         if _is_short(context):
             for body in context.robot.bodies:
-                yield _part(context, body)
+                yield part_step(context, body)
         if context.robot.actions:
             from dynsolve.explain.actions import rotor_part_step
 
@@ -76,7 +77,7 @@ def _inertia(context: Context) -> Step:
     return Step(
         id="D",
         stage=STAGE,
-        title="D, read off from the forces",
+        title="The inertia matrix, read off from the forces",
         why=(
             "Entry (i, j) is the factor of the j-th acceleration in the i-th generalized force. ",
             letters.D,
@@ -120,7 +121,7 @@ def _rest(context: Context) -> Step:
     return Step(
         id="Cqd",
         stage=STAGE,
-        title="C q̇ and the gravity terms, read off from the forces",
+        title="Coriolis, centrifugal and gravity terms, read off from the forces",
         why=why,
         formula=equation(Sum((Cqd, letters.G)), Sum(tuple(left))),
         source=spong("7.3"),
@@ -150,17 +151,14 @@ def _inertia_direct(context: Context) -> Step:
     same = context.values["D"] == context.values["D_direct"]
     terms: list[Node] = []
     for body in robot.bodies:
-        Jv, Jw = letters.jv(body), letters.jw(body)
-        terms.append(Product((context.mass(body), letters.transposed_product(Jv))))
-        if not body.is_point:
-            terms.append(letters.transposed_product(Jw, letters.of_body("I", body, "script")))
+        terms += [linear_name(context, body), *(() if body.is_point else (angular_name(body),))]
     rotors = (letters.DM,) if robot.actions.motors else ()
     working = equation(letters.D, sum_of([*terms, *rotors]))
     name = Number(len(robot.bodies))
     return Step(
         id="D_direct",
         stage=STAGE,
-        title="D, assembled from the Jacobians",
+        title="The inertia matrix, assembled from the Jacobians",
         why=(
             "Without the Lagrangian: ",
             equation(letters.K, Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))),
@@ -194,29 +192,6 @@ def _is_short(context: Context) -> bool:
     return sum(len(entry) for entry in context.values["D"].entries) <= LONGEST_IN_PARTS
 
 
-def _part(context: Context, body: Body) -> Step:
-    """The contribution of one body to D."""
-    b = body.name
-    Jv, Jw = letters.jv(body), letters.jw(body)
-    linear = Product((context.mass(body), letters.transposed_product(Jv)))
-    angular = letters.transposed_product(Jw, letters.of_body("I", body, "script"))
-    results = [equation(linear, context.form(f"Dv{b}"))]
-    if not body.is_point:
-        results.append(equation(angular, context.form(f"Dw{b}")))
-    return Step(
-        id=f"D_direct{b}",
-        stage=STAGE,
-        title=f"What body {b} adds to D",
-        why=("Its linear part, and none of rotation: it is a point.",)
-        if body.is_point
-        else ("Its linear part and its rotational part.",),
-        source=spong("7.2.2"),
-        result=tuple(results),
-        detail=Detail.FULL,
-        is_task=False,
-    )
-
-
 # -- C and g ---------------------------------------------------------------------------------------
 
 
@@ -232,7 +207,7 @@ def _coriolis(context: Context) -> Step:
     return Step(
         id="C",
         stage=STAGE,
-        title="C, from the Christoffel symbols",
+        title="The Coriolis matrix, from the Christoffel symbols",
         why=why,
         formula=equation(entry, by_symbols, by_slopes),
         source=spong("7.3"),

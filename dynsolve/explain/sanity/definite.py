@@ -18,6 +18,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.sanity.sign import is_positive, masses_and_moments
 from dynsolve.explain.step import Step
+from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import Negative, Node, Number, Power, Product, Row, Sum, Words, equation
@@ -47,7 +48,7 @@ def definite_step(context: Context) -> Step | None:
     return Step(
         id="definite",
         stage=Stage.VECTORIZED,
-        title="Check: D is positive definite",
+        title="Check: the inertia matrix is positive definite",
         why=(*start, "are positive. ", *why),
         source=spong("7.5.1"),
         result=result,
@@ -59,6 +60,7 @@ def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
     """By the entries of the diagonal, and by minors where coordinates are coupled."""
     squares: list[Node] = []
     determinants: list[Node] = []
+    used: dict[Identity, None] = {}
     for block in blocks(context.values["D"]):
         first = next((k for k in (block[0], block[-1]) if _is_sum_of_squares(context, k)), None)
         if first is None:
@@ -69,12 +71,14 @@ def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
             if minors is None:
                 return None
             determinants += minors
+            used |= dict.fromkeys(_identities(context, block))
     verb = "is a sum" if len(squares) == 1 else "are sums"
     why: Prose = (*listed(squares), f" {verb} of masses and moments times squares, which never all vanish")
     if determinants:
         why += ("; entries between coordinates that are not coupled are zero",) if len(squares) > 1 else ()
         why += ("; and the determinant" + "s" * (len(determinants) > 1), " below ")
-        why += ("are" if len(determinants) > 1 else "is", " positive, too (Sylvester's criterion):")
+        why += ("are" if len(determinants) > 1 else "is", " positive, too (Sylvester's criterion)")
+        why += ("; multiplied out, with ", *said(list(used)), ":") if used else (":",)
     else:
         why += (", and the other entries are zero.",)
     return why, tuple(determinants)
@@ -140,6 +144,17 @@ def _minors(context: Context, block: Sequence[int]) -> list[Node] | None:
             return None
         found.append(equation(_written(places), form))
     return found
+
+
+def _identities(context: Context, block: Sequence[int]) -> tuple[Identity, ...]:
+    """Those by which the determinant of two coupled coordinates becomes what is shown."""
+    if len(block) != 2:
+        return ()
+    (a, b), D = block, context.values["D"]
+    entries = [[D[i, j] for j in (a, b)] for i in (a, b)]
+    product = Product((context.show(D[a, a]), context.show(D[b, b])))
+    before = Sum((product, Negative(Power(context.show(D[a, b]), Number(2)))))
+    return identities(context.robot.ring, before, context.show(determinant(entries))) or ()
 
 
 def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:

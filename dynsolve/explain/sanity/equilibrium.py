@@ -9,7 +9,7 @@ from dynsolve.explain.sanity.pose import Pose, at, poses, turning_in, written
 from dynsolve.explain.sanity.sign import is_positive, with_lengths
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import listed, spong
-from dynsolve.notation.tree import Number, Symbol, equation
+from dynsolve.notation.tree import Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import JointType
@@ -39,7 +39,7 @@ def _everywhere(context: Context) -> Prose:
     """Why g is zero in every pose."""
     ring = context.robot.ring
     heights = [context.values[f"P{body.name}"] for body in context.robot.bodies]
-    zero = (equation(letters.G, Number(0)), " in every pose: ")
+    zero = (equation(letters.G, letters.bold("0")), " in every pose: ")
     if any(ring.depends_on_coordinates(height) for height in heights):
         return (*zero, "some mass centres rise as others fall.")
     return (*zero, "no mass centre changes its height, so gravity needs no torque and no force of a joint.")

@@ -4,6 +4,7 @@ The stages take their lines from here, a function for each kind of step:
 
     kinetic          from ½ m vᵀ v and ½ ωᵀ 𝓘 ω to the kinetic energy
     products         the identities by which a product of matrices becomes what is printed
+    sums             those by which a sum of earlier results does
     derivatives      d/dt of a momentum, ∂L/∂q, the slopes of D, the entries of C, Ḋ
 
 and these are made of:

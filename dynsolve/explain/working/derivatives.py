@@ -63,7 +63,7 @@ def _ordered(node: Node) -> Node:
 
 
 def _collected(used: Sequence[Identity]) -> Prose:
-    return ("With ", *said(used), ", and collected:") if used else ("Collected:",)
+    return ("Multiplied out, with ", *said(used), ", and collected:") if used else ("Collected:",)
 
 
 # -- the derivatives of D --------------------------------------------------------------------------

@@ -228,7 +228,7 @@ def rotational(context: Context, body: Body) -> Rotation | None:
         return None
     own = R.T @ base
     in_base, in_body = (base, values[f"I{b}"]), (own, values[f"I_body{b}"])
-    if _needed(*in_base) <= _needed(*in_body):
+    if terms_needed(*in_base) <= terms_needed(*in_body):
         return Rotation((_product(context, body, *in_base),), _multiplied_out(context, body, *in_base))
     w = letters.of_body("omega", body, "bold")
     turned = Product((Transpose(letters.of_body("R", body, "bold")), w))
@@ -260,10 +260,11 @@ def _named(context: Context, R: Matrix, base: Matrix, own: Matrix) -> Prose:
     return (" (with ", *said(used), ")") if used else ()
 
 
-def _needed(w: Matrix, tensor: Matrix) -> int:
-    """The terms that ωᵀ I ω is made of: of the tensor, the entries that meet components of ω."""
-    turning = [k for k, entry in enumerate(w.entries) if not entry.is_zero]
-    return sum(len(w[k, 0]) for k in turning) + sum(len(tensor[i, j]) for i in turning for j in turning)
+def terms_needed(w: Matrix, tensor: Matrix) -> int:
+    """The terms that wᵀ I w is made of: of the tensor, the entries that meet rows of w that are not zero."""
+    turning = [k for k, row in enumerate(w.rows) if any(not entry.is_zero for entry in row)]
+    met = sum(len(tensor[i, j]) for i in turning for j in turning)
+    return met + sum(len(entry) for k in turning for entry in w.rows[k])
 
 
 def _product(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Node:

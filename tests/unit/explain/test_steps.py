@@ -208,14 +208,18 @@ def test_without_masses_it_ends_with_the_jacobian() -> None:
 
 def test_the_checks_are_shown() -> None:
     assert "exactly equal" in said(step("planar-2r", "agreement").why, "planar-2r")
-    assert shown("planar-2r", "skew")[-1] == "𝐍 + 𝐍ᵀ = 0"
+    assert shown("planar-2r", "skew")[-1] == "𝐍 + 𝐍ᵀ = 𝟎"
 
 
 def test_levels_of_detail() -> None:
     levels = {each.id: each.detail for each in solved("planar-2r").steps}
     assert (
-        levels["D"] is Detail.BRIEF and levels["Kv1"] is Detail.NORMAL and levels["D_direct1"] is Detail.FULL
+        levels["D"] is Detail.BRIEF
+        and levels["Kv1"] is Detail.NORMAL
+        and levels["half_turned1"] is Detail.FULL
     )
+    assert levels["D_direct1"] is Detail.NORMAL  # the products of short arms alone
+    assert {each.id: each.detail for each in solved("scara-rrpr").steps}["D_direct1"] is Detail.FULL
 
 
 def shown_working(problem: str, id: str) -> list[str]:

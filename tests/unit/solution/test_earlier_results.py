@@ -48,7 +48,7 @@ def test_every_equation_that_is_used_is_cited(title: str, labels: tuple[str, ...
 
 
 def test_c_is_made_of_all_christoffel_symbols() -> None:
-    labels = cited("elbow-3r", "C, from the Christoffel symbols")
+    labels = cited("elbow-3r", "The Coriolis matrix, from the Christoffel symbols")
     assert labels == ("christoffel", *(f"christoffel-{k}" for k in range(2, 8)))
 
 

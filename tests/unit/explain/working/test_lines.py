@@ -122,7 +122,11 @@ def test_the_root_of_a_number_stands_before_the_lengths_of_a_derivative() -> Non
 
 def test_the_addition_theorem_of_a_derivative_is_named() -> None:
     sine = "the sine of a sum, s₂ c₂₃ + c₂ s₂₃ = sin(2θ₂ + θ₃)"
-    assert lines("elbow-3r", "ddt1")[-1] == lines("elbow-3r", "dLdq2")[-1] == f"With {sine}, and collected:"
+    assert (
+        lines("elbow-3r", "ddt1")[-1]
+        == lines("elbow-3r", "dLdq2")[-1]
+        == f"Multiplied out, with {sine}, and collected:"
+    )
     assert lines("elbow-3r", "christoffel")[0] == f"The derivatives that take the product rule, with {sine}:"
 
 
@@ -179,3 +183,30 @@ def test_the_identity_of_a_turned_tensor_and_of_a_lever_is_named() -> None:
     assert lines("elbow-3r", "J1") == lines("planar-2r", "I1") == []
     axis_and_lever = to_unicode(step("elbow-3r", "J2").working[0], solved("elbow-3r").style)
     assert axis_and_lever.count(" = ") == 1, "the value comes after the identity"
+
+
+def test_the_products_that_make_up_the_inertia_matrix_are_shown() -> None:
+    """Spong, Hutchinson, Vidyasagar, 7.2.2: m J_vᵀ J_v and J_ωᵀ 𝓘 J_ω, along the shorter axes."""
+    shown = lines("elbow-3r", "D_direct3")
+    assert shown[0] == "Its linear part:" and shown[1].startswith("m₃ 𝐉_v3ᵀ 𝐉_v3 = m₃ [[")
+    assert shown[2] == (
+        "Its rotational part is shorter in the axes of the body, where 𝐉_ω3 is 𝐑₃ᵀ 𝐉_ω3 (with s₁² + c₁² = 1):"
+    )
+    assert shown[3].endswith(" = [[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]")
+    assert shown[-1] == (
+        "Multiplied out, with s₁² + c₁² = 1, s₂² + c₂² = 1, s₂₃² + c₂₃² = 1 "
+        "and the cosine of a difference, c₂ c₂₃ + s₂ s₂₃ = c₃:"
+    )
+    assert lines("scara-rrpr", "D_direct1") == []
+
+
+def test_identities_of_cross_products_and_of_sums_of_energies_are_named() -> None:
+    box = "box-cylinder-rod-sphere"
+    assert lines(box, "Jv2") == ["The cross products, with s₁² + c₁² = 1:"]
+    assert lines(box, "K") == ["Collected, with s₂² + c₂² = 1:"]
+    assert lines("planar-2r", "Jv2") == lines("planar-2r", "K") == []
+
+
+def test_the_identity_of_a_determinant_is_named() -> None:
+    (found,) = (each for each in solved("planar-2r").steps if each.id == "definite")
+    assert said(found.why, "planar-2r").endswith("; multiplied out, with s₂² + c₂² = 1:")
