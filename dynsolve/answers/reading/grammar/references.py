@@ -62,6 +62,8 @@ def _framed(quantities: Quantities, form: Form, names: tuple[str, ...]) -> tuple
     first, frame = quantities[names[0]], powers[0]
     if in_link and frame == quantities[in_link[0]].index[0]:
         return in_link, True
+    if first.family in recursion_families.FAMILIES:  # in another frame than the recursions have it in
+        return (), True
     if first.family is families.FORCE and frame == first.index[0]:  # Craig's F_i: the inertia force of a link
         return (), True
     if first.family.owner is Owner.ROW and frame.denominator == 1 and frame >= 0:

@@ -57,3 +57,8 @@ def test_unit_vectors_are_letters() -> None:
 
 def test_a_scalar_is_the_force_of_its_coordinate() -> None:
     assert [answer.name for answer in report(r"f_2 = m_2 g").answers] == ["tau2"]
+
+
+@pytest.mark.parametrize("name", [r"{}^1\dot\omega_2", r"{}^1n_2"])
+def test_a_vector_in_another_frame_is_none_of_the_recursions(name: str) -> None:
+    assert report(f"{name} = {COLUMN}").answers == ()
