@@ -50,6 +50,7 @@ And the independent check, which shares no formula with any of these:
 
     newton_euler    recursive Newton-Euler on floating-point numbers
     arm_values      the robot put in numbers, as these want it
+    elimination     systems, determinants and ranks of numbers
     action_check    forces of springs, friction and dampers, by energies and powers
     verification    what is printed, evaluated at random states, against that
     drawn_motion    a table that was made from a drawing, against the drawn joint axes

@@ -16,6 +16,7 @@ from random import Random
 from typing import Any
 
 from dynsolve.derivation.arm_values import draw
+from dynsolve.derivation.elimination import rank
 from dynsolve.derivation.reached import CLOSE, near, same_configuration
 from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
@@ -182,21 +183,8 @@ def _step(values: Sequence[float], rows: Sequence[Sequence[float]]) -> list[floa
 
 
 def rank_of(rows: Sequence[Sequence[float]]) -> int:
-    """The rank of a matrix of numbers, by elimination with full pivots."""
-    left = [list(row) for row in rows]
-    size = max((abs(x) for row in left for x in row), default=0.0)
-    rank = 0
-    while left and left[0]:
-        pivot, i, j = max((abs(x), i, j) for i, row in enumerate(left) for j, x in enumerate(row))
-        if pivot <= CLOSE * max(size, 1.0):
-            break
-        row = left.pop(i)
-        left = [
-            [x - line[j] / row[j] * y for k, (x, y) in enumerate(zip(line, row, strict=True)) if k != j]
-            for line in left
-        ]
-        rank += 1
-    return rank
+    """The rank of a Jacobian in numbers."""
+    return rank(rows, CLOSE, scale=1.0)
 
 
 def _flat(value: Any) -> list[float]:

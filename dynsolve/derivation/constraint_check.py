@@ -13,6 +13,7 @@ from typing import Any
 
 from dynsolve.derivation.arm_values import draw
 from dynsolve.derivation.constraints import holonomic
+from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.kinematic_check import verify_kinematics
 from dynsolve.derivation.rate_check import TOLERANCE
 from dynsolve.derivation.verification import SEED
@@ -99,20 +100,6 @@ def _forces(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) 
                 total += ours[name][k][0] * (1 if name == "Q" else -1)
         found.append(total)
     return found
-
-
-def solved(matrix: Rows, right: Sequence[float]) -> list[float]:
-    """x with A x = b, by Gauss's elimination with the largest pivot of each column."""
-    rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
-    size = len(rows)
-    for k in range(size):
-        best = max(range(k, size), key=lambda i: abs(rows[i][k]))
-        rows[k], rows[best] = rows[best], rows[k]
-        for i in range(size):
-            if i != k:
-                factor = rows[i][k] / rows[k][k]
-                rows[i] = [a - factor * b for a, b in zip(rows[i], rows[k], strict=True)]
-    return [row[size] / row[k] for k, row in enumerate(rows)]
 
 
 def _dot(a: Sequence[float], b: Sequence[float]) -> float:

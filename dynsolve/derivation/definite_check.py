@@ -13,6 +13,7 @@ from random import Random
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.inequality import Bound
 from dynsolve.derivation.definite import Answer, Definiteness, Refusal
+from dynsolve.derivation.elimination import is_positive_definite
 from dynsolve.errors import VerificationError
 from dynsolve.robot.candidates import Candidate
 from dynsolve.robot.model import JointType, Robot
@@ -70,14 +71,5 @@ def _poses(robot: Robot, parameters: Mapping[str, float], random: Random) -> Ite
 
 
 def _is_definite(candidate: Candidate, values: Mapping[str, float]) -> bool:
-    """Whether every pivot of the elimination is positive."""
     rows = [[evaluate(entry, values) for entry in row] for row in candidate.matrix.rows]
-    size = max(abs(entry) for row in rows for entry in row)
-    for k, pivot in enumerate(rows):
-        if pivot[k] <= 1e-12 * size:
-            return False
-        for row in rows[k + 1 :]:
-            factor = row[k] / pivot[k]
-            for j in range(k, len(row)):
-                row[j] -= factor * pivot[j]
-    return True
+    return is_positive_definite(rows, 1e-12)

@@ -17,8 +17,8 @@ from random import Random
 from dynsolve.algebra.floats import evaluate
 from dynsolve.derivation.arm_values import draw_values
 from dynsolve.derivation.configuration_check import NO_VALUE
+from dynsolve.derivation.elimination import is_positive_definite, solved
 from dynsolve.derivation.equilibria import wanted_rows
-from dynsolve.derivation.linear_check import solved
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.derivation.stability import Point, Stability
 from dynsolve.derivation.verification import SEED
@@ -161,17 +161,11 @@ def _verify_stability(robot: Robot, forces: Program, zeros: Program, point: Poin
 
 
 def _rises(robot: Robot, forces: Program, at: Mapping[str, float], point: Point) -> bool:
-    """Whether the energy rises but along what is neutral: elimination leaves positive pivots."""
+    """Whether the energy rises but along what is neutral."""
     steady = dict(robot.questions.model.steady)
     rest = [q for q in robot.coordinates if q.index - 1 not in point.neutral and q.name not in steady]
     rows = []
     for q in rest:
         ahead, behind = (forces.run({**at, q.name: at[q.name] + step})[0] for step in (_STEP, -_STEP))
         rows.append([(ahead[k.index - 1][0] - behind[k.index - 1][0]) / (2 * _STEP) for k in rest])
-    for k, row in enumerate(rows):
-        if row[k] <= 0:
-            return False
-        for other in rows[k + 1 :]:
-            factor = other[k] / row[k]
-            other[:] = [a - factor * b for a, b in zip(other, row, strict=True)]
-    return True
+    return is_positive_definite(rows)

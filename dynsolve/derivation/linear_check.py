@@ -12,6 +12,7 @@ from random import Random
 from typing import Any
 
 from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.linearization import driven
 from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
@@ -117,25 +118,7 @@ def _by_rate(accelerations: Any, name: str) -> list[float]:
     return [(a - d - b + c) / 2 for a, b, c, d in zip(far, near, back, opposite, strict=True)]
 
 
-# -- systems of numbers ----------------------------------------------------------------------------
-
-
-def solved(matrix: Sequence[Sequence[float]], right: Sequence[float]) -> list[float]:
-    """The solution of A x = b, by Gauss's elimination with the largest pivot of each column.
-
-    >>> solved([[0.0, 2.0], [1.0, 1.0]], [4.0, 5.0])
-    [3.0, 2.0]
-    """
-    rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
-    size = len(rows)
-    for k in range(size):
-        best = max(range(k, size), key=lambda i: abs(rows[i][k]))
-        rows[k], rows[best] = rows[best], rows[k]
-        for i in range(size):
-            if i != k and rows[i][k]:
-                factor = rows[i][k] / rows[k][k]
-                rows[i] = [a - factor * b for a, b in zip(rows[i], rows[k], strict=True)]
-    return [row[-1] / row[k] for k, row in enumerate(rows)]
+# -- matrices of numbers ----------------------------------------------------------------------------
 
 
 def _products(left: Sequence[Sequence[float]], right: Sequence[Sequence[float]]) -> Rows:

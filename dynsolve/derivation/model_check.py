@@ -15,6 +15,7 @@ from random import Random
 from typing import Any
 
 from dynsolve.derivation.arm_values import draw_values
+from dynsolve.derivation.elimination import rank
 from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node
@@ -134,27 +135,5 @@ def rank_of_forces(robot: Robot, Y: str, forces: Node, expected: int) -> int:
         values = {**choice, **motion, "pi": pi}
         return _force(robot, Y, {FORCES[Y]: program.run(values)[0]}, values)
 
-    return rank([[force for motion in motions for force in forces_at(choice, motion)] for choice in choices])
-
-
-def rank(rows: list[list[float]]) -> int:
-    """The rank, by Gauss's elimination with the largest pivot of all that is left.
-
-    >>> rank([[1.0, 2.0], [2.0, 4.0], [0.0, 1.0]])
-    2
-    """
-    left = [list(row) for row in rows]
-    first, found = 0.0, 0
-    while left and left[0]:
-        i, j = max(
-            ((i, j) for i in range(len(left)) for j in range(len(left[0]))),
-            key=lambda place: abs(left[place[0]][place[1]]),
-        )
-        pivot = left[i][j]
-        first = first or abs(pivot)
-        if abs(pivot) <= NEGLIGIBLE * first:
-            break
-        top = left.pop(i)
-        left = [[x - row[j] / pivot * t for x, t in zip(row, top, strict=True)] for row in left]
-        found += 1
-    return found
+    rows = [[force for motion in motions for force in forces_at(choice, motion)] for choice in choices]
+    return rank(rows, NEGLIGIBLE)

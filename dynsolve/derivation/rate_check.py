@@ -14,6 +14,7 @@ from typing import Any
 from dynsolve.algebra.floats import evaluate
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.arm_values import draw
+from dynsolve.derivation.elimination import determinant
 from dynsolve.derivation.rates import whole_or_task
 from dynsolve.derivation.static_check import state_numbers
 from dynsolve.derivation.verification import SEED
@@ -70,24 +71,8 @@ def _determinant(robot: Robot, ours: Mapping[str, Any]) -> Iterator[tuple[str, f
             rows = _products(_transposed(rows), _transposed(rows))
         elif len(rows) < len(rows[0]):
             rows = _products(rows, rows)
-        theirs = eliminated(rows)
+        theirs = determinant(rows)
         yield "det", abs(ours["det"] - theirs) / max(1.0, abs(theirs))
-
-
-def eliminated(rows: list[Vector]) -> float:
-    """The determinant, by Gauss's elimination with the largest pivot of each column."""
-    rows, total = [list(row) for row in rows], 1.0
-    for k in range(len(rows)):
-        best = max(range(k, len(rows)), key=lambda i: abs(rows[i][k]))
-        if not rows[best][k]:
-            return 0.0
-        if best != k:
-            rows[k], rows[best], total = rows[best], rows[k], -total
-        total *= rows[k][k]
-        for row in rows[k + 1 :]:
-            factor = row[k] / rows[k][k]
-            row[k:] = [a - factor * b for a, b in zip(row[k:], rows[k][k:], strict=True)]
-    return total
 
 
 def _rates(robot: Robot, values: Mapping[str, float], ours: Mapping[str, Any]) -> Iterator[tuple[str, float]]:

@@ -20,7 +20,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.answers.judging.graph import AnswerGraph
 from dynsolve.answers.judging.key_comparison import KeyComparison
 from dynsolve.answers.judging.other_solutions import Other
-from dynsolve.derivation.constraint_check import solved
+from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.rate_check import orthonormal
 from dynsolve.derivation.verification import SEED
 

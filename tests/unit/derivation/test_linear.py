@@ -8,7 +8,7 @@ import pytest
 import sympy
 
 import dynsolve
-from dynsolve.derivation.linear_check import solved, verify_linear
+from dynsolve.derivation.linear_check import verify_linear
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
@@ -91,10 +91,6 @@ def test_the_check_finds_a_wrong_entry(text: str, name: str) -> None:
     last = (*shown.rows[-1][:-1], Symbol(robot.parameters[0]))
     with pytest.raises(VerificationError, match=name):
         verify_linear(robot, {**right, name: Matrix((*shown.rows[:-1], last))})
-
-
-def test_solving_numbers() -> None:
-    assert solved([[2.0, 1.0], [1.0, 3.0]], [3.0, 5.0]) == pytest.approx([0.8, 1.4])
 
 
 def test_the_steps_name_the_book() -> None:

@@ -8,7 +8,7 @@ from sympy import simplify, sympify
 import dynsolve
 from dynsolve.answers.judge import check
 from dynsolve.answers.reading.files import FileReader
-from dynsolve.derivation.rate_check import eliminated, rate_names, verify_rates
+from dynsolve.derivation.rate_check import rate_names, verify_rates
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import VerificationError
 from dynsolve.explain.forms import Forms
@@ -63,12 +63,6 @@ def test_a_space_with_a_wrong_vector_is_found(name: str) -> None:
     wrong = Matrix(((Negative(first[0]), *first[1:]), *rest))
     with pytest.raises(VerificationError, match="differs from elimination"):
         verify_rates(robot, {**results, name: wrong})
-
-
-def test_elimination() -> None:
-    assert eliminated([[0.0, 2.0], [3.0, 1.0]]) == pytest.approx(-6.0)
-    assert eliminated([[1.0, 2.0, 0.0], [2.0, 4.0, 1.0], [0.0, 1.0, 1.0]]) == pytest.approx(-1.0)
-    assert eliminated([[1.0, 2.0], [2.0, 4.0]]) == 0.0
 
 
 @pytest.mark.parametrize(

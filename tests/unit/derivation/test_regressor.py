@@ -9,7 +9,7 @@ import pytest
 import dynsolve
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation, Skipped
-from dynsolve.derivation.model_check import rank, verify_model
+from dynsolve.derivation.model_check import verify_model
 from dynsolve.derivation.regressor import minimal_parameters, parameters_for, regressor
 from dynsolve.derivation.rules import derive
 from dynsolve.errors import ProblemError, VerificationError
@@ -121,11 +121,6 @@ def test_the_check_finds_a_wrong_entry_and_a_parameter_too_many() -> None:
     longer = tree.Matrix((*a.rows, (tree.Symbol("m1"),)))
     with pytest.raises(VerificationError, match="minimal"):
         verify_model(robot, {**right, "Y": tree.Matrix(tuple((*r, tree.ZERO) for r in Y.rows)), "a": longer})
-
-
-def test_the_rank_of_numbers() -> None:
-    assert rank([[0.0, 0.0], [0.0, 0.0]]) == 0
-    assert rank([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]]) == 2
 
 
 @pytest.mark.parametrize("name", ["Y", "a", "equilibria", "balance", "linear_A", "Lambda"])
