@@ -38,6 +38,7 @@ MOST_PRODUCTS = 200_000
 """A determinant that may come to more products of terms is not multiplied out: nobody could read it."""
 
 TOO_LARGE = "multiplied out it is too large to be read"
+TOO_LARGE_EVERYWHERE = f"{TOO_LARGE}; it is found at a `state` in numbers"
 
 
 def jacobian_determinant(jacobian: Matrix) -> Expr | Skipped:
@@ -86,4 +87,4 @@ def _spanned(matrix: Matrix, space: Callable[[Matrix], Matrix]) -> Matrix | Skip
     """A space of a matrix, where its minors of full size are not too large."""
     size = range(min(matrix.shape))
     square = Matrix.of(matrix.ring, ([matrix[i, j] for j in size] for i in size))
-    return Skipped(TOO_LARGE) if work(square) > MOST_PRODUCTS else space(matrix)
+    return Skipped(TOO_LARGE_EVERYWHERE) if work(square) > MOST_PRODUCTS else space(matrix)

@@ -30,6 +30,7 @@ from dynsolve.notation.tree import (
     Number,
     Power,
     Product,
+    Reference,
     Relation,
     Sum,
     Symbol,
@@ -39,6 +40,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.walk import names_in
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import JointType, Robot
 
 STAGE = Stage.INVERSE
 _SOURCE = spong("3.3")
@@ -93,8 +95,22 @@ def _unsolved(forms: ConfigurationForms) -> Step:
             "squared and added, these equations stay coupled. Such arms are solved numerically.",
         ),
         detail=Detail.BRIEF,
+        notes=tuple(_of_pieper(forms.robot)),
         uses=(),
     )
+
+
+def _of_pieper(robot: Robot) -> Iterator[Prose]:
+    """What is known of three joints that turn, though they are not solved for in a known form."""
+    task = robot.questions.task
+    wanted = [entry.quantity for entry in task.entries if isinstance(entry, Reference)] if task else []
+    all_turn = robot.n == 3 and all(q.type is JointType.REVOLUTE for q in robot.coordinates)
+    if all_turn and len(wanted) == 3 and len(set(wanted)) == 1:
+        yield (
+            "Brought to one angle, the equations of a point that three joints turn are of degree four in the "
+            "tangent of half that angle (Pieper 1968; Craig, section 4.6): at most four configurations reach "
+            "it, or infinitely many.",
+        )
 
 
 def _id_of_branches(forms: ConfigurationForms) -> str:

@@ -19,6 +19,11 @@ from dynsolve.quantities.stages import Stage
 
 STAGE = Stage.INVERSE
 
+_AS_SUBPROBLEMS = (
+    " The last joint does not move its own axis: the first two turn that to where it is to be (Paden-Kahan "
+    "subproblem 2), and the last turns the hand about it (subproblem 1)."
+)
+
 _U = letters.bold("U")
 """The rotation that is left for some joints."""
 
@@ -170,6 +175,7 @@ def _turn(formulas: InverseFormulas, turn: Turn, number: int, before: Sequence[S
             f"The other joints are known now. Taken off the given pose, they leave to {joints} the rotation ",
             _U,
             ", which is also the product of the rotations of these joints.",
+            *((_AS_SUBPROBLEMS,) if turn.is_wrist else ()),
         ),
         working=(equation(_U, known, made),),
         source=spong("3.3.2"),

@@ -10,6 +10,7 @@ from tests.oracle.reading import load
 from tests.support import ALL_PROBLEMS, LIBRARY, solve_json
 
 STEMS = {
+    "articulated-6r",
     "ball-and-beam",
     "box-cylinder-rod-sphere",
     "cartesian-pp",

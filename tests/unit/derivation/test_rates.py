@@ -122,7 +122,8 @@ def test_what_nobody_could_read_is_left_out_and_said_to_be() -> None:
 def test_spaces_whose_vectors_are_too_long_are_left_out() -> None:
     solution = dynsolve.solve(LONG + "task: twist\nfind: [nullspace, lost]\n")
     results = solution.to_json()["results"]
-    assert results["nullspace"] == results["lost"] == {"skipped": "multiplied out it is too large to be read"}
+    why = "multiplied out it is too large to be read; it is found at a `state` in numbers"
+    assert results["nullspace"] == results["lost"] == {"skipped": why}
     assert [step.id for step in solution.steps if step.stage == "rates"] == ["nullspace", "lost"]
 
 
@@ -160,3 +161,22 @@ def test_rates_of_other_weights_are_right_with_a_note() -> None:
     for value, notes in (("[4*v/5, v/5]", 0), ("[v/2, v/2]", 1)):
         (answer,) = check(problem, FileReader(problem)(f"answers:\n  qd: {value}\n", "answer.yaml")).answers
         assert (answer.verdict, len(answer.notes)) == ("correct", notes)
+
+
+def test_the_space_of_a_long_arm_is_found_at_a_state() -> None:
+    """A Franka arm with its forearm upright: joints 1 and 3 have one axis (q2 = 0)."""
+    arm = """
+gravity: none
+dh:
+  - {theta: q1*, d: 0.333, alpha: -90deg}
+  - {theta: q2*, alpha: 90deg}
+  - {theta: q3*, d: 0.316, a: 0.0825, alpha: 90deg}
+  - {theta: q4*, a: -0.0825, alpha: -90deg}
+  - {theta: q5*, d: 0.384, alpha: 90deg}
+  - {theta: q6*, a: 0.088, alpha: 90deg}
+  - {theta: q7*, d: 0.107}
+task: twist
+state: {q1: 0, q2: 0, q3: 0, q4: -90deg, q5: 0, q6: 90deg, q7: 0}
+find: [nullspace]
+"""
+    assert dynsolve.solve(arm).to_json()["results"]["nullspace"] == [["1", "0", "-1", "0", "0", "0", "0"]]

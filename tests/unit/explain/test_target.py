@@ -184,3 +184,16 @@ def test_without_numbers_for_the_lengths_the_branches_are_those_of_names() -> No
     assert [set(branch) for branch in results["inverse"]] == [{"q1", "q2"}] * 2
     assert "r1" in results["inverse"][0]["q1"] and "inverse_decimals" not in results
     assert "a1 has none" in found.warnings[0].message
+
+
+def test_three_turning_joints_without_a_closed_form_say_how_many_solutions_there_are() -> None:
+    arm = """
+gravity: none
+dh:
+  - {theta: q1*, d: d1, a: a1, alpha: 90deg}
+  - {theta: q2*, d: d2, a: a2, alpha: 90deg}
+  - {theta: q3*, a: a3}
+find: [inverse]
+"""
+    (step,) = [step for step in solve(arm).steps if step.title == "No closed form"]
+    assert "at most four configurations" in str(step.notes)
