@@ -104,7 +104,7 @@ def test_values_of_a_file_count_where_they_are_complete(tmp_path: Path) -> None:
     whole.write_text(text.replace("VALUES", ", g: 10"))
     partial.write_text(text.replace("VALUES", ""))
     out = dynsolve("solve", str(whole)).out
-    assert "D = [½] kg m²\n" in out or "D = [0.5] kg m²\n" in out
+    assert "𝐃 = [½] kg m²\n" in out or "𝐃 = [0.5] kg m²\n" in out
     assert "With numbers" not in dynsolve("solve", str(partial)).out
     rest = dynsolve("solve", str(partial), "--set", "m1=4").out
     assert "Without a value, and so still a symbol: g." in rest
