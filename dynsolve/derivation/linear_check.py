@@ -118,7 +118,7 @@ def _by_rate(accelerations: Any, name: str) -> list[float]:
     return [(a - d - b + c) / 2 for a, b, c, d in zip(far, near, back, opposite, strict=True)]
 
 
-# -- matrices of numbers ----------------------------------------------------------------------------
+# -- matrices of numbers ---------------------------------------------------------------------------
 
 
 def _products(left: Sequence[Sequence[float]], right: Sequence[Sequence[float]]) -> Rows:

@@ -80,13 +80,19 @@ def build_robot(
     known_loads = [one for one in loads if one]
     is_drawn = parsed.normals is not None
     robot = with_questions(values, robot, parsed.questions, points, known_loads, asked, is_drawn, written)
-    if parsed.candidates is not None:
-        from dynsolve.problem.candidates_build import assumed, candidates
-
-        judged = candidates(values, parsed.candidates, given.D if given else None)
-        asks = replace(robot.questions.model, assumed=assumed(values, parsed.candidates))
-        robot = replace(robot, questions=replace(robot.questions, candidates=judged, model=asks))
+    robot = _with_candidates(values, parsed, robot)
     return None if faults.errors else robot
+
+
+def _with_candidates(values: CellValues, parsed: ParsedFile, robot: Robot) -> Robot:
+    """The robot with the matrices that may be its inertia matrix, where a file has any."""
+    if parsed.candidates is None:
+        return robot
+    from dynsolve.problem.candidates_build import assumed, candidates
+
+    judged = candidates(values, parsed.candidates, robot.given.D if robot.given else None)
+    asks = replace(robot.questions.model, assumed=assumed(values, parsed.candidates))
+    return replace(robot, questions=replace(robot.questions, candidates=judged, model=asks))
 
 
 def _placed(values: CellValues, model: ParsedModel) -> Sequence[Body | None]:

@@ -141,19 +141,8 @@ class FormulaSplitter:
                 builder.add(self.notation.text(node), self.ruler.width(node))
             case Product(factors) if factors:
                 self._product(builder, factors, level)
-            case Quotient(numerator, denominator) if self._is_long_fraction(node):
-                self._factor(builder, numerator, level)
-                builder.gap(level + FACTOR_BREAK)
-                builder.add(self.notation.relation("/"), BINARY)
-                self._enclosed(builder, denominator, level)
-            case Quotient(numerator, denominator) if not isinstance(numerator, Number):
-                builder.add(
-                    self.notation.text(Quotient(Number(1), denominator)), self.ruler.width(denominator) + 0.4
-                )
-                if isinstance(numerator, Product):
-                    self._product(builder, numerator.factors, level)
-                else:
-                    self._factor(builder, numerator, level)
+            case Quotient(numerator) if self._is_long_fraction(node) or not isinstance(numerator, Number):
+                self._quotient(builder, node, level)
             case Power(base, exponent) if isinstance(base, Sum | Parenthesized | Negative | Product):
                 inner = base.argument if isinstance(base, Parenthesized) else base
                 self._enclosed(builder, inner, level, exponent)
@@ -166,6 +155,21 @@ class FormulaSplitter:
                 self._factor(builder, right, level)
             case _:
                 builder.add(self.notation.text(node), self.ruler.width(node))
+
+    def _quotient(self, builder: _Builder, node: Quotient, level: int) -> None:
+        """A long fraction as a / (b); of another one 1/b stands before what is above."""
+        numerator, denominator = node.numerator, node.denominator
+        if self._is_long_fraction(node):
+            self._factor(builder, numerator, level)
+            builder.gap(level + FACTOR_BREAK)
+            builder.add(self.notation.relation("/"), BINARY)
+            self._enclosed(builder, denominator, level)
+            return
+        builder.add(self.notation.text(Quotient(Number(1), denominator)), self.ruler.width(denominator) + 0.4)
+        if isinstance(numerator, Product):
+            self._product(builder, numerator.factors, level)
+        else:
+            self._factor(builder, numerator, level)
 
     def _sum(self, builder: _Builder, terms: Sequence[Node], level: int) -> None:
         whole = level > 0 and not self._is_wide(Sum(tuple(terms)))
