@@ -34,6 +34,7 @@ from a name of the student's own, `vector_entries` a vector C q̇ that is given 
 `matrix_parts` one row or column of a matrix, `dh_tables` tables of Denavit-Hartenberg parameters with
 their `dh_heads` and `dh_cells`,
 `motion_equations` equations of motion whose sides name no answer, `no_answers` what names one and gives none,
+`linear_models` ẋ = A x + B u,
 `by_content` names that mean an answer only where their value says so, `index_order` what the indices
 of a Christoffel symbol mean.  The values of an answer file are read by `given_values`; they come from
 `yaml_values` (what YAML says) and `yaml_scalars` (what stands between quotes), or, where YAML refuses

@@ -15,6 +15,7 @@ from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.submission import Answer, ConfigurationAnswer, NotRecognized, VerdictAnswer
 from dynsolve.errors import ReadError
 from dynsolve.notation.unicode import UnicodePrinter
+from dynsolve.quantities.model_families import REFERENCE
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +101,8 @@ class AnswerList:
             for name, part in parts.items()
         ]
         for candidates in names:
+            if REFERENCE in parts:  # D q̈_r + C q̇_r + g is none of the forces
+                continue
             answer = self.answer(candidates, member, origin)
             (self._models if parts and candidates[0] == "tau" else made).append(answer)
         return made

@@ -26,11 +26,18 @@ from dynsolve.answers.reading.left_side import (
     read_left_sides,
 )
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
+from dynsolve.answers.reading.linear_models import linear_parts
 from dynsolve.answers.reading.matrix_parts import MatrixPart, entries_of, part_of
 from dynsolve.answers.reading.motion_equations import motion_equation
 from dynsolve.answers.reading.no_answers import calls_forces, is_inertia_force, states_constant
 from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
-from dynsolve.answers.reading.right_side import RightSide, read_right_side, why_no_value
+from dynsolve.answers.reading.right_side import (
+    RightSide,
+    is_abstract,
+    is_value,
+    read_right_side,
+    why_no_value,
+)
 from dynsolve.answers.reading.shapes import fitted, model_parts, shown
 from dynsolve.answers.reading.tokens.lexer import Token
 from dynsolve.answers.reading.tokens.macros import Macro
@@ -180,13 +187,15 @@ class EquationReader:
             self._with_names(names, members, read, origin)
 
     def _of_motion(self, members: list[list[Token]], names: list[tuple[str, ...]], origin: Origin) -> bool:
-        """Keep an equation of motion; whether the chain is one, no side naming more than all forces."""
+        """Keep an equation of motion, or a linear model; whether the chain is one."""
         if any(candidates[0] not in ("tau", "friction") for candidates in names):
             return False
         found = motion_equation(self.vocabulary, members)
         if found is not None:
             self.found.motion(found, [token for member in members for token in member], origin)
-        return found is not None
+        linear = [] if found else list(linear_parts(self.vocabulary, members))
+        self.found.answers += [self.found.answer((name,), member, origin) for name, member in linear]
+        return found is not None or bool(linear)
 
     def _part(self, part: MatrixPart, members: list[list[Token]], origin: Origin) -> None:
         """The entries of one row or column of a matrix, each as an answer of its own."""
@@ -203,7 +212,7 @@ class EquationReader:
 
     def _entry_of_vector(self, first: list[Token], read: list[Member], origin: Origin) -> bool:
         """Keep what may be one row of C q̇; whether its arguments say that it is nothing else."""
-        values = [member for member in read if _is_value(member.found)]
+        values = [member for member in read if is_value(member.found)]
         entry = entry_of(self.vocabulary, first) if values else None
         if entry is None:
             return False
@@ -265,13 +274,13 @@ class EquationReader:
         self, names: list[tuple[str, ...]], members: list[list[Token]], read: list[Member], origin: Origin
     ) -> None:
         """Every value is an answer to each name; what cannot be read is one where no value follows it."""
-        values = [member.index for member in read if _is_value(member.found)]
+        values = [member.index for member in read if is_value(member.found)]
         said = ""
         for member in read:
             found = member.found
             if is_inertia_force(self.vocabulary, names, member.tokens):
                 self.found.left_alone.append(origin.of(members, "it is a vector of the recursions"))
-            elif _is_value(found):
+            elif is_value(found):
                 self.found.answers += self.found.value(names, member, origin)
             elif not isinstance(found, ReadError):
                 said = said or why_no_value(found)
@@ -318,11 +327,7 @@ class EquationReader:
             return
         for member in read:
             found = member.found
-            if (
-                isinstance(found, RightSide)
-                and _is_value(found)
-                and model_parts(self.vocabulary, found.value)
-            ):
+            if isinstance(found, RightSide) and is_value(found) and model_parts(self.vocabulary, found.value):
                 self.found.answers += self.found.value([("tau",)], member, origin)
                 return
         for member in read[1:]:
@@ -363,7 +368,7 @@ class EquationReader:
         elif side.is_name_alone and isinstance(last, RightSide):
             self.define(side.key, last, side.has_arguments)
             self.found.left_alone.append(origin.of(members, _DEFINITION))
-        elif side.is_name_alone and read and all(_is_abstract(member.found) for member in read):
+        elif side.is_name_alone and read and all(is_abstract(member.found) for member in read):
             self.found.left_alone.append(origin.of(members, "it holds names of the derivation alone"))
         else:
             if side.is_name_alone and faults:
@@ -386,14 +391,6 @@ def _is_read(side: LeftSide, is_named: bool) -> bool:
     if isinstance(side, UnknownSide):
         return is_named and not side.is_name_alone
     return not isinstance(side, NamedAnswers)
-
-
-def _is_abstract(found: RightSide | ReadError) -> bool:
-    return isinstance(found, RightSide) and isinstance(found.value, Abstract)
-
-
-def _is_value(found: RightSide | ReadError) -> bool:
-    return isinstance(found, RightSide) and not found.is_definition
 
 
 def _values(read: list[Member]) -> list[RightSide]:

@@ -7,12 +7,13 @@ line, or the items of the list below, are the alternatives.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from dynsolve.answers.reading.configurations import read_configurations
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.sources import Source
+from dynsolve.quantities.spelling import key
 
 _MARK = r"(?:[ \t>*_#+$|-]|[0-9]{1,2}[.)][ \t]|\\(?:item|noindent|par|quad|,|;|:|!|\[|\())*"
 _FONT = r"(?:\\(?:text\w{0,2}|emph|underline|paragraph\*?|(?:sub){0,2}section\*?|math(?:rm|bf))[ \t]*\{)?"
@@ -30,12 +31,20 @@ _HEADS = {
 }
 """What a set is called at the head of a line."""
 
-_REMARK = re.compile(r"\((?=[^()=]*[^\W\d_]{4})[^()=]*\)|,?[ \t]+(?:both |all )?(?:un)?stable\b")
+_REMARK = re.compile(
+    r"\((?=[^()=\\]*[^\W\d_]{4})[^()=\\]*\)(?!\s*(?:=|∈|\\in))|,?[ \t]+(?:both |all )?(?:un)?stable\b"
+)
 _NAME = r"\$?\\?[A-Za-z]\w{0,9}(?:_\{?\w{1,3}\}?)?\$?"
 _ANY = re.compile(
     rf"[,;]?[ \t]*(?:\b(?:with|for|and|where)[ \t]+)?(?:\b(?:any|all|every|arbitrary)[ \t]+{_NAME}"
-    rf"|{_NAME}[ \t]+(?:(?:is|are|may be|can be)[ \t]+)?(?:arbitrary|any(?:thing|where)?|free)\b)"
+    rf"|{_NAME}[ \t]+(?:(?:is|are|may be|can be)[ \t]+)?(?:arbitrary|any(?:thing|where)?|free)\b"
+    rf"|{_NAME}[ \t]*(?:∈|\\in\b)[ \t]*(?:\\mathbb[ \t]*\{{?[ \t]*)?[Rℝ]\}}?(?![A-Za-z])\$?)"
 )
+_DECORATION = re.compile(r"\\bar\b\s*|(?<=[\w}])(?:_\{?eq?\}?(?![A-Za-z0-9])|\^\{?\*\}?)")
+_LEADING = re.compile(r"\A(?:[\s,;]|(?:and|with|for)\s)+")
+_WORDS = re.compile(r";|∨|∧|\s(?:and|or)\s")
+_TUPLE = re.compile(r"\(([^()=]{1,80}(?:\([^()]{1,40}\)[^()=]{0,40})?)\)")
+_BETWEEN = re.compile(r"(?:\s|,|;|and|or|=|∈|\\in\b|\\?[{}])*")
 _TRAILING = re.compile(r"(?:[\s.,;]|\\\]|\\\)|\\\\|\$\$)+\Z")
 _RELATION = re.compile(r"=|∈|\\in\b|\bnone\b|\bno\b")
 _MATHEMATICS = re.compile(r"\$|\\[()\[\]]")
@@ -60,12 +69,13 @@ class HeadedSet:
 def headed_sets(text: str, reader: EquationReader) -> list[HeadedSet]:
     """The sets that heads name in a report."""
     asked = [name for name in _HEADS if name in reader.vocabulary.quantities]
+    coordinates = [q.name for q in reader.vocabulary.coordinates]
     found: list[HeadedSet] = []
     for line in _LINE.finditer(text) if asked else ():
         name = next((name for name in asked if _HEADS[name].fullmatch(line["head"])), "")
         if name and len(found) < _MOST and line.start() >= (found[-1].end if found else 0):
             end, values = _values(text, line)
-            value = _value(values)
+            value = _value(values, coordinates, is_joined=name == "equilibria")
             if value and _RELATION.search(value):
                 start = line.start("shown")
                 found.append(HeadedSet(name, start, _before_closing(text, start, end), value))
@@ -91,10 +101,47 @@ def _before_closing(text: str, start: int, end: int) -> int:
     return start + closing.start() if closing is not None and is_inside else end
 
 
-def _value(values: list[str]) -> str:
-    """The values as alternatives of one text, without dollars, and what is said of them beside."""
-    plain = (_ANY.sub("", _REMARK.sub("", value)) for value in values)
-    return " ; ".join(_TRAILING.sub("", _MATHEMATICS.sub(" ", value)).strip() for value in plain)
+def _value(values: list[str], coordinates: Sequence[str], is_joined: bool) -> str:
+    """The values as alternatives of one text, without dollars, and what is said of them beside.
+
+    `is_joined` says that commas of a single value part what holds together.
+    """
+    plain = []
+    for value in values:
+        value = _MATHEMATICS.sub(" ", _DECORATION.sub("", _ANY.sub("", _REMARK.sub("", value))))
+        plain.append(_points(_LEADING.sub("", _TRAILING.sub("", value)).strip(), coordinates))
+    if is_joined and len(plain) == 1:
+        pieces = plain[0].split(",")
+        lefts = {piece.partition("=")[0].strip() for piece in pieces}
+        if (
+            len(lefts) == len(pieces) > 1
+            and all("=" in piece for piece in pieces)
+            and not _WORDS.search(plain[0])
+        ):
+            return " and ".join(pieces)
+    return " ; ".join(plain)
+
+
+def _points(text: str, coordinates: Sequence[str]) -> str:
+    """Points in parentheses as equations: `(q_1, q_2) = (0, 0), (pi, 0)`; any other text as it is."""
+    tuples = [[part.strip() for part in found[1].split(",")] for found in _TUPLE.finditer(text)]
+    rest = _TUPLE.sub("", text)
+    if not tuples or _BETWEEN.fullmatch(rest) is None or {len(one) for one in tuples} != {len(coordinates)}:
+        return text
+    if "=" in rest or "∈" in rest or "\\in" in rest:
+        names, *tuples = tuples
+        pairs = [zip(names, one, strict=True) for one in tuples]
+    else:
+        pairs = [zip(coordinates, one, strict=True) for one in tuples]
+    equations = (
+        [f"{name} = {value}" for name, value in pair if key(name) != key(value.lstrip("\\"))]
+        for pair in pairs
+    )
+    return " ; ".join(" and ".join(one) for one in equations)
+
+
+def _plain(name: str) -> str:
+    return key(name.lstrip("\\"))
 
 
 def read_headed(reader: EquationReader, source: Source, found: Iterable[HeadedSet]) -> None:

@@ -81,6 +81,8 @@ def read_left_side(vocabulary: Vocabulary, member: list[Token]) -> LeftSide:
         return None
     if _is_determinant(vocabulary, member):
         return NamedAnswers(("det",))
+    if _is_friction(vocabulary, member):
+        return NamedAnswers(("friction",))
     tokens = split_names(member, vocabulary, naming=True)
     reader = FormulaReader(tokens, vocabulary, naming=True)
     try:
@@ -118,6 +120,13 @@ def _is_determinant(vocabulary: Vocabulary, member: list[Token]) -> bool:
     text, n = "".join(token.text for token in member), len(vocabulary.coordinates)
     is_square = vocabulary.quantities.owners.task_rows == n or n == _WHOLE
     return bool(_DETERMINANT.fullmatch(text)) and text.count("J") == (1 if is_square else 2)
+
+
+def _is_friction(vocabulary: Vocabulary, member: list[Token]) -> bool:
+    r"""Whether a side is a matrix of friction times the rates: F_v \dot q."""
+    texts = [token.text for token in member if token.kind not in ("{", "}")]
+    is_product = texts[1:] == ["dot", "q"] and key(texts[0]) in ("Fv", "F", "Fd", "Bv")
+    return is_product and vocabulary.is_answer("friction") and key(texts[0]) not in vocabulary.symbols
 
 
 def name_alone(vocabulary: Vocabulary, tokens: list[Token]) -> str:

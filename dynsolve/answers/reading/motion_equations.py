@@ -8,7 +8,7 @@ is one, the equation is that of a coordinate that no motor drives.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from dynsolve.answers.reading.displays import OPENS
 from dynsolve.answers.reading.left_side import NamedAnswers, UnknownSide, name_alone, read_left_side
@@ -88,20 +88,24 @@ def says_what_drives(vocabulary: Vocabulary, names: Sequence[str], member: list[
 
 
 def _terms(vocabulary: Vocabulary, member: list[Token]) -> list[_Term]:
-    """The terms of a side, each with its sign."""
-    found: list[_Term] = []
+    """The terms of a side, each with its sign and the forces that it names."""
+    return [_Term(tokens, negative, _forces(vocabulary, tokens)) for tokens, negative in signed_terms(member)]
+
+
+def signed_terms(member: Sequence[Token]) -> list[tuple[list[Token], bool]]:
+    """The terms of a side, each with whether a minus stands before it."""
+    found: list[tuple[list[Token], bool]] = []
     level, piece, negative = 0, list[Token](), False
     for token in member:
         starts = level == 0 and token.kind in _SIGNS and not (piece and piece[-1].kind in _OPERATORS)
         if starts:
             if piece:
-                found.append(_Term(piece, negative))
+                found.append((piece, negative))
             piece, negative = [], token.kind == "-"
         else:
             piece.append(token)
         level += OPENS.get(token.kind, 0)
-    found.append(_Term(piece, negative))
-    return [replace(term, forces=_forces(vocabulary, term.tokens)) for term in found]
+    return [*found, (piece, negative)]
 
 
 def _rest(vocabulary: Vocabulary, terms: Sequence[_Term]) -> RightSide | None:

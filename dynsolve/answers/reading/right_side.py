@@ -124,6 +124,16 @@ def _read(
     )
 
 
+def is_value(found: RightSide | ReadError) -> bool:
+    """Whether a member has a value of its own."""
+    return isinstance(found, RightSide) and not found.is_definition
+
+
+def is_abstract(found: RightSide | ReadError) -> bool:
+    """Whether a member stands for no value of this robot."""
+    return isinstance(found, RightSide) and isinstance(found.value, Abstract)
+
+
 def why_no_value(found: RightSide) -> str:
     """Why a side that was read gives its name no value."""
     return found.value.why if isinstance(found.value, Abstract) else "it holds names of the derivation alone"

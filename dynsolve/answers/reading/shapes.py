@@ -22,6 +22,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.unicode import printable
 from dynsolve.notation.walk import names_in, walk
 from dynsolve.quantities import families
+from dynsolve.quantities.model_families import REFERENCE
 
 _LONGEST_SHOWN = 2_000
 _ZEROS = "0"
@@ -67,8 +68,9 @@ def _regressor_parts(vocabulary: Vocabulary, value: Grid) -> dict[str, Value]:
     assert value.factors
     Y, a = value.factors
     moving = {q.name for q in vocabulary.coordinates}
-    is_regressor = "Y" in vocabulary.quantities and value.shape == (len(moving), 1) and not Y.quantity
-    return {"Y": Y, "a": a} if is_regressor and names_in(a.node).isdisjoint(moving) else {}
+    name = REFERENCE if any(map(vocabulary.is_reference, names_in(Y.node))) else "Y"
+    is_regressor = name in vocabulary.quantities and value.shape == (len(moving), 1) and not Y.quantity
+    return {name: Y, "a": a} if is_regressor and names_in(a.node).isdisjoint(moving) else {}
 
 
 def _vector_name(term: Grid) -> str:

@@ -119,6 +119,11 @@ class Vocabulary:
             return Meaning(self.others[name])
         return self._shorthand(name)
 
+    @property
+    def has_references(self) -> bool:
+        """Whether reference rates are names of this problem."""
+        return any(reference(q.name) in self.others for q in self.coordinates)
+
     def is_reference(self, name: str) -> bool:
         """Whether a name is the reference of a coordinate, of which there are rates."""
         return name in self.others and name in {reference(q.name) for q in self.coordinates}

@@ -9,13 +9,14 @@ from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
 from dynsolve.answers.reading.grammar.references import only_coordinates, placeholder, skip_arguments
 from dynsolve.answers.reading.grammar.scripts import BAR
-from dynsolve.answers.reading.grids import Abstract, Value, grid
+from dynsolve.answers.reading.grids import Abstract, Grid, Value, grid
 from dynsolve.answers.reading.vocabulary import is_running
 from dynsolve.notation.tree import (
     Number,
     Symbol,
 )
 from dynsolve.quantities.families import HOLD_FORCES
+from dynsolve.robot.model_questions import reference
 
 _ZERO_LEVELS = frozenset("h0 H0 z0 y0 h href hzero hb P0h zref".split())
 _ANGLES = ("theta", "phi", "varphi", "th")
@@ -72,6 +73,10 @@ def letter(reader: Reader, form: Form, name: str) -> Value | None:
         value: Value = vocabulary.velocities(form.dots + form.scripts.primes)
         form.scripts.primes = 0
         return reader.with_scripts(value, form.scripts, form.start)
+    if name == "qr" and vocabulary.has_references:
+        reader.names_used += 1
+        rates = tuple((Symbol(reference(q.name), form.dots),) for q in vocabulary.coordinates)
+        return reader.with_scripts(Grid(rates, is_rates=form.dots), form.scripts, form.start)
     spelled = {"qdot": 1, "dq": 1, "qd": 1, "qddot": 2, "ddq": 2, "qdd": 2}.get(name)
     if spelled and not form.dots:
         reader.names_used += 1

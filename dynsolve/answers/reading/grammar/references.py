@@ -14,6 +14,7 @@ from dynsolve.notation.tree import (
 from dynsolve.quantities import families, recursion_families
 from dynsolve.quantities.family import Owner
 from dynsolve.quantities.index import Quantities
+from dynsolve.quantities.model_families import REFERENCE
 from dynsolve.quantities.spelling import key
 
 OWN_LETTERS = frozenset({"h", "c"})
@@ -37,6 +38,8 @@ def quantity(reader: Reader, form: Form, name: str) -> Value | None:
                 return None
     if len(names) > 1 and not reader.naming and _has_rates(reader):
         names = tuple(n for n in names if vocabulary.shape(n) is not None) or names
+    if names == ("Y",) and REFERENCE in vocabulary.quantities and _has_references(reader):
+        names = (REFERENCE,)
     names, framed = _framed(vocabulary.quantities, form, names)
     if not names:
         return None
@@ -92,6 +95,14 @@ def _has_rates(reader: Reader) -> bool:
         if token.kind == "'" or token.dots or token.text == "dot" or token.text in ("qdot", "dq", "qd"):
             return True
     return False
+
+
+def _has_references(reader: Reader) -> bool:
+    r"""Whether reference rates stand among the arguments here: Y(q, \dot q, \dot q_r, \ddot q_r)."""
+    if reader.token.kind != "(" or not only_coordinates(reader, reader.position):
+        return False
+    end = next(i for i in range(reader.position, len(reader.tokens)) if reader.tokens[i].kind == ")")
+    return any(token.text.rstrip("}").endswith("r") for token in reader.tokens[reader.position : end])
 
 
 def placeholder(vocabulary: Vocabulary, name: str) -> Value:
@@ -166,7 +177,7 @@ def only_coordinates(reader: Reader, position: int) -> bool:
             if not (
                 is_coordinate
                 or vocabulary.is_vector(name)
-                or name in ("t", "qdot", "dq", "qd", "theta", "L", "d")
+                or name in ("t", "qdot", "dq", "qd", "theta", "L", "d", "qr", "r")
             ):
                 return False
             found = True

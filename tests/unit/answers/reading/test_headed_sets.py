@@ -35,6 +35,12 @@ FORMS = [
     (r"\textbf{Equilibria:} $\sin\theta = 0$.", "sin(θ)"),
     ("Equilibria: x = 0 and theta = 0; x = 0 and theta = pi", "x & θ | x & θ - π"),
     ("Equilibria: x = 0 and theta = 0, x = 0 and theta = pi", "x & θ | x & θ - π"),
+    (r"Equilibria: $x \in \mathbb{R}$, $\theta \in \{0, \pi\}$", TWO),
+    ("Equilibria: x arbitrary, theta = 0 or pi", TWO),
+    (r"Equilibrium points: $\bar\theta = 0$, $\theta_{eq} = \pi$", TWO),
+    (r"Equilibria: $(x, 0)$ and $(x, \pi)$", TWO),
+    (r"Equilibria: $(x, \theta) = (0, 0), (0, \pi)$", "x & θ | x & θ - π"),
+    (r"Equilibria: $x = 0$, $\theta = 0$", "x & θ"),
     ("Equilibria: x = 0, theta = 0; x = 0, theta = pi", "x & θ | x & θ - π"),
 ]
 
