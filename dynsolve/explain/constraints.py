@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.algebra.fraction_matrix import quotient
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant
 from dynsolve.algebra.pseudoinverse import adjugate
 from dynsolve.algebra.spans import nullspace
@@ -183,6 +184,7 @@ def _reduced(context: Context) -> Iterator[Step]:
     if not is_small(shown):
         return
     motion = equation(letters.QD, Product((name, letters.bold("nu"))))
+    free, rows = equation(name, shown), _free_rows(context, Z)
     yield Step(
         id="reduced",
         stage=STAGE,
@@ -194,7 +196,27 @@ def _reduced(context: Context) -> Iterator[Step]:
         ),
         formula=equation(Product((T, Parenthesized(moving_side(context)))), Product((T, right))),
         source=mls("6.1.3"),
-        result=(equation(name, shown),),
+        lines=(Line(("The free rates:",), (free,)),) if rows else (),
+        concluding=("Row by row:",) if rows else (),
+        result=rows or (free,),
         uses=("Ac",),
         is_task=False,
     )  # fmt: skip
+
+
+def _free_rows(context: Context, Z: Matrix) -> tuple[Node, ...]:
+    """Zᵀ (D q̈ + C q̇ + g) = Zᵀ (τ + Q), row by row; none where they are too long to be read."""
+    robot, ring = context.robot, context.robot.ring
+    inputs = [
+        ring.zero if k in robot.actions.passive else ring.symbol(q.force)
+        for k, q in enumerate(robot.coordinates)
+    ]
+    driving = Matrix.column(ring, inputs)
+    if robot.questions.loads:
+        driving = driving + context.values["Q"]
+    named = with_force_letters(robot)
+    rows = tuple(
+        equation(context.show(left), mapped(context.show(right), named))
+        for left, right in zip((Z.T @ context.values["tau"]).entries, (Z.T @ driving).entries, strict=True)
+    )
+    return rows if is_small(*rows) else ()

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import unicodedata
+
 import pytest
 
 import dynsolve
 from dynsolve.derivation.constraint_check import verify_constraints
 from dynsolve.errors import ProblemError, VerificationError
 from dynsolve.notation.tree import Matrix, Negative
+from dynsolve.notation.unicode import to_unicode
 from tests.support import numbers
 
 ELBOW = """
@@ -93,3 +96,10 @@ def test_it_does_not_matter_when_the_numbers_are_put_in() -> None:
     state = {"q1": 0.3, "q2": 0.8, "q1_dot": 0.5, "q2_dot": -0.7, "tau1": 0.2, "tau2": 1.1}
     (found,) = late.to_json()["results"]["lambda"]
     assert numbers([found], state)[0] == pytest.approx(numbers(early, state)[0])
+
+
+def test_the_equations_without_multipliers_are_written_out() -> None:
+    """m v̇ along the blade, with what drives it in this direction (by hand)."""
+    (step,) = (step for step in dynsolve.solve("knife-edge").steps if step.id == "reduced")
+    rows = [unicodedata.normalize("NFC", to_unicode(row)) for row in step.result]
+    assert rows == ["m (cos(φ) ẍ + sin(φ) ÿ) = f₂ sin(φ) + f₁ cos(φ)", "J φ̈ = τ₃"]
