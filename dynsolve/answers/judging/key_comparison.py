@@ -131,7 +131,12 @@ class KeyComparer:
             tuple(map(self.compare, wanted, written)) for wanted, written in zip(expected, rows, strict=True)
         )
         compared = KeyComparison(value, target, rows, right, obstacles)
-        other = None if compared.correct else other_solution(self.graph, target.node, rows, self.compare)
+        is_equation = value.answer.is_equation
+        other = (
+            None
+            if compared.correct
+            else other_solution(self.graph, target.node, rows, self.compare, is_equation=is_equation)
+        )
         if other is None:
             return compared
         return replace(compared, right=tuple(tuple("" for _ in row) for row in rows), other=other)

@@ -64,8 +64,12 @@ def other_solution(
     node: str,
     rows: Sequence[Sequence[WrittenEntry]],
     compare: EntryComparer,
+    is_equation: bool = False,
 ) -> Other | None:
-    """What an answer is that is not the key's and right all the same; None of a wrong one."""
+    """What an answer is that is not the key's and right all the same; None of a wrong one.
+
+    `is_equation` says that it was written as one side of `... = 0`.
+    """
     quantity = graph.quantities.of_rule(node)
     if quantity is not None and quantity.family in (recursion_families.AL, recursion_families.ACL):
         return _with_other_gravity(graph, quantity, rows, compare)
@@ -74,7 +78,7 @@ def other_solution(
     if quantity is not None and quantity.family in (families.TAU, families.FORCE):
         if _is_what_motors_give(graph, quantity, rows, compare):
             return Other.WITHOUT_LOADS
-        return Other.UP_TO_FACTOR if _is_multiple(graph, quantity, rows, compare) else None
+        return Other.UP_TO_FACTOR if is_equation and _is_multiple(graph, quantity, rows, compare) else None
     if quantity is not None and quantity.family in (families.P, families.L, action_families.PS):
         return Other.SPRINGS_FROM_ELSEWHERE if _differs_by_springs(graph, quantity, rows[0][0]) else None
     if node == "Cqd":

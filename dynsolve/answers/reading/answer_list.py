@@ -141,7 +141,7 @@ class AnswerList:
         name = (absent or forces)[0]
         answer = self.answer((name,), Member(0, tokens, equation.found), origin)
         others = tuple(force for force in forces if force != name)
-        self.answers.append(replace(answer, alternatives=others))
+        self.answers.append(replace(answer, alternatives=others, is_equation=equation.is_zero))
 
     def unreadable(self, candidates: tuple[str, ...], error: ReadError, origin: Origin, index: int) -> Answer:
         """The record of a value that could not be read."""

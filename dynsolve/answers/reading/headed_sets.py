@@ -75,7 +75,7 @@ def headed_sets(text: str, reader: EquationReader) -> list[HeadedSet]:
         name = next((name for name in asked if _HEADS[name].fullmatch(line["head"])), "")
         if name and len(found) < _MOST and line.start() >= (found[-1].end if found else 0):
             end, values = _values(text, line)
-            value = _value(values, coordinates, is_joined=name == "equilibria")
+            value = _value(values, coordinates, is_joined=name != "singular")
             if value and _RELATION.search(value):
                 start = line.start("shown")
                 found.append(HeadedSet(name, start, _before_closing(text, start, end), value))

@@ -27,10 +27,14 @@ _OPERATORS = frozenset({"+", "-", "*", "/", "cdot", "times", "^"})
 
 @dataclass(frozen=True, slots=True)
 class MotionEquation:
-    """The generalized forces that one equation may give, and the value that it gives to one of them."""
+    """The generalized forces that one equation may give, and the value that it gives to one of them.
+
+    `is_zero` says that no force stands in it: `... = 0`.
+    """
 
     forces: tuple[str, ...]
     found: RightSide
+    is_zero: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +68,7 @@ def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> M
     notes = tuple(dict.fromkeys(note for rest in read for note in rest.notes))
     free = tuple(name for rest in read for name in rest.free)
     found = RightSide(value, (), notes, free, is_definition=False)
-    return MotionEquation(forces, found)
+    return MotionEquation(forces, found, is_zero=not named)
 
 
 def says_what_drives(vocabulary: Vocabulary, names: Sequence[str], member: list[Token]) -> bool:

@@ -29,6 +29,8 @@ def is_short_function(reader: Reader) -> bool:
     if after.kind == "(":
         if reader.peek(2).kind == "number" and reader.peek(3).kind == ")":
             return False
+        if "vectors" in reader.options and only_coordinates(reader, reader.position + 1):
+            return False
         return token.text in "cs" or not only_coordinates(reader, reader.position + 1)
     if after.kind == "letter":
         return after.text in ("theta", "phi", "alpha", "beta", "psi", "gamma")
