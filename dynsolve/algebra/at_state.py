@@ -52,12 +52,14 @@ def direction_at(angle: Angle, values: StateValues) -> SurdAngle:
     """An angle all of whose coordinates have values, exact; raises NotExact where it is none."""
     from dynsolve.algebra.surd_angles import SurdAngle
     from dynsolve.algebra.surd_values import exact_value
-    from dynsolve.algebra.surds import NotExact
+    from dynsolve.algebra.surds import NotExact, Surd
 
     found = SurdAngle.of_degrees(angle.degrees)
     for atom, rate in angle.terms:
         (name, _), *more = atom
         value = None if more or (name, 0) not in values else exact_value(values[name, 0], {})
+        if isinstance(value, Surd) and value.is_zero:  # a plain 0 is the angle 0
+            continue
         if not isinstance(value, SurdAngle):
             raise NotExact
         found = found + value.times(rate)

@@ -42,6 +42,13 @@ def test_it_is_the_state_itself() -> None:
     assert all(reached[name] == given[name] for name in ("qd", "qdd", "Q", "tau_static", "lost"))
 
 
+def test_an_angle_of_zero_is_exact() -> None:
+    """[2, 1] is reached by q1 = 0, q2 = 90°."""
+    reached = results(TARGET + "reach: [2, 1]\nlimits: {q2: [0, 180deg]}\n")
+    given = results(TWO_LINKS + "state: {q1: 0, q2: 90deg}\n")
+    assert all(reached[name] == given[name] for name in ("qd", "qdd", "Q", "tau_static", "lost"))
+
+
 def test_an_angle_of_known_sine_is_exact() -> None:
     """In q1 = atan2(4, 3), d2 = 5 the hand moves by (c1 d2' - s1 d2 q1', s1 d2' + c1 d2 q1')."""
     assert results(POLAR)["qd"] == ["-0.04*(4*vx - 3*vy)", "(3*vx + 4*vy)/5"]
