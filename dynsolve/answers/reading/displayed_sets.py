@@ -13,6 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Set
 from dataclasses import dataclass, field, replace
+from itertools import islice
 
 from dynsolve.answers.reading.configurations import is_set, read_equations
 from dynsolve.answers.reading.coordinate_formulas import coordinate_named, function_named, names_within
@@ -20,6 +21,7 @@ from dynsolve.answers.reading.displays import Display
 from dynsolve.answers.reading.equation_reader import EquationReader
 from dynsolve.answers.reading.placed_text import placed
 from dynsolve.answers.reading.set_text import joined
+from dynsolve.answers.reading.sources import Source
 from dynsolve.answers.reading.span_text import space_named, span_text
 from dynsolve.answers.submission import Place
 from dynsolve.quantities.spelling import key
@@ -34,6 +36,15 @@ _SPEAKS_OF = {
 _BEFORE = 600
 """So far before a display its words are looked for."""
 
+_INLINE = r"\$[^$\n]{1,200}\$"
+_FORMULAS = re.compile(rf"(?<![$\\]){_INLINE}(?:(?:\s{{0,9}},|\s{{1,9}}(?:or|and))\s{{0,9}}{_INLINE}){{0,8}}")
+"""Formulas in a sentence, one behind the other."""
+
+_MOST_FORMULAS = 500
+_MOST_ROWS = 100
+"""A display of more rows is read as a whole."""
+
+_DENIED = re.compile(r"\b(?:not|never|no|non-?singular|un\w+|except)\b", re.IGNORECASE)
 _LAYOUT = re.compile(
     r"\\(?:label|tag)\*?\{[^{}]*\}|\\(?:begin|end)\{(?:aligned|cases|split|array)\}(?:\{[lcr]*\})?"
 )
@@ -53,6 +64,7 @@ class DisplayedSets:
     """Gathers the sets of one report; `text` is the report, `told` are those that it gives behind a head."""
 
     reader: EquationReader
+    source: Source
     text: str
     told: Set[str] = frozenset()
     found: dict[str, tuple[Place, list[str]]] = field(default_factory=dict)
@@ -88,9 +100,23 @@ class DisplayedSets:
         return replace(display, text=f"{name} = {span_text(placed([(right, 0)]), is_name).text}")
 
     def settle(self) -> None:
-        """Make the answers of what was gathered."""
+        """Make the answers of what was gathered; where no display has a set, of what a sentence says."""
+        for name in ("singular", "equilibria"):
+            if name in self.reader.vocabulary.quantities and name not in {*self.told, *self.found}:
+                self._read_sentence(name)
         for name, (place, texts) in self.found.items():
             read_equations(self.reader, name, texts, place)
+
+    def _read_sentence(self, name: str) -> None:
+        r"""`The arm is singular for $q_2 = 0$ and $q_2 = \pi$.`"""
+        for found in islice(_FORMULAS.finditer(self.text), _MOST_FORMULAS):
+            words = self.text[max(found.start() - _BEFORE, 0) : found.start()].rpartition(".")[2]
+            if not _SPEAKS_OF[name].search(words) or _DENIED.search(words):
+                continue
+            formulas = _plain(found[0].replace("$", " "))
+            if is_set(self.reader.vocabulary, formulas):
+                self.found[name] = (self.source.place(found.start(), len(found[0])), [formulas])
+                return
 
     def _may_be_one(self, offset: int, text: str) -> bool:
         """Whether a row is part of a set, or may be when those before it are read."""
@@ -145,7 +171,7 @@ def _rows(text: str) -> list[str]:
             found[-1] += row
         elif row.strip():
             found.append(row)
-    return found
+    return found if len(found) <= _MOST_ROWS else [text]
 
 
 def _plain(row: str) -> str:

@@ -100,7 +100,7 @@ def read_report(reader: EquationReader, source: Source, latex: bool = False) -> 
     displays, unread = continued(displays[:MAX_EQUATIONS]), displays[MAX_EQUATIONS:]
     while True:
         waiting = list(reversed(macros))
-        sets = DisplayedSets(reader, text, {one.name for one in headed})
+        sets = DisplayedSets(reader, source, text, {one.name for one in headed})
         for table in tables:
             read_value(reader, NAME, source.place(table.start, 1), table.value.display(source))
         read_headed(reader, source, headed)

@@ -65,6 +65,11 @@ REPORTS = [
             rf" $$D = \frac{{r^2 + s^2 - a_2^2 - a_3^2}}{{2 a_2 a_3}}$$"
             rf" $$\theta_1 = {ATAN}(y, x)$$ $$\theta_3 = {ATAN}(\pm\sqrt{{1 - D^2}}, D)$$"
             rf" $$\theta_2 = {ATAN}(s, r) - {ATAN}(a_3 s_3, a_2 + a_3 c_3)$$", {"inverse": "correct"}),
+    (TWO_LINKS, r"The arm is singular for $q_2 = 0$ and $q_2 = \pi$, stretched or folded.",
+     {"singular": "correct"}),
+    (TWO_LINKS, "It is not singular for $q_2 = 1$. There it loses rank: it does so where $s_2 = 0$.",
+     {"singular": "correct"}),
+    (TWO_LINKS, "It is singular at $q_2 = 0$.", {"singular": "wrong"}),
     (RPR, r"$$\det J = a_3 s_3 (q_2 + a_3 s_3) = 0$$", {"det": "correct", "singular": "correct"}),
     (RPR, "The rank is less for\n\n$$s_3 = 0$$\n\nand also for\n\n$$q_2 = -a_3 s_3$$",
      {"singular": "correct"}),
