@@ -10,12 +10,12 @@ from dynsolve.answers.reading.occurrences import readable
 from dynsolve.answers.reading.right_side import EXPECTED, RightSide
 from dynsolve.answers.reading.shapes import fitted, misfit, model_parts, shown, with_own_entries
 from dynsolve.answers.reading.tokens.lexer import Token
-from dynsolve.answers.reading.vector_entries import Entry, VectorEntries
+from dynsolve.answers.reading.vector_entries import Entry, VectorEntries, column
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.answers.submission import Answer, ConfigurationAnswer, NotRecognized, VerdictAnswer
 from dynsolve.errors import ReadError
 from dynsolve.notation.unicode import UnicodePrinter
-from dynsolve.quantities.model_families import REFERENCE
+from dynsolve.quantities.model_families import QDD_FORWARD, REFERENCE
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +77,7 @@ class AnswerList:
     _undecided: list[_Undecided] = field(default_factory=list)
     _models: list[Answer] = field(default_factory=list)
     _asides: list[tuple[tuple[str, ...], NotRecognized]] = field(default_factory=list)
+    _accelerations: dict[int, Answer] = field(default_factory=dict)
     _entries: VectorEntries = field(init=False)
 
     def __post_init__(self) -> None:
@@ -143,6 +144,14 @@ class AnswerList:
         others = tuple(force for force in forces if force != name)
         self.answers.append(replace(answer, alternatives=others, is_equation=equation.is_zero))
 
+    def acceleration(self, row: int, member: Member, origin: Origin) -> None:
+        """Keep the acceleration of one coordinate until those of all are there; it has to be one formula."""
+        answer = self.answer(("P",), member, origin)  # a scalar of any name
+        if answer.node is None:
+            self.answers.append(replace(answer, name=QDD_FORWARD.name))
+        else:
+            self._accelerations[row] = answer
+
     def unreadable(self, candidates: tuple[str, ...], error: ReadError, origin: Origin, index: int) -> Answer:
         """The record of a value that could not be read."""
         display = origin.display
@@ -186,6 +195,12 @@ class AnswerList:
             # the torques are put together from D, C and g: these come first, and do not follow from them
             after = 1 + max(answer.occurrence[0] for answer in self._models + self.answers)
             self.answers += [replace(m, occurrence=(after + i, 0)) for i, m in enumerate(self._models)]
+        if len(self._accelerations) == len(self.vocabulary.coordinates):
+            self.answers.append(column(QDD_FORWARD.name, self._accelerations, self.printer))
+        else:
+            why = "not the accelerations of all coordinates are given"
+            for one in self._accelerations.values():
+                self.not_recognized.append(NotRecognized(one.text, one.label, one.place, why))
         self.answers, lost = self._entries.settled(self.answers, self.printer)
         self.not_recognized += lost
         self.answers, lost = readable(self.answers, self.vocabulary.quantities)

@@ -21,6 +21,7 @@ from dynsolve.answers.reading.left_side import (
     LeftSide,
     NamedAnswers,
     UnknownSide,
+    is_read,
     name_alone,
     read_left_side,
     read_left_sides,
@@ -28,7 +29,7 @@ from dynsolve.answers.reading.left_side import (
 from dynsolve.answers.reading.limits import MAX_ANSWERS, MAX_DEFINITIONS, MAX_MEMBERS
 from dynsolve.answers.reading.linear_models import linear_parts
 from dynsolve.answers.reading.matrix_parts import MatrixPart, entries_of, part_of
-from dynsolve.answers.reading.motion_equations import motion_equation
+from dynsolve.answers.reading.motion_equations import acceleration_of, motion_equation
 from dynsolve.answers.reading.no_answers import calls_forces, is_inertia_force, states_constant
 from dynsolve.answers.reading.own_names import gives_new_meaning, keep_symbol
 from dynsolve.answers.reading.right_side import (
@@ -49,6 +50,7 @@ from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Node
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.notation.walk import names_in
+from dynsolve.quantities.model_families import QDD_FORWARD
 from dynsolve.quantities.spelling import key
 
 _CONTROL = re.compile(r"unknown (?:symbol `[Kk]_?\{?[pPdDiI]\}?`|command `\\tilde`)")
@@ -171,7 +173,7 @@ class EquationReader:
         read = [
             Member(index, tokens, read_right_side(self.vocabulary, tokens, owners))
             for index, tokens in enumerate(members)
-            if _is_read(sides[index], bool(names))
+            if is_read(sides[index], bool(names))
         ]
         read = self._defined_by_the_end(read)
         if self._entry_of_vector(members[0], read, origin):
@@ -187,9 +189,13 @@ class EquationReader:
             self._with_names(names, members, read, origin)
 
     def _of_motion(self, members: list[list[Token]], names: list[tuple[str, ...]], origin: Origin) -> bool:
-        """Keep an equation of motion, or a linear model; whether the chain is one."""
+        """Keep an equation of motion, an acceleration, or a linear model; whether the chain is one."""
         if any(candidates[0] not in ("tau", "friction") for candidates in names):
             return False
+        if row := acceleration_of(self.vocabulary, members):
+            value = read_right_side(self.vocabulary, members[-1], (QDD_FORWARD.name,))
+            self.found.acceleration(row, Member(len(members) - 1, members[-1], value), origin)
+            return True
         found = motion_equation(self.vocabulary, members)
         if found is not None:
             self.found.motion(found, [token for member in members for token in member], origin)
@@ -384,13 +390,6 @@ class EquationReader:
             self.found.left_alone.append(origin.of(members, "it is a sentence"))
         else:
             self.found.not_recognized.append(origin.of(members, why))
-
-
-def _is_read(side: LeftSide, is_named: bool) -> bool:
-    """Whether a member is read as a value: it is no name; beside one it may begin with an unknown letter."""
-    if isinstance(side, UnknownSide):
-        return is_named and not side.is_name_alone
-    return not isinstance(side, NamedAnswers)
 
 
 def _values(read: list[Member]) -> list[RightSide]:

@@ -122,6 +122,13 @@ def _is_determinant(vocabulary: Vocabulary, member: list[Token]) -> bool:
     return bool(_DETERMINANT.fullmatch(text)) and text.count("J") == (1 if is_square else 2)
 
 
+def is_read(side: LeftSide, is_named: bool) -> bool:
+    """Whether a member is read as a value: it is no name; beside one it may begin with an unknown letter."""
+    if isinstance(side, UnknownSide):
+        return is_named and not side.is_name_alone
+    return not isinstance(side, NamedAnswers)
+
+
 def _is_friction(vocabulary: Vocabulary, member: list[Token]) -> bool:
     r"""Whether a side is a matrix of friction times the rates: F_v \dot q."""
     texts = [token.text for token in member if token.kind not in ("{", "}")]

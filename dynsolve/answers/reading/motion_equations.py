@@ -18,6 +18,7 @@ from dynsolve.answers.reading.vocabulary import DRIVING, Vocabulary
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import ZERO, Node, Symbol
 from dynsolve.notation.walk import walk
+from dynsolve.quantities.model_families import QDD_FORWARD
 
 _LONGEST_NAME = 12
 _BETWEEN = frozenset({"begin", "close", "\\\\", "&", ",", ";", "[", "]", "(", ")"})
@@ -69,6 +70,17 @@ def motion_equation(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> M
     free = tuple(name for rest in read for name in rest.free)
     found = RightSide(value, (), notes, free, is_definition=False)
     return MotionEquation(forces, found, is_zero=not named)
+
+
+def acceleration_of(vocabulary: Vocabulary, members: Sequence[list[Token]]) -> int:
+    r"""The coordinate, from 1, that `\ddot q_1 = ...` is solved for, where that is asked for; else 0."""
+    if QDD_FORWARD.name not in vocabulary.quantities or len(members[0]) > _LONGEST_NAME:
+        return 0
+    first = read_right_side(vocabulary, members[0])
+    value = first.value if isinstance(first, RightSide) else None
+    is_one = isinstance(value, Symbol) and value.dots == 2
+    q = vocabulary.coordinate(value) if is_one and isinstance(value, Symbol) else None
+    return q.index if q is not None else 0
 
 
 def says_what_drives(vocabulary: Vocabulary, names: Sequence[str], member: list[Token]) -> bool:

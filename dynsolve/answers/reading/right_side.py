@@ -26,11 +26,12 @@ _WAYS: tuple[frozenset[str], ...] = (
     frozenset({"spaces"}),
     frozenset({"decimals"}),
     frozenset({"vectors"}),
+    frozenset({"driving"}),
 )
 """How a value may be read.
 
 As it stands; a bare I_1 as the moment of inertia; blanks between entries; 0,5 as a decimal; c and h as the
-vector C q̇.
+vector C q̇; τ as the force of the only motor.
 """
 
 
@@ -206,6 +207,8 @@ def _may_help(options: frozenset[str], tokens: list[Token]) -> bool:
         return any(t.kind == "name" and t.text[0] in "IJ" for t in tokens)
     if "decimals" in options:
         return bool(_decimal_commas(tokens))
+    if "driving" in options:
+        return any(t.text == "tau" for t in tokens)
     if "vectors" in options:
         return any(t.text in OWN_LETTERS for t in tokens)
     return any(t.kind == "[" for t in tokens)

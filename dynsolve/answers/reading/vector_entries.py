@@ -79,7 +79,7 @@ class VectorEntries:
             if self._is_vector(letter, rows, {answer.name for answer in answers}):
                 own = {answer.occurrence for answer in rows.values()}
                 kept = [answer for answer in answers if answer.occurrence not in own]
-                answers = [*kept, _vector(rows, printer)]
+                answers = [*kept, column("Cqd", rows, printer)]
             else:
                 lost += self.refused.get(letter, [])
         return answers, lost
@@ -100,13 +100,13 @@ def _has_rate(node: Node) -> bool:
     return any(isinstance(part, Symbol) and part.dots == 1 for part in walk(node))
 
 
-def _vector(rows: dict[int, Answer], printer: UnicodePrinter) -> Answer:
-    """The column of the entries, as one answer."""
+def column(name: str, rows: dict[int, Answer], printer: UnicodePrinter) -> Answer:
+    """The column of the entries, as one answer of that name."""
     ordered = [rows[row] for row in sorted(rows)]
     node = Matrix(tuple((answer.node,) for answer in ordered if answer.node is not None))
     return replace(
         ordered[0],
-        name="Cqd",
+        name=name,
         node=node,
         text="; ".join(answer.text for answer in ordered),
         read_as=printer.text(node),

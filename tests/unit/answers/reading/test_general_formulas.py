@@ -74,3 +74,28 @@ def test_forces_in_a_formula_of_the_multipliers_need_not_be_given() -> None:
     """
     judged = check(LINE, read_submission(LINE, text, "report.md"))
     assert {answer.name: str(answer.verdict) for answer in judged.answers}["lambda"] == "correct"
+
+
+FORWARD = read_problem("""
+gravity: none
+model: {coordinates: {x: prismatic, y: prismatic}, bodies: [{mass: m, at: [x, y, 0]}]}
+passive: [y]
+find: [qdd_forward]
+""")
+
+
+@pytest.mark.parametrize("text", [
+    r"$$\ddot x = \frac{u}{m}$$ $$\ddot y = 0$$",
+    r"$$\ddot x = F/m, \quad \ddot y = 0$$",
+    r"$$\ddot q = \begin{bmatrix} \tau/m \\ 0 \end{bmatrix}$$",
+    r"$$\ddot q = \frac{1}{m}\begin{bmatrix} f_1 \\ 0 \end{bmatrix}$$",
+])  # fmt: skip
+def test_accelerations_are_given_one_by_one_or_as_a_vector(text: str) -> None:
+    (answer,) = check(FORWARD, read_submission(FORWARD, text, "report.md")).answers
+    assert (answer.name, str(answer.verdict)) == ("qdd_forward", "correct")
+
+
+def test_an_acceleration_alone_is_listed() -> None:
+    found = read_submission(FORWARD, r"$$\ddot x = u/m$$", "report.md")
+    assert found.answers == ()
+    assert len(found.not_recognized) == 1
