@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.kinetic import terms_needed
 from dynsolve.explain.working.products import used_in_product
@@ -24,25 +24,25 @@ from dynsolve.robot.model import Body
 class _Product:
     """A product with this robot's matrices put in, and the identities by which it becomes what is shown."""
 
-    lines: tuple[Line, ...]
+    working: tuple[Node, ...]
     used: tuple[Identity, ...]
+    why: Prose = ()
 
 
 def part_step(context: Context, body: Body) -> Step:
     """The contribution of one body to D; of short arms the products are shown, at the normal detail."""
     is_short = context.robot.n <= MOST_JOINTS
     products = tuple(_products(context, body)) if is_short else ()
-    lines = tuple(line for product in products for line in product.lines)
     used = dict.fromkeys(identity for product in products for identity in product.used)
     concluding: Prose = ("Multiplied out, with ", *said(list(used)), ":") if used else ("Multiplied out:",)
     return Step(
         id=f"D_direct{body.name}",
         stage=Stage.VECTORIZED,
         title=f"What body {body.name} adds to the inertia matrix",
-        why=_why(context, body),
+        why=(*_why(context, body), *(part for product in products for part in product.why)),
         source=spong("7.2.2"),
-        lines=lines,
-        concluding=concluding if lines else (),
+        working=tuple(node for product in products for node in product.working),
+        concluding=concluding if products else (),
         result=tuple(_results(context, body)),
         detail=Detail.NORMAL if is_short else Detail.FULL,
         is_task=False,
@@ -83,9 +83,10 @@ def _products(context: Context, body: Body) -> Iterator[_Product]:
 
 def _linear(context: Context, body: Body) -> _Product:
     J = context.values[f"Jv{body.name}"]
-    shown = Product((context.mass(body), letters.transposed_product(context.show(J))))
-    line = Line(("Its linear part:",), (equation(linear_name(context, body), shown),))
-    return _Product((line,), tuple(used_in_product(context, J.T, J, J.T @ J)))
+    shown = context.show(J)
+    product = Product((context.mass(body), letters.transposed_product(shown)))
+    used = tuple(used_in_product(context, J.T, J, J.T @ J))
+    return _Product((equation(linear_name(context, body), product),), used)
 
 
 def _angular(context: Context, body: Body) -> _Product:
@@ -93,30 +94,31 @@ def _angular(context: Context, body: Body) -> _Product:
     values, b = context.values, body.name
     J, R, tensor, given = values[f"Jw{b}"], values[f"R{b}"], values[f"I{b}"], values[f"I_body{b}"]
     own = R.T @ J
-    if terms_needed(J, tensor) <= terms_needed(own, given):
-        line = Line(("Its rotational part:",), (_rotational(context, body, J, tensor),))
-        return _Product((line,), _used(context, J, tensor))
+    if _is_constant(context, tensor) and terms_needed(J, tensor) <= terms_needed(own, given):
+        return _Product((_rotational(context, body, J, tensor),), _used(context, J, tensor))
     turned = Product((Transpose(letters.of_body("R", body, "bold")), letters.jw(body)))
     multiplied = Product((Transpose(context.form(f"R{b}")), context.form(f"Jw{b}")))
     used = used_in_product(context, R.T, J, own)
     why: Prose = (
-        "Its rotational part is shorter in the axes of the body, where ",
+        " In the axes of the body, with its own tensor, the rotational part is shorter: ",
         letters.jw(body),
-        " is ",
+        " is there ",
         turned,
         *((" (with ", *said(used), ")") if used else ()),
-        ":",
+        ".",
     )
-    lines = (
-        Line(why, (equation(turned, multiplied, context.show(own)),)),
-        Line(("With the tensor in the body's own frame:",), (_rotational(context, body, own, given),)),
-    )
-    return _Product(lines, _used(context, own, given))
+    working = (equation(turned, multiplied, context.show(own)), _rotational(context, body, own, given))
+    return _Product(working, _used(context, own, given), why)
+
+
+def _is_constant(context: Context, tensor: Matrix) -> bool:
+    """Whether a tensor is the same in every configuration."""
+    ring, count = context.robot.ring, context.robot.n
+    return all(ring.diff(entry, k).is_zero for entry in tensor.entries for k in range(count))
 
 
 def _rotational(context: Context, body: Body, J: Matrix, tensor: Matrix) -> Node:
-    shown = context.show(J)
-    return equation(angular_name(body), letters.transposed_product(shown, context.show(tensor)))
+    return equation(angular_name(body), letters.transposed_product(context.show(J), context.show(tensor)))
 
 
 def _used(context: Context, J: Matrix, tensor: Matrix) -> tuple[Identity, ...]:

@@ -121,7 +121,7 @@ def _rest(context: Context) -> Step:
     return Step(
         id="Cqd",
         stage=STAGE,
-        title="Coriolis, centrifugal and gravity terms, read off from the forces",
+        title="Coriolis, centrifugal and gravity terms, read off",
         why=why,
         formula=equation(Sum((Cqd, letters.G)), Sum(tuple(left))),
         source=spong("7.3"),

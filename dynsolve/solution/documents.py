@@ -236,7 +236,9 @@ def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
         yield Text(line.by)
         if place == 0 and not step.working:
             yield from uses
-        yield Formula(line.formulas[0]) if len(line.formulas) == 1 else Equations(line.formulas)
+        yield (
+            Formula(line.formulas[0], optional=True) if len(line.formulas) == 1 else Equations(line.formulas)
+        )
     if step.concluding:
         yield Text(step.concluding)
     if not led_on:

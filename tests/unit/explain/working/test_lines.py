@@ -187,17 +187,17 @@ def test_the_identity_of_a_turned_tensor_and_of_a_lever_is_named() -> None:
 
 def test_the_products_that_make_up_the_inertia_matrix_are_shown() -> None:
     """Spong, Hutchinson, Vidyasagar, 7.2.2: m J_vᵀ J_v and J_ωᵀ 𝓘 J_ω, along the shorter axes."""
-    shown = lines("elbow-3r", "D_direct3")
-    assert shown[0] == "Its linear part:" and shown[1].startswith("m₃ 𝐉_v3ᵀ 𝐉_v3 = m₃ [[")
-    assert shown[2] == (
-        "Its rotational part is shorter in the axes of the body, where 𝐉_ω3 is 𝐑₃ᵀ 𝐉_ω3 (with s₁² + c₁² = 1):"
-    )
-    assert shown[3].endswith(" = [[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]")
-    assert shown[-1] == (
+    part, style = step("elbow-3r", "D_direct3"), solved("elbow-3r").style
+    linear, turned, angular = (to_unicode(node, style) for node in part.working)
+    assert linear.startswith("m₃ 𝐉_v3ᵀ 𝐉_v3 = m₃ [[")
+    assert said(part.why, "elbow-3r").endswith("𝐉_ω3 is there 𝐑₃ᵀ 𝐉_ω3 (with s₁² + c₁² = 1).")
+    assert turned.endswith(" = [[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]")
+    assert angular.startswith("𝐉_ω3ᵀ 𝓘₃ 𝐉_ω3 = [[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]ᵀ [[I_3xx, ")
+    assert lines("elbow-3r", "D_direct3")[-1] == (
         "Multiplied out, with s₁² + c₁² = 1, s₂² + c₂² = 1, s₂₃² + c₂₃² = 1 "
         "and the cosine of a difference, c₂ c₂₃ + s₂ s₂₃ = c₃:"
     )
-    assert lines("scara-rrpr", "D_direct1") == []
+    assert not step("scara-rrpr", "D_direct1").working
 
 
 def test_identities_of_cross_products_and_of_sums_of_energies_are_named() -> None:
