@@ -135,7 +135,8 @@ class _Page(Page[StyledLine]):
         yield from ()
 
     def fold(self, fold: Fold) -> Iterator[StyledLine]:
-        yield StyledLine(printable(fold.title), "step")
+        for line in wrap(printable(fold.title), self.columns, self.columns):
+            yield StyledLine(line, "step")
         yield from self.blocks(fold.blocks)
 
     def table(self, table: Table) -> Iterator[StyledLine]:

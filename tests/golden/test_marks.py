@@ -114,7 +114,8 @@ def test_a_wrong_entry_costs_its_part(stem: str, name: str) -> None:
         return
     i, j = next((i, j) for i, row in enumerate(rows) for j, entry in enumerate(row) if entry != "0")
     carrying = sum(entry != "0" for row in rows for entry in row)
-    rows[i] = [f"({entry})*97/89" if k == j else entry for k, entry in enumerate(rows[i])]
+    # a term more, for an equation without a force is as right after a multiplication
+    rows[i] = [f"{entry} + 97/89" if k == j else entry for k, entry in enumerate(rows[i])]
     wrong = rows if isinstance(key[name][0], list) else [row[0] for row in rows]
     exact = OF * (carrying - 1) / carrying
     for step, marks in _marks(stem, {**key, name: wrong}).items():
