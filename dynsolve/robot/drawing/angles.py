@@ -18,7 +18,6 @@ from random import Random
 from dynsolve.algebra.angles import Angle, Atom, names_of
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
-from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.errors import AlgebraError
 
@@ -124,8 +123,3 @@ def _atom(atom: Atom, values: Values) -> float:
     for name, exponent in atom:
         value *= values[name] ** exponent
     return value
-
-
-def number_at(vector: Matrix, values: Values) -> tuple[float, ...]:
-    """The entries of a vector at values of the letters."""
-    return tuple(evaluate(entry, values) for entry in vector.entries)
