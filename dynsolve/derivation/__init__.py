@@ -14,6 +14,7 @@ In the order of the course (Spong, Hutchinson, Vidyasagar, Robot Modeling and Co
     inverse         3.3   q from r(q): one unknown after the other, in known forms; the branches
     rates           4.9, 4.11   det J, q̇ and q̈ for those of the task: likewise
     constraints     A_c q̇ = 0 and its multipliers (Murray, Li, Sastry 6.1): likewise
+    reduced         the equations without multipliers, by a basis of the free rates: likewise
     recursions      7.6   Newton-Euler in link frames: ω, ω̇, accelerations, f, n: likewise
     balance         conditions on the parameters for gravity to move nothing: likewise
     equilibria      where gravity and springs move nothing: likewise
@@ -59,6 +60,7 @@ And the independent check, which shares no formula with any of these:
     configuration_check
                     singular configurations and branches of the inverse, put in
     rate_check      determinants, rates and accelerations, against elimination on numbers
+    reduced_check   equations without multipliers, at states that the constraints allow
     constraint_check constraints against the motion of the arm, the multipliers against elimination
     recursion_check the recursions in the links' frames, against those on numbers
     balance_check   these conditions put in

@@ -11,10 +11,11 @@ from dynsolve.derivation import constraints, kinematics, task
 from dynsolve.derivation.forward_dynamics import acting_forces, acting_names
 from dynsolve.derivation.graph import Rule, Skipped
 from dynsolve.derivation.kinematic_rules import position_rule
+from dynsolve.derivation.reduced import reduced
 from dynsolve.robot.model import Robot
 from dynsolve.robot.questions import TIP, Task, points_of
 
-LAMBDA = "lambda"
+LAMBDA, REDUCED = "lambda", "reduced"
 
 
 def constraint_rules(robot: Robot) -> Iterator[Rule]:
@@ -31,6 +32,9 @@ def constraint_rules(robot: Robot) -> Iterator[Rule]:
     yield Rule("Ac_dot", ("Ac",), task.rate)
     if LAMBDA in robot.questions.asked and robot.has_dynamics:
         yield _multipliers(robot)
+    if REDUCED in robot.questions.asked and robot.has_dynamics:
+        loads = ("Q",) if robot.questions.loads else ()
+        yield Rule(REDUCED, ("Ac", "tau", *loads), partial(reduced, robot))
 
 
 def _multipliers(robot: Robot) -> Rule:

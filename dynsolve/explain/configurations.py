@@ -22,7 +22,7 @@ from dynsolve.explain.forms import Forms, is_numeric, leading_names, parallel_co
 from dynsolve.explain.inverse_formulas import InverseFormulas
 from dynsolve.notation.build import cost, split_sign, times
 from dynsolve.notation.python import to_python
-from dynsolve.notation.tree import Matrix, Negative, Node, Relation, Sum, Symbol, column
+from dynsolve.notation.tree import Matrix, Negative, Node, Number, Relation, Sum, Symbol, column
 from dynsolve.notation.walk import mapped
 from dynsolve.robot.model import Robot
 
@@ -79,6 +79,17 @@ class ConfigurationForms:
         ring = self.robot.ring
         form = Compactor(ring, leading_names(self.robot), decimal=is_numeric(self.robot)).form
         return tuple(map(form, found))
+
+    @cached_property
+    def reduced(self) -> tuple[tuple[Node, Node], ...]:
+        """Both sides of the equations of motion without multipliers; none where they are too long."""
+        found = self.values["reduced"]
+        form = self.compactor(self.robot.ring).form
+        return () if isinstance(found, Skipped) else tuple((form(a), form(b)) for a, b in found.equations)
+
+    def conditions(self, name: str) -> tuple[tuple[Node, Node], ...]:
+        """Both sides of equations that all hold, by the name of these."""
+        return self.reduced if name == "reduced" else tuple((node, Number(0)) for node in self.balance)
 
     def alternatives(self, name: str) -> tuple[tuple[Node, ...], ...]:
         """The alternatives of a set of equations, by its name."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.algebra.fraction_matrix import quotient
-from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.minors import determinant
 from dynsolve.algebra.pseudoinverse import adjugate
 from dynsolve.algebra.spans import nullspace
 from dynsolve.derivation.constraints import holonomic
 from dynsolve.derivation.graph import Skipped
+from dynsolve.derivation.reduced import Reduced, reduced
 from dynsolve.document import Prose
 from dynsolve.explain.citations import mls
 from dynsolve.explain.closing import (
@@ -58,8 +58,9 @@ def steps(context: Context) -> Iterator[Step]:
         yield _rate(context)
     if "lambda" in wanted:
         yield _multipliers(context)
-        if not isinstance(context.values["lambda"], Skipped):
-            yield from _reduced(context)
+    has_multipliers = "lambda" in wanted and not isinstance(context.values["lambda"], Skipped)
+    if has_multipliers or "reduced" in wanted:
+        yield from _reduced(context)
 
 
 def _functions(context: Context) -> Step:
@@ -172,7 +173,10 @@ def _products(context: Context) -> tuple[Line, ...]:
 
 def _reduced(context: Context) -> Iterator[Step]:
     """The equations of motion along what the constraints leave free, without the multipliers."""
-    Z = nullspace(context.values["Ac"])
+    values = context.values
+    loads = (values["Q"],) if context.robot.questions.loads else ()
+    found = reduced(context.robot, values["Ac"], values["tau"], *loads)
+    Z = nullspace(values["Ac"]) if isinstance(found, Skipped) else found.free
     if not Z.shape[1]:
         return
     name = letters.bold("Z")
@@ -181,10 +185,10 @@ def _reduced(context: Context) -> Iterator[Step]:
     if isinstance(right, Sum):
         right = Parenthesized(right)
     shown = context.forms.of(Z)
-    if not is_small(shown):
+    if not is_small(shown) and "reduced" not in context.wanted:
         return
     motion = equation(letters.QD, Product((name, letters.bold("nu"))))
-    free, rows = equation(name, shown), _free_rows(context, Z)
+    free, rows = equation(name, shown), _free_rows(context, found)
     yield Step(
         id="reduced",
         stage=STAGE,
@@ -200,23 +204,16 @@ def _reduced(context: Context) -> Iterator[Step]:
         concluding=("Row by row:",) if rows else (),
         result=rows or (free,),
         uses=("Ac",),
-        is_task=False,
+        is_task="reduced" in context.wanted,
     )  # fmt: skip
 
 
-def _free_rows(context: Context, Z: Matrix) -> tuple[Node, ...]:
+def _free_rows(context: Context, found: Reduced | Skipped) -> tuple[Node, ...]:
     """Zᵀ (D q̈ + C q̇ + g) = Zᵀ (τ + Q), row by row; none where they are too long to be read."""
-    robot, ring = context.robot, context.robot.ring
-    inputs = [
-        ring.zero if k in robot.actions.passive else ring.symbol(q.force)
-        for k, q in enumerate(robot.coordinates)
-    ]
-    driving = Matrix.column(ring, inputs)
-    if robot.questions.loads:
-        driving = driving + context.values["Q"]
-    named = with_force_letters(robot)
+    if isinstance(found, Skipped):
+        return ()
+    named = with_force_letters(context.robot)
     rows = tuple(
-        equation(context.show(left), mapped(context.show(right), named))
-        for left, right in zip((Z.T @ context.values["tau"]).entries, (Z.T @ driving).entries, strict=True)
+        equation(context.show(left), mapped(context.show(right), named)) for left, right in found.equations
     )
-    return rows if is_small(*rows) else ()
+    return rows if "reduced" in context.wanted or is_small(*rows) else ()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dynsolve.quantities import letters
-from dynsolve.quantities.family import Family, Owner, of_robot
+from dynsolve.quantities.family import Family, Kind, Owner, of_robot
 from dynsolve.quantities.stages import Stage
 
 H_C = Family(
@@ -45,7 +45,14 @@ LAMBDA_ENTRY = Family(
     part_of="lambda",
 )
 
-FAMILIES: tuple[Family, ...] = (H_C, AC, AC_DOT, LAMBDA, LAMBDA_ENTRY)
+REDUCED = Family(
+    name="reduced",
+    stage=Stage.CONSTRAINTS,
+    kind=Kind.CONDITIONS,
+    spellings=("eliminated", "reducedequations"),
+)
+
+FAMILIES: tuple[Family, ...] = (H_C, AC, AC_DOT, LAMBDA, LAMBDA_ENTRY, REDUCED)
 """The records above, in their order."""
 
 MULTIPLIERS = (LAMBDA, LAMBDA_ENTRY)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 
-from dynsolve.quantities import kinematic_families, model_families
+from dynsolve.quantities import constraint_families, kinematic_families, model_families
 from dynsolve.quantities.family import Family, Owner, Size
 from dynsolve.quantities.robot_stages import asked_stages, given_rates
 from dynsolve.quantities.stages import OF_THE_MODEL, Stage
@@ -24,6 +24,7 @@ _FROM_GIVEN = {
     model_families.LINEAR_A: "linearize",
     model_families.LINEAR_B: "linearize",
     model_families.Y_REFERENCE: "references",
+    constraint_families.REDUCED: "mass",
 }
 """What is asked of the model, and what must be given for it: an equilibrium, reference rates."""
 

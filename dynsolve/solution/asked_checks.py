@@ -11,6 +11,7 @@ from dynsolve.derivation.model_check import model_names, verify_model, verify_re
 from dynsolve.derivation.rate_check import rate_names, verify_rates
 from dynsolve.derivation.static_check import verify_statics
 from dynsolve.explain.forms import Forms
+from dynsolve.notation.tree import Negative, Sum
 from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Robot
@@ -27,7 +28,7 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
     verify_rates(robot, {name: forms(name) for name in rate_names(robot, wanted)}, states)
     static = [name for name in ("Q", "tau_static") if name in wanted]
     verify_statics(robot, {name: forms(name) for name in static}, states)
-    _verify_constraints(robot, forms, wanted, states)
+    _verify_constraints(robot, values, forms, wanted, states)
     _verify_recursions(robot, forms, wanted, states)
     model = [name for name in model_names(wanted) if name in values.rules]
     verify_model(robot, {name: forms(name) for name in model}, states)
@@ -50,7 +51,9 @@ def verify_asked(robot: Robot, values: Derivation, forms: Forms, states: int) ->
                 verify_definite(robot, candidate, found, states)
 
 
-def _verify_constraints(robot: Robot, forms: Forms, wanted: frozenset[str], states: int) -> None:
+def _verify_constraints(
+    robot: Robot, values: Derivation, forms: Forms, wanted: frozenset[str], states: int
+) -> None:
     """Hold the constraints, where there are any."""
     if robot.questions.constraints:
         from dynsolve.derivation.constraint_check import ACTING, verify_constraints
@@ -58,6 +61,18 @@ def _verify_constraints(robot: Robot, forms: Forms, wanted: frozenset[str], stat
         needed = ("D", *ACTING) if "lambda" in wanted else ()
         names = [name for name in ("hc", "Ac", "Ac_dot", "lambda", *needed) if name in wanted]
         verify_constraints(robot, {name: forms(name) for name in names}, states)
+        if "reduced" in wanted and not isinstance(values["reduced"], Skipped):
+            _verify_reduced(robot, values, forms)
+
+
+def _verify_reduced(robot: Robot, values: Derivation, forms: Forms) -> None:
+    """Hold the equations without multipliers, as printed."""
+    from dynsolve.derivation.reduced_check import constrained_names, verify_reduced
+    from dynsolve.explain.configurations import ConfigurationForms
+
+    sides = ConfigurationForms(robot, values).reduced
+    residuals = [Sum((left, Negative(right))) for left, right in sides]
+    verify_reduced(robot, {name: forms(name) for name in constrained_names(robot)}, residuals)
 
 
 def _verify_recursions(robot: Robot, forms: Forms, wanted: frozenset[str], states: int) -> None:

@@ -127,7 +127,8 @@ class _Exporter:
             ):
                 return {"skipped": self.solution.values[quantity.rule].why}
             case Kind.CONDITIONS:
-                return [f"{self.python.text(e)} = 0" for e in self.configurations.balance]
+                sides = self.configurations.conditions(quantity.rule)
+                return [f"{self.python.text(left)} = {self.python.text(right)}" for left, right in sides]
             case Kind.EQUATIONS:
                 found = self.configurations.alternatives(quantity.rule)
                 return [[f"{self.python.text(e)} = 0" for e in one] for one in found]

@@ -35,6 +35,11 @@ from dynsolve.robot.model import JointType, Robot
 
 if TYPE_CHECKING:
     from dynsolve.answers.judging.target_branches import TargetKey
+    from dynsolve.derivation.reduced_check import ConstrainedStates
+
+
+SETS = ("singular", "equilibria", "balance", "reduced")
+"""The sets of equations."""
 
 
 class ConfigurationKey:
@@ -65,13 +70,17 @@ class ConfigurationKey:
             return self._equilibria.verdict(answer.alternatives)
         if answer.name == "balance":
             return self._balance(answer.alternatives)
+        if answer.name == "reduced":
+            return self._reduced(answer.alternatives)
         return self._equations(answer.alternatives)
 
     def is_skipped(self, name: str) -> bool:
         """Whether the key has no set of that name, because it would be too long."""
         if name == "inverse" and self.robot.questions.target is not None:
             return self.shown.target is None
-        return isinstance(self.values[name], Skipped) and name in ("singular", "equilibria", "balance")
+        if isinstance(self.values[name], Skipped):
+            return name in SETS
+        return name == "reduced" and not self._constrained.all
 
     @cached_property
     def _branches(self) -> BranchKey | TargetKey:
@@ -101,9 +110,27 @@ class ConfigurationKey:
                 return SetVerdict(False, "condition_too_much", number)
         return RIGHT
 
+    def _reduced(self, given: Sequence[Sequence[Part]]) -> SetVerdict:
+        """Equations of motion without multipliers: whether each holds, and they are enough."""
+        theirs = [part.node for one in given for part in one]
+        for number, node in enumerate(theirs, 1):
+            if not self._constrained.hold(node):
+                return SetVerdict(False, "motion_differs", number)
+        enough = bool(theirs) and self._constrained.are_enough(theirs)
+        return RIGHT if enough else SetVerdict(False, "motions_missing")
+
+    @cached_property
+    def _constrained(self) -> ConstrainedStates:
+        from dynsolve.derivation.reduced_check import ConstrainedStates, constrained_names
+
+        forms = {name: self.forms(name) for name in constrained_names(self.robot)}
+        return ConstrainedStates(self.robot, forms, self.numbers)
+
     def _known(self, answer: ConfigurationAnswer) -> bool:
         """Whether every name in an answer has a value here."""
         names = {"pi", *self.robot.ring.parameters, *(q.name for q in self.robot.coordinates)}
+        if answer.name == "reduced":
+            names |= {q.force for q in self.robot.coordinates}
         if answer.name == "inverse":
             names |= set(self.robot.questions.reached)
         return names_in(*(part.node for one in answer.alternatives for part in one)) <= names

@@ -11,7 +11,9 @@ from dynsolve.answers.reading.tokens.prepare import prepared
 from dynsolve.answers.reading.vocabulary import Vocabulary
 from dynsolve.errors import ReadError
 from dynsolve.notation.tree import Function, Node, Reference, Symbol
-from dynsolve.notation.walk import names_in, walk
+from dynsolve.notation.walk import mapped, names_in, walk
+from dynsolve.quantities import families
+from dynsolve.quantities.constraint_families import REDUCED
 
 EITHER = re.compile(r"±|\\pm\b|\+/-")
 OPPOSITE = re.compile(r"∓|\\mp\b|-/\+")
@@ -27,10 +29,26 @@ def value(vocabulary: Vocabulary, tokens: list[Token]) -> Node:
         raise ReadError(f"{found.free[0]} is no name of this problem", 0, 1, "write it in its symbols")
     if not isinstance(found.value, Node):
         raise ReadError("a single expression is expected", 0, 1, "write one formula")
-    for part in walk(found.value):
+    formula = _with_forces(vocabulary, found.value)
+    for part in walk(formula):
         if isinstance(part, Reference):
             raise ReadError(f"{part} stands in it", 0, 1, "write it in the coordinates: sin(q2) = 0")
-    return found.value
+    return formula
+
+
+def _with_forces(vocabulary: Vocabulary, node: Node) -> Node:
+    """The formula with generalized forces as symbols, where equations of motion are among the sets."""
+    named = vocabulary.quantities
+    if REDUCED.name not in named:
+        return node
+
+    def put(part: Node) -> Node:
+        if isinstance(part, Reference) and named[part.quantity].family in (families.TAU, families.FORCE):
+            place = part.row or named[part.quantity].index[0]
+            return Symbol(vocabulary.coordinates[place - 1].force)
+        return part
+
+    return mapped(node, put)
 
 
 def has_coordinate(vocabulary: Vocabulary, node: Node) -> bool:

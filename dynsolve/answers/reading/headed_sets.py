@@ -24,6 +24,7 @@ _PLACES = r"(?: (?:points?|configurations?|positions?|states?|sets?))?(?: are| i
 _HEADS = {
     "equilibria": re.compile(rf"(?:the |all )*equilibri(?:a|um){_PLACES}", re.IGNORECASE),
     "singular": re.compile(rf"(?:the |all )*singular(?:ity|ities)?{_PLACES}", re.IGNORECASE),
+    "reduced": re.compile(r"(?:the )?reduced equations(?: of motion)?(?: are)?", re.IGNORECASE),
     "balance": re.compile(
         r"(?:the )?(?:conditions? (?:for|of) )?(?:gravity )?balanc(?:e|ed|ing)(?: conditions?| of gravity)?",
         re.IGNORECASE,

@@ -64,5 +64,7 @@ FAMILIES: tuple[Family, ...] = (
     *definite_families.FAMILIES,
 )
 
-HOLD_FORCES = frozenset({constraint_families.LAMBDA.name, model_families.QDD_FORWARD.name})
+HOLD_FORCES = frozenset(
+    {constraint_families.LAMBDA.name, constraint_families.REDUCED.name, model_families.QDD_FORWARD.name}
+)
 """The names of the results that hold the generalized forces by their names."""
