@@ -14,8 +14,8 @@ from typing import Any
 
 from dynsolve.derivation.arm_values import draw_values
 from dynsolve.derivation.configuration_check import NO_VALUE, rank_of
-from dynsolve.derivation.constraint_check import solved
 from dynsolve.derivation.constraints import holonomic
+from dynsolve.derivation.elimination import solved
 from dynsolve.derivation.equilibrium_check import zero_along
 from dynsolve.derivation.reached import CLOSE
 from dynsolve.derivation.verification import SEED
