@@ -26,6 +26,7 @@ class _Product:
 
     working: tuple[Node, ...]
     used: tuple[Identity, ...]
+    uses: tuple[str, ...]
     why: Prose = ()
 
 
@@ -44,6 +45,7 @@ def part_step(context: Context, body: Body) -> Step:
         working=tuple(node for product in products for node in product.working),
         concluding=concluding if products else (),
         result=tuple(_results(context, body)),
+        uses=tuple(name for product in products for name in product.uses),
         detail=Detail.NORMAL if is_short else Detail.FULL,
         is_task=False,
     )
@@ -86,7 +88,7 @@ def _linear(context: Context, body: Body) -> _Product:
     shown = context.show(J)
     product = Product((context.mass(body), letters.transposed_product(shown)))
     used = tuple(used_in_product(context, J.T, J, J.T @ J))
-    return _Product((equation(linear_name(context, body), product),), used)
+    return _Product((equation(linear_name(context, body), product),), used, (f"Jv{body.name}",))
 
 
 def _angular(context: Context, body: Body) -> _Product:
@@ -95,7 +97,9 @@ def _angular(context: Context, body: Body) -> _Product:
     J, R, tensor, given = values[f"Jw{b}"], values[f"R{b}"], values[f"I{b}"], values[f"I_body{b}"]
     own = R.T @ J
     if _is_constant(context, tensor) and terms_needed(J, tensor) <= terms_needed(own, given):
-        return _Product((_rotational(context, body, J, tensor),), _used(context, J, tensor))
+        return _Product(
+            (_rotational(context, body, J, tensor),), _used(context, J, tensor), (f"Jv{b}", f"I{b}")
+        )
     turned = Product((Transpose(letters.of_body("R", body, "bold")), letters.jw(body)))
     multiplied = Product((Transpose(context.form(f"R{b}")), context.form(f"Jw{b}")))
     used = used_in_product(context, R.T, J, own)
@@ -108,7 +112,7 @@ def _angular(context: Context, body: Body) -> _Product:
         ".",
     )
     working = (equation(turned, multiplied, context.show(own)), _rotational(context, body, own, given))
-    return _Product(working, _used(context, own, given), why)
+    return _Product(working, _used(context, own, given), (f"Jv{b}", f"R{b}", f"I_body{b}"), why)
 
 
 def _is_constant(context: Context, tensor: Matrix) -> bool:

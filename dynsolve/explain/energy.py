@@ -372,6 +372,7 @@ def _rotational(context: Context, body: Body) -> Step:
         lines=way.lines,
         concluding=way.concluding,
         result=(equation(Kw, form),),
+        uses=None if shown is None else shown.uses,
         hint=(w, f" and the tensor, both in {context.ground} coordinates."),
     )
 

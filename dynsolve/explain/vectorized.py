@@ -15,6 +15,7 @@ from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_sums
+from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import and_joined, are_counted, spong, sum_of
 from dynsolve.notation.tree import (
     BigSum,
@@ -165,9 +166,10 @@ def _inertia_direct(context: Context) -> Step:
             ", so ",
             letters.D,
             f" is a sum over the bodies{_named_otherwise(robot)}.",
+            " What each adds follows." if robot.n <= MOST_JOINTS and _is_short(context) else "",
             " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
             *((" The rotors add ", letters.DM, ".") if rotors else ()),
-            " It gives the same " if same else " It does not give the same ",
+            " The sum is the same " if same else " The sum is not the same ",
             letters.D,
             ", entry by entry." if same else ".",
         ),

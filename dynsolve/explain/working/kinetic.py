@@ -214,10 +214,11 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[tuple[Pros
 
 @dataclass(frozen=True, slots=True)
 class Rotation:
-    """The way to K_ω: the working with ω and the tensor in one frame, and the lines from there."""
+    """The way to K_ω: the working with ω and the tensor in one frame, the lines from there, what goes in."""
 
     working: tuple[Node, ...] = ()
     way: Way = SILENT
+    uses: tuple[str, ...] | None = None
 
 
 def rotational(context: Context, body: Body) -> Rotation | None:
@@ -251,7 +252,8 @@ def rotational(context: Context, body: Body) -> Rotation | None:
         Line(("With the tensor in the body's own frame:",), (_product(context, body, *in_body),)),
     )
     rest = _multiplied_out(context, body, *in_body)
-    return Rotation((), Way((*lines, *rest.lines), rest.concluding))
+    way = Way((*lines, *rest.lines), rest.concluding)
+    return Rotation((), way, (f"v{b}", f"I{b}", f"R{b}", f"I_body{b}"))
 
 
 def _named(context: Context, R: Matrix, base: Matrix, own: Matrix) -> Prose:
