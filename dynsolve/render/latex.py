@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain, groupby
+from itertools import chain, groupby, zip_longest
 from math import ceil
 
 from dynsolve.document import (
@@ -27,7 +27,7 @@ from dynsolve.render.latex_displays import aligned, gathered, in_columns
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import TypesetPage, prose_columns
-from dynsolve.render.page_ends import leads_on
+from dynsolve.render.page_ends import introduces
 from dynsolve.render.references import is_long, numbered, running_title, sections, slug
 from dynsolve.render.typesetting import Line
 
@@ -162,21 +162,24 @@ class _Page(TypesetPage):
         A paragraph stays with the display after it, and the last rows of the document on one page.
         """
         in_text = False
-        kinds = groupby(blocks, lambda block: (isinstance(block, Formula), self.closes(block)))
+        listed = list(blocks)
+        pairs = zip_longest(listed, listed[1:])
+        kinds = groupby(pairs, lambda pair: (isinstance(pair[0], Formula), self.closes(pair[0])))
         for (are_formulas, close), run in kinds:
             if close and self.end_is_due:
                 self.end_is_due = False
                 yield "\\samepage"
             if are_formulas:
-                yield from ["\\nopagebreak"] * in_text
-                yield from self.formulas(block for block in run if isinstance(block, Formula))
+                yield from self.formulas(block for block, _ in run if isinstance(block, Formula))
                 in_text = True
                 continue
-            for block in run:
-                if in_text:
-                    yield "\\nopagebreak" if isinstance(block, Equations) else ""
+            for block, following in run:
+                if in_text and not isinstance(block, Equations):
+                    yield ""
                 yield from self.block(block)
                 in_text = isinstance(block, Text | Uses)
+                if in_text and (close or introduces(block, following)):
+                    yield "\\nopagebreak"
 
     def heading(self, heading: Heading) -> Iterator[str]:
         """A heading keeps the number that it has in the whole derivation."""
@@ -205,8 +208,7 @@ class _Page(TypesetPage):
         return f"{found[1]}\\quad {self.words(found[2])}" if found else self.words(heading.text)
 
     def text(self, text: Text) -> Iterator[str]:
-        keep = leads_on(text.parts) or self.closes(text)
-        yield self.prose(text.parts) + r"\nopagebreak" * keep
+        yield self.prose(text.parts)
 
     def formula(self, formula: Formula) -> Iterator[str]:
         yield from self.formulas([formula])
@@ -248,7 +250,7 @@ class _Page(TypesetPage):
         return f"\\eqref{{{self.prefix}:{label}}}"
 
     def uses(self, sentence: str) -> Iterator[str]:
-        yield f"{sentence}\\nopagebreak"
+        yield sentence
 
     def list(self, items: Sequence[Prose]) -> Iterator[str]:
         yield "\\begin{itemize}"

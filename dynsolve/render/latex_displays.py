@@ -13,8 +13,16 @@ from dynsolve.render.typesetting import Line
 
 _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 
-_ROW, _ROW_OR_PAGE = " \\\\\n", "\\displaybreak[0] \\\\\n"
-"""The end of a row, and of one that may be the last of its page; amsmath ends none in a display by itself."""
+_MATRIX = r"\begin{"
+
+
+def _end(text: str, keep: bool) -> str:
+    """The end of a row, further from the next one below a matrix.
+
+    amsmath ends no page in a display by itself: where a row need not `keep` with the next, it says so.
+    """
+    may_end = "" if keep else r"\displaybreak[0] "
+    return f" {may_end}\\\\{'[4pt]' if _MATRIX in text else ''}\n"
 
 
 def in_columns(columns: Columns, label: str = "", last: int = LAST_OF_DISPLAY) -> Iterator[str]:
@@ -46,8 +54,8 @@ def gathered(rows: Sequence[tuple[Line, str]], keep: bool = False) -> Iterator[s
         star = "" if label else "*"
         yield f"\\begin{{equation{star}}}{label}\n{texts[0]}\n\\end{{equation{star}}}"
         return
-    cells = (text + (label or r" \notag") for text, (_, label) in zip(texts, rows, strict=True))
-    body = (_ROW if keep else _ROW_OR_PAGE).join(cells)
+    labelled = [text + (label or r" \notag") for text, (_, label) in zip(texts, rows, strict=True)]
+    body = "".join(text + _end(text, keep) for text in labelled[:-1]) + labelled[-1]
     yield f"\\begin{{gather}}\n{body}\n\\end{{gather}}"
 
 
@@ -65,5 +73,5 @@ def _rows(lines: Sequence[Line], label: str, last: int) -> Iterator[str]:
     for place, line in enumerate(lines):
         at_end = place == count - 1
         tag = (label if at_end else r" \notag") if label else ""
-        end = "" if at_end else _ROW if stays(place, count, last) else _ROW_OR_PAGE
-        yield line.aligned("\\qquad ") + tag + end
+        text = line.aligned("\\qquad ") + tag
+        yield text if at_end else text + _end(text, stays(place, count, last))

@@ -1,6 +1,6 @@
 """Where a page may end, in what is set on pages: not at a few lines of a display, or of a document.
 
-A paragraph stays with the display that it introduces, the first two rows of a display together and its
+Paragraphs stay with the display that they introduce, the first two rows of a display together and its
 last ones too.  So many rows at the end of a document are on one page that none is nearly empty.
 """
 
@@ -39,7 +39,8 @@ def stays(row: int, count: int, last: int = LAST_OF_DISPLAY) -> bool:
 def introduces(block: Block, following: Block | None) -> bool:
     """Whether a block belongs on one page with the one that follows."""
     if isinstance(block, Text):
-        return leads_on(block.parts) or isinstance(following, Formula | Equations | Table)
+        leads = isinstance(following, Text) and leads_on(following.parts)
+        return leads_on(block.parts) or leads or isinstance(following, Formula | Equations | Table | Uses)
     return isinstance(block, Uses)
 
 

@@ -13,8 +13,9 @@ from collections.abc import Callable, Iterator
 from functools import lru_cache
 
 from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS
-from dynsolve.notation.tree import Letter, Node, Number, Row, Symbol, Words
+from dynsolve.notation.tree import ONE, Letter, Negative, Node, Number, Row, Sum, Symbol, Words
 
+_LESS = Words("-")
 _SPELLED = {letter: name for name, letter in GREEK.items()}
 _SUBSCRIPTS = dict(zip(SUBSCRIPT_DIGITS + "ᵢⱼₖₙ₋", "0123456789ijkn-", strict=True))
 _SUPERSCRIPTS = dict(zip(SUPERSCRIPT_DIGITS + "ⁱⁿᵀ", "0123456789inT", strict=True))
@@ -32,7 +33,11 @@ _FORMULA = re.compile(
     rf"(?P<sub>[{''.join(_SUBSCRIPTS)}]*)"
     rf"(?P<sup>[{''.join(_SUPERSCRIPTS)}]*)"
 )
-_AMONG_WORDS = re.compile(r"(?<![^\W_])" + _FORMULA.pattern + r"(?![^\W_])")
+_COUNTED = "body|column|coordinate|force|frame|joint|link|matrix|motor|row"
+_COUNT = rf"(?P<counted>\b(?:{_COUNTED}) )(?P<count>[ijkn])(?P<less>-1)?(?!\w)"
+"""What is counted by a letter: frame i-1."""
+
+_AMONG_WORDS = re.compile(rf"{_COUNT}|(?<![^\W_]){_FORMULA.pattern}(?![^\W_])")
 
 
 def visible(text: str) -> str:
@@ -58,17 +63,18 @@ def _seen(character: str) -> str:
 
 
 def with_formulas(text: str) -> Iterator[str | Node]:
-    """Words of an explanation, the mathematics in them as formulas: A₁, θ, q̇.
+    """Words of an explanation, the mathematics in them as formulas: A₁, θ, q̇, the i of frame i.
 
     >>> list(with_formulas("Row 1: A₁"))
     ['Row 1: ', Letter(base='A', sub=Number(...), sup=None, style='bold', dots=0)]
     """
-    if text.isascii():  # every formula in a text has a dot, an index or a Greek letter
-        if text:
-            yield text
-        return
     place = 0
     for found in _AMONG_WORDS.finditer(text):
+        if found["counted"]:
+            yield text[place : found.end("counted")]
+            yield _counting(found["count"], bool(found["less"]))
+            place = found.end()
+            continue
         if found["base"].isascii() and not (found["dots"] or found["sub"] or found["sup"]):
             continue
         if place < found.start():
@@ -117,15 +123,21 @@ def _formula(base: str, dots: str, sub: str, sup: str) -> Node:
     return Letter(letter, _index(sub, _SUBSCRIPTS), _index(sup, _SUPERSCRIPTS), style, count)
 
 
+def _counting(letter: str, less: bool) -> Node:
+    return Sum((Symbol(letter), Negative(ONE))) if less else Symbol(letter)
+
+
 def _index(text: str, table: dict[str, str]) -> Node | None:
     if not text:
         return None
     runs = re.findall(r"\d+|\D", "".join(table[character] for character in text))
     parts = [_run(run) for run in runs]
+    if len(parts) == 3 and parts[1] == _LESS:
+        return Sum((parts[0], Negative(parts[2])))
     return parts[0] if len(parts) == 1 else Row(tuple(parts))
 
 
 def _run(run: str) -> Node:
     if run.isdecimal():
         return Number(int(run))
-    return Words(run) if run == "-" else Symbol(run)
+    return _LESS if run == "-" else Symbol(run)

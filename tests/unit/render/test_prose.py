@@ -24,6 +24,10 @@ def shown(text: str) -> list[str]:
         ("D, C q̇, g: equal", ["D, C ", r"$\dot{\mathbf{q}}$", ", g: equal"]),
         ("Ḋ - 2C", [r"$\dot{\mathbf{D}}$", " - 2C"]),
         ("H₂⁰", [r"$\mathbf{H}_{2}^{0}$"]),
+        ("from frame i-1 to frame i", ["from frame ", "$i - 1$", " to frame ", "$i$"]),
+        ("joint 1 is in row n.", ["joint 1 is in row ", "$n$", "."]),
+        ("axis zᵢ₋₁", ["axis ", "$z_{i - 1}$"]),
+        ("column index, link joint", ["column index, link joint"]),
         ("Überarm naïve I a", ["Überarm naïve I a"]),
     ],
 )
