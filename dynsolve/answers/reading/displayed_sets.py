@@ -44,7 +44,9 @@ _MOST_FORMULAS = 500
 _MOST_ROWS = 100
 """A display of more rows is read as a whole."""
 
-_DENIED = re.compile(r"\b(?:not|never|no|non-?singular|un\w+|except)\b", re.IGNORECASE)
+_DENIED = re.compile(
+    r"\b(?:not|never|no|non-?singular|un\w+|except|near|about|around|lineari[sz]\w*)\b", re.IGNORECASE
+)
 _LAYOUT = re.compile(
     r"\\(?:label|tag)\*?\{[^{}]*\}|\\(?:begin|end)\{(?:aligned|cases|split|array)\}(?:\{[lcr]*\})?"
 )

@@ -9,7 +9,7 @@ from dynsolve.answers.reading.grammar.forms import Form
 from dynsolve.answers.reading.grammar.letters import letter, only_coordinate
 from dynsolve.answers.reading.grammar.rates import rate
 from dynsolve.answers.reading.grammar.reader import Reader
-from dynsolve.answers.reading.grammar.references import quantity, skip_arguments
+from dynsolve.answers.reading.grammar.references import only_coordinates, quantity, skip_arguments
 from dynsolve.answers.reading.grammar.shorthand import short_function
 from dynsolve.answers.reading.grids import Abstract, Grid, Value
 from dynsolve.answers.reading.vocabulary import Meaning, is_running
@@ -40,7 +40,7 @@ def value_of(reader: Reader, form: Form) -> Value:
     name = form.key + _called_index(reader, form)
     if form.scripts.mark and not form.index and (lone := only_coordinate(reader, form, name)) is not None:
         return lone
-    if reader.naming or form.script:
+    if reader.naming or form.script or _is_function_of_q(reader, name):
         found = quantity(reader, form, name)
         if found is not None:
             return found
@@ -67,6 +67,15 @@ def value_of(reader: Reader, form: Form) -> Value:
     if meaning.has_arguments:
         skip_arguments(reader)
     return _scripted(reader, form, meaning)
+
+
+def _is_function_of_q(reader: Reader, name: str) -> bool:
+    """Whether a letter is called with the vector of coordinates, and so is no parameter: g(q), M(q)."""
+    vocabulary, argument = reader.vocabulary, reader.peek(1).text
+    is_vector = reader.token.kind == "(" and vocabulary.is_vector(argument)
+    if not is_vector or vocabulary.symbol(argument) is not None:
+        return False
+    return bool(vocabulary.named(name)) and only_coordinates(reader, reader.position)
 
 
 def _called_index(reader: Reader, form: Form) -> str:

@@ -8,7 +8,8 @@ from dynsolve.answers.judge import check
 from dynsolve.answers.reading.files import read_submission
 from dynsolve.answers.submission import Submission
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.problem import read_problem
+from dynsolve.problem import load, read_problem
+from dynsolve.problem.library import find
 
 LINE = read_problem("""
 gravity: none
@@ -99,3 +100,13 @@ def test_an_acceleration_alone_is_listed() -> None:
     found = read_submission(FORWARD, r"$$\ddot x = u/m$$", "report.md")
     assert found.answers == ()
     assert len(found.not_recognized) == 1
+
+
+@pytest.mark.parametrize("text", [
+    r"$$\tau = M(q) \ddot q + c(q, \dot q) + g(q)$$",
+    r"$$M(q) \ddot q = \tau - c(q, \dot q) - g(q)$$",
+    r"Near the equilibrium $q_1 = q_2 = 0$ the pendulum is slow.",
+])  # fmt: skip
+def test_what_is_called_with_the_coordinates_is_no_parameter(text: str) -> None:
+    found = read_submission(load(find("crane")), text, "report.md")
+    assert found.answers == found.not_recognized == found.configurations == ()
