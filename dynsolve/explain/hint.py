@@ -156,7 +156,7 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
         yield from ((letters.A(joint.index), f"A{joint.index}") for joint in robot.joints)
     elif stage is Stage.CONSTRAINTS:
         yield from ((letters.H(robot, joint.index), f"H{joint.index}") for joint in robot.joints[-1:])
-        if "lambda" in context.wanted:
+        if not context.wanted.isdisjoint(("lambda", "reduced")):
             yield from ((letters.D, "D"), (letters.C, "C"), (letters.G, "g"))
     elif stage is Stage.EQUILIBRIA:
         is_linear = not context.wanted.isdisjoint(("linear_A", "linear_B"))

@@ -8,14 +8,15 @@ from functools import cache
 
 import pytest
 
-from dynsolve.document import Block, Document, Fold, Heading, Note, Table, Text
+from dynsolve.document import Block, Document, Fold, Formula, Heading, Note, Table, Text
 from dynsolve.explain.notation_list import COUNTING, notation
 from dynsolve.explain.sign_kinds import Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.step import Detail
+from dynsolve.explain.style import style_of
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.mathml import MathMLPrinter
-from dynsolve.notation.tree import Letter, Node, Symbol
+from dynsolve.notation.tree import Function, Letter, Node, Sum, Symbol
 from dynsolve.notation.typst import TypstPrinter
 from dynsolve.notation.unicode import UnicodePrinter, to_unicode
 from dynsolve.notation.walk import children
@@ -269,3 +270,13 @@ def test_the_entries_of_the_parameters_are_not_lengths_of_the_table() -> None:
     (step,) = (step for step in solved("rp-parameters").steps if step.id == "a")
     shown = [to_unicode(node, solved("rp-parameters").style) for node in step.lines[-1].formulas]
     assert shown[0] == "m₁ d_c1 + m₂ l₁ = l₁ (𝐚)₂ + (𝐚)₃"
+
+
+def test_a_shorthand_is_told_once_where_there_are_no_others() -> None:
+    robot = solved("planar-2r").robot
+    q1, q2 = (Symbol(q.name) for q in robot.coordinates)
+    cosines = Formula(Sum((Function("cos", q1), Function("cos", Sum((q1, q2))))))
+    style = style_of(robot)
+    (line,) = notation(robot, style, [cosines]).lines
+    assert isinstance(line.words, Node)
+    assert to_unicode(line.words, style) == "c₁ = cos q₁, c₁₂ = cos(q₁ + q₂)"

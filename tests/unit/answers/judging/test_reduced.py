@@ -93,3 +93,8 @@ def test_the_check_finds_an_equation_that_is_missing(kept: slice) -> None:
         verify_reduced(robot, forms, residuals[kept])
     with pytest.raises(VerificationError):
         verify_reduced(robot, forms, [*residuals, sides[1][0]])
+
+
+def test_the_hint_gives_the_matrices_and_not_the_equations() -> None:
+    hint = str(dynsolve.solve(BLADE).hint("constraints"))
+    assert "The equations without the multipliers" in hint and "Row by row" not in hint
