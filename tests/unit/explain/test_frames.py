@@ -23,7 +23,7 @@ def words(step: Step) -> str:
 
 REASONS = [
     (OFFSET_ARM, "frame0", "that of the world"),
-    (OFFSET_ARM, "frame1", "meet, so that a is 0"),
+    (OFFSET_ARM, "frame1", "meet, so that _ is 0"),
     (OFFSET_ARM, "frame2", "are skew: they have one common normal"),
     (OFFSET_ARM, "frame3", "The hand lies on the axis of joint 3"),
     (PLANAR, "frame1", "are parallel"),
