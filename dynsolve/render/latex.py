@@ -51,8 +51,8 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\textwidth}{469pt}
 \setlength{\oddsidemargin}{-8pt}
 \setlength{\evensidemargin}{-8pt}
-\setlength{\topmargin}{-40pt}
-\setlength{\textheight}{700pt}
+\setlength{\topmargin}{-52pt}
+\setlength{\textheight}{730pt}
 \setlength{\parindent}{0pt}
 \setlength{\parskip}{3pt plus 1pt}
 \setlength{\emergencystretch}{4em}

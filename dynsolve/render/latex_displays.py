@@ -22,7 +22,7 @@ def _end(text: str, keep: bool) -> str:
     amsmath ends no page in a display by itself: where a row need not `keep` with the next, it says so.
     """
     may_end = "" if keep else r"\displaybreak[0] "
-    return f" {may_end}\\\\{'[4pt]' if _MATRIX in text else ''}\n"
+    return f" {may_end}\\\\{'[2pt]' if _MATRIX in text else ''}\n"
 
 
 def in_columns(columns: Columns, label: str = "", last: int = LAST_OF_DISPLAY) -> Iterator[str]:
