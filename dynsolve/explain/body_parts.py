@@ -19,6 +19,9 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
 
+BESIDE = 2
+"""Up to this number of coordinates the results of a body stand side by side."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Product:
@@ -45,6 +48,7 @@ def part_step(context: Context, body: Body) -> Step:
         working=tuple(node for product in products for node in product.working),
         concluding=concluding if products else (),
         result=tuple(_results(context, body)),
+        together=context.robot.n <= BESIDE,
         uses=tuple(name for product in products for name in product.uses),
         detail=Detail.NORMAL if is_short else Detail.FULL,
         is_task=False,
