@@ -12,6 +12,9 @@ from dynsolve.answers.submission import Answer, Submission
 from dynsolve.quantities import families
 from dynsolve.quantities.index import Quantities
 
+_JACOBIANS = frozenset({"J", "Jv", "Jr"})
+"""What a hand-in calls J is any of these, by its shape."""
+
 
 def general_formulas(submission: Submission, asked: Collection[str], named: Quantities) -> Iterator[Answer]:
     """The formulas of names alone that answer what is asked and not given, from what is given."""
@@ -37,6 +40,7 @@ def is_given(named: Quantities, name: str, given: Collection[str]) -> bool:
     """Whether a quantity is written, by itself or by an entry or a part of it."""
     return (
         name in given
+        or (name in _JACOBIANS and not _JACOBIANS.isdisjoint(given))
         or any(named.entry_of(other)[0] == name for other in given)
         or any(part in given for part in named.parts(name))
     )

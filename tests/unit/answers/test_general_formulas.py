@@ -42,3 +42,20 @@ def test_what_is_not_asked_for_stays_a_definition() -> None:
     one = checker(CART.replace(", tau]", "]"))
     report = one(one.reader(D + C + G + TAU, "report.md"))
     assert [answer.name for answer in report.answers] == ["D", "C", "g"]
+
+
+def test_the_Jacobian_of_the_task_is_the_J_of_a_formula() -> None:
+    one = checker(
+        """
+gravity: none
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]
+task: [tip.x, tip.y]
+find: [Jr, D, Lambda]
+"""
+    )
+    rows = r"-l_1 s_1 - l_2 s_{12} & -l_2 s_{12} \\ l_1 c_1 + l_2 c_{12} & l_2 c_{12}"
+    text = rf"$$J = \begin{{bmatrix}} {rows} \end{{bmatrix}}$$ $$\Lambda = (J M^{{-1}} J^T)^{{-1}}$$"
+    found = {answer.name: answer for answer in one(one.reader(text, "report.md")).answers}
+    assert str(found["Jr"].verdict) == "correct"
+    assert found["Lambda"].notes == ("D stands in it and is given nowhere: this is a definition",)
