@@ -7,6 +7,7 @@ asked for, and nothing else in the file gives it, it is what the student's own a
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from dataclasses import replace
 
 from dynsolve.answers.submission import Answer, Submission
 from dynsolve.quantities import families
@@ -17,9 +18,13 @@ _JACOBIANS = frozenset({"J", "Jv", "Jr"})
 
 
 def general_formulas(submission: Submission, asked: Collection[str], named: Quantities) -> Iterator[Answer]:
-    """The formulas of names alone that answer what is asked and not given, from what is given."""
+    """The formulas of names alone that answer what is asked and not given, from what is given.
+
+    They come behind all that they are put together from, which does not follow from them.
+    """
     given = {answer.name for answer in submission.answers}
-    for answer in submission.general:
+    behind = 1 + max((answer.occurrence[0] for answer in submission.answers), default=0)
+    for place, answer in enumerate(submission.general):
         if answer.name not in asked or is_given(named, answer.name, given):
             continue
         if (
@@ -27,7 +32,7 @@ def general_formulas(submission: Submission, asked: Collection[str], named: Quan
             and answer.references
             and all(is_given(named, name, given) for name in needed(named, answer.name, answer.references))
         ):
-            yield answer
+            yield replace(answer, occurrence=(behind + place, 0))
 
 
 def needed(named: Quantities, name: str, references: Iterable[str]) -> list[str]:

@@ -100,7 +100,7 @@ def _block(text: str, start: int, end: int) -> Iterator[KeyedText]:
         stop = text.find("\n", position, end)
         stop = end if stop < 0 else stop
         found = _KEY.match(text, position, stop)
-        blank = not text[position:stop].strip() or text[position:stop].lstrip()[0] == "#"
+        blank = text[position:stop].lstrip()[:1] in ("", "#")
         if found is not None and not blank and (indent is None or _width(found[1]) <= indent) and level <= 0:
             indent = _width(found[1]) if indent is None else indent
             if current is not None:

@@ -20,7 +20,7 @@ from dynsolve.answers.reading import yaml_scalars
 from dynsolve.answers.reading.dh_heads import column_of, order_of
 from dynsolve.answers.reading.placed_text import Piece, PlacedText, placed
 
-MAX_EVENTS = 100_000
+MAX_EVENTS = 30_000
 MAX_DEPTH = 12
 
 _NULLS = frozenset({"", "~", "null", "Null", "NULL"})

@@ -27,6 +27,7 @@ TWICE = D.replace("m l^2", "2 m l^2")
         (TAU + D + C + G, "correct"),
         (D + C + G + TAU.replace("+ g", "- g"), "wrong"),
         (TWICE + C + G + TAU, "follows"),
+        (TAU + TWICE + C + G, "follows"),
         (D + C + TAU, "missing"),
         (D + C + G + TAU + r"$$\tau_2 = 0$$", "missing"),
         (D + C + G, "missing"),
