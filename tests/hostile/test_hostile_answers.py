@@ -17,8 +17,9 @@ pytestmark = pytest.mark.slow
 AT_ONCE = 1.0
 """Seconds of the processor that are few on any machine."""
 
-LIMIT = 10
-"""What takes longer may take so many times the count to three million, at the machine's speed of now."""
+LIMIT = 8
+"""What takes longer may take so many times the count to three million, at the speed the machine has then:
+2 s where that takes a quarter of one."""
 
 
 @cache
