@@ -81,8 +81,6 @@ def steps(context: Context) -> Iterator[Step]:
             yield _parallel_axis(context, body)
         yield orientation_step(context, body) if placed else _rotation(context, body, tells=body is framed)
         yield _base_tensor(context, body)
-        if context.robot.n <= MOST_JOINTS:
-            yield _half_turned(context, body)
 
 
 # -- the tensor ------------------------------------------------------------------------------------
@@ -293,11 +291,8 @@ def _base_tensor(context: Context, body: Body) -> Step:
         letters.tensor(context.robot, body),
     )
     rotation, given = context.form(f"R{b}"), context.form(f"I_body{b}")
-    product = Product((R, tensor, Transpose(R)))
-    members: list[Node] = [inertia_, product]
-    if is_small(rotation, rotation, given):
-        members.append(Product((rotation, given, Transpose(rotation))))
     base = context.form(f"I{b}")
+    working = tuple(_turned(context, body))
     notes: tuple[Prose, ...] = ()
     if base == given:
         notes = (("This rotation does not change the tensor.",),)
@@ -311,32 +306,29 @@ def _base_tensor(context: Context, body: Body) -> Step:
             R,
             f" leads from the body's axes to those of the {context.ground}.",
         ),
-        formula=equation(*members[:2]),
+        formula=equation(inertia_, Product((R, tensor, Transpose(R)))),
         source=spong("7.2.1"),
-        working=(equation(inertia_, members[2]),) if len(members) > 2 else (),
-        concluding=_turned_named(context, body) if len(members) > 2 else (),
+        working=tuple(equation(inertia_, line) for line in working),
+        concluding=_turned_named(context, body) if working else (),
         result=(equation(inertia_, base),),
         notes=notes,
         detail=Detail.BRIEF if is_small(base) else Detail.NORMAL,
     )
 
 
-def _half_turned(context: Context, body: Body) -> Step:
-    """I Rᵀ, from which R (I Rᵀ) is one product."""
+def _turned(context: Context, body: Body) -> Iterator[Node]:
+    """R I Rᵀ with their entries, then R (I Rᵀ): one product of matrices from a line to the next."""
     b = body.name
-    R, tensor = letters.of_body("R", body, "bold"), letters.tensor(context.robot, body)
-    product = context.values[f"I_body{b}"] @ context.values[f"R{b}"].T
-    return Step(
-        id=f"half_turned{b}",
-        stage=STAGE,
-        title=f"The last two factors for {name_of(body)}, multiplied first",
-        why=(R, " times this product is the tensor above."),
-        source=spong("7.2.1"),
-        result=(equation(Product((tensor, Transpose(R))), context.show(product)),),
-        uses=(f"I_body{b}", f"R{b}"),
-        detail=Detail.FULL,
-        is_task=False,
-    )
+    rotation, given = context.form(f"R{b}"), context.form(f"I_body{b}")
+    if not is_small(rotation, rotation, given):
+        return
+    yield Product((rotation, given, Transpose(rotation)))
+    R, tensor, base = (context.values[name] for name in (f"R{b}", f"I_body{b}", f"I{b}"))
+    half = tensor @ R.T
+    if context.robot.n <= MOST_JOINTS and half not in (tensor, R.T, base):
+        shown = context.show(half)
+        if is_small(rotation, shown):
+            yield Product((rotation, shown))
 
 
 def _turned_named(context: Context, body: Body) -> Prose:

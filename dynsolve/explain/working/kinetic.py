@@ -166,9 +166,13 @@ def _turn(context: Context, found: squares.Turned) -> Prose:
     if any(part.is_zero for part in found.parts):
         return "By ", equation(Sum((Power(s, Number(2)), Power(c, Number(2)))), Number(1)), ":"
     U, V = Symbol("U"), Symbol("V")
-    first, second = Sum((Product((U, s)), Product((V, c)))), Sum((Product((U, c)), Negative(Product((V, s)))))
-    left = Sum(tuple(Power(Parenthesized(x), Number(2)) for x in (first, second)))
-    return "By ", equation(left, Sum((Power(U, Number(2)), Power(V, Number(2))))), ":"
+    both = Sum((Product((U, s)), Product((V, c)))), Sum((Product((U, c)), Negative(Product((V, s)))))
+    left = Sum(tuple(Power(Parenthesized(x), Number(2)) for x in both))
+    identity = equation(left, Sum((Power(U, Number(2)), Power(V, Number(2)))))
+    first, second = (context.show(part) for part in found.parts)
+    if split_sign(first)[0] < 0:  # both signs may be changed
+        first, second = (context.show(-part) for part in found.parts)
+    return "By ", identity, " with ", equation(U, first), " and ", equation(V, second), ":"
 
 
 def _sum_of_squares(context: Context, components: Sequence[Expr]) -> Node:

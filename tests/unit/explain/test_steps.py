@@ -213,11 +213,7 @@ def test_the_checks_are_shown() -> None:
 
 def test_levels_of_detail() -> None:
     levels = {each.id: each.detail for each in solved("planar-2r").steps}
-    assert (
-        levels["D"] is Detail.BRIEF
-        and levels["Kv1"] is Detail.NORMAL
-        and levels["half_turned1"] is Detail.FULL
-    )
+    assert levels["D"] is Detail.BRIEF and levels["Kv1"] is Detail.NORMAL
     assert levels["D_direct1"] is Detail.NORMAL  # the products of short arms alone
     assert {each.id: each.detail for each in solved("scara-rrpr").steps}["D_direct1"] is Detail.FULL
 
@@ -230,6 +226,12 @@ def formula(problem: str, id: str) -> str:
     node = step(problem, id).formula
     assert node is not None
     return to_unicode(node, solved(problem).style)
+
+
+def test_a_tensor_is_turned_by_one_product_after_the_other() -> None:
+    _, half = shown_working("elbow-3r", "I1")
+    assert half.endswith("[[I_1xx c₁, I_1xx s₁, 0], [0, 0, I_1yy], [I_1zz s₁, -I_1zz c₁, 0]]"), half
+    assert len(shown_working("planar-2r", "I1")) == 1  # turned about z it stays what it is
 
 
 NAMED = """
