@@ -290,11 +290,10 @@ def _base_tensor(context: Context, body: Body) -> Step:
         letters.of_body("R", body, "bold"),
         letters.tensor(context.robot, body),
     )
-    rotation, given = context.form(f"R{b}"), context.form(f"I_body{b}")
     base = context.form(f"I{b}")
     working = tuple(_turned(context, body))
     notes: tuple[Prose, ...] = ()
-    if base == given:
+    if base == context.form(f"I_body{b}"):
         notes = (("This rotation does not change the tensor.",),)
     return Step(
         id=f"I{b}",
