@@ -1,17 +1,24 @@
 """Running the program as a user does.
 
-`dynsolve` waits for the end of a run, `started` hands over one that goes on, and `in_terminal`
-gives it a terminal to write to.
+`dynsolve` waits for the end of a run that starts where all is imported (`fork_server.py`),
+`dynsolve_afresh` for one of an interpreter of its own, `started` hands over one that goes
+on, and `in_terminal` gives it a terminal to write to.
 """
 
 from __future__ import annotations
 
+import atexit
 import os
+import socket
 import subprocess
 import sys
+import tempfile
+from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
+from tests.cli.fork_server import Request
 from tests.support import ROOT
 
 INTERRUPTIBLE = """
@@ -40,7 +47,45 @@ def environment(**extra: str) -> dict[str, str]:
 
 
 def dynsolve(*words: str, stdin: str | bytes = "", cwd: Path = ROOT, **extra: str) -> Ran:
-    """Run `dynsolve words...` in a pipe."""
+    """Run `dynsolve words...` with files for its standard streams, in a process of its own."""
+    assert not any(name.startswith("PYTHON") for name in extra), "read as Python starts: `dynsolve_afresh`"
+    data = stdin.encode() if isinstance(stdin, str) else stdin
+    with ExitStack() as stack:
+        files = [stack.enter_context(tempfile.TemporaryFile()) for _ in range(3)]
+        files[0].write(data)
+        for file in files:
+            file.seek(0)
+        request = Request(words, str(cwd), environment(**extra))
+        code = request.sent(_server(), [file.fileno() for file in files])
+        out, err = (_contents(file.fileno()) for file in files[1:])
+    return Ran(code, out, err)
+
+
+def _contents(file: int) -> str:
+    return os.pread(file, os.fstat(file).st_size, 0).decode()
+
+
+@cache
+def _server() -> socket.socket:
+    """The way to this process's server, which starts where it is first needed and ends with this process."""
+    here, there = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    with there:
+        server = subprocess.Popen(
+            [sys.executable, "-m", "tests.cli.fork_server", str(there.fileno())],
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, pass_fds=[there.fileno()], cwd=ROOT,
+            env=environment(),
+        )  # fmt: skip
+    atexit.register(_end, server, here)
+    return here
+
+
+def _end(server: subprocess.Popen[bytes], way: socket.socket) -> None:
+    way.close()
+    server.wait()
+
+
+def dynsolve_afresh(*words: str, stdin: str | bytes = "", cwd: Path = ROOT, **extra: str) -> Ran:
+    """Run `dynsolve words...` in a pipe, in an interpreter of its own."""
     data = stdin.encode() if isinstance(stdin, str) else stdin
     command = [sys.executable, "-m", "dynsolve", *words]
     done = subprocess.run(

@@ -13,7 +13,7 @@ import pytest
 
 from dynsolve.cli.main import app
 from dynsolve.notation.unicode import width
-from tests.cli.running import dynsolve, environment, in_terminal, started
+from tests.cli.running import dynsolve, dynsolve_afresh, environment, in_terminal, started
 from tests.support import ROOT
 
 COMMANDS = {command.callback.__name__: command.callback for command in app().registered_commands}
@@ -72,7 +72,7 @@ def test_a_command_in_a_pipe_needs_neither_sympy_nor_numpy_nor_rich(words: list[
 
 
 def test_solve_prints_the_whole_derivation_in_plain_text() -> None:
-    ran = dynsolve("solve", "problems/in3140-rp.yaml")
+    ran = dynsolve_afresh("solve", "problems/in3140-rp.yaml")
     assert ran.code == 0 and not ran.err
     assert "\x1b" not in ran.out
     assert ran.out.startswith("RP manipulator\n")
@@ -82,7 +82,7 @@ def test_solve_prints_the_whole_derivation_in_plain_text() -> None:
 
 
 def test_a_stem_names_a_bundled_problem_from_anywhere(tmp_path: Path) -> None:
-    ran = dynsolve("solve", "in3140-rp", "--detail", "brief", cwd=tmp_path, PYTHONPATH=str(ROOT))
+    ran = dynsolve_afresh("solve", "in3140-rp", "--detail", "brief", cwd=tmp_path, PYTHONPATH=str(ROOT))
     assert ran.code == 0 and ran.out.startswith("RP manipulator\n")
 
 

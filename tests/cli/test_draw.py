@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.running import dynsolve
+from tests.cli.running import dynsolve, dynsolve_afresh
 from tests.support import ROOT
 
 pytestmark = pytest.mark.slow
@@ -19,7 +19,7 @@ def test_svg_goes_to_standard_output() -> None:
     ran = dynsolve("draw", "in3140-rp")
     assert ran.code == 0 and not ran.err
     assert ET.fromstring(ran.out).tag.endswith("svg")  # noqa: S314 - our own
-    assert dynsolve("draw", "in3140-rp").out == ran.out
+    assert dynsolve_afresh("draw", "in3140-rp").out == ran.out
 
 
 def test_standard_input_is_drawn() -> None:

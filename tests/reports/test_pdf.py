@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from dynsolve.solution.reports import Format
-from tests.cli.running import dynsolve
+from tests.cli.running import dynsolve_afresh
 from tests.reports.tools import FEWEST_LINES, HOSTILE_PROBLEM, SEEN, lines_of, made, text_of
 from tests.support import ALL_PROBLEMS, LIBRARY, ROOT
 
@@ -61,7 +61,7 @@ NUMBER = re.compile(r" {3,}\((\d+)\)$")
 def test_the_same_bytes_in_every_process_and_at_every_time(tmp_path: Path) -> None:
     reports = []
     for seed in ("1", "2"):
-        done = dynsolve("solve", "in3140-rp", "-o", str(tmp_path / f"{seed}.pdf"), PYTHONHASHSEED=seed)
+        done = dynsolve_afresh("solve", "in3140-rp", "-o", str(tmp_path / f"{seed}.pdf"), PYTHONHASHSEED=seed)
         assert (done.code, done.out) == (0, "")
         reports.append((tmp_path / f"{seed}.pdf").read_bytes())
         time.sleep(1.1)
