@@ -10,11 +10,11 @@ from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.identities import Identity, said
-from dynsolve.explain.working.kinetic import terms_needed
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.explain.working.rotational import along_own_axes, turned
 from dynsolve.explain.writing import spong
-from dynsolve.notation.tree import Node, Product, Transpose, equation
+from dynsolve.notation.tree import Node, Product, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
@@ -60,6 +60,8 @@ def _why(context: Context, body: Body) -> Prose:
         return ("Its linear part, and none of rotation: it is a point.",)
     if context.values[f"Jv{body.name}"].is_zero:
         return ("Its rotational part alone: its mass centre does not move.",)
+    if context.values[f"Jw{body.name}"].is_zero:
+        return ("Its linear part alone: it does not turn.",)
     return ("Its linear part and its rotational part.",)
 
 
@@ -74,8 +76,10 @@ def angular_name(body: Body) -> Node:
 
 
 def _results(context: Context, body: Body) -> Iterator[Node]:
-    yield equation(linear_name(context, body), context.form(f"Dv{body.name}"))
-    if not body.is_point:
+    values = context.values
+    if body.is_point or not values[f"Jv{body.name}"].is_zero:
+        yield equation(linear_name(context, body), context.form(f"Dv{body.name}"))
+    if not (body.is_point or values[f"Jw{body.name}"].is_zero):
         yield equation(angular_name(body), context.form(f"Dw{body.name}"))
 
 
@@ -96,33 +100,25 @@ def _linear(context: Context, body: Body) -> _Product:
 
 
 def _angular(context: Context, body: Body) -> _Product:
-    """J_ωᵀ 𝓘 J_ω along the axes in which it is shorter: those of the base, or of the body itself."""
+    """J_ωᵀ 𝓘 J_ω along the axes that the energy was worked out in: the base's, or the body's own."""
     values, b = context.values, body.name
-    J, R, tensor, given = values[f"Jw{b}"], values[f"R{b}"], values[f"I{b}"], values[f"I_body{b}"]
-    own = R.T @ J
-    if _is_constant(context, tensor) and terms_needed(J, tensor) <= terms_needed(own, given):
-        return _Product(
-            (_rotational(context, body, J, tensor),), _used(context, J, tensor), (f"Jv{b}", f"I{b}")
-        )
-    turned = Product((Transpose(letters.of_body("R", body, "bold")), letters.jw(body)))
-    multiplied = Product((Transpose(context.form(f"R{b}")), context.form(f"Jw{b}")))
-    used = used_in_product(context, R.T, J, own)
+    J, tensor, given = values[f"Jw{b}"], values[f"I{b}"], values[f"I_body{b}"]
+    if not along_own_axes(context, body):
+        working = (_rotational(context, body, J, tensor),)
+        return _Product(working, _used(context, J, tensor), (f"Jv{b}", f"I{b}"))
+    own = turned(context, body, "Jw", letters.jw(body))
     why: Prose = (
-        " In the axes of the body, with its own tensor, the rotational part is shorter: ",
+        " Along the body's own axes the tensor is ",
+        letters.tensor(context.robot, body),
+        ", and ",
         letters.jw(body),
-        " is there ",
-        turned,
-        *((" (with ", *said(used), ")") if used else ()),
+        " becomes ",
+        own.name,
+        *own.why,
         ".",
     )
-    working = (equation(turned, multiplied, context.show(own)), _rotational(context, body, own, given))
-    return _Product(working, _used(context, own, given), (f"Jv{b}", f"R{b}", f"I_body{b}"), why)
-
-
-def _is_constant(context: Context, tensor: Matrix) -> bool:
-    """Whether a tensor is the same in every configuration."""
-    ring, count = context.robot.ring, context.robot.n
-    return all(ring.diff(entry, k).is_zero for entry in tensor.entries for k in range(count))
+    lines = (own.working, _rotational(context, body, own.value, given))
+    return _Product(lines, _used(context, own.value, given), (f"Jv{b}", f"R{b}", f"I_body{b}"), why)
 
 
 def _rotational(context: Context, body: Body, J: Matrix, tensor: Matrix) -> Node:

@@ -11,9 +11,9 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
 from dynsolve.explain.jacobian import ZERO, coordinate_column, crosses_named
 from dynsolve.explain.placed_bodies import jacobians_step
+from dynsolve.explain.rotational_energy import rotational_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import kinetic
-from dynsolve.explain.working.proved import SILENT
 from dynsolve.explain.working.sums import sum_named
 from dynsolve.explain.writing import are_counted, is_small, listed, name_of, side_by_side, spong, sum_of
 from dynsolve.notation.tree import (
@@ -62,7 +62,7 @@ def steps(context: Context) -> Iterator[Step]:
         linear = _linear(context, body, tells=not told)
         told = told or bool(linear.notes)
         yield linear
-        yield _rotational(context, body)
+        yield rotational_step(context, body)
         yield _kinetic(context, body)
     yield from rotors
     yield _total(context, "K", "kinetic", letters.K, [letters.KM] * len(rotors))
@@ -333,48 +333,6 @@ def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
 def _pythagoras(angle: Symbol) -> Node:
     squares = tuple(Power(Function(name, angle), Number(2)) for name in ("sin", "cos"))
     return equation(Sum(squares), Number(1))
-
-
-def _rotational(context: Context, body: Body) -> Step:
-    b = body.name
-    Kw, w = letters.energy_part("omega", body), letters.of_body("omega", body, "bold")
-    if body.is_point:
-        return Step(
-            id=f"Kw{b}",
-            stage=STAGE,
-            title=f"Rotational kinetic energy of {name_of(body)}",
-            why=("A point mass has no inertia tensor, and so no rotational energy.",),
-            source=spong("7.2"),
-            result=(equation(Kw, Number(0)),),
-        )
-    tensor = letters.of_body("I", body, "script")
-    form = context.form(f"Kw{b}")
-    velocity, base = context.matrix(f"w{b}"), context.form(f"I{b}")
-    working: tuple[Node, ...] = ()
-    still = all(row[0] == Number(0) for row in velocity.rows)
-    if not still and is_small(velocity, velocity, base):
-        product = Product((letters.HALF, Matrix((tuple(row[0] for row in velocity.rows),)), base, velocity))
-        working = (equation(Kw, product),)
-    shown = None if still else kinetic.rotational(context, body)
-    if shown is not None:
-        working = shown.working
-    way = SILENT if shown is None else shown.way
-    return Step(
-        id=f"Kw{b}",
-        stage=STAGE,
-        title=f"Rotational kinetic energy of {name_of(body)}",
-        why=("The body does not turn.",)
-        if still
-        else (w, f" and the tensor, both in {context.ground} coordinates."),
-        formula=equation(Kw, Product((letters.HALF, letters.transposed_product(w, tensor)))),
-        source=spong("7.2"),
-        working=working,
-        lines=way.lines,
-        concluding=way.concluding,
-        result=(equation(Kw, form),),
-        uses=None if shown is None else shown.uses,
-        hint=(w, f" and the tensor, both in {context.ground} coordinates."),
-    )
 
 
 def _kinetic(context: Context, body: Body) -> Step:

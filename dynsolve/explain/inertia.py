@@ -18,6 +18,7 @@ from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.explain.working.rotational import along_own_axes
 from dynsolve.explain.writing import is_small, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
@@ -311,8 +312,15 @@ def _base_tensor(context: Context, body: Body) -> Step:
         concluding=_turned_named(context, body) if working else (),
         result=(equation(inertia_, base),),
         notes=notes,
-        detail=Detail.BRIEF if is_small(base) else Detail.NORMAL,
+        detail=_detail(context, body, base),
     )
+
+
+def _detail(context: Context, body: Body, base: Node) -> Detail:
+    """Where the energy is worked out along the body's own axes, 𝓘 is shown only if it is asked for."""
+    if along_own_axes(context, body) and f"I{body.name}" not in context.wanted:
+        return Detail.FULL
+    return Detail.BRIEF if is_small(base) else Detail.NORMAL
 
 
 def _turned(context: Context, body: Body) -> Iterator[Node]:

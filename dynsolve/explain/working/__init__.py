@@ -2,7 +2,8 @@
 
 The stages take their lines from here, a function for each kind of step:
 
-    kinetic          from ½ m vᵀ v and ½ ωᵀ 𝓘 ω to the kinetic energy
+    kinetic          from ½ m vᵀ v to the kinetic energy of translation
+    rotational       from ½ ωᵀ 𝓘 ω to that of rotation, along the axes in which it is short
     products         the identities by which a product of matrices becomes what is printed
     sums             those by which a sum of earlier results does
     derivatives      d/dt of a momentum, ∂L/∂q, the slopes of D, the entries of C, Ḋ

@@ -1,4 +1,4 @@
-"""The lines from ½ m vᵀ v and from ½ ωᵀ 𝓘 ω to the kinetic energy."""
+"""The lines from ½ m vᵀ v to the kinetic energy of translation."""
 
 from __future__ import annotations
 
@@ -12,11 +12,9 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.identities import Identity, identities, said
-from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation.build import negated, split_sign, times, total
@@ -39,7 +37,7 @@ from dynsolve.robot.model import Body, Coordinate
 MOST_GROUPS = 8
 """Up to this number of groups of terms squares are multiplied out term by term."""
 
-_COLLECTED: Prose = ("Collected by the products of the rates:",)
+COLLECTED: Prose = ("Collected by the products of the rates:",)
 
 
 def linear(context: Context, body: Body, squares_shown: bool) -> Way:
@@ -76,7 +74,7 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     sorted_out = total([bracket.product for bracket in brackets])
     if sorted_out != lines[0][1]:
         lines.append((("Multiplied out by the products of the rates:",), sorted_out))
-    named: Prose = ("With ", *said(by_name), ", and collected:") if used else _COLLECTED
+    named: Prose = ("With ", *said(by_name), ", and collected:") if used else COLLECTED
     return _chain(context, body, lines, named)
 
 
@@ -100,7 +98,7 @@ def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[_Bracket
         first, second = (letters.velocity(coordinates[i]) for i in (j, k))
         value = sum((a * b for a, b in pairs), start=context.robot.ring.zero)
         if j == k:
-            tree = sum_of([Power(_without_signs(context.show(a)), Number(2)) for a, _ in pairs])
+            tree = sum_of([Power(without_signs(context.show(a)), Number(2)) for a, _ in pairs])
             yield _Bracket(tree, value, times(1, [(tree, 1), (first, 2)]))
         else:
             tree = total([times(1, [(context.show(a), 1), (context.show(b), 1)]) for a, b in pairs])
@@ -131,7 +129,7 @@ def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | No
         lines.append((_turn(context, found), _sum_of_squares(context, components)))
     if any(squares.has_roots(x) for x in components):
         return None
-    concluding = _COLLECTED
+    concluding = COLLECTED
     if all(len(x) == 1 for x in components):
         concluding = lines.pop()[0] if lines else ()
     else:
@@ -177,10 +175,10 @@ def _turn(context: Context, found: squares.Turned) -> Prose:
 
 def _sum_of_squares(context: Context, components: Sequence[Expr]) -> Node:
     """(...)² + (...)², without the signs inside that do not count."""
-    return sum_of([Power(_without_signs(context.show(x)), Number(2)) for x in components])
+    return sum_of([Power(without_signs(context.show(x)), Number(2)) for x in components])
 
 
-def _without_signs(node: Node) -> Node:
+def without_signs(node: Node) -> Node:
     """A base of a square with a plus in front where it has none but minus signs."""
     inner = split_sign(node)[1]
     if isinstance(inner, Sum) and all(isinstance(term, Negative) for term in inner.terms):
@@ -211,100 +209,3 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[tuple[Pros
     if used:
         lines.append((("By ", *said(used), ":"), reduced))
     return lines
-
-
-# -- rotation --------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class Rotation:
-    """The way to K_ω: the working with ω and the tensor in one frame, the lines from there, what goes in."""
-
-    working: tuple[Node, ...] = ()
-    way: Way = SILENT
-    uses: tuple[str, ...] | None = None
-
-
-def rotational(context: Context, body: Body) -> Rotation | None:
-    """From ½ ωᵀ 𝓘 ω to K_ω, along the axes in which it is shorter; None for longer arms."""
-    values, b = context.values, body.name
-    base, R = values[f"w{b}"], values[f"R{b}"]
-    if context.robot.n > MOST_JOINTS or base.is_zero:
-        return None
-    own = R.T @ base
-    in_base, in_body = (base, values[f"I{b}"]), (own, values[f"I_body{b}"])
-    if terms_needed(*in_base) <= terms_needed(*in_body):
-        return Rotation((_product(context, body, *in_base),), _multiplied_out(context, body, *in_base))
-    w = letters.of_body("omega", body, "bold")
-    turned = Product((Transpose(letters.of_body("R", body, "bold")), w))
-    multiplied = Product((Transpose(context.form(f"R{b}")), context.form(f"w{b}")))
-    why: Prose = (
-        "It is shorter in the axes of the body, where ",
-        letters.bold("omega"),
-        " is ",
-        turned,
-        *_named(context, R, base, own),
-        ", since ",
-        equation(
-            letters.transposed_product(w, letters.of_body("I", body, "script")),
-            Product((Transpose(Parenthesized(turned)), letters.tensor(context.robot, body), turned)),
-        ),
-        ":",
-    )
-    lines = (
-        Line(why, (equation(turned, multiplied, context.show(own)),)),
-        Line(("With the tensor in the body's own frame:",), (_product(context, body, *in_body),)),
-    )
-    rest = _multiplied_out(context, body, *in_body)
-    way = Way((*lines, *rest.lines), rest.concluding)
-    return Rotation((), way, (f"v{b}", f"I{b}", f"R{b}", f"I_body{b}"))
-
-
-def _named(context: Context, R: Matrix, base: Matrix, own: Matrix) -> Prose:
-    """The identities by which Rᵀ ω becomes what is shown."""
-    used = used_in_product(context, R.T, base, own)
-    return (" (with ", *said(used), ")") if used else ()
-
-
-def terms_needed(w: Matrix, tensor: Matrix) -> int:
-    """The terms that wᵀ I w is made of: of the tensor, the entries that meet rows of w that are not zero."""
-    turning = [k for k, row in enumerate(w.rows) if any(not entry.is_zero for entry in row)]
-    met = sum(len(tensor[i, j]) for i in turning for j in turning)
-    return met + sum(len(entry) for k in turning for entry in w.rows[k])
-
-
-def _product(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Node:
-    """K_ω = ½ [row] [tensor] [column]"""
-    row, middle, column = (context.show(matrix) for matrix in (w.T, tensor, w))
-    return equation(letters.energy_part("omega", body), Product((letters.HALF, row, middle, column)))
-
-
-def _multiplied_out(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:
-    """½ Σ I_ij ω_i ω_j, and how it becomes the result."""
-    value, result = context.values[f"Kw{body.name}"], context.form(f"Kw{body.name}")
-    ring, components = value.ring, w.entries
-    terms = []
-    for i in range(3):
-        for j in range(i, 3):
-            if not (tensor[i, j].is_zero or components[i].is_zero or components[j].is_zero):
-                square = i == j
-                first, second = context.show(components[i]), context.show(components[j])
-                rates = [(_without_signs(first), 2)] if square else [(first, 1), (second, 1)]
-                terms.append(_term(context, 1 if square else 2, tensor[i, j], rates))
-    if len(terms) < 2:
-        return SILENT
-    form = Product((letters.HALF, sum_of(terms)))
-    used = identities(ring, form, result)
-    name = letters.energy_part("omega", body)
-    return chain(
-        value,
-        [(("Multiplied out:",), form)],
-        lambda tree: equation(name, tree),
-        ("By ", *said(used), ":") if used else _COLLECTED,
-    )
-
-
-def _term(context: Context, count: int, moment: Expr, rates: Sequence[tuple[Node, int]]) -> Node:
-    """count · I_ij · rates"""
-    shown = context.show(moment)
-    return times(count, [(shown, 1), *rates], decimal=is_numeric(context.robot))
