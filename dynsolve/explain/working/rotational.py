@@ -1,0 +1,121 @@
+"""The lines from ½ ωᵀ 𝓘 ω to the kinetic energy of rotation, along the axes in which they are short.
+
+𝓘 = R I Rᵀ is the tensor along the axes of the base.  Where it varies with the configuration, ω is
+brought to the body's own axes instead, along which the tensor is the constant one that is given:
+ωᵀ 𝓘 ω = (Rᵀ ω)ᵀ I (Rᵀ ω), and in the same way J_ωᵀ 𝓘 J_ω.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.working.identities import identities, said
+from dynsolve.explain.working.kinetic import COLLECTED, without_signs
+from dynsolve.explain.working.products import used_in_product
+from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
+from dynsolve.explain.writing import sum_of
+from dynsolve.notation.build import times
+from dynsolve.notation.tree import Letter, Node, Product, Transpose, equation
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body
+
+
+def along_own_axes(context: Context, body: Body) -> bool:
+    """Whether the energy of a body is worked out along its own axes, without 𝓘; not of long arms."""
+    values, b = context.values, body.name
+    tensor, w = values[f"I{b}"], values[f"w{b}"]
+    if context.robot.n > MOST_JOINTS or w.is_zero:
+        return False
+    own = values[f"R{b}"].T @ w
+    is_short = _terms_needed(w, tensor) <= _terms_needed(own, values[f"I_body{b}"])
+    return not (is_short and _is_constant(context, tensor))
+
+
+def _terms_needed(w: Matrix, tensor: Matrix) -> int:
+    """The terms that wᵀ I w is made of: of the tensor, the entries that meet rows of w that are not zero."""
+    turning = [k for k, row in enumerate(w.rows) if any(not entry.is_zero for entry in row)]
+    met = sum(len(tensor[i, j]) for i in turning for j in turning)
+    return met + sum(len(entry) for k in turning for entry in w.rows[k])
+
+
+def _is_constant(context: Context, tensor: Matrix) -> bool:
+    """Whether a tensor is the same in every configuration."""
+    ring, count = context.robot.ring, context.robot.n
+    return all(ring.diff(entry, k).is_zero for entry in tensor.entries for k in range(count))
+
+
+@dataclass(frozen=True, slots=True)
+class Turned:
+    """ω, or the columns of J_ω, along a body's own axes: the value, its name Rᵀ ω, and how it comes about."""
+
+    value: Matrix
+    name: Node
+    working: Node
+    why: Prose
+
+
+def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turned:
+    """Rᵀ ω or Rᵀ J_ω of a body: the quantity is `w` or `Jw`, the letter its name."""
+    b = body.name
+    R, base = context.values[f"R{b}"], context.values[f"{quantity}{b}"]
+    own = R.T @ base
+    rotation = letters.of_body("R", body, "bold")
+    name = Product((Transpose(rotation), letter))
+    if own == base:
+        why: Prose = (", the same, since ", rotation, " turns about the axis of ", letter)
+        return Turned(own, name, equation(name, letter), why)
+    product = Product((Transpose(context.form(f"R{b}")), context.form(f"{quantity}{b}")))
+    used = used_in_product(context, R.T, base, own)
+    why = (", with ", *said(used)) if used else ()
+    return Turned(own, name, equation(name, product, context.show(own)), why)
+
+
+def multiplied_out(context: Context, body: Body) -> tuple[Node, Way]:
+    """K_ω = ½ [row] [tensor] [column] along the axes that are chosen, and the lines from there."""
+    values, b = context.values, body.name
+    base = values[f"w{b}"]
+    if along_own_axes(context, body):
+        w, tensor = values[f"R{b}"].T @ base, values[f"I_body{b}"]
+    else:
+        w, tensor = base, values[f"I{b}"]
+    row, middle, column = (context.show(matrix) for matrix in (w.T, tensor, w))
+    product = equation(letters.energy_part("omega", body), Product((letters.HALF, row, middle, column)))
+    is_long = context.robot.n > MOST_JOINTS
+    return product, SILENT if is_long else _lines(context, body, w, tensor)
+
+
+def _lines(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:
+    """½ Σ I_ij ω_i ω_j, and how it becomes the result."""
+    value, result = context.values[f"Kw{body.name}"], context.form(f"Kw{body.name}")
+    ring, components = value.ring, w.entries
+    terms = []
+    for i in range(3):
+        for j in range(i, 3):
+            if not (tensor[i, j].is_zero or components[i].is_zero or components[j].is_zero):
+                square = i == j
+                first, second = context.show(components[i]), context.show(components[j])
+                rates = [(without_signs(first), 2)] if square else [(first, 1), (second, 1)]
+                terms.append(_term(context, 1 if square else 2, tensor[i, j], rates))
+    if len(terms) < 2:
+        return SILENT
+    form = Product((letters.HALF, sum_of(terms)))
+    used = identities(ring, form, result)
+    name = letters.energy_part("omega", body)
+    return chain(
+        value,
+        [(("Multiplied out:",), form)],
+        lambda tree: equation(name, tree),
+        ("By ", *said(used), ":") if used else COLLECTED,
+    )
+
+
+def _term(context: Context, count: int, moment: Expr, rates: Sequence[tuple[Node, int]]) -> Node:
+    """count · I_ij · rates"""
+    shown = context.show(moment)
+    return times(count, [(shown, 1), *rates], decimal=is_numeric(context.robot))
