@@ -228,6 +228,21 @@ def formula(problem: str, id: str) -> str:
     return to_unicode(node, solved(problem).style)
 
 
+def test_the_tensor_in_base_coordinates_is_shown_where_it_is_used() -> None:
+    """crustcrawler-2r turns its second body's angular velocity into that body's axes, and needs no 𝓘₂."""
+    assert step("crustcrawler-2r", "I2").detail is Detail.FULL
+    assert formula("crustcrawler-2r", "Kw2") == "K_ω2 = ½ 𝛚₂ᵀ 𝓘₂ 𝛚₂ = ½ (𝐑₂ᵀ 𝛚₂)ᵀ 𝐈₂ (𝐑₂ᵀ 𝛚₂)"
+    assert "I2" not in (step("crustcrawler-2r", "Kw2").uses or ())
+    assert (
+        step("planar-2r", "I2").detail is Detail.BRIEF and formula("planar-2r", "Kw2") == "K_ω2 = ½ 𝛚₂ᵀ 𝓘₂ 𝛚₂"
+    )
+
+
+def test_an_axis_that_a_rotation_leaves_in_place_needs_no_product() -> None:
+    line = step("rp-vertical", "Kw1").lines[0]
+    assert to_unicode(line.formulas[0], solved("rp-vertical").style) == "𝐑₁ᵀ 𝛚₁ = 𝛚₁"
+
+
 def test_a_tensor_is_turned_by_one_product_after_the_other() -> None:
     _, half = shown_working("elbow-3r", "I1")
     assert half.endswith("[[I_1xx c₁, I_1xx s₁, 0], [0, 0, I_1yy], [I_1zz s₁, -I_1zz c₁, 0]]"), half

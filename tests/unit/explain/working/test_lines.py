@@ -89,9 +89,7 @@ def test_where_one_identity_does_all_it_is_named_and_no_line_is_spent() -> None:
 
 def test_the_rotation_along_the_axes_of_the_body_where_that_is_shorter() -> None:
     found = lines("elbow-3r", "Kw2")
-    assert found[0].startswith(
-        "It is shorter in the axes of the body, where 𝛚 is 𝐑₂ᵀ 𝛚₂ (with s₁² + c₁² = 1)"
-    )
+    assert found[0] == "Along the body's own axes, with s₁² + c₁² = 1:"
     assert found[1].endswith(" = [[s₂ θ̇₁], [c₂ θ̇₁], [θ̇₂]]")
     assert found[-3:] == [
         "Multiplied out:",
@@ -193,7 +191,7 @@ def test_the_products_that_make_up_the_inertia_matrix_are_shown() -> None:
     part, style = step("elbow-3r", "D_direct3"), solved("elbow-3r").style
     linear, turned, angular = (to_unicode(node, style) for node in part.working)
     assert linear.startswith("m₃ 𝐉_v3ᵀ 𝐉_v3 = m₃ [[")
-    assert said(part.why, "elbow-3r").endswith("𝐉_ω3 is there 𝐑₃ᵀ 𝐉_ω3 (with s₁² + c₁² = 1).")
+    assert said(part.why, "elbow-3r").endswith("𝐉_ω3 becomes 𝐑₃ᵀ 𝐉_ω3, with s₁² + c₁² = 1.")
     assert turned.endswith(" = [[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]")
     assert angular.startswith("𝐉_ω3ᵀ 𝓘₃ 𝐉_ω3 = [[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]ᵀ [[I_3xx, ")
     assert lines("elbow-3r", "D_direct3")[-1] == (
