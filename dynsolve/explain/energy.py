@@ -325,7 +325,7 @@ def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
                 _pythagoras(angle),
                 ", so that the speed does not depend on ",
                 angle,
-                ". (The difference of the squares would be the cosine of twice the angle.)",
+                ".",
             )
             return
 

@@ -36,6 +36,7 @@
                      accepted_tables
                                     `also`, `strict`
                      exercise       `find`, `marks`, `values`, `units`
+                     remarks        `remarks`
                      parsed_file    all of them together
       -> checked     symbols        one name is one thing
       -> Robot       values         the ring that holds everything, and each cell in it

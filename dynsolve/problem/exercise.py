@@ -1,4 +1,4 @@
-"""The exercise in a problem file: numbers, units, marks, the answers asked for."""
+"""The exercise in a problem file: numbers, units, marks, remarks, the answers asked for."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from dynsolve.problem.cells import Cell, read_cell
 from dynsolve.problem.fields import Fields, describe, did_you_mean, items
 from dynsolve.problem.model import FIND
 from dynsolve.problem.parsed_file import ParsedFile
+from dynsolve.problem.remarks import Remark, read_remarks
 from dynsolve.problem.source import Faults
 from dynsolve.problem.specification import PROBLEM
 from dynsolve.problem.yaml_nodes import FaultyNode, MappingNode, ScalarNode, YamlNode
@@ -36,6 +37,7 @@ class Exercise:
     values: Mapping[str, Fraction]
     written: Mapping[str, str]
     units: Mapping[str, str]
+    remarks: tuple[Remark, ...] = ()
     asked: frozenset[str] = frozenset()
     """The answers asked for that a derivation has only where they are."""
 
@@ -43,7 +45,7 @@ class Exercise:
 def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercise:
     """The values, units, marks and answers asked for; everything wrong with them is reported."""
     names = None  # as long as the table or a body is faulty, which answers there are is not known
-    if parsed.sound and ("find" in fields or "marks" in fields):
+    if parsed.sound and not {"find", "marks", "remarks"}.isdisjoint(fields):
         names = Quantities(parsed.owners)
     values, written = _read_values(faults, fields.get("values"))
     find = _read_find(faults, fields.get("find"), names)
@@ -54,6 +56,7 @@ def read_exercise(faults: Faults, fields: Fields, parsed: ParsedFile) -> Exercis
         values=values,
         written=written,
         units=_read_units(faults, fields.get("units")),
+        remarks=read_remarks(faults, fields.get("remarks"), names),
         asked=frozenset(
             name for name in (*find, *marks) if names is not None and names[name].family.stage.asked_for
         )

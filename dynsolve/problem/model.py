@@ -11,13 +11,14 @@ from re import compile as pattern
 
 from dynsolve.errors import Finding
 from dynsolve.problem.accepted_tables import AcceptedTables
+from dynsolve.problem.remarks import Remark
 from dynsolve.robot.drawing.procedure import Normals
 from dynsolve.robot.model import Convention, Robot
 
 Path = tuple[str | int, ...]
 """The way to a part of a file: ("masses", 0, "axes"), list items from 0."""
 
-_WORDS = (("title",), ("source",))
+_WORDS = (("title",), ("source",), ("remarks",))
 """The parts of a file that are words, whatever numbers stand in them."""
 
 FIND = ("tau", "D", "C", "g")
@@ -50,6 +51,7 @@ class Problem:
     (`D`, never `M`).  `values` are the numbers for numeric results, angles in radians;
     `written` are the same as they stand in the file, which is exact.
     `accepted` is what else counts as a Denavit-Hartenberg table that is handed in.
+    `remarks` are its author's words on results.
     `normals` are those of a drawing, where the file has one in the place of a table.
     `places` tells where each part of the file stands; `warnings` are what deserves
     a look and is no error.
@@ -65,6 +67,7 @@ class Problem:
     values: Mapping[str, Fraction] = field(default_factory=dict)
     written: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
+    remarks: tuple[Remark, ...] = ()
     normals: Normals | None = None
     accepted: AcceptedTables = field(default_factory=AcceptedTables)
     places: Mapping[Path, FilePlace] = field(default_factory=dict)

@@ -119,6 +119,7 @@ def read_whole(content: str | bytes, file: str = "") -> Reading:
         values=exercise.values,
         written=exercise.written,
         units=exercise.units,
+        remarks=exercise.remarks,
         normals=parsed.normals,
         accepted=accepted,
         places=dict(_places(faults, root)),

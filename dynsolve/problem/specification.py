@@ -358,6 +358,12 @@ PROBLEM = Keyed(
             "{P: 2, K: 4, tau: 6}",
         ),
         Key(
+            "remarks",
+            MapOf(OneOf((TEXT, ListOf(TEXT, "a list of lines", 1))), "words by answer"),
+            "Words on results, shown as notes at their steps: {Kv2: The squares add up.}.",
+            "{Kv2: The squares add up.}",
+        ),
+        Key(
             "find",
             OneOf((NAME, ListOf(NAME, "a list of answers"))),
             "What the exercise asks for. Default [tau, D, C, g].",

@@ -123,7 +123,15 @@ class Dynamics:
         """The whole derivation, step by step."""
         from dynsolve.explain import explain
 
-        return tuple(explain(self._context))
+        return self._remarked(explain(self._context), whole=True)
+
+    def _remarked(self, steps: Iterable[Step], *, whole: bool) -> tuple[Step, ...]:
+        """The steps with the remarks of the problem's author."""
+        if not self.problem.remarks:
+            return tuple(steps)
+        from dynsolve.solution.remarks import with_remarks
+
+        return tuple(with_remarks(steps, self.problem, whole=whole))
 
     @cached_property
     def _context(self) -> Context:
@@ -138,8 +146,11 @@ class Dynamics:
         from dynsolve.explain import explain
         from dynsolve.explain.abbreviated_steps import in_names
 
-        steps = iter(self.steps) if stages is None else explain(self._context, stages)
-        return steps if short is None else in_names(steps, self._context, short)
+        if stages is None:
+            steps = self.steps
+        else:
+            steps = self._remarked(explain(self._context, stages), whole=False)
+        return iter(steps) if short is None else in_names(steps, self._context, short)
 
     def abbreviated(self, abbreviate: Abbreviate | str = "always") -> Abbreviated | None:
         """D, C and g with constants and recurring terms named; compared with the independent computation.
