@@ -75,6 +75,7 @@ Long models are written in names (`--abbreviate`):
     base_parameters      the inertial constants that D and g are made of
     recurring            what stands in several places
     abbreviated_steps    the steps of a derivation in these names
+    symbol_names         names for the Christoffel symbols of a short model, and its steps in these
     general_steps        what is said once for all links, bodies and coordinates
 
 And hints (`--hint`), made of the same steps:

@@ -26,6 +26,7 @@ from dynsolve.explain.entry_formulas import (
 )
 from dynsolve.explain.general_steps import GeneralStep, general_steps
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.symbol_names import steps_with_symbols_named
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.tree import (
@@ -60,6 +61,8 @@ _QUADRATIC = Product((letters.HALF, letters.transposed_product(letters.QD, lette
 
 def in_names(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
     """The steps, with names in them and, of a long model, without what fills pages."""
+    if short.at_symbols:
+        return steps_with_symbols_named(steps, context, short)
     return _of_long_model(steps, context, short) if short.long else _of_short_model(steps, context, short)
 
 

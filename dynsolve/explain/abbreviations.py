@@ -10,7 +10,8 @@ of sines, cosines and these.
    and the energy here.
 2. What then recurs is named σ₁, σ₂, ... (`explain.recurring`): h₁, h₂, ... are heights.
 
-A short model needs no constants.  What recurs in it gets a name alone; if that is one
+A short model needs no constants; unless names are asked for, its Christoffel symbols alone get them
+(`explain.symbol_names`).  What recurs in it gets a name alone; if that is one
 term, it is the books' h: h = -m₂ l₁ l_c2 s₂ of the planar elbow.
 """
 
@@ -59,6 +60,7 @@ class Abbreviated:
     `D`, `C` and `g` are matrices, `christoffel` holds c_ijk at (i, j, k) with i ≤ j and from 0.
     `kept` are the base parameters that are a symbol of the problem already, and need no name.
     A `long` model is one whose constants have names, or would have if they were no numbers.
+    With `at_symbols` the names are those of Christoffel symbols (`explain.symbol_names`).
     """
 
     constants: tuple[Definition, ...]
@@ -69,6 +71,7 @@ class Abbreviated:
     christoffel: Mapping[Index, Node]
     long: bool = False
     kept: tuple[Symbol, ...] = ()
+    at_symbols: bool = False
 
     def symbol(self, i: int, j: int, k: int) -> Node:
         """c_ijk, the same as c_jik."""
@@ -161,7 +164,7 @@ def _assembled(
     entries = [*(D.rows[i][j] for i, j in upper), *(row[0] for row in g.rows), *symbols.values()]
     taken = {*forms.robot.ring.parameters, *forms.robot.ring.names}
     name = partial(name_recurring, entries, whole=long, decimal=is_numeric(forms.robot))
-    sums, used = name(_names(RECURRING, taken))
+    sums, used = name(free_names(RECURRING, taken))
     if len(sums) == 1 and SINGLE not in taken:
         order = sorted(enumerate(symbols), key=lambda entry: (entry[1][2], entry[1][:2]))
         places = [len(upper) + n + place for place, _ in order]
@@ -207,7 +210,7 @@ def _leading_with_plus(
     return (Definition(definition.name, negated(definition.meaning)),), [turned(node) for node in used]
 
 
-def _names(letter: str, taken: set[str]) -> Iterator[Symbol]:
+def free_names(letter: str, taken: set[str]) -> Iterator[Symbol]:
     """letter1, letter2, ..., without names that the problem uses."""
     return (Symbol(f"{letter}{k}") for k in count(1) if f"{letter}{k}" not in taken)
 

@@ -156,7 +156,8 @@ def _of_abbreviations(short: Abbreviated | None) -> Iterator[Line]:
     if short is not None and short.constants:
         yield _named([d.name.name for d in short.constants], "inertial constants, see Abbreviations", "")
     if short is not None and short.sums:
-        yield _named([d.name.name for d in short.sums], "recurring terms, see Abbreviations", "")
+        what = "values of Christoffel symbols" if short.at_symbols else "recurring terms, see Abbreviations"
+        yield _named([d.name.name for d in short.sums], what, "")
 
 
 def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:

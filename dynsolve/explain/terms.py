@@ -158,13 +158,21 @@ def _rows(
         yield (letters.force(q) if place == 0 else "", _written(context, term), str(term.kind), *unit)
 
 
-def _written(context: Context, term: Term) -> Node:
-    """The term by its name, and its value where that is short."""
+def rates_of(context: Context, term: Term) -> list[tuple[Node, int]]:
+    """The rates of a term, each with its exponent."""
     names = context.robot.ring.names
     rates: list[tuple[Node, int]] = [(Symbol(names[place], dots), 1) for place, dots in term.rates]
-    if term.kind is Kind.CENTRIFUGAL:
-        rates = [(rates[0][0], 2)]
-    name = times(term.count, [(term.letter, 1), *rates])
+    return [(rates[0][0], 2)] if term.kind is Kind.CENTRIFUGAL else rates
+
+
+def name_of_term(context: Context, term: Term) -> Node:
+    """The term by its letter and its rates: 2 c_121 q̇_1 q̇_2."""
+    return times(term.count, [(term.letter, 1), *rates_of(context, term)])
+
+
+def _written(context: Context, term: Term) -> Node:
+    """The term by its name, and its value where that is short."""
+    name = name_of_term(context, term)
     value = context.show(value_of_term(context, term))
     return equation(name, value) if cost(value) <= LONGEST else name
 

@@ -63,7 +63,7 @@ def solution_document(
     derivation = (
         *_stages(solution, detail, steps, short, drawn),
         *_numbers(solution, detail, stages),
-        *summary_blocks(solution.robot, steps),
+        *summary_blocks(solution.robot, steps, short),
     )
     return Document((
         *_opening(solution, _sources(steps, detail, short)),
@@ -136,7 +136,7 @@ def _stages(
         if step.id == closing.ID:  # it stands in the summary
             continue
         if step.stage != stage:
-            if short is not None and step.stage is Stage.VECTORIZED:
+            if short is not None and step.stage is Stage.VECTORIZED and _defined_first(short, detail):
                 yield from definition_blocks(short, machine(solution.robot))
             stage, place, extra = step.stage, 0, 0
             heading = Heading(f"{numbers[stage]}. {stage.heading}", 2)
@@ -155,6 +155,11 @@ def _stages(
             blocks = tuple(step_blocks(told, detail, earlier.used(step, uses), drawn))
             yield Fold(f"{number} {step.title}", blocks, step.detail)
         earlier.add(step)
+
+
+def _defined_first(short: Abbreviated, detail: Detail) -> bool:
+    """Whether names are defined in a section: those of Christoffel symbols are where these are shown."""
+    return not short.at_symbols or detail is Detail.BRIEF
 
 
 def definition_blocks(short: Abbreviated, what: str) -> Iterator[Block]:

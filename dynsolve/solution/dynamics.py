@@ -155,7 +155,8 @@ class Dynamics:
     def abbreviated(self, abbreviate: Abbreviate | str = "always") -> Abbreviated | None:
         """D, C and g with constants and recurring terms named; compared with the independent computation.
 
-        With `auto` None where they are short enough to be read, with `never` always None.
+        With `auto` None where they are short enough to be read, or with names for Christoffel symbols
+        alone; with `never` always None.
 
         >>> import dynsolve
         >>> short = dynsolve.solve("planar-2r").abbreviated()
@@ -167,13 +168,27 @@ class Dynamics:
         asked = Abbreviate(abbreviate)
         if not self.robot.has_dynamics or asked is Abbreviate.NEVER:
             return None
-        return self._abbreviated if asked is Abbreviate.ALWAYS or is_long(self.forms) else None
+        if asked is Abbreviate.ALWAYS or is_long(self.forms):
+            return self._abbreviated
+        return self._with_symbols_named
 
     @cached_property
     def _abbreviated(self) -> Abbreviated:
-        from dynsolve.explain.abbreviations import abbreviate, expanded
+        from dynsolve.explain.abbreviations import abbreviate
 
-        short = abbreviate(self.forms)
+        return self._verified(abbreviate(self.forms))
+
+    @cached_property
+    def _with_symbols_named(self) -> Abbreviated | None:
+        from dynsolve.explain.symbol_names import name_symbols
+
+        short = name_symbols(self.forms)
+        return None if short is None else self._verified(short)
+
+    def _verified(self, short: Abbreviated) -> Abbreviated:
+        """The model in names, compared with the independent computation."""
+        from dynsolve.explain.abbreviations import expanded
+
         D, C, g = expanded(short.definitions, [short.D, short.C, short.g])
         verify(self.robot, {"D": D, "C": C, "g": g}, self.verification.states)
         return short

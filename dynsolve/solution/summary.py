@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from dynsolve.document import Block, Formula, Heading, Text
+from dynsolve.document import Block, Equations, Formula, Heading, Text
 from dynsolve.explain import closing
+from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed
+from dynsolve.notation.tree import equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.robot.model import Robot
@@ -21,10 +23,11 @@ TITLE = "Summary"
 _MATRICES = ("D", "C", "friction", "g")
 
 
-def summary_blocks(robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
+def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | None = None) -> Iterator[Block]:
     """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
 
-    Of more than three coordinates D, C, g and the forces are not written again.
+    Of more than three coordinates D, C, g and the forces are not written again.  The names in C of
+    Christoffel symbols are repeated beside it.
     """
     by_id = {step.id: step for step in steps}
     model = by_id.get(closing.ID)
@@ -45,6 +48,9 @@ def summary_blocks(robot: Robot, steps: Sequence[Step]) -> Iterator[Block]:
     else:
         yield Text(("The matrices of this robot:",))
         yield from _results(by_id, [name for name in _MATRICES if name in by_id])
+    if short is not None and short.at_symbols:
+        yield Text(("In ", letters.C, ":"))
+        yield Equations(tuple(equation(one.name, one.meaning) for one in short.sums))
     forces = [f"tau{q.index}" for q in robot.coordinates]
     if all(name in by_id for name in forces):
         yield Text(("Row by row:" if len(forces) > 1 else "Multiplied out:",))

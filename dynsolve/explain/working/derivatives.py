@@ -5,7 +5,7 @@ A line is spent where there is something to see: several factors vary, or an ide
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 from dynsolve.algebra.expr import Expr
@@ -110,8 +110,8 @@ def _varying(context: Context) -> Iterator[tuple[int, int, Coordinate]]:
                     yield i, j, q
 
 
-def inertia_rate(context: Context) -> tuple[Line, ...]:
-    """ḋ_ij = Σ_k ∂d_ij/∂q_k q̇_k, for the entries of D that vary."""
+def inertia_rate(context: Context, written: Callable[[int, int], Node] | None = None) -> tuple[Line, ...]:
+    """ḋ_ij = Σ_k ∂d_ij/∂q_k q̇_k, for the entries of D that vary; `written` writes its value otherwise."""
     if context.robot.n > MOST_JOINTS:
         return ()
     ring, D = context.robot.ring, context.values["D"]
@@ -120,10 +120,8 @@ def inertia_rate(context: Context) -> tuple[Line, ...]:
         rates.setdefault((i, j), []).append(Product((_slope(i, j, q), letters.velocity(q))))
     if not rates:
         return ()
-    shown = [
-        equation(*_rate_names(i, j), sum_of(terms), context.show(ring.time_derivative(D[i, j])))
-        for (i, j), terms in rates.items()
-    ]
+    written = written or (lambda i, j: context.show(ring.time_derivative(D[i, j])))
+    shown = [equation(*_rate_names(i, j), sum_of(terms), written(i, j)) for (i, j), terms in rates.items()]
     count = context.robot.n * (context.robot.n + 1) // 2
     by: Prose = ("The rate of ", letters.D, " by the chain rule, entry by entry")
     by += ("; the other entries are constant:",) if len(rates) < count else (":",)

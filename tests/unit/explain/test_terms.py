@@ -72,7 +72,8 @@ def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> Non
     *_, last, verification = (place for place, block in enumerate(blocks) if isinstance(block, Heading))
     assert blocks[last] == Heading(TITLE) and blocks[verification] == Heading("Verification")
     shown = [block.node for block in blocks[last:] if isinstance(block, Formula)]
-    by_id = {step.id: step for step in solved(problem).steps}
+    short = solved(problem).abbreviated("auto")
+    by_id = {step.id: step for step in solved(problem).explain(short=short)}
     forces = [by_id[f"tau{q.index}"].result[0] for q in solved(problem).robot.coordinates]
     matrices = by_id["model"].result or tuple(by_id[name].result[0] for name in "DCg")
     wanted = [*matrices, *forces] if solved(problem).robot.n <= 3 else []

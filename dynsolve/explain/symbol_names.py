@@ -1,0 +1,181 @@
+"""Names for the Christoffel symbols of an arm whose C would fill half a page: σ₁, σ₂, ...
+
+Symbols are equal, or opposite, again and again: c_112 = -c_121.  A textbook names such a value
+once, as h of the planar elbow in Spong, Hutchinson, Vidyasagar, section 7.4; C, Ḋ and
+N = Ḋ - 2C are short sums of names and rates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from math import gcd
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.document import Inline
+from dynsolve.explain.abbreviations import RECURRING, Abbreviated, Index, free_names
+from dynsolve.explain.context import Context
+from dynsolve.explain.entry_formulas import coriolis_matrix
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.recurring import Definition
+from dynsolve.explain.step import Line, Step
+from dynsolve.explain.terms import Kind, Term, name_of_term, rates_of, terms_of
+from dynsolve.explain.working.derivatives import inertia_rate
+from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.notation import tree
+from dynsolve.notation.build import cost, negated, split_sign, times, total
+from dynsolve.notation.tree import ZERO, Matrix, Negative, Node, Relation, Sum, equation
+from dynsolve.notation.walk import with_children
+from dynsolve.quantities import letters
+
+LONG = 50
+"""The operations of C from which on its symbols get names: it would not fit the page as a matrix."""
+
+SHORTEST = 4
+"""The operations from which on a symbol is worth a name."""
+
+
+def name_symbols(forms: Forms) -> Abbreviated | None:
+    """The model with names for its Christoffel symbols; None where C is short without, or the arm longer."""
+    C = forms("C")
+    if forms.robot.n > MOST_JOINTS or not isinstance(C, Matrix):
+        return None
+    if sum(cost(entry) for row in C.rows for entry in row) < LONG:
+        return None
+    definitions, symbols = _named(forms)
+    if not definitions:
+        return None
+    D, g = forms("D"), forms("g")
+    assert isinstance(D, Matrix) and isinstance(g, Matrix)
+    C = coriolis_matrix(forms.robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
+    return Abbreviated((), definitions, D, C, g, symbols, at_symbols=True)
+
+
+def _named(forms: Forms) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
+    """The definitions, in the order in which the symbols are shown, and every symbol by them."""
+    values: Mapping[Index, Expr] = forms.values["christoffel"]
+    names = free_names(RECURRING, {*forms.robot.ring.parameters, *forms.robot.ring.names})
+    definitions: list[Definition] = []
+    written: dict[Expr, Node] = {}
+    for key in sorted(values, key=lambda ijk: (ijk[2], ijk[0], ijk[1])):
+        value = values[key]
+        if value in written:
+            continue
+        form = forms.of(value)
+        if cost(form) >= SHORTEST:
+            minus = _starts_with_minus(form)
+            name = next(names)
+            definitions.append(Definition(name, total([negated(form)]) if minus else form))
+            form = Negative(name) if minus else name
+        written[value], written[-value] = form, total([negated(form)])
+    return tuple(definitions), {key: written[value] for key, value in values.items()}
+
+
+def _starts_with_minus(node: Node) -> bool:
+    """Whether a form starts with a minus: of a sum, that every term has one."""
+    return isinstance(node.terms[0] if isinstance(node, Sum) else node, Negative)
+
+
+# -- the steps in these names ----------------------------------------------------------------------
+
+
+def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
+    """The steps from the Christoffel symbols on, where the names are defined, with C, Ḋ, N and the terms."""
+    changes: dict[str, Callable[[Step], Step]] = {
+        "christoffel": lambda step: _christoffel(step, context, short),
+        "C": lambda step: _result_exchanged(step, {context.form("C"): short.C}),
+        "model": lambda step: _result_exchanged(step, {context.form("C"): short.C}),
+        "skew": lambda step: _skew(step, context, short),
+        "terms": lambda step: _terms(step, context, short),
+    }
+    for step in steps:
+        change = changes.get(step.id)
+        yield step if change is None else change(step)
+
+
+def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:
+    """The symbols by their names, which are defined first."""
+    named = {context.forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()}
+    line = Line(
+        ("What comes up several times below is named once:",),
+        tuple(equation(definition.name, definition.meaning) for definition in short.sums),
+    )
+    step = _result_exchanged(step, named)
+    return replace(step, lines=(*step.lines, line), concluding=("Put into the formula:",))
+
+
+def _result_exchanged(step: Step, named: Mapping[Node, Node]) -> Step:
+    """The step with parts of its results exchanged."""
+
+    def exchanged(node: Node) -> Node:
+        found = named.get(node)
+        if found is not None:
+            return found
+        inside = isinstance(node, Relation | Sum | tree.Product)
+        return with_children(node, exchanged) if inside else node
+
+    return replace(step, result=tuple(map(exchanged, step.result)))
+
+
+def _skew(step: Step, context: Context, short: Abbreviated) -> Step:
+    """Ḋ and N by the symbols: ∂d_kj/∂q_i = c_ijk + c_ikj, so that n_kj = Σ_i (c_ikj - c_ijk) q̇_i."""
+    n, c = context.robot.n, short.symbol
+
+    def entry(signs: tuple[int, int], k: int, j: int) -> Node:
+        first, second = signs
+        return _collected(
+            term
+            for i, q in enumerate(context.robot.coordinates)
+            for term in ((first, c(i, j, k), letters.velocity(q)), (second, c(i, k, j), letters.velocity(q)))
+        )
+
+    rows = tuple(tuple(entry((-1, 1), k, j) for j in range(n)) for k in range(n))
+    lines = inertia_rate(context, lambda i, j: entry((1, 1), i, j))
+    return replace(step, lines=lines, result=(equation(letters.bold("N"), Matrix(rows)), *step.result[-1:]))
+
+
+def _collected(terms: Iterable[tuple[int, Node, Node]]) -> Node:
+    """Σ factor · symbol · rate, the rates of each symbol in one sum."""
+    rates: dict[Node, dict[Node, int]] = {}
+    for factor, symbol, rate in terms:
+        sign, name = split_sign(symbol)
+        if name != ZERO:
+            own = rates.setdefault(name, {})
+            own[rate] = own.get(rate, 0) + sign * factor
+    return total([_product(name, own) for name, own in rates.items()])
+
+
+def _product(name: Node, rates: Mapping[Node, int]) -> Node:
+    """name · Σ factor · rate, with what the factors share in front."""
+    shared = gcd(*rates.values())
+    if not shared:
+        return ZERO
+    if all(factor <= 0 for factor in rates.values()):
+        shared = -shared
+    inner = total([times(factor // shared, [(rate, 1)]) for rate, factor in rates.items()])
+    return times(shared, [(name, 1), (inner, 1)])
+
+
+def _terms(step: Step, context: Context, short: Abbreviated) -> Step:
+    """The table of the terms of the forces, centrifugal and Coriolis terms by the names."""
+    assert step.table is not None
+    by_rates = (Kind.CENTRIFUGAL, Kind.CORIOLIS)
+    named: dict[Node, Node] = {}
+    for k in range(context.robot.n):
+        for term in terms_of(context, k):
+            if term.kind in by_rates:
+                name = name_of_term(context, term)
+                named[name] = equation(name, _by_name(context, short, term, k))
+
+    def cell(part: Inline) -> Inline:
+        left = part.parts[0] if isinstance(part, Relation) else part
+        return named.get(left, part) if isinstance(left, Node) else part
+
+    rows = tuple(tuple(map(cell, row)) for row in step.table.rows)
+    return replace(step, table=replace(step.table, rows=rows))
+
+
+def _by_name(context: Context, short: Abbreviated, term: Term, k: int) -> Node:
+    """The value of a term of force k, its symbol by its name."""
+    (i, _), (j, _) = term.rates
+    return times(term.count, [(short.symbol(i, j, k), 1), *rates_of(context, term)])

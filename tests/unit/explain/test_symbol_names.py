@@ -1,0 +1,109 @@
+"""Names for Christoffel symbols: C, Ḋ, N and the terms of the forces mean the same with them."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import pytest
+
+from dynsolve.document import Table
+from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.tree import Node, Relation
+from dynsolve.notation.tree_values import evaluate
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.notation.walk import walk
+from dynsolve.solution.documents import solution_document
+from tests.support import solved
+
+NAMED = ("elbow-3r", "box-cylinder-rod-sphere", "spherical-rrp")
+
+
+def named(problem: str) -> Abbreviated:
+    short = solved(problem).abbreviated("auto")
+    assert short is not None
+    return short
+
+
+def steps(problem: str) -> dict[str, Step]:
+    return {step.id: step for step in solved(problem).explain(["vectorized"], named(problem))}
+
+
+def known(problem: str) -> dict[str, float]:
+    """A state, and the values of the names there."""
+    solution, draw = solved(problem), random.Random(3)
+    values = {name: draw.uniform(0.5, 1.5) for name in solution.robot.ring.parameters}
+    for q in solution.robot.coordinates:
+        values |= {name: draw.uniform(-1, 1) for name in (q.name, q.velocity, q.acceleration)}
+    for definition in named(problem).definitions:
+        values[definition.name.name] = evaluate(definition.meaning, values)
+    return values
+
+
+def assert_same(ours: Any, theirs: Any) -> None:
+    for row, other in zip(ours, theirs, strict=True):
+        assert row == pytest.approx(other)
+
+
+def test_the_elbow_has_three_names() -> None:
+    """As c_221 and others of the planar elbow are ±h in Spong, Hutchinson, Vidyasagar, section 7.4."""
+    style, short = solved("elbow-3r").style, named("elbow-3r")
+    assert [to_unicode(one.name, style) for one in short.definitions] == ["σ₁", "σ₂", "σ₃"]
+    assert to_unicode(short.definitions[2].meaning, style) == "m₃ L₂ l_c3 s₃"
+    assert to_unicode(short.C, style) == (
+        "[[-σ₁ θ̇₂ - σ₂ θ̇₃, -σ₁ θ̇₁, -σ₂ θ̇₁], [σ₁ θ̇₁, -σ₃ θ̇₃, -σ₃ (θ̇₂ + θ̇₃)], [σ₂ θ̇₁, σ₃ θ̇₂, 0]]"
+    )
+
+
+@pytest.mark.parametrize("problem", NAMED)
+def test_C_and_N_mean_the_same(problem: str) -> None:
+    solution, values, found = solved(problem), known(problem), steps(problem)
+    C, N = (last(found[name].result[0]) for name in ("C", "skew"))
+    assert_same(evaluate(C, values), evaluate(solution.forms("C"), values))
+    ring, D = solution.robot.ring, solution.values["D"]
+    theirs = solution.forms.of(D.map(ring.time_derivative) - solution.values["C"].scale(ring.constant(2)))
+    assert_same(evaluate(N, values), evaluate(theirs, values))
+
+
+@pytest.mark.parametrize("problem", NAMED)
+def test_the_rates_of_D_and_the_terms_mean_the_same(problem: str) -> None:
+    values = known(problem)
+    plain = {step.id: step for step in solved(problem).explain(["vectorized"])}
+    for name, other in steps(problem).items():
+        if name == "skew":
+            for ours, theirs in zip(other.lines[0].formulas, plain[name].lines[0].formulas, strict=True):
+                assert evaluate(last(ours), values) == pytest.approx(evaluate(last(theirs), values))
+        if name == "terms":
+            for ours, theirs in zip(relations(other.table), relations(plain[name].table), strict=True):
+                if isinstance(ours, Relation) and isinstance(theirs, Relation):
+                    assert evaluate(last(ours), values) == pytest.approx(evaluate(last(theirs), values))
+
+
+def last(node: Node) -> Node:
+    assert isinstance(node, Relation)
+    return node.parts[-1]
+
+
+def relations(table: Table | None) -> list[Any]:
+    """The cells of the terms."""
+    assert table is not None
+    return [row[1] for row in table.rows]
+
+
+@pytest.mark.parametrize("detail", list(Detail))
+def test_names_are_defined_before_they_are_used(detail: Detail) -> None:
+    from tests.unit.explain.test_abbreviations import displayed
+
+    name = named("elbow-3r").definitions[0].name
+    shown = list(displayed(solution_document(solved("elbow-3r"), detail).blocks))
+    uses = [node for node in shown if name in set(walk(node))]
+    assert isinstance(uses[0], Relation) and uses[0].parts[0] == name
+
+
+def test_an_arm_with_a_short_C_needs_none() -> None:
+    assert solved("planar-2r").abbreviated("auto") is None
+
+
+def test_never_is_never() -> None:
+    assert solved("elbow-3r").abbreviated("never") is None
