@@ -10,11 +10,14 @@ from dynsolve.explain.step import Step
 from dynsolve.explain.working.derivatives import inertia_rate
 from dynsolve.explain.writing import is_small, listed, spong
 from dynsolve.notation.tree import (
+    Letter,
     Negative,
     Node,
     Number,
     Product,
+    Row,
     Sum,
+    Symbol,
     Transpose,
     equation,
 )
@@ -50,6 +53,14 @@ def agreement_step(context: Context) -> Step:
     )
 
 
+def _by_entries(n: int) -> Prose:
+    """n_ij = -n_ji, where there is more than one entry."""
+    if n == 1:
+        return ()
+    i, j = Symbol("i"), Symbol("j")
+    return (", ", equation(Letter("n", Row((i, j))), Negative(Letter("n", Row((j, i))))))
+
+
 def skew_step(context: Context) -> Step:
     """N = Ḋ - 2C, and N + Nᵀ = 0."""
     robot = context.robot
@@ -70,13 +81,15 @@ def skew_step(context: Context) -> Step:
             letters.C,
             " from the Christoffel symbols, ",
             name,
-            " plus its transpose is zero, compared exactly, so that ",
+            " plus its transpose is zero, compared exactly",
+            *_by_entries(robot.n),
+            ", so that ",
             equation(letters.transposed_product(letters.QD, name), Number(0)),
             " for all rates. Passivity follows from this.",
         ),
         formula=equation(name, SKEW),
         lines=rate,
-        entries=letters.entries("n", robot.n, robot.n),
+        entries=letters.entries("n", robot.n, robot.n) if robot.n > 1 else (),
         source=spong("7.5.1"),
         result=(*result, equation(Sum((name, Transpose(name))), letters.bold("0"))),
         hint=(

@@ -72,7 +72,7 @@ def linear_name(context: Context, body: Body) -> Node:
 
 def angular_name(body: Body) -> Node:
     """J_ωᵀ 𝓘 J_ω, in letters."""
-    return letters.transposed_product(letters.jw(body), letters.of_body("I", body, "script"))
+    return letters.transposed_product(letters.jw(body), letters.base_tensor(letters.index_of(body.name)))
 
 
 def _results(context: Context, body: Body) -> Iterator[Node]:

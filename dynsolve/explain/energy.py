@@ -192,7 +192,7 @@ def _summed(context: Context, name: str) -> Node:
         return Negative(BigSum(Product((mass, Transpose(letters.GRAVITY), center)), i, Number(1), count))
     v, w = (letters.bold(base, i) for base in ("v", "omega"))
     linear = Product((letters.HALF, mass, letters.transposed_product(v)))
-    angular = Product((letters.HALF, letters.transposed_product(w, Letter("I", i, style="script"))))
+    angular = Product((letters.HALF, letters.transposed_product(w, letters.base_tensor(i))))
     turning = any(not body.is_point for body in bodies)
     return BigSum(Sum((linear, angular)) if turning else linear, i, Number(1), count)
 

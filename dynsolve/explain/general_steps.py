@@ -176,7 +176,7 @@ def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
         formula=side_by_side(
             [
                 equation(rotation, Letter("R", _I, letters.R(context.robot, 1).sup, "bold")),
-                equation(Letter("I", _I, style="script"), Product((rotation, tensor, Transpose(rotation)))),
+                equation(letters.base_tensor(_I), Product((rotation, tensor, Transpose(rotation)))),
             ]
         ),
         source=spong("7.2.1"),
@@ -214,7 +214,7 @@ def _kinetic(context: Context) -> Step:
     Jv, Jw = (letters.bold("J", Letter(base, _I)) for base in ("v", "omega"))
     velocities = [equation(v, Product((Jv, letters.QD))), equation(w, Product((Jw, letters.QD)))]
     linear = Product((letters.HALF, Letter("m", _I), letters.transposed_product(v)))
-    tensor = Letter("I", _I, style="script")
+    tensor = letters.base_tensor(_I)
     rotational = Product((letters.HALF, letters.transposed_product(w, tensor)))
     return Step(
         id="kinetics",

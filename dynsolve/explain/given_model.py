@@ -54,7 +54,7 @@ def _with_added(step: Step, energy: Letter, added: Sequence[Letter]) -> Step:
 
 def _potential(context: Context, given: GivenModel) -> Step:
     if given.L is not None:
-        why: Prose = ("What is left of 𝓛 where nothing moves, with the opposite sign.",)
+        why: Prose = ("What is left of ℒ where nothing moves, with the opposite sign.",)
     elif given.P is not None:
         why = ("Given by the problem.",)
     else:
@@ -73,7 +73,7 @@ def _potential(context: Context, given: GivenModel) -> Step:
 def _kinetic(context: Context, given: GivenModel) -> Step:
     why = "Given by the problem: a quadratic form in the rates."
     if given.L is not None:
-        why = "The terms of 𝓛 with rates: a quadratic form in them."
+        why = "The terms of ℒ with rates: a quadratic form in them."
     return Step(
         id="K",
         stage=Stage.ENERGY,

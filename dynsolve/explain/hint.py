@@ -147,7 +147,7 @@ def _inputs(context: Context, stage: Stage) -> Iterator[tuple[Node, str]]:
         for body in robot.bodies:
             yield letters.rc(body), f"rc{body.name}"
             if not body.is_point:
-                yield letters.of_body("I", body, "script"), f"I{body.name}"
+                yield letters.base_tensor(letters.index_of(body.name)), f"I{body.name}"
     elif stage is Stage.LAGRANGIAN:
         yield from ((letters.K, "K"), (letters.P, "P"))
     elif stage is Stage.TORQUE:

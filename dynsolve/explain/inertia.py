@@ -103,7 +103,7 @@ def _point(context: Context, body: Body) -> Step:
             "rotational energy. No ",
             letters.of_body("R", body, "bold"),
             " and no ",
-            letters.of_body("I", body, "script"),
+            letters.base_tensor(letters.index_of(body.name)),
             " are needed.",
         ),
         source=spong("7.2.1"),
@@ -287,7 +287,7 @@ def _right_frame(context: Context, link: int) -> Iterator[Prose]:
 def _base_tensor(context: Context, body: Body) -> Step:
     b = body.name
     inertia_, R, tensor = (
-        letters.of_body("I", body, "script"),
+        letters.base_tensor(letters.index_of(body.name)),
         letters.of_body("R", body, "bold"),
         letters.tensor(context.robot, body),
     )

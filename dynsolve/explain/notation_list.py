@@ -126,7 +126,7 @@ def notation(
     """The notation of blocks: the lines for the signs that occur there, the problem's own first."""
     occurring = kinds_in(formulas_in(blocks), style)
     own = {("", "name", name) for name in (*robot.parameters, *(q.name for q in robot.coordinates))}
-    general = [replace(line, kinds=line.kinds - own) for line in textbook(robot)]
+    general = [replace(line, kinds=line.kinds - own) for line in textbook(robot, style)]
     lines = [
         *of_problem(robot, style),
         *_of_abbreviations(short),

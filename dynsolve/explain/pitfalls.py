@@ -171,7 +171,7 @@ def _torque(robot: Robot) -> Iterator[Prose]:
     if turning:
         yield ("The derivative of a sine or cosine of an angle that moves brings its rate: the chain rule.",)
     if "friction" in robot.actions.kinds:
-        yield ("Friction does not follow from 𝓛: add it to each equation, with a plus.",)
+        yield ("Friction does not follow from ℒ: add it to each equation, with a plus.",)
 
 
 def _vectorized(robot: Robot) -> Iterator[Prose]:

@@ -28,7 +28,7 @@ def rotational_step(context: Context, body: Body) -> Step:
     )
     if body.is_point:
         return replace(step, why=("A point mass has no rotational energy.",))
-    half = Product((letters.HALF, letters.transposed_product(w, letters.of_body("I", body, "script"))))
+    half = Product((letters.HALF, letters.transposed_product(w, letters.base_tensor(letters.index_of(body.name)))))
     why: Prose = (w, f" and the tensor, both in {context.ground} coordinates.")
     step = replace(step, why=why, hint=why, formula=equation(Kw, half))
     if context.values[f"w{b}"].is_zero:
@@ -47,7 +47,7 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
     half = Product((letters.HALF, Transpose(Parenthesized(own.name)), tensor, Parenthesized(own.name)))
     assert isinstance(step.formula, Relation)
     why: Prose = (
-        equation(letters.of_body("I", body, "script"), Product((R, tensor, Transpose(R)))),
+        equation(letters.base_tensor(letters.index_of(body.name)), Product((R, tensor, Transpose(R)))),
         f" is the tensor along the axes of the {context.ground}. Along the body's own axes it is ",
         tensor,
         ", and the angular velocity is ",

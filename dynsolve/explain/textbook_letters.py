@@ -14,10 +14,11 @@ from dynsolve.explain.writing import machine, side_by_side
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Letter, Node, Number, Row, Symbol, Words
+from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Convention, Robot
+from dynsolve.robot.model import Convention, JointType, Robot
 
 WIDEST = 8.0
 """Signs of one meaning that are wider together, in em, are the first, the second and the last."""
@@ -75,7 +76,7 @@ SHAPES = {
 """The letters of the formulas of uniform shapes."""
 
 
-def textbook(robot: Robot) -> Iterator[Line]:
+def textbook(robot: Robot, style: Style) -> Iterator[Line]:
     """The lines of the textbook's letters, in the order of the derivation."""
     ground = "the world w" if letters.has_base(robot) else "frame 0" if robot.has_table else "the world"
     yield from _kinematics(letters.columns(robot, _I), ground, letters.H(robot, 0).sup)
@@ -83,7 +84,7 @@ def textbook(robot: Robot) -> Iterator[Line]:
     yield from _bodies(robot, ground)
     if Stage.NEWTON_EULER in asked_stages(robot.questions):
         yield from _recursions(robot)
-    yield from _dynamics(machine(robot))
+    yield from _dynamics(robot, style)
 
 
 def _line(sign: Node | Sequence[Node], meaning: str, unit: str = "", *kinds: Kind) -> Line:
@@ -185,7 +186,7 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     yield _line(Letter("r", center, None, "bold"), "mass centre of body i", "m")
     yield _line(Letter("r", center, _I, "bold"), "mass centre of body i, in its link's frame", "m")
     yield _line(_own_tensors(robot), "inertia tensor of body i, along its own axes", "kg m^2")
-    yield _line(_body("I", "script"), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
+    yield _line(letters.base_tensor(_I), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
     yield _line(_numbered("R"), f"axes of body i, seen from {ground}")
     yield _line(Letter("R", Row((_I, Words(","), _J)), None, "bold"), "turn j of body i")
     yield _line([Letter("I", Words(a)) for a in ("xx", "yy", "zz")], "moments of a uniform shape", "kg m^2")
@@ -230,7 +231,7 @@ def _recursions(robot: Robot) -> Iterator[Line]:
     yield _each(held, " with which link i-1 holds link i, in frame i")
 
 
-def _dynamics(machine: str) -> Iterator[Line]:
+def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     jacobians = [(_sub("J", "v"), "linear part"), (_sub("J", "omega"), "angular part")]
     yield _each(jacobians, " of the Jacobian of the mass centre of body i")
     velocities = [
@@ -243,13 +244,11 @@ def _dynamics(machine: str) -> Iterator[Line]:
     ]  # fmt: skip
     yield _each(energies, " of body i", "J")
     totals = [(letters.K, "kinetic energy"), (letters.P, "potential energy"), (letters.L, "Lagrangian")]
-    yield _each(totals, f" of the {machine}", "J")
-    yield _line(_body("tau"), "generalized force i, a torque: coordinate i is an angle", "N m")
-    yield _line(_body("f"), "generalized force i, a force: coordinate i is a length", "N")
-    yield _line(letters.TAU, "column of the generalized forces")
+    yield _each(totals, f" of the {machine(robot)}", "J")
+    yield from _forces(robot, style)
     yield from _actions()
     yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")])
-    yield _line(letters.bold("D", Words("p")), "inertia matrix of the masses alone, as points")
+    yield _line(letters.D_POINTS, "inertia matrix of the masses alone, as points")
     yield _line(_entry("c", _I, _J, _K), "Christoffel symbol")
     yield _each(
         [(letters.C, "matrix of the Coriolis and centrifugal terms"), (_entry("c", _K, _J), "its entries")]
@@ -257,6 +256,26 @@ def _dynamics(machine: str) -> Iterator[Line]:
     yield _each([(letters.G, "column of the gravity terms"), (_entry("g", _K), "its entries")])
     yield from _linear()
     yield _each([(letters.bold("N"), "matrix that is skew-symmetric"), (_entry("n", _I, _J), "its entries")])
+
+
+def _forces(robot: Robot, style: Style) -> Iterator[Line]:
+    """τ_i of any coordinate, and f_i, which stands in its place where the coordinate is a length."""
+    kinds = {q.type for q in robot.coordinates}
+    torque, force = _body("tau"), _body("f")
+    turning, sliding = (
+        ("at a revolute joint", "at a prismatic one")
+        if robot.has_table
+        else ("where coordinate i is an angle", "where it is a length")
+    )
+    written = UnicodePrinter(style).text(force)
+    if kinds == {JointType.REVOLUTE}:
+        yield _line(torque, "generalized force i, a torque", "N m")
+    elif kinds == {JointType.PRISMATIC}:
+        yield _line([torque, force], "generalized force i, a force", "N")
+    else:
+        meaning = f"generalized force i: a torque {turning}, a force ({written}) {sliding}"
+        yield _line([torque, force], meaning, "N m or N")
+    yield _line(letters.TAU, "column of the generalized forces")
 
 
 def _actions() -> Iterator[Line]:
@@ -303,8 +322,8 @@ def _numbered(base: str) -> Letter:
     return Letter(base, _I, None, "bold")
 
 
-def _body(base: str, style: str = "italic") -> Letter:
-    return Letter(base, _I, None, style)
+def _body(base: str) -> Letter:
+    return Letter(base, _I)
 
 
 def _entry(base: str, *indices: Node) -> Letter:

@@ -47,7 +47,7 @@ def _momentum(context: Context, q: Coordinate) -> Step:
 def _partial(context: Context, by: Node, held: str, like: str) -> Prose:
     """The sentence about a partial derivative: the variable, and the quantities that are held fixed."""
     fixed = f"the {held} is" if context.robot.n == 1 else f"the {held}s and the other {like}s are"
-    return ("Differentiate 𝓛 with respect to ", by, f" alone: {fixed} held fixed.")
+    return ("Differentiate ℒ with respect to ", by, f" alone: {fixed} held fixed.")
 
 
 def _rate(context: Context, q: Coordinate) -> Step:
@@ -87,19 +87,19 @@ def _slope(context: Context, q: Coordinate) -> Step:
     form = context.form(f"dLdq{q.index}")
     why: Prose = _partial(context, Symbol(q.name), "rate", "coordinate")
     if form == Number(0):
-        why = (Symbol(q.name), " itself does not occur in 𝓛.")
+        why = (Symbol(q.name), " itself does not occur in ℒ.")
     way = derivatives.coordinate_derivative(context, q)
     return Step(
         id=f"dLdq{q.index}",
         stage=STAGE,
-        title=f"Coordinate {q.index}: partial derivative of 𝓛",
+        title=f"Coordinate {q.index}: partial derivative of ℒ",
         why=why,
         source=spong("7.1"),
         lines=way.lines,
         concluding=way.concluding,
         result=(equation(letters.partial_derivative(letters.L, Symbol(q.name)), form),),
         hint=(
-            "Differentiate 𝓛 with respect to the coordinate alone: the rates are held fixed, and a term "
+            "Differentiate ℒ with respect to the coordinate alone: the rates are held fixed, and a term "
             "in which the coordinate does not occur drops out.",
         ),
     )

@@ -16,7 +16,7 @@ from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_sums
 from dynsolve.explain.working.proved import MOST_JOINTS
-from dynsolve.explain.writing import and_joined, are_counted, spong, sum_of
+from dynsolve.explain.writing import and_joined, are_counted, listed, spong, sum_of, turns
 from dynsolve.notation.tree import (
     BigSum,
     Letter,
@@ -80,7 +80,14 @@ def _inertia(context: Context) -> Step:
         stage=STAGE,
         title="The inertia matrix, read off from the forces",
         why=(
-            "Entry (i, j) is the factor of the j-th acceleration in the i-th generalized force. ",
+            "Entry ",
+            _d(_I, _J),
+            " is the factor of the acceleration ",
+            Letter("q", _J, dots=2),
+            " in the generalized force ",
+            Letter("tau", _I),
+            *_entries_of_forces(context.robot),
+            ". ",
             letters.D,
             " is symmetric, and may depend on the coordinates, but on no rate.",
         ),
@@ -91,6 +98,14 @@ def _inertia(context: Context) -> Step:
         entries=_names(context, "d"),
         detail=Detail.BRIEF,
     )
+
+
+def _entries_of_forces(robot: Robot) -> Prose:
+    """What τ_i is where some generalized forces are called f_i."""
+    if all(turns(q) for q in robot.coordinates):
+        return ()
+    named = listed([letters.force(q) for q in robot.coordinates])
+    return (", entry ", _I, " of ", letters.TAU, " (", *named, ")")
 
 
 def _from_energies(context: Context) -> bool:
@@ -147,7 +162,7 @@ def _inertia_direct(context: Context) -> Step:
     i = Symbol("i")
     jv, jw = (letters.bold("J", Letter(part, i)) for part in ("v", "omega"))
     linear = Product((Letter("m", i), Transpose(jv), jv))
-    angular = Product((Transpose(jw), Letter("I", i, style="script"), jw))
+    angular = Product((Transpose(jw), letters.base_tensor(i), jw))
     total = Parenthesized(Sum((linear, angular)))
     same = context.values["D"] == context.values["D_direct"]
     terms: list[Node] = []
@@ -203,7 +218,7 @@ def _coriolis(context: Context) -> Step:
     by_slopes = Product((letters.HALF, BigSum(Product((SLOPES, rate)), _I, Number(1), _N)))
     Cqd = Product((letters.C, letters.QD))
     none = context.values["C"].is_zero
-    why: Prose = ("Row k, column j. ", Cqd, " holds the centrifugal terms (a rate squared)")
+    why: Prose = ("Row ", _K, ", column ", _J, ". ", Cqd, " holds the centrifugal terms (a rate squared)")
     why += (" and the Coriolis terms (a product of two rates)",) if context.robot.n > 1 else ()
     why += (". There are none here.",) if none else (". Multiplied out, it is the one read off above.",)
     return Step(
@@ -216,7 +231,13 @@ def _coriolis(context: Context) -> Step:
         lines=coriolis_sums(context),
         result=(equation(letters.C, context.form("C")),),
         hint=(
-            "Row k, column j: a sum over i. Multiplied by the rates it must give what you read off from "
+            "Row ",
+            _K,
+            ", column ",
+            _J,
+            ": a sum over ",
+            _I,
+            ". Multiplied by the rates it must give what you read off from "
             "the forces.",
         ),
         entries=_names(context, "c"),

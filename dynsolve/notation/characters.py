@@ -63,18 +63,28 @@ SPELLED: dict[str, str] = {letter: name for name, letter in GREEK.items()} | {
 SUBSCRIPT_DIGITS = "₀₁₂₃₄₅₆₇₈₉"
 SUPERSCRIPT_DIGITS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 
-_SCRIPT = {"I": "𝓘", "L": "𝓛", "B": "ℬ", "E": "ℰ", "F": "ℱ", "H": "ℋ", "M": "ℳ", "R": "ℛ"}
+_SCRIPT = {"I": "ℐ", "L": "ℒ", "B": "ℬ", "E": "ℰ", "F": "ℱ", "H": "ℋ", "M": "ℳ", "R": "ℛ"}
+"""The letters of the script alphabet that have a place of their own in Unicode."""
 
 
 def script_letter(base: str) -> str:
     """A capital Latin letter in script; everything else as it is.
 
     >>> script_letter("L"), script_letter("K"), script_letter("ab")
-    ('𝓛', '𝒦', 'ab')
+    ('ℒ', '𝒦', 'ab')
     """
     if len(base) == 1 and "A" <= base <= "Z":
         return _SCRIPT.get(base) or chr(0x1D49C + ord(base) - ord("A"))
     return base
+
+
+def bold_script_letter(base: str) -> str:
+    """A capital Latin letter in bold script; everything else as it is.
+
+    >>> bold_script_letter("I"), bold_script_letter("ab")
+    ('𝓘', 'ab')
+    """
+    return chr(0x1D4D0 + ord(base) - ord("A")) if len(base) == 1 and "A" <= base <= "Z" else base
 
 
 _BOLD = {"A": 0x1D400, "a": 0x1D41A, "Α": 0x1D6A8, "α": 0x1D6C2, "0": 0x1D7CE}

@@ -94,7 +94,7 @@ class FormulaPrinter(Printer):
         raise NotImplementedError
 
     def _styled(self, base: str, style: str) -> str:
-        """A letter of the textbook in its style: `italic`, `bold`, `script` or `upright`."""
+        """A letter of the textbook in its style: `italic`, `bold`, `script`, `bold script` or `upright`."""
         raise NotImplementedError
 
     def _dotted(self, base: str, dots: int) -> str:

@@ -77,6 +77,8 @@ class LatexPrinter(FormulaPrinter):
             return rf"\boldsymbol{{\{base}}}" if style == "bold" else "\\" + base
         if style == "italic":
             return base if len(base) == 1 else rf"\mathit{{{escaped(base)}}}"
+        if style == "bold script":
+            return rf"\boldsymbol{{\mathcal{{{escaped(base)}}}}}"
         return f"{_STYLES[style]}{{{escaped(base)}}}"
 
     def _dotted(self, base: str, dots: int) -> str:

@@ -9,7 +9,7 @@ import re
 from collections.abc import Sequence
 from html import escape
 
-from dynsolve.notation.characters import GREEK, script_letter
+from dynsolve.notation.characters import GREEK, bold_script_letter, script_letter
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.printing import PLAIN, Style, decimal_text
 from dynsolve.notation.tree import BigSum, Degrees, Function, Integral, Node, Number, Words
@@ -77,6 +77,8 @@ class MathMLPrinter(FormulaPrinter):
                 return f'<mi mathvariant="normal">{base}</mi>'
             case "script":
                 return f"<mi>{script_letter(base)}</mi>"
+            case "bold script":
+                return f"<mi>{bold_script_letter(base)}</mi>"
         return f"<mi>{base}</mi>"
 
     def _dotted(self, base: str, dots: int) -> str:

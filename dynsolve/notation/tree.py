@@ -154,8 +154,8 @@ class Letter(Node):
     """A symbol of the textbook with its indices: **J**_{v_1}, H_2^0, 𝓘_1.
 
     `base` is one letter, a Greek name or a short word; `style` is `italic`,
-    `bold` (vectors and matrices), `script` or `upright`; `sub` and `sup` are
-    nodes; `dots` is the number of dots over it.
+    `bold` (vectors and matrices), `script`, `bold script` (the tensor 𝓘, a matrix) or
+    `upright`; `sub` and `sup` are nodes; `dots` is the number of dots over it.
     """
 
     base: str

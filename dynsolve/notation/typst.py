@@ -20,7 +20,13 @@ from dynsolve.notation.tree import (
 
 _DOTS = ("", "dot", "dot.double", "dot.triple")
 _TALL = ("frac(", "mat(", "sum_")
-_STYLES = {"bold": "upright(bold({}))", "script": "cal({})", "upright": "upright({})", "italic": "{}"}
+_STYLES = {
+    "bold": "upright(bold({}))",
+    "script": "cal({})",
+    "bold script": "bold(cal({}))",
+    "upright": "upright({})",
+    "italic": "{}",
+}
 
 _OPERATORS = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan"})
 

@@ -15,6 +15,7 @@ from dynsolve.notation.characters import (
     SUBSCRIPT_DIGITS,
     SUPERSCRIPT_DIGITS,
     bold_letter,
+    bold_script_letter,
     script_letter,
 )
 from dynsolve.notation.formulas import FormulaPrinter
@@ -145,6 +146,8 @@ class UnicodePrinter(FormulaPrinter):
         base = self._base(printable(base))
         if style == "bold" and self.style.bold:
             return bold_letter(base)
+        if style == "bold script":
+            return bold_script_letter(base)
         return script_letter(base) if style == "script" else base
 
     def _dotted(self, base: str, dots: int) -> str:

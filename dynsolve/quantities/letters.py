@@ -117,6 +117,7 @@ L = Letter("L", style="script")
 PS = Letter("P", Words("s"))
 KM = Letter("K", Words("m"))
 DM = bold("D", Words("m"))
+D_POINTS = bold("D", Words("points"))
 FRICTION = bold("tau", Words("f"))
 DISSIPATION = Letter("R", style="script")
 
@@ -197,6 +198,11 @@ def tensor(robot: Robot, body: Body) -> Letter:
     """I_1, the tensor in the body's own frame; I_1^b in a problem that calls a parameter I_1 or I_2."""
     taken = any(is_taken(robot, "I", other) for other in robot.bodies)
     return bold("I", index_of(body.name), Words("b") if taken else None)
+
+
+def base_tensor(index: Node) -> Letter:
+    """𝓘_i, the tensor along the axes of frame 0: a matrix too, and so in bold script."""
+    return Letter("I", index, None, "bold script")
 
 
 def energy_part(part: str, body: Body) -> Letter:

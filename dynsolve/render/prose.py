@@ -20,7 +20,8 @@ _SPELLED = {letter: name for name, letter in GREEK.items()}
 _SUBSCRIPTS = dict(zip(SUBSCRIPT_DIGITS + "ᵢⱼₖₙ₋", "0123456789ijkn-", strict=True))
 _SUPERSCRIPTS = dict(zip(SUPERSCRIPT_DIGITS + "ⁱⁿᵀ", "0123456789inT", strict=True))
 _DOTS = {"\u0307": 1, "\u0308": 2}
-_SCRIPTS = {"𝓘": "I", "𝓛": "L", "𝒦": "K", "𝒫": "P"}
+_SCRIPTS = {"ℒ": ("L", "script"), "𝒦": ("K", "script"), "𝒫": ("P", "script"), "𝓘": ("I", "bold script")}
+"""Letters of a script alphabet: the letter, and its style."""
 _DOTTED = {"Ḋ": "D", "ẋ": "x", "ẏ": "y", "ż": "z"}
 _BOLD = {True: frozenset("AH"), False: frozenset({"q", "D", "tau", "omega"})}
 """The vectors and matrices that the explanations name in words: A₁ with an index, q̇ and ω without one."""
@@ -117,8 +118,8 @@ def _parts(text: str) -> tuple[str | Node, ...]:
 
 @lru_cache(maxsize=2048)
 def _formula(base: str, dots: str, sub: str, sup: str) -> Node:
-    letter = _DOTTED.get(base) or _SCRIPTS.get(base) or _SPELLED.get(base) or base
-    style = "script" if base in _SCRIPTS else "bold" if letter in _BOLD[bool(sub)] else "italic"
+    letter, style = _SCRIPTS.get(base) or (_DOTTED.get(base) or _SPELLED.get(base) or base, "")
+    style = style or ("bold" if letter in _BOLD[bool(sub)] else "italic")
     count = _DOTS.get(dots, 1 if base in _DOTTED else 0)
     return Letter(letter, _index(sub, _SUBSCRIPTS), _index(sup, _SUPERSCRIPTS), style, count)
 

@@ -36,7 +36,7 @@ def test_no_result_of_the_stage_or_of_a_later_one(problem: str, stage: str) -> N
     assert "too long to be repeated here" in there_is or all(text in there_is for text in given)
 
 
-GIVEN = {"lagrangian": [("𝒦", "K"), ("𝒫", "P")], "torque": [("𝓛", "L")], "vectorized": [("τ₁", "tau1")]}
+GIVEN = {"lagrangian": [("𝒦", "K"), ("𝒫", "P")], "torque": [("ℒ", "L")], "vectorized": [("τ₁", "tau1")]}
 """What a stage starts from, as far as it is no matrix."""
 
 
@@ -70,7 +70,7 @@ def test_formulas_and_inputs_of_this_robot() -> None:
     assert "𝐫_c2 = ⎢L₂ s₁⎥" in energy  # what the stage before has given
     assert "θ̇₁²" not in energy
     torque = hint("in3140-rp", "torque")
-    assert "𝓛 = ((m₂ L₂² + I_1zz) θ̇₁² + m₂ L̇₂²)/2 - m₁ g L₁/2 - m₂ g L₁" in torque and "θ̈₁" not in torque
+    assert "ℒ = ((m₂ L₂² + I_1zz) θ̇₁² + m₂ L̇₂²)/2 - m₁ g L₁/2 - m₂ g L₁" in torque and "θ̈₁" not in torque
     assert "What drives θ₁ is a torque; what drives L₂ a force." in torque
 
 

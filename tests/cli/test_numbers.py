@@ -37,8 +37,8 @@ def test_a_state_shows_every_stage() -> None:
         "    K_v2 = 0.01 J",  # (L2² θ̇1² + L̇2²)/2 = (0.01 + 0.01)/2
         "    K_ω1 = 0.00625 J",  # 0.05·0.5²/2
         "    𝒦 = 0.01625 J",
-        "    𝓛 = -7.832 J",
-        "    ∂𝓛/∂θ̇₁ = 0.045 kg m²/s",  # (0.05 + 0.2²)·0.5
+        "    ℒ = -7.832 J",
+        "    ∂ℒ/∂θ̇₁ = 0.045 kg m²/s",  # (0.05 + 0.2²)·0.5
         "    τ₁ = 0.02 N m",  # 2·0.2·0.5·0.1
         "    f₂ = -0.05 N",  # -0.2·0.5²
     ):
@@ -74,7 +74,7 @@ def test_digits_of_a_model_in_numbers(digits: tuple[str, ...], shown: str) -> No
 
 def test_stages_choose_numbers_too() -> None:
     out = solved(*SET, "--stage", "lagrangian")
-    assert "𝓛 = (0.025 + 0.5 L₂²) θ̇₁² + 0.5 L̇₂² - 7.848 in J" in out and "τ₁" not in out
+    assert "ℒ = (0.025 + 0.5 L₂²) θ̇₁² + 0.5 L̇₂² - 7.848 in J" in out and "τ₁" not in out
 
 
 def test_json_has_sections_of_its_own() -> None:

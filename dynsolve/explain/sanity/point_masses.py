@@ -6,7 +6,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import is_small, spong
-from dynsolve.notation.tree import BigSum, Letter, Number, Product, Symbol, Transpose, Words, equation
+from dynsolve.notation.tree import BigSum, Letter, Number, Product, Symbol, Transpose, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
@@ -36,6 +36,6 @@ def point_masses_step(context: Context) -> Step | None:
             " is made of masses times products of distances:",
         ),
         source=spong("7.2"),
-        result=(equation(letters.bold("D", Words("p")), general, shown),),
+        result=(equation(letters.D_POINTS, general, shown),),
         is_task=False,
     )

@@ -37,7 +37,7 @@ def step(id: str, problem: str = ACTING):
         ("P", "𝒫 = P₁ + P₂ + P_s = -Σᵢ₌₁² mᵢ 𝐠₀ᵀ 𝐫_ci + P_s"),
         ("Km", "K_m = Σᵢ₌₁² ½ I_mi (k_ri q̇ₖ + 𝐳ᵀ 𝛚_link)²"),
         ("friction", "τ_fk = ∂ℛ/∂q̇ₖ + f_ck sgn(q̇ₖ)"),
-        ("tau1", "τ₁ + Q₁ = d/dt (∂𝓛/∂q̇₁) - ∂𝓛/∂q₁ + τ_f1"),
+        ("tau1", "τ₁ + Q₁ = d/dt (∂ℒ/∂q̇₁) - ∂ℒ/∂q₁ + τ_f1"),
         ("Cqd", "𝐂 𝐪̇ + 𝐠 = 𝛕 + 𝐐 - 𝐃 𝐪̈ - 𝛕_f"),
         ("model", "𝐃 𝐪̈ + 𝐂 𝐪̇ + 𝛕_f + 𝐠 = 𝛕 + 𝐐"),
     ],

@@ -82,7 +82,7 @@ TEXTBOOK = [
     (Letter("H", sub=Number(2), sup=Number(0), style="bold"), r"\mathbf{H}_{2}^{0}"),
     (Letter("omega", sub=i, style="bold"), r"\boldsymbol{\omega}_{i}"),
     (Letter("q", dots=1, style="bold"), r"\dot{\mathbf{q}}"),
-    (Letter("I", sub=Number(1), style="script"), r"\mathcal{I}_{1}"),
+    (Letter("I", sub=Number(1), style="bold script"), r"\boldsymbol{\mathcal{I}}_{1}"),
     (Letter("tr", style="upright"), r"\mathrm{tr}"),
     (Letter("r", sub=Row((Letter("c"), i))), "r_{c i}"),
     (Transpose(Letter("J", sub=i)), "J_{i}^{T}"),

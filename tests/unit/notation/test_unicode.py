@@ -141,8 +141,8 @@ TEXTBOOK = [
     (Letter("d", sub=Row((Number(1), Words(","), Number(2)))), "d_{1,2}"),
     (Letter("Rot", Row((Words("z"), Words(","), Letter("theta", i))), style="upright"), "Rot_{z,θᵢ}"),
     (Letter("q", dots=2, style="bold"), "q\u0308"),
-    (Letter("I", sub=Number(1), style="script"), "𝓘₁"),
-    (LAGRANGIAN, "𝓛"),
+    (Letter("I", sub=Number(1), style="bold script"), "𝓘₁"),
+    (LAGRANGIAN, "ℒ"),
     (Letter("K", style="script"), "𝒦"),
     (Letter("P", style="script"), "𝒫"),
     (Transpose(Letter("J", sub=Letter("v"))), "J_vᵀ"),
@@ -151,8 +151,8 @@ TEXTBOOK = [
     (Cross(Letter("z", Number(0)), Sum((Symbol("a"), Symbol("b")))), "z₀ × (a + b)"),
     (Cross(Letter("z"), Parenthesized(Sum((Symbol("a"), Symbol("b"))))), "z × (a + b)"),
     (Cross(Symbol("a"), Cross(Symbol("b"), Symbol("c"))), "a × (b × c)"),
-    (RATE, "∂𝓛/∂θ\u0307₁"),
-    (Derivative(RATE, t, total=True), "d/dt (∂𝓛/∂θ\u0307₁)"),
+    (RATE, "∂ℒ/∂θ\u0307₁"),
+    (Derivative(RATE, t, total=True), "d/dt (∂ℒ/∂θ\u0307₁)"),
     (Derivative(None, t, total=True), "d/dt"),
     (Derivative(Symbol("x"), t, total=True), "dx/dt"),
     (Product((Derivative(Quotient(Symbol("a"), Symbol("b")), t, True), Symbol("c"))), "(d/dt (a/b)) c"),
@@ -185,7 +185,7 @@ def test_decimals_where_they_are_asked_for():
     assert to_unicode(tree, Style(decimal=True)) == "9.81 m₁"
 
 
-WIDTHS = [("", 0), ("abc", 3), ("θ\u0307₁", 2), ("L\u0308₂²", 3), ("𝓛", 1), ("｜", 2), ("∂𝓛/∂θ\u0307₁", 6)]
+WIDTHS = [("", 0), ("abc", 3), ("θ\u0307₁", 2), ("L\u0308₂²", 3), ("ℒ", 1), ("｜", 2), ("∂ℒ/∂θ\u0307₁", 6)]
 
 
 @pytest.mark.parametrize(("text", "columns"), WIDTHS)

@@ -134,7 +134,7 @@ def test_json_and_numpy_say_the_same(path: Path) -> None:
 
 def test_steps_are_in_json_as_text_and_latex(planar: dynsolve.Solution) -> None:
     steps = {step["id"]: step for step in planar.to_json()["steps"]}
-    assert steps["L"]["text"].startswith("𝓛 = 𝒦 - 𝒫\n")
+    assert steps["L"]["text"].startswith("ℒ = 𝒦 - 𝒫\n")
     assert steps["H2"]["latex"].count(r"\begin{bmatrix}") >= 2
     assert steps["D"]["stage"] == "vectorized" and steps["D"]["why"]
 

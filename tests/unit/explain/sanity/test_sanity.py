@@ -101,8 +101,8 @@ def test_a_counterweight() -> None:
 
 def test_a_waist_keeps_its_momentum() -> None:
     assert said("in3140-rp", "cyclic") == (
-        "θ₁ stands nowhere in 𝓛: a cyclic coordinate. As long as τ₁ = 0, the Euler-Lagrange equation says "
-        "that the momentum ∂𝓛/∂θ̇₁ is conserved."
+        "θ₁ stands nowhere in ℒ: a cyclic coordinate. As long as τ₁ = 0, the Euler-Lagrange equation says "
+        "that the momentum ∂ℒ/∂θ̇₁ is conserved."
     )
     assert check("planar-2r", "cyclic") is None
 

@@ -106,7 +106,7 @@ def test_longer_arms_stay_as_short_as_they_are() -> None:
 def test_a_derivative_term_by_term_where_several_factors_move() -> None:
     assert lines("planar-2r", "ddt1") == [
         "Term by term:",
-        "d/dt (∂𝓛/∂q̇₁) = (m₁ l_c1² + m₂ (l₁² + l_c2² + 2l₁ l_c2 c₂) + I₁ + I₂) q̈₁ - 2m₂ l₁ l_c2 s₂ q̇₁ q̇₂ "
+        "d/dt (∂ℒ/∂q̇₁) = (m₁ l_c1² + m₂ (l₁² + l_c2² + 2l₁ l_c2 c₂) + I₁ + I₂) q̈₁ - 2m₂ l₁ l_c2 s₂ q̇₁ q̇₂ "
         "+ (m₂ (l_c2² + l₁ l_c2 c₂) + I₂) q̈₂ - m₂ l₁ l_c2 s₂ q̇₂²",
         "Collected:",
     ]
