@@ -36,6 +36,8 @@ class Token(NamedTuple):
 _DOTTED = {"\u0307": 1, "\u0308": 2}
 _PRECOMPOSED = "ȧḃċḋėḟġḣṁṅȯṗṙṡṫẇẋẏżḦḧẍẅÿ"
 """Letters that Unicode has with their dots, in one code point."""
+_SCRIPT_TENSOR = "𝓘ℐ"
+"""The letter of the tensor in base coordinates, which is another than the tensor I in the body's axes."""
 _GREEK = "".join(SPELLED)
 _LETTER = f"A-Za-z{_GREEK}\U0001d400-\U0001d7cbℋℐℒℛℬℰℱℳℓ"
 _INDEX = f"0-9{SUBSCRIPT_DIGITS}"
@@ -229,6 +231,8 @@ def tokenize(text: str) -> list[Token]:
             if token is None:
                 spaced = True
             else:
+                if piece[0] in _SCRIPT_TENSOR and token.kind == "name":
+                    found.append(token._replace(kind="command", text="mathcal", end=token.start))
                 found.append(token)
                 spaced = broken = False
         offset = end

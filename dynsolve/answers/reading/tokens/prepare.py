@@ -156,7 +156,7 @@ def _simplify_command(
 ) -> int:
     """A command with one spelling, or left out if it is a font; gives where to go on."""
     if token.text in _FONTS:
-        return position
+        return _script_inside(tokens, position, out)
     if token.text in _FRACTIONS:
         return _split_digits(tokens, position, token._replace(text="frac"), out)
     if token.text in _MATRICES and tokens[position].kind == "{":
@@ -173,6 +173,17 @@ def _simplify_command(
         return position
     out.append(token._replace(text="script") if token.text in _SCRIPT else token)
     return position
+
+
+def _script_inside(tokens: list[Token], position: int, out: list[Token]) -> int:
+    r"""A script letter in bold, `\boldsymbol{\mathcal{I}}`, is one without: its outer braces are left out."""
+    inner = tokens[position : position + 6]
+    kinds = [token.kind for token in inner]
+    bare = kinds[:3] == ["{", "command", "{"] and kinds[3:4] in (["name"], ["letter"]) and kinds[4:] == ["}", "}"]
+    if not (bare and inner[1].text in _SCRIPT):
+        return position
+    out += [inner[1]._replace(text="script"), *inner[2:5]]
+    return position + len(inner)
 
 
 def _split_digits(tokens: list[Token], position: int, command: Token, out: list[Token]) -> int:
