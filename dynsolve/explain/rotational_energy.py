@@ -28,7 +28,9 @@ def rotational_step(context: Context, body: Body) -> Step:
     )
     if body.is_point:
         return replace(step, why=("A point mass has no rotational energy.",))
-    half = Product((letters.HALF, letters.transposed_product(w, letters.base_tensor(letters.index_of(body.name)))))
+    half = Product(
+        (letters.HALF, letters.transposed_product(w, letters.base_tensor(letters.index_of(body.name))))
+    )
     why: Prose = (w, f" and the tensor, both in {context.ground} coordinates.")
     step = replace(step, why=why, hint=why, formula=equation(Kw, half))
     if context.values[f"w{b}"].is_zero:

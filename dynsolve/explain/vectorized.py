@@ -237,8 +237,7 @@ def _coriolis(context: Context) -> Step:
             _J,
             ": a sum over ",
             _I,
-            ". Multiplied by the rates it must give what you read off from "
-            "the forces.",
+            ". Multiplied by the rates it must give what you read off from the forces.",
         ),
         entries=_names(context, "c"),
         notes=()

@@ -179,7 +179,11 @@ def _script_inside(tokens: list[Token], position: int, out: list[Token]) -> int:
     r"""A script letter in bold, `\boldsymbol{\mathcal{I}}`, is one without: its outer braces are left out."""
     inner = tokens[position : position + 6]
     kinds = [token.kind for token in inner]
-    bare = kinds[:3] == ["{", "command", "{"] and kinds[3:4] in (["name"], ["letter"]) and kinds[4:] == ["}", "}"]
+    bare = (
+        kinds[:3] == ["{", "command", "{"]
+        and kinds[3:4] in (["name"], ["letter"])
+        and kinds[4:] == ["}", "}"]
+    )
     if not (bare and inner[1].text in _SCRIPT):
         return position
     out += [inner[1]._replace(text="script"), *inner[2:5]]
