@@ -1,4 +1,4 @@
-"""How wide a formula is when it is set in Computer Modern, in em, without setting it.
+"""How wide and how tall a formula is when it is set in Computer Modern, in em, without setting it.
 
 The widths are those of the font's metrics, taken a little too large where sizes
 differ, so that what is said to fit does fit.  One ruler serves every notation that
@@ -36,6 +36,7 @@ from dynsolve.notation.tree import (
     Transpose,
     Words,
 )
+from dynsolve.notation.walk import children
 
 # Advance width and italic correction, in hundredths of an em.
 _ITALIC = dict(
@@ -77,6 +78,14 @@ _ROOT = 0.9
 _SUM_SIGN = 1.45
 _DOT = 0.73
 
+_LINE = 1.0
+FLAT = 1.3
+"""Brackets around what is no taller have the size of letters."""
+_BAR = 0.3
+_EXPONENT, _RAISED = 0.2, 0.6  # above a letter, above brackets that are taller
+_SUM_HEIGHT = 3.0
+_ROW_SPACE = 0.45
+
 
 class Ruler:
     """Measures trees; the width of each sub-tree is computed once and kept.
@@ -90,6 +99,38 @@ class Ruler:
         self.style = style
         self._memory: dict[int, tuple[Node, float]] = {}
         self._names: dict[tuple[str, int], float] = {}
+        self._heights: dict[int, tuple[Node, float]] = {}
+
+    def height(self, node: Node) -> float:
+        """How tall brackets around a displayed formula are, in em; never less than any in it.
+
+        >>> from dynsolve.notation.text import read
+        >>> [round(Ruler().height(read(text).tree), 1) for text in ("m1*q1^2", "m1/2", "(a + m1/2)^2 + b")]
+        [1.2, 2.3, 2.9]
+        """
+        known = self._heights.get(id(node))
+        if known is None:
+            known = self._heights[id(node)] = (node, self._raised(node))
+        return known[1]
+
+    def _raised(self, node: Node) -> float:
+        match node:
+            case Quotient(numerator, denominator):
+                return 2 * max(self.height(numerator), self.height(denominator)) + _BAR
+            case Number() if node.q != 1 and self.style.number(node) is None:
+                return 2 * _LINE + _BAR
+            case Derivative(of):
+                return 2 * (_LINE if of is None else self.height(of)) + _BAR
+            case Power(base):
+                tall = self.height(base)
+                return tall + (_RAISED if tall > FLAT else _EXPONENT)
+            case Matrix(rows):
+                return sum(max(map(self.height, row)) + _ROW_SPACE for row in rows)
+            case BigSum(body):
+                return max(self.height(body), _SUM_HEIGHT)
+            case Letter() | Words():
+                return _LINE
+        return max(map(self.height, children(node)), default=_LINE)
 
     def width(self, node: Node) -> float:
         """The width of a tree in em."""

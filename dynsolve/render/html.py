@@ -27,7 +27,7 @@ from dynsolve.document import (
     Table,
     Text,
 )
-from dynsolve.notation.extent import Ruler
+from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, equation
@@ -49,7 +49,6 @@ _FRACTION = 13.0
 _WHOLE = 13.0
 _LEVELS = ("brief", "normal", "full")
 _CLOSED_FORMULA = re.compile(r"<math>(?:(?!</math>).)*</math>[.,:;)]+")
-_TALL = ("<mfrac>", "<mtable>", "<munderover>")
 
 
 def render(document: Document, style: Style = PLAIN, level: str = "normal") -> str:
@@ -88,12 +87,13 @@ def _switch(level: str) -> str:
 def html_notation(printer: MathMLPrinter) -> Notation:
     """The signs of a formula in MathML."""
 
-    def fence(sign: str, inner: str) -> str:
-        tall = any(mark in inner for mark in _TALL)
-        return f'<mo stretchy="false"{" class=big" if tall else ""}>{sign}</mo>'
+    def fence(sign: str, height: float) -> str:
+        if height <= FLAT:
+            return f'<mo stretchy="false">{sign}</mo>'
+        return f'<mo stretchy="true" symmetric="true" minsize="{height:.1f}em" maxsize="{height:.1f}em">{sign}</mo>'
 
-    def closed(inner: str, exponent: Node | None) -> str:
-        sign = fence(")", inner)
+    def closed(height: float, exponent: Node | None) -> str:
+        sign = fence(")", height)
         return sign if exponent is None else f"<msup>{sign}{row(printer.text(exponent))}</msup>"
 
     return Notation(
@@ -101,8 +101,9 @@ def html_notation(printer: MathMLPrinter) -> Notation:
         plus='<mo form="infix">+</mo>',
         minus='<mo form="infix">\u2212</mo>',
         lead=MINUS,
+        times="",
         relation=lambda sign: f'<mo form="infix">{escape(sign)}</mo>',
-        opened=lambda inner: fence("(", inner),
+        opened=lambda height: fence("(", height),
         closed=closed,
         joined="".join,
     )

@@ -20,6 +20,7 @@ from dynsolve.document import (
     Text,
     Uses,
 )
+from dynsolve.notation.extent import FLAT
 from dynsolve.notation.latex import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Row, Words
@@ -43,7 +44,8 @@ _COLUMN_SPACE = 1.3  # around a column of a table, in em
 _NARROWEST = 12.0
 _MARGIN = 0.8
 _QUAD = 0.9  # what a comma between formulas takes more in LaTeX
-_TALL = (r"\frac", r"\sum", r"\begin")
+_FENCES = ((FLAT, ""), (1.8, "Big"), (2.4, "bigg"))
+"""The sizes of parentheses, each up to a height in em."""
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
 
 _PREAMBLE = r"""\documentclass[a4paper]{article}
@@ -110,11 +112,12 @@ def _is_title(block: Block) -> bool:
 def latex_notation(printer: LatexPrinter) -> Notation:
     """The signs of a formula in LaTeX."""
 
-    def opened(inner: str) -> str:
-        return r"\Bigl(" if any(mark in inner for mark in _TALL) else "("
+    def fence(sign: str, side: str, height: float) -> str:
+        size = next((size for most, size in _FENCES if height <= most), "Bigg")
+        return f"\\{size}{side}{sign}" if size else sign
 
-    def closed(inner: str, exponent: Node | None) -> str:
-        text = r"\Bigr)" if any(mark in inner for mark in _TALL) else ")"
+    def closed(height: float, exponent: Node | None) -> str:
+        text = fence(")", "r", height)
         return text if exponent is None else f"{text}^{{{printer.text(exponent)}}}"
 
     return Notation(
@@ -122,8 +125,9 @@ def latex_notation(printer: LatexPrinter) -> Notation:
         plus="{} +",
         minus="{} -",
         lead="-",
+        times=r"{} \cdot",
         relation=lambda sign: "{} " + SIGNS.get(sign, sign),
-        opened=opened,
+        opened=lambda height: fence("(", "l", height),
         closed=closed,
         joined=" ".join,
     )

@@ -39,9 +39,13 @@ def in_columns(columns: Columns, label: str = "", last: int = LAST_OF_DISPLAY) -
 
 
 def _cell(cell: Cell, columns: Columns) -> str:
-    indent = r"\qquad " if cell.line.indented else ""
+    indent = _indent(cell.line)
     share = f"{cell.span / columns.count:.4f}"
     return f"\\equationcell{{{share}}}{{{columns.name:.2f}}}{{{cell.line.left}}}{{{indent}{cell.line.right}}}"
+
+
+def _indent(line: Line) -> str:
+    return f"\\hspace{{{line.indent}em}}" if line.indent else ""
 
 
 def gathered(rows: Sequence[tuple[Line, str]], keep: bool = False) -> Iterator[str]:
@@ -73,5 +77,5 @@ def _rows(lines: Sequence[Line], label: str, last: int) -> Iterator[str]:
     for place, line in enumerate(lines):
         at_end = place == count - 1
         tag = (label if at_end else r" \notag") if label else ""
-        text = line.aligned("\\qquad ") + tag
+        text = f"{line.left} & {_indent(line)}{line.right}{tag}"
         yield text if at_end else text + _end(text, stays(place, count, last))

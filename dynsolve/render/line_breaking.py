@@ -41,28 +41,34 @@ class Notation:
     """The signs of a formula in one notation.
 
     `plus`, `minus` and `relation` are signs between two parts, `lead` a minus before
-    the first term; `opened` and `closed` are parentheses of a fixed size that may
-    stand on different lines (`closed` takes an exponent), around a text they fit;
-    `joined` puts texts side by side.
+    the first term; `times` begins a line between two matrices of a product; `opened` and
+    `closed` are parentheses of a height in em that may stand on different lines (`closed`
+    takes an exponent); `joined` puts texts side by side.
     """
 
     text: Callable[[Node], str]
     plus: str
     minus: str
     lead: str
+    times: str
     relation: Callable[[str], str]
-    opened: Callable[[str], str]
-    closed: Callable[[str, Node | None], str]
+    opened: Callable[[float], str]
+    closed: Callable[[float, Node | None], str]
     joined: Callable[[Sequence[str]], str]
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A part of a formula that is not broken; `depth` says how deep the place before it lies."""
+    """A part of a formula that is not broken; `depth` says how deep the place before it lies.
+
+    `level` is how many parentheses that place is in, `sign` what a line begins with that begins there.
+    """
 
     text: str
     width: float
     depth: int = 0
+    level: int = 0
+    sign: str = ""
 
 
 @dataclass(slots=True)
@@ -70,23 +76,23 @@ class _Builder:
     joined: Callable[[Sequence[str]], str]
     texts: list[list[str]] = field(default_factory=lambda: [[]])
     widths: list[float] = field(default_factory=lambda: [0.0])
-    depths: list[int] = field(default_factory=lambda: [0])
+    places: list[tuple[int, int, str]] = field(default_factory=lambda: [(0, 0, "")])
 
     def add(self, text: str, width: float) -> None:
         self.texts[-1].append(text)
         self.widths[-1] += width
 
-    def gap(self, depth: int) -> None:
-        """A place where a line may end."""
+    def gap(self, level: int, kind: int, sign: str = "") -> None:
+        """A place where a line may end, of a kind, in so many parentheses."""
         if self.texts[-1]:
             self.texts.append([])
             self.widths.append(0.0)
-            self.depths.append(depth)
+            self.places.append((_DEEPER * level + kind, level, sign))
 
     def pieces(self) -> Iterator[Piece]:
-        for texts, width, depth in zip(self.texts, self.widths, self.depths, strict=True):
+        for texts, width, place in zip(self.texts, self.widths, self.places, strict=True):
             if texts:
-                yield Piece(self.joined(texts), width, depth)
+                yield Piece(self.joined(texts), width, *place)
 
 
 class FormulaSplitter:
@@ -108,21 +114,12 @@ class FormulaSplitter:
         self._put(builder, node, 0)
         return list(builder.pieces())
 
-    def chain(self, parts: Sequence[Node], signs: Sequence[str]) -> list[Piece]:
-        """`= part ≈ part`, which may be broken at each sign."""
-        builder = _Builder(self.notation.joined)
-        for sign, part in zip(signs, parts, strict=True):
-            builder.gap(RELATION_BREAK)
-            builder.add(self.notation.relation(sign), RELATION)
-            self._put(builder, part, 0)
-        return list(builder.pieces())
-
     def _put(self, builder: _Builder, node: Node, level: int) -> None:
         match node:
             case Relation(parts, signs) if holds_matrix(node) or self._is_wide(node):
                 self._put(builder, parts[0], level)
                 for sign, part in zip(signs, parts[1:], strict=True):
-                    builder.gap(level + RELATION_BREAK)
+                    builder.gap(level, RELATION_BREAK)
                     builder.add(self.notation.relation(sign), RELATION)
                     self._put(builder, part, level)
             case Sum(terms) if terms:
@@ -132,11 +129,11 @@ class FormulaSplitter:
                 put = self._put if isinstance(argument, Quotient) else self._factor
                 put(builder, argument, level)
             case Row(parts):
-                inside = level + _DEEPER if any(map(_is_comma, parts)) else level
+                inside = level + 1 if any(map(_is_comma, parts)) else level
                 for part in parts:
                     self._put(builder, part, inside)
                     if _is_comma(part):
-                        builder.gap(level + RELATION_BREAK)
+                        builder.gap(level, RELATION_BREAK)
             case _ if not (self._is_wide(node) or holds_matrix(node)):
                 builder.add(self.notation.text(node), self.ruler.width(node))
             case Product(factors) if factors:
@@ -150,7 +147,7 @@ class FormulaSplitter:
                 self._enclosed(builder, argument, level)
             case Cross(left, right):
                 self._factor(builder, left, level)
-                builder.gap(level + FACTOR_BREAK)
+                builder.gap(level, FACTOR_BREAK)
                 builder.add(self.notation.relation("×"), BINARY)
                 self._factor(builder, right, level)
             case _:
@@ -161,7 +158,7 @@ class FormulaSplitter:
         numerator, denominator = node.numerator, node.denominator
         if self._is_long_fraction(node):
             self._factor(builder, numerator, level)
-            builder.gap(level + FACTOR_BREAK)
+            builder.gap(level, FACTOR_BREAK)
             builder.add(self.notation.relation("/"), BINARY)
             self._enclosed(builder, denominator, level)
             return
@@ -177,7 +174,7 @@ class FormulaSplitter:
             negative = isinstance(term, Negative)
             if i:
                 if not whole:
-                    builder.gap(level + SUM_BREAK)
+                    builder.gap(level, SUM_BREAK)
                 builder.add(self.notation.minus if negative else self.notation.plus, BINARY)
             elif negative:
                 builder.add(self.notation.lead, 0.78)
@@ -194,7 +191,7 @@ class FormulaSplitter:
             if holds_matrix(factor) or self._is_wide(factor):
                 self._together(builder, narrow)
                 if i and (not narrow or holds_matrix(factor)):
-                    builder.gap(level + FACTOR_BREAK)
+                    builder.gap(level, FACTOR_BREAK, self.notation.times)
                 narrow = []
                 self._factor(builder, factor, level)
             else:
@@ -215,11 +212,11 @@ class FormulaSplitter:
             self._put(builder, node, level)
 
     def _enclosed(self, builder: _Builder, node: Node, level: int, exponent: Node | None = None) -> None:
-        size = self.notation.text(node) if not self._is_huge(node) else ""
-        builder.add(self.notation.opened(size), PARENTHESIS)
-        self._put(builder, node, level + _DEEPER)
+        height = self.ruler.height(node)
+        builder.add(self.notation.opened(height), PARENTHESIS)
+        self._put(builder, node, level + 1)
         builder.add(
-            self.notation.closed(size, exponent),
+            self.notation.closed(height, exponent),
             PARENTHESIS + (0.0 if exponent is None else self.ruler.index(exponent)),
         )
 
@@ -228,9 +225,6 @@ class FormulaSplitter:
 
     def _is_wide(self, node: Node) -> bool:
         return self.ruler.width(node) > self.fine
-
-    def _is_huge(self, node: Node) -> bool:
-        return self.ruler.width(node) > 100 * _FINE
 
 
 def _is_comma(node: Node) -> bool:
@@ -263,12 +257,20 @@ def together(pieces: Sequence[Piece], most: float, join: Callable[[Sequence[str]
     return joined
 
 
-_DEPTH_COST = 0.35
-_OVERFULL = 1e4
+_SUM_COST = 0.35
+_INSIDE_COST = 25.0
+"""A line ends in parentheses only where what they hold is too wide: many lines are better."""
+_OVERFULL = 1e6
 
 
-def lines(pieces: Sequence[Piece], first: float, rest: float) -> list[list[Piece]]:
-    """The pieces in lines, the first `first` em wide, the others `rest`: as even and as shallow as can be.
+def _depth_cost(depth: int) -> float:
+    return _SUM_COST * depth if depth <= SUM_BREAK else _INSIDE_COST * 3.0 ** (depth - SUM_BREAK)
+
+
+def lines(pieces: Sequence[Piece], first: float, rest: float, step: float = 0.0) -> list[list[Piece]]:
+    """The pieces in lines, the first `first` em wide, the others `rest`: as shallow and as even as can be.
+
+    A line that begins in parentheses is narrower, by `step` for each pair of them.
 
     >>> parts = [Piece("a", 4), Piece("+ b (c", 6, 1), Piece("+ d)", 4, 3), Piece("+ e", 4, 1)]
     >>> [[piece.text for piece in line] for line in lines(parts, 14, 14)]
@@ -278,7 +280,7 @@ def lines(pieces: Sequence[Piece], first: float, rest: float) -> list[list[Piece
     best = [0.0] * (n + 1)
     following = [n] * (n + 1)
     for i in range(n - 1, -1, -1):
-        room = first if i == 0 else rest
+        room = first if i == 0 else rest - step * pieces[i].level
         width, found = 0.0, float("inf")
         for j in range(i + 1, n + 1):
             width += pieces[j - 1].width
@@ -288,7 +290,7 @@ def lines(pieces: Sequence[Piece], first: float, rest: float) -> list[list[Piece
             elif j < n:
                 cost += ((room - width) / room) ** 2
             if j < n:
-                cost += _DEPTH_COST * pieces[j].depth
+                cost += _depth_cost(pieces[j].depth)
             if cost < found:
                 found, following[i] = cost, j
             if width > room:

@@ -1,22 +1,29 @@
 """Displayed formulas set to a width in em, in any notation: lines that are level at one place.
 
 A formula that fits stands on one line.  Otherwise each member of a chain of equations
-has its own lines, and a matrix that is too wide is given entry by entry.
+has its own lines, which begin with its sign, and a matrix that is too wide is given entry by
+entry.  A line that goes on with a member is moved in, and further where it begins in parentheses.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.document import Formula
 from dynsolve.notation.extent import RELATION, Ruler
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
-from dynsolve.render.line_breaking import RELATION_BREAK, FormulaSplitter, Notation, Piece, lines
+from dynsolve.render.line_breaking import FormulaSplitter, Notation, Piece, lines
 from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 
 INDENT = 2.0
 """How far a line is moved in that goes on with a member, in em."""
+
+INSIDE = 1.5
+"""How much further for each pair of parentheses that it begins in."""
+
+_LONGEST_NAME = 6.0
+"""After a member that is no wider, as d_12 = d_21, the next one may stand on its line, in em."""
 
 _LONGEST_LEFT = 0.3
 
@@ -25,12 +32,12 @@ _LONGEST_LEFT = 0.3
 class Line:
     """`left` stands right-aligned before the place where lines are level, `right` after it.
 
-    `width` is that of both together in em, `name` that of `left`.
+    `indent` is how far `right` is moved in, `width` that of both together, `name` that of `left`, all in em.
     """
 
     left: str
     right: str
-    indented: bool = False
+    indent: float = 0.0
     width: float = 0.0
     name: float = 0.0
 
@@ -38,10 +45,6 @@ class Line:
     def alone(self) -> str:
         """The text of a line that is level with no other."""
         return f"{self.left} {self.right}".strip()
-
-    def aligned(self, indent: str) -> str:
-        """The text with `&` at the place where lines are level, and an indent where it goes on."""
-        return f"{self.left} & {indent if self.indented else ''}{self.right}"
 
 
 class Typesetter:
@@ -91,27 +94,34 @@ class Typesetter:
             yield from self._broken(self.splitter.pieces(left), self.room, self.room - INDENT)
         room = self.room - (width if beside else INDENT)
         name = self.notation.text(left) if beside else ""
-        waiting: list[Piece] = []
+        waiting: list[list[Piece]] = []
         for sign, member in zip(node.signs, members, strict=True):
             if isinstance(member, Matrix) and self.ruler.width(member) + RELATION > room:
                 yield from self._members(name, waiting, room, beside)
                 name, waiting = "" if waiting else name, []
                 yield from self._entries(member, left, formula)
             else:
-                waiting += self.splitter.pieces(member, sign)
+                waiting.append(self.splitter.pieces(member, sign))
         yield from self._members(name, waiting, room, beside)
 
-    def _members(self, name: str, pieces: Sequence[Piece], room: float, beside: bool) -> Iterator[Line]:
-        """Members of a chain, broken at their signs where that is possible."""
-        for i, line in enumerate(lines(pieces, room, room - INDENT)):
-            yield Line("" if i else name, self._text(line), not beside or line[0].depth > RELATION_BREAK)
+    def _members(
+        self, name: str, members: Sequence[list[Piece]], room: float, beside: bool
+    ) -> Iterator[Line]:
+        """Members of a chain: on one line where all fit, else each on its own lines."""
+        base = 0.0 if beside else INDENT
+        for member in _on_own_lines(members, room):
+            for i, line in enumerate(lines(member, room, room - INDENT, INSIDE)):
+                yield Line(name, self._text(line, i), base + _indent(line, i))
+                name = ""
 
     def _broken(self, pieces: Sequence[Piece], first: float, rest: float) -> Iterator[Line]:
-        for i, line in enumerate(lines(pieces, first, rest)):
-            yield Line("", self._text(line), i > 0 and rest < first)
+        for i, line in enumerate(lines(pieces, first, rest, INSIDE)):
+            yield Line("", self._text(line, i), _indent(line, i) if rest < first else 0.0)
 
-    def _text(self, line: Sequence[Piece]) -> str:
-        return self.notation.joined([piece.text for piece in line])
+    def _text(self, line: Sequence[Piece], place: int) -> str:
+        """The text of a line, which is not the first of its formula where its place is not 0."""
+        sign = [line[0].sign] if place and line[0].sign else []
+        return self.notation.joined([*sign, *(piece.text for piece in line)])
 
     # -- matrices that are given entry by entry ----------------------------------------------------
 
@@ -150,10 +160,35 @@ class Typesetter:
         room = self.room - width
         if not rest:
             yield Line("", self.notation.text(name), width=width)
-        for i, line in enumerate(lines(self.splitter.chain(rest, chain.signs), room, room - INDENT)):
-            text, whole = self._text(line), width + sum(piece.width for piece in line)
-            before = "" if i else self.notation.text(name)
-            yield Line(before, text, i > 0, whole, width)
+        before = self.notation.text(name)
+        members = [self.splitter.pieces(part, sign) for sign, part in zip(chain.signs, rest, strict=True)]
+        for member in _on_own_lines(members, room):
+            for i, line in enumerate(lines(member, room, room - INDENT, INSIDE)):
+                indent = _indent(line, i)
+                yield Line(before, self._text(line, i), indent, width + indent + _width(line), width)
+                before = ""
+
+
+def _width(pieces: Iterable[Piece]) -> float:
+    return sum(piece.width for piece in pieces)
+
+
+def _indent(line: Sequence[Piece], place: int) -> float:
+    """How far a line of a member is moved in; it is the first at place 0."""
+    return INDENT + INSIDE * line[0].level if place else 0.0
+
+
+def _on_own_lines(members: Sequence[list[Piece]], room: float) -> list[list[Piece]]:
+    """The members of a chain, together where they fit one line; else apart, but after a name."""
+    if _width(piece for member in members for piece in member) <= room:
+        return [[piece for member in members for piece in member]] if members else []
+    apart: list[list[Piece]] = []
+    for member in members:
+        if apart and len(apart[-1]) == 1 and apart[-1][0].width <= _LONGEST_NAME:
+            apart[-1] = [*apart[-1], *member]
+        else:
+            apart.append(member)
+    return apart
 
 
 def _chained(node: Node) -> Relation:

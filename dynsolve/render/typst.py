@@ -18,6 +18,7 @@ from dynsolve.document import (
     Text,
 )
 from dynsolve.errors import UsageError
+from dynsolve.notation.extent import FLAT
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
@@ -33,7 +34,6 @@ PAGE = 45.0
 """The width of the page, in em."""
 
 _NUMBER = 3.0
-_TALL = ("frac(", "mat(", "sum_")
 _LAST_KNOWN = 0x2C00
 _MATHEMATICAL = range(0x1D400, 0x1D800)
 
@@ -96,11 +96,11 @@ def to_typst_document(document: Document, style: Style = PLAIN) -> str:
 def typst_notation(printer: TypstPrinter) -> Notation:
     """The signs of a formula in Typst."""
 
-    def fence(sign: str, inner: str) -> str:
-        return f"lr(size: #1.9em, \\{sign})" if any(mark in inner for mark in _TALL) else f"\\{sign}"
+    def fence(sign: str, height: float) -> str:
+        return f"lr(size: #{height:.2f}em, \\{sign})" if height > FLAT else f"\\{sign}"
 
-    def closed(inner: str, exponent: Node | None) -> str:
-        sign = fence(")", inner)
+    def closed(height: float, exponent: Node | None) -> str:
+        sign = fence(")", height)
         return sign if exponent is None else f"{sign}^({printer.text(exponent)})"
 
     return Notation(
@@ -108,8 +108,9 @@ def typst_notation(printer: TypstPrinter) -> Notation:
         plus='class("binary", +)',
         minus='class("binary", -)',
         lead="-",
+        times='class("binary", dot.op)',
         relation=lambda sign: "\\/" if sign == "/" else sign,  # unescaped it sets a fraction
-        opened=lambda inner: fence("(", inner),
+        opened=lambda height: fence("(", height),
         closed=closed,
         joined=" ".join,
     )
@@ -238,7 +239,7 @@ def _in_columns(columns: Columns, side: str, last: int) -> str:
 
 
 def _right(line: Line) -> str:
-    return ("#h(2em) " if line.indented else "") + line.right
+    return (f"#h({line.indent}em) " if line.indent else "") + line.right
 
 
 def _math(text: str) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -9,10 +11,12 @@ from dynsolve.document import Formula
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.text import read
-from dynsolve.notation.tree import Letter, Matrix, Number, Relation, Symbol, equation
+from dynsolve.notation.tree import Letter, Matrix, Number, Product, Relation, Symbol, equation
+from dynsolve.notation.typst import TypstPrinter
 from dynsolve.render.latex import latex_notation
 from dynsolve.render.line_breaking import FormulaSplitter, Piece, lines, together
-from dynsolve.render.typesetting import INDENT, Typesetter
+from dynsolve.render.typesetting import INDENT, INSIDE, Typesetter
+from dynsolve.render.typst import typst_notation
 
 LONG = "m1*(a1 + b1 + c1*(d1 + e1 + f1 + g1 + h1 + i1 + j1 + k1) + l1)*q1 + m2*(a2 + b2)/2 + (a3 + b3)^2"
 
@@ -76,7 +80,7 @@ def test_a_long_sum_is_broken_before_its_signs() -> None:
     assert len(broken) > 2
     assert broken[0].left == r"\tau_{1}"
     assert all(line.right.startswith(("{} +", "{} -", "{} =")) for line in broken)
-    assert all(line.indented for line in broken[1:])
+    assert all(bool(line.indent) for line in broken[1:])
 
 
 def test_lines_that_begin_a_member_are_level_and_others_are_moved_in() -> None:
@@ -84,7 +88,7 @@ def test_lines_that_begin_a_member_are_level_and_others_are_moved_in() -> None:
     for room in (8, 12, 20):
         broken = setter(room).set(Formula(chain))
         assert len(broken) > 1
-        assert all(line.indented is not line.right.startswith("{} =") for line in broken)
+        assert all(bool(line.indent) is not line.right.startswith("{} =") for line in broken)
 
 
 def test_a_wide_matrix_is_given_entry_by_entry() -> None:
@@ -107,3 +111,53 @@ def test_equations_in_one_display_keep_their_signs() -> None:
     node = Relation((Symbol("q1"), read("2*l1/3").tree, Number(667, 1000)), ("=", "≈"))
     (line,) = setter(30).equations([node])
     assert (line.left, line.right.count("="), line.right.count(r"\approx")) == ("q_{1}", 1, 1)
+
+
+def typst_setter(room: float) -> Typesetter:
+    return Typesetter(typst_notation(TypstPrinter()), Ruler(), room)
+
+
+def test_a_line_ends_outside_parentheses_where_what_they_hold_fits() -> None:
+    node = equation(Symbol("K1"), read("(a1 + b1*c1 + d1*e1)*f1 + (a2*b2 + c2*d2 + e2*f2)*g2*h2").tree)
+    first, second = setter(19).set(Formula(node))
+    assert first.right.endswith("f_{1}")
+    assert second.right.startswith("{} + (")
+    assert second.indent == INDENT
+
+
+def test_a_line_that_begins_in_parentheses_is_moved_in_further() -> None:
+    node = equation(Symbol("K1"), read("2*(a1*b1*c1 + d1*e1*f1 + a2*b2*c2 + d2*e2*f2 + (g1 + h1)*k1)").tree)
+    _, *others = setter(16).set(Formula(node))
+    assert [line.indent for line in others] == [INDENT + INSIDE] * len(others)
+
+
+def test_each_sign_of_a_chain_begins_a_line_where_one_line_is_too_short() -> None:
+    long = [read("*".join(f"{letter}{i}" for i in range(1, 7))).tree for letter in "abc"]
+    broken = setter(15).set(Formula(equation(Symbol("P1"), *long)))
+    assert [line.right.count("=") for line in broken] == [1, 1, 1]
+    names = equation(Symbol("d12"), Symbol("d21"), long[0])
+    (line,) = setter(15).set(Formula(names))
+    assert line.right.count("=") == 2, "but not the sign after a name"
+
+
+def test_a_product_of_matrices_that_is_broken_has_its_sign() -> None:
+    wide = Matrix(((read("a1*b1*c1*d1*e1").tree,) * 2,) * 2)
+    node = equation(Letter("H"), Product((wide, wide)))
+    broken = typst_setter(17).set(Formula(node))
+    assert ["dot.op" in line.right for line in broken] == [False, True]
+
+
+def test_parentheses_on_different_lines_are_one_size_and_no_smaller_than_those_in_them() -> None:
+    inner = "(m1*a1^2/2 + b1*c1*(d1 - e1/2)^2 + f1*g1*h1*i1*j1)*k1^2"
+    node = equation(Symbol("K1"), read(f"m2*(({inner} + {inner.replace('1', '3')})*q1 + a2)").tree)
+    text = " ".join(line.right for line in typst_setter(24).set(Formula(node)))
+    open_ones: list[float] = []
+    sizes = re.findall(r"lr\(size: #([\d.]+)em, \\([()])\)", text)
+    assert len(sizes) >= 6
+    for size, side in sizes:
+        if side == "(":
+            assert not open_ones or float(size) <= open_ones[-1]
+            open_ones.append(float(size))
+        else:
+            assert float(size) == open_ones.pop()
+    assert open_ones == []
