@@ -90,7 +90,8 @@ def html_notation(printer: MathMLPrinter) -> Notation:
     def fence(sign: str, height: float) -> str:
         if height <= FLAT:
             return f'<mo stretchy="false">{sign}</mo>'
-        return f'<mo stretchy="true" symmetric="true" minsize="{height:.1f}em" maxsize="{height:.1f}em">{sign}</mo>'
+        size = f'minsize="{height:.1f}em" maxsize="{height:.1f}em"'
+        return f'<mo stretchy="true" symmetric="true" {size}>{sign}</mo>'
 
     def closed(height: float, exponent: Node | None) -> str:
         sign = fence(")", height)
