@@ -44,6 +44,11 @@ def _cell(cell: Cell, columns: Columns) -> str:
     return f"\\equationcell{{{share}}}{{{columns.name:.2f}}}{{{cell.line.left}}}{{{indent}{cell.line.right}}}"
 
 
+def level(line: Line) -> str:
+    """A line with `&` at the place where lines are level."""
+    return f"{line.left} & {_indent(line)}{line.right}"
+
+
 def _indent(line: Line) -> str:
     return f"\\hspace{{{line.indent}em}}" if line.indent else ""
 
@@ -77,5 +82,5 @@ def _rows(lines: Sequence[Line], label: str, last: int) -> Iterator[str]:
     for place, line in enumerate(lines):
         at_end = place == count - 1
         tag = (label if at_end else r" \notag") if label else ""
-        text = f"{line.left} & {_indent(line)}{line.right}{tag}"
+        text = level(line) + tag
         yield text if at_end else text + _end(text, stays(place, count, last))

@@ -26,6 +26,7 @@ from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Words
 from dynsolve.render.latex import latex_notation
+from dynsolve.render.latex_displays import level
 from dynsolve.render.page import TypesetPage
 from dynsolve.render.prose import visible
 from dynsolve.render.references import numbered, with_sources
@@ -151,5 +152,5 @@ def _display(lines: Sequence[Line], number: str = "") -> Iterator[str]:
 def _rows(lines: Sequence[Line]) -> str:
     if len(lines) == 1:
         return lines[0].alone
-    body = " \\cr\n".join(line.aligned("\\qquad ") for line in lines)
+    body = " \\cr\n".join(map(level, lines))
     return f"\\begin{{aligned}}\n{body}\n\\end{{aligned}}"
