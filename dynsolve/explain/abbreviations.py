@@ -59,7 +59,8 @@ class Abbreviated:
 
     `D`, `C` and `g` are matrices, `christoffel` holds c_ijk at (i, j, k) with i ≤ j and from 0.
     `kept` are the base parameters that are a symbol of the problem already, and need no name.
-    A `long` model is one whose constants have names, or would have if they were no numbers.
+    A `long` model is one whose constants have names, or would have if they were no numbers; `P` is its
+    potential energy.
     With `at_symbols` the names are those of Christoffel symbols (`explain.symbol_names`).
     """
 
@@ -72,6 +73,7 @@ class Abbreviated:
     long: bool = False
     kept: tuple[Symbol, ...] = ()
     at_symbols: bool = False
+    P: Node | None = None
 
     def symbol(self, i: int, j: int, k: int) -> Node:
         """c_ijk, the same as c_jik."""
@@ -84,10 +86,11 @@ class Abbreviated:
 
     @property
     def cost(self) -> int:
-        """The operations of everything that is printed but C: definitions, D, g and the c_ijk."""
+        """The operations of everything that is printed but C: definitions, D, g, the c_ijk and P."""
         entries = [e for matrix in (self.D, self.g) for row in matrix.rows for e in row]
+        potential = [] if self.P is None else [self.P]
         meanings = [d.meaning for d in self.definitions]
-        return sum(map(cost, (*meanings, *entries, *self.christoffel.values())))
+        return sum(map(cost, (*meanings, *entries, *self.christoffel.values(), *potential)))
 
 
 def is_long(forms: Forms) -> bool:
@@ -130,7 +133,7 @@ def _with_constants(forms: Forms) -> Abbreviated:
         compactor.matrix(g),
         _forms_of(symbols, compactor),
         kept=tuple(map(Symbol, base.kept)),
-        long=True,
+        potential=compactor.form(base.expr(values["P"])),
     )
 
 
@@ -147,7 +150,7 @@ def _without_constants(forms: Forms) -> Abbreviated:
     D, g = forms("D"), forms("g")
     assert isinstance(D, tree.Matrix) and isinstance(g, tree.Matrix)
     symbols = {(i, j, k): forms.christoffel(i, j, k) for i, j, k in forms.values["christoffel"]}
-    return _assembled(forms, (), D, g, symbols, long=False)
+    return _assembled(forms, (), D, g, symbols)
 
 
 def _assembled(
@@ -156,12 +159,14 @@ def _assembled(
     D: tree.Matrix,
     g: tree.Matrix,
     symbols: Mapping[Index, Node],
-    long: bool,
     kept: tuple[Symbol, ...] = (),
+    potential: Node | None = None,
 ) -> Abbreviated:
-    n = forms.robot.n
+    """The forms with names; the potential energy is that of a long model."""
+    n, long = forms.robot.n, potential is not None
     upper = pairs(n)
     entries = [*(D.rows[i][j] for i, j in upper), *(row[0] for row in g.rows), *symbols.values()]
+    entries += [] if potential is None else [potential]
     taken = {*forms.robot.ring.parameters, *forms.robot.ring.names}
     name = partial(name_recurring, entries, whole=long, decimal=is_numeric(forms.robot))
     sums, used = name(free_names(RECURRING, taken))
@@ -170,7 +175,7 @@ def _assembled(
         places = [len(upper) + n + place for place, _ in order]
         sums, used = _leading_with_plus(*name(iter([Symbol(SINGLE)])), places)
     d = dict(zip(upper, used, strict=False))
-    short = dict(zip(symbols, used[len(upper) + n :], strict=True))
+    short = dict(zip(symbols, used[len(upper) + n :], strict=False))
     return Abbreviated(
         constants=constants,
         sums=sums,
@@ -180,6 +185,7 @@ def _assembled(
         christoffel=short,
         long=long,
         kept=kept,
+        P=used[-1] if long else None,
     )
 
 

@@ -15,7 +15,16 @@ from dynsolve.explain.rotational_energy import rotational_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import kinetic
 from dynsolve.explain.working.sums import sum_named
-from dynsolve.explain.writing import are_counted, is_small, listed, name_of, side_by_side, spong, sum_of
+from dynsolve.explain.writing import (
+    are_counted,
+    is_small,
+    listed,
+    name_of,
+    side_by_side,
+    spong,
+    sum_of,
+    turns,
+)
 from dynsolve.notation.tree import (
     BigSum,
     Function,
@@ -168,7 +177,8 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
         members.append(sum_of([_summed(context, name), *others]))
     notes: tuple[Prose, ...] = ()
     if name == "K":
-        notes = (("Each body has its kinetic energy, but each joint its torque or force, below.",),)
+        kinds = {"torque" if turns(q) else "force": None for q in context.robot.coordinates}
+        notes = ((f"Each body has its kinetic energy, but each joint its {' or '.join(kinds)}, below.",),)
     return Step(
         id=name,
         stage=STAGE,

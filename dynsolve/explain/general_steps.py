@@ -12,10 +12,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from dynsolve.document import Prose
+from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian import ZERO
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import side_by_side, spong
 from dynsolve.notation.tree import (
     BigSum,
@@ -56,7 +58,7 @@ def general_steps(context: Context) -> Iterator[GeneralStep]:
     bodies = [body.name for body in robot.bodies]
     rows = [joint.index for joint in robot.joints]
     yield GeneralStep(_rows(context), _ids(["A"], rows) | _ids(["H"], rows[:-1]))
-    if _moves_each_joint_alone(robot):
+    if moves_each_joint_alone(robot):
         yield GeneralStep(_columns(context), _ids(["J"], [q.index for q in robot.coordinates]))
     if bodies and robot.has_table:
         solid = [body for body in robot.bodies if _is_plain(body)]
@@ -76,7 +78,7 @@ def _ids(stems: Sequence[str], names: Sequence[str | int]) -> frozenset[str]:
     return frozenset(f"{stem}{name}" for stem in stems for name in names)
 
 
-def _moves_each_joint_alone(robot: Robot) -> bool:
+def moves_each_joint_alone(robot: Robot) -> bool:
     """Whether each coordinate is the variable of one joint, so that a joint's column is a coordinate's."""
     moving = [joint for joint in robot.joints if joint.type]
     return all(joint.rates == ((i, Fraction(1)),) for i, joint in enumerate(moving))
@@ -234,51 +236,67 @@ def _kinetic(context: Context) -> Step:
 
 
 def _forces(context: Context) -> Step:
-    """∂L/∂q̇_k, d/dt of it, ∂L/∂q_k, and what they give, with friction where there is any."""
-    rate = [Letter("q", index, dots=1) for index in (_I, _J, _K)]
-    momentum = letters.partial_derivative(letters.L, rate[2])
-    d_kj, d_ij = Letter("d", Row((_K, _J))), Letter("d", Row((_I, _J)))
-    g, coordinate = Letter("g", _K), Letter("q", _K)
+    """τ_k from ∂L/∂q̇_k, d/dt of it and ∂L/∂q_k, the products of rates collected; and friction."""
+    coordinate, qk = Letter("q", _K), Letter("q", _K, dots=1)
+    momentum = letters.partial_derivative(letters.L, qk)
     by_coordinate = letters.partial_derivative(letters.L, coordinate)
-    accelerated = _sum_over(_J, Product((d_kj, Letter("q", _J, dots=2))))
-    moving = _sum_over(_J, Product((Letter("d", Row((_K, _J)), dots=1), rate[1])))
-    slope = letters.partial_derivative(d_ij, coordinate)
-    squares = _sum_over(_I, _sum_over(_J, Product((slope, rate[0], rate[1]))))
-    coriolis = _sum_over(_I, _sum_over(_J, Product((Letter("c", Row((_I, _J, _K))), rate[0], rate[1]))))
+    height = letters.partial_derivative(letters.P, coordinate)
+    accelerated = _sum_over(_J, Product((_d(_K, _J), Letter("q", _J, dots=2))))
+    moving = _sum_over(_J, Product((_d(_K, _J, dots=1), Letter("q", _J, dots=1))))
+    squares = _over_rates(letters.partial_derivative(_d(_I, _J), coordinate))
+    coriolis = _over_rates(Letter("c", Row((_I, _J, _K))))
     resisted = (Letter("tau", Row((Words("f"), _K))),) if "friction" in context.values.rules else ()
     return Step(
         id="forces",
         stage=Stage.TORQUE,
         title="The generalized forces",
-        why=(
-            "The same for every coordinate ",
-            coordinate,
-            ". The rates of ",
-            d_kj,
-            " are ",
-            equation(
-                Letter("d", Row((_K, _J)), dots=1),
-                _sum_over(_I, Product((letters.partial_derivative(d_kj, Letter("q", _I)), rate[0]))),
-            ),
-            "; with them the products of rates are collected in the Christoffel symbols, which follow below.",
-        ),
+        why=("The same for every coordinate ", coordinate, "."),
         source=spong("7.3"),
         formula=equation(
             Letter("tau", _K),
             Sum((letters.time_derivative(momentum), Negative(by_coordinate), *resisted)),
         ),
         working=(
-            equation(momentum, _sum_over(_J, Product((d_kj, rate[1])))),
+            equation(momentum, _sum_over(_J, Product((_d(_K, _J), Letter("q", _J, dots=1))))),
             equation(letters.time_derivative(momentum), Sum((accelerated, moving))),
-            equation(
-                by_coordinate,
-                Sum((Product((letters.HALF, squares)), Negative(g))),
-            ),
+            equation(by_coordinate, Sum((Product((letters.HALF, squares)), Negative(height)))),
         ),
-        result=(equation(Letter("tau", _K), Sum((accelerated, coriolis, *resisted, g))),),
+        lines=(_rates_of_entries(),),
+        concluding=(
+            "Put in, and collected in the Christoffel symbols ",
+            equation(Letter("c", Row((_I, _J, _K))), Product((letters.HALF, SLOPES))),
+            " and the gravity terms ",
+            equation(Letter("g", _K), height),
+            ":",
+        ),
+        result=(equation(Letter("tau", _K), Sum((accelerated, coriolis, *resisted, Letter("g", _K)))),),
         detail=Detail.BRIEF,
         uses=("L",),
     )
+
+
+def _rates_of_entries() -> Line:
+    """Σ_j ḋ_kj q̇_j as a sum over pairs of rates, the two slopes of each pair in one bracket."""
+    slopes = [letters.partial_derivative(_d(_K, a), Letter("q", b)) for a, b in ((_J, _I), (_I, _J))]
+    moving = _sum_over(_J, Product((_d(_K, _J, dots=1), Letter("q", _J, dots=1))))
+    by: Prose = (
+        "The chain rule gives the rates of ",
+        _d(_K, _J),
+        ". Each product of two rates then occurs twice in the sum, with i and j exchanged, so half the sum "
+        "of both slopes may stand with each:",
+    )
+    both = Product((letters.HALF, _over_rates(Parenthesized(Sum(tuple(slopes))))))
+    return Line(by, (equation(moving, _over_rates(slopes[0]), both),))
+
+
+def _d(row: Node, col: Node, dots: int = 0) -> Letter:
+    return Letter("d", Row((row, col)), dots=dots)
+
+
+def _over_rates(factor: Node) -> BigSum:
+    """Σ_i Σ_j factor · q̇_i q̇_j"""
+    rates = (Letter("q", index, dots=1) for index in (_I, _J))
+    return _sum_over(_I, _sum_over(_J, Product((factor, *rates))))
 
 
 def _sum_over(index: Symbol, body: Node) -> BigSum:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from itertools import pairwise
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.jacobian import joint_frame
@@ -61,11 +62,10 @@ def _axes(context: Context) -> Step:
     last = len(robot.joints)
     pairs: list[Node] = []
     for i in moving:
-        z, o = frame_parts(context, i)
-        pairs.append(side_by_side([equation(letters.z(i), z), equation(letters.o(i), o)]))
+        z = equation(letters.z(i), frame_parts(context, i)[0])
+        pairs.append(side_by_side([z, _origin(context, i, moving)]))
     if last not in moving:
-        pairs.append(equation(letters.o(last), frame_parts(context, last)[1]))
-    which = "i-1" if context.standard else "i"
+        pairs.append(_origin(context, last, moving))
     return Step(
         id="axes",
         stage=STAGE,
@@ -76,14 +76,48 @@ def _axes(context: Context) -> Step:
             Letter("H", style="bold"),
             " (its first three entries), ",
             Letter("o", style="bold"),
-            f" the fourth. In the {robot.convention.value} convention joint i turns about or slides along ",
-            Letter("z", Words(which), style="bold"),
+            f" the fourth. In the {robot.convention.value} convention joint i {_motions(robot)} ",
+            Letter("z", Words("i-1" if context.standard else "i"), style="bold"),
             *_whose(context),
+            *_wrist(context),
         ),
         source=spong("4.6") if context.standard else craig("3.4"),
         result=tuple(pairs),
         uses=(),
     )
+
+
+def _origin(context: Context, i: int, moving: Sequence[int]) -> Node:
+    """o_i with its value, or the earlier origin in the same moving point."""
+    point = frame_parts(context, i)[1]
+    ring, entries = context.robot.ring, origin(context.values[f"H{i}"]).entries
+    if any(map(ring.depends_on_coordinates, entries)):
+        for j in moving:
+            if j < i and frame_parts(context, j)[1] == point:
+                return equation(letters.o(i), letters.o(j))
+    return equation(letters.o(i), point)
+
+
+def _motions(robot: Robot) -> str:
+    """How the joints move along or about their axes."""
+    kinds = {JointType.REVOLUTE: "turns about", JointType.PRISMATIC: "slides along"}
+    return " or ".join(words for kind, words in kinds.items() if any(j.type is kind for j in robot.joints))
+
+
+def _wrist(context: Context) -> Prose:
+    """That the last three axes meet in one point, where they do."""
+    robot = context.robot
+    joints = [joint for joint in robot.joints if joint.type][-3:]
+    if robot.is_tree or robot.n < 4 or any(joint.type is not JointType.REVOLUTE for joint in joints):
+        return ()
+    frames = [joint_frame(robot, joint) for joint in joints]
+    lines = [(axis(H), origin(H)) for H in (context.values[f"H{i}"] for i in frames)]
+    turned = all(not algebra.cross(one, other).is_zero for (one, _), (other, _) in pairwise(lines))
+    for i, (_, point) in zip(frames, lines, strict=True):
+        if turned and all(algebra.cross(z, point - o).is_zero for z, o in lines):
+            axes = listed([letters.z(k) for k in frames])
+            return (" The last three axes, ", *axes, ", meet in ", letters.o(i), ": a spherical wrist.")
+    return ()
 
 
 def _whose(context: Context) -> Prose:

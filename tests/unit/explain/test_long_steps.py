@@ -1,0 +1,101 @@
+"""The steps of a long model: nothing in them speaks of what the report does not show."""
+
+from __future__ import annotations
+
+from unicodedata import normalize
+
+import pytest
+
+from dynsolve.explain.step import Step
+from dynsolve.notation.tree import Matrix, Relation, Symbol
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.notation.walk import walk
+from tests.support import solved
+
+LONG = ("stanford-6", pytest.param("puma560", marks=pytest.mark.slow))
+
+
+def steps(problem: str) -> dict[str, Step]:
+    return {step.id: step for step in solved(problem).explain(short=solved(problem).abbreviated())}
+
+
+def said(step: Step, problem: str) -> str:
+    style = solved(problem).style
+    lines = [part for line in step.lines for part in (*line.by, *line.formulas)]
+    parts = [*step.why, *lines, *step.concluding, *(part for note in step.notes for part in note)]
+    return "".join(part if isinstance(part, str) else to_unicode(part, style) for part in parts)
+
+
+def shown(problem: str, name: str) -> list[str]:
+    return [to_unicode(result, solved(problem).style) for result in steps(problem)[name].result]
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_nothing_is_read_off_and_nothing_compared(problem: str) -> None:
+    told = steps(problem)
+    assert not {"Cqd", "agreement", "D_direct"} & told.keys()
+    assert not any("read off" in said(step, problem) + step.title for step in told.values())
+
+
+def test_the_products_of_rates_are_collected_before_the_symbols_are_used() -> None:
+    """Spong, Hutchinson, Vidyasagar, section 7.3: the sum of d_kj,i q_i q_j is half that of both slopes."""
+    step = steps("stanford-6")["forces"]
+    (line,) = step.lines
+    assert normalize("NFC", to_unicode(line.formulas[0])) == normalize(
+        "NFC", "Σⱼ₌₁ⁿ ḋₖⱼ q̇ⱼ = Σᵢ₌₁ⁿ Σⱼ₌₁ⁿ (∂dₖⱼ/∂qᵢ) q̇ᵢ q̇ⱼ = ½ Σᵢ₌₁ⁿ Σⱼ₌₁ⁿ (∂dₖⱼ/∂qᵢ + ∂dₖᵢ/∂qⱼ) q̇ᵢ q̇ⱼ"
+    )
+    before = said(step, "stanford-6")
+    assert "cᵢⱼₖ = ½ (∂dₖⱼ/∂qᵢ + ∂dₖᵢ/∂qⱼ - ∂dᵢⱼ/∂qₖ)" in before and "gₖ = ∂𝒫/∂qₖ" in before
+
+
+@pytest.mark.slow
+def test_the_potential_energy_of_which_g_is_made() -> None:
+    assert "𝒫 = g (m₁ y₁ + κ₂₄ s₂ + κ₅ c₂ + σ" in said(steps("puma560")["g"], "puma560")
+    assert not steps("puma560")["P"].result
+
+
+@pytest.mark.slow
+def test_a_spherical_wrist_and_its_point_that_is_written_once() -> None:
+    step = steps("puma560")["axes"]
+    assert "The last three axes, 𝐳₃, 𝐳₄ and 𝐳₅, meet in 𝐨₄: a spherical wrist." in said(step, "puma560")
+    assert "Frame i is 𝐇ᵢ⁰ = 𝐀₁ … 𝐀ᵢ." in said(step, "puma560")
+    assert "slides" not in said(step, "puma560")
+    assert [text.rpartition(", ")[2] for text in shown("puma560", "axes")[-2:]] == ["𝐨₅ = 𝐨₄", "𝐨₆ = 𝐨₄"]
+    assert "c₂ c₃ - s₂ s₃ = c₂₃" in said(steps("puma560")["H6"], "puma560")
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_why_symbols_are_opposites(problem: str) -> None:
+    """What is said of d_jk holds of D, and what follows of the symbols holds of them."""
+    solution = solved(problem)
+    D, ring, n = solution.values["D"], solution.robot.ring, solution.robot.n
+    assert "there cᵢⱼₖ = -cᵢₖⱼ" in said(steps(problem)["christoffel"], problem)
+    symbols = solution.values["christoffel"]
+    for i in range(n):
+        for j in range(i, n):
+            for k in range(i, n):
+                assert ring.diff(D[j, k], i).is_zero
+                assert symbols[i, j, k] == -symbols[i, k, j]
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_on_what_the_inertia_matrix_depends(problem: str) -> None:
+    solution = solved(problem)
+    D, ring = solution.values["D"], solution.robot.ring
+    _, _, told = said(steps(problem)["D"], problem).partition("depends on ")
+    names = told.partition(" alone")[0]
+    for k, q in enumerate(solution.robot.coordinates):
+        changes = any(not ring.diff(entry, k).is_zero for entry in D.entries)
+        assert (to_unicode(Symbol(q.name), solution.style) in names) is changes
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_an_entry_of_C_stands_for_all(problem: str) -> None:
+    told = steps(problem)
+    first, *zero = told["C"].result
+    assert not any(isinstance(part, Matrix) for part in walk(first))
+    (full,) = told["C_entries"].result
+    assert isinstance(full, Relation) and isinstance(full.parts[-1], Matrix)
+    entries = [entry for row in full.parts[-1].rows for entry in row]
+    assert isinstance(first, Relation) and first.parts[-1] in entries
+    assert len(zero[0].parts) - 1 == sum(to_unicode(entry) == "0" for entry in entries)
