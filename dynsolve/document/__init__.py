@@ -76,9 +76,10 @@ class Equations:
 
 @dataclass(frozen=True, slots=True)
 class Uses:
-    """What goes into the next formula: labels of formulas that stand before it."""
+    """What goes into the next formula: labels of formulas that stand before it; `parts` leads on to it."""
 
     labels: tuple[str, ...]
+    parts: Prose = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -167,7 +167,7 @@ def _products(context: Context) -> tuple[Line, ...]:
     return (
         Line(("The inverse of ", letters.D, ", its adjugate over its determinant:",),
              (equation(Power(letters.D, _MINUS_ONE), over),)),
-        Line(("With it",), (equation(name, shown),)),
+        Line(("With it:",), (equation(name, shown),)),
     )  # fmt: skip
 
 

@@ -234,7 +234,7 @@ def _jacobians(context: Context, body: Body) -> Step:
         why=why,
         formula=side_by_side([linear, angular]) if beside else linear,
         source=spong("7.2.2"),
-        working=() if beside else (angular,),
+        further=() if beside else (angular,),
         concluding=crosses_named(context, body.link, context.values[f"rc{b}"]),
         result=(
             equation(letters.jv(body), context.form(f"Jv{b}")),

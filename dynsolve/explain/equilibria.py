@@ -69,7 +69,7 @@ def _equilibria(context: Context) -> Iterator[Step]:
     result: tuple[Node, ...] = tuple(_together(one) for one in cases if one)
     rows = tuple(equation(context.show(row), Number(0)) for row in found.rows)
     is_new = bool(rows) and [side_by_side(rows)] != [*result]  # not what the result says again
-    lines = (Line(("Combined, without factors that are never 0",), rows),) if is_new else ()
+    lines = (Line(("Combined, without factors that are never 0:",), rows),) if is_new else ()
     if not cases:
         notes: tuple[Prose, ...] = (("No configuration makes all of them 0: there is no equilibrium.",),)
     elif not cases[0]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from dynsolve.document import Block, Equations, Fold, Formula, List, Note, Table, Text
+from dynsolve.document import Block, Equations, Fold, Formula, List, Note, Table, Text, Uses
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import Style, shorthand
 from dynsolve.notation.tree import Function, Letter, Node, Row, Symbol, Words
@@ -102,7 +102,7 @@ def formulas_in(blocks: Iterable[Block]) -> Iterator[Node]:
                 yield from (name for row in entries for name in row)
             case Equations(nodes):
                 yield from nodes
-            case Text(parts) | Note(parts):
+            case Text(parts) | Note(parts) | Uses(_, parts):
                 yield from (part for part in parts if isinstance(part, Node))
             case List(items):
                 yield from (part for item in items for part in item if isinstance(part, Node))

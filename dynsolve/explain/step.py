@@ -26,7 +26,10 @@ class Detail(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line between the formula and the result: the operation, in words, and the formulas it gives."""
+    """A line between the formula and the result: the operation, in words, and the formulas it gives.
+
+    Words that end in a colon lead on; where what goes in is put in without more, there are none.
+    """
 
     by: Prose
     formulas: tuple[Node, ...]
@@ -37,8 +40,8 @@ class Step:
     """One step of a derivation.
 
     `id` is the name of what it gives (`A1`, `Jv2`, `tau1`), `also` the names of further
-    results.  `formula` is general and stands in the textbook at `source`; `working` is the
-    same with this robot's quantities; `lines` lead on from there to the `result`, what comes
+    results.  `formula` is general and stands in the textbook at `source`, `further` are formulas in
+    letters that belong to it; `working` is the same with this robot's quantities; `lines` lead on from there to the `result`, what comes
     out, one operation after the other, the last one being said in `concluding`.  `uses` names the
     earlier steps that it is computed from, unless these are the inputs of its rule; `x#2` is the
     second result of x alone.
@@ -59,6 +62,7 @@ class Step:
     why: Prose = ()
     formula: Node | None = None
     source: str = ""
+    further: tuple[Node, ...] = ()
     working: tuple[Node, ...] = ()
     lines: tuple[Line, ...] = ()
     concluding: Prose = ()

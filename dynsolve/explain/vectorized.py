@@ -190,7 +190,7 @@ def _inertia_direct(context: Context) -> Step:
         ),
         formula=equation(letters.D, sum_of([BigSum(total, i, Number(1), name), *rotors])),
         source=spong("7.2.2"),
-        working=(working,),
+        further=(working,),
         hint=(
             "Another way to D, without the Lagrangian: a sum over the bodies. Use it to check what you "
             "read off from the forces.",

@@ -26,6 +26,7 @@ from dynsolve.document import (
     Prose,
     Table,
     Text,
+    Uses,
 )
 from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
@@ -173,13 +174,13 @@ class _Page(MarkupPage):
             if text:
                 yield text, "" if at == shown else " ".join(["in", *(f"in{level}" for level in at)])
 
-    def used(self, labels: Sequence[str]) -> Iterator[str]:
+    def used(self, uses: Uses) -> Iterator[str]:
         """The results used in the next formula, with the numbers of each level."""
-        for sentence, classes in self.by_level(lambda numbers: self.leading_on(labels, numbers)):
+        for sentence, classes in self.by_level(lambda numbers: self.leading_on(uses, numbers)):
             yield from self.uses(sentence, classes)
 
     def uses(self, sentence: str, classes: str = "") -> Iterator[str]:
-        yield f'<p class="{f"uses {classes}".strip()}">{sentence}</p>\n'
+        yield f'<p class="{f"uses {classes}".strip()}" dir="auto">{sentence}</p>\n'
 
     def list(self, items: Sequence[Prose]) -> Iterator[str]:
         yield "<ul>" + "".join(f"<li>{self.prose(item)}</li>" for item in items) + "</ul>\n"

@@ -37,7 +37,7 @@ from dynsolve.render.line_breaking import Notation
 from dynsolve.render.matrices import height
 from dynsolve.render.page_ends import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, closing
 from dynsolve.render.prose import ProseWriter
-from dynsolve.render.references import runs, unfolded, with_results
+from dynsolve.render.references import after_references, runs, unfolded, with_results
 from dynsolve.render.typesetting import Typesetter
 
 _Piece = TypeVar("_Piece")
@@ -65,8 +65,8 @@ class Page(ABC, Generic[_Piece]):
                 yield from self.formula(block)
             case Equations():
                 yield from self.equations(block)
-            case Uses(labels):
-                yield from self.used(labels)
+            case Uses():
+                yield from self.used(block)
             case List(items):
                 yield from self.list(items)
             case Note(parts):
@@ -94,13 +94,14 @@ class Page(ABC, Generic[_Piece]):
     def equations(self, equations: Equations) -> Iterator[_Piece]:
         """Equations in one display."""
 
-    def leading_on(self, labels: Sequence[str], numbers: Mapping[str, int]) -> str:
-        """With (3) and (7): the results used in the next formula, empty where none of them has a number."""
-        references = [self.references(run, numbers) for run in runs(labels, numbers)]
+    def leading_on(self, uses: Uses, numbers: Mapping[str, int]) -> str:
+        """With (3) and (7), term by term: the results used in the next formula, as far as they have numbers."""
+        references = [self.references(run, numbers) for run in runs(uses.labels, numbers)]
         if not references:
-            return ""
+            return self.prose(uses.parts)
         last = " and " * (len(references) > 1) + references[-1]
-        return f"With {', '.join(references[:-1])}{last}:"
+        named = f"With {', '.join(references[:-1])}{last}"
+        return f"{named}{self.prose(after_references(uses.parts))}" if uses.parts else f"{named}:"
 
     def references(self, run: Sequence[str], numbers: Mapping[str, int]) -> str:
         """References to formulas whose numbers follow each other: (3) to (7)."""
@@ -111,9 +112,9 @@ class Page(ABC, Generic[_Piece]):
         """A reference to a numbered formula."""
         return f"({number})"
 
-    def used(self, labels: Sequence[str]) -> Iterator[_Piece]:
+    def used(self, uses: Uses) -> Iterator[_Piece]:
         """The results used in the next formula, where they have numbers."""
-        if sentence := self.leading_on(labels, self.labels):
+        if sentence := self.leading_on(uses, self.labels):
             yield from self.uses(sentence)
 
     @abstractmethod

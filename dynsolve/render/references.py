@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import zip_longest
 from textwrap import shorten
 
-from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Text, Uses
+from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading, Prose, Text, Uses
 
 
 def numbered(document: Document, level: int | None = None) -> dict[str, int]:
@@ -74,12 +74,25 @@ def unfolded(blocks: Iterable[Block], level: int | None = None) -> Iterator[Bloc
             yield from unfolded(block.blocks, level)
 
 
+def after_references(parts: Prose) -> Prose:
+    """How a lead-in goes on after "With (3)".
+
+    >>> after_references(("Term by term:",)), after_references(("With s = 0:",))
+    ((', term by term:',), (' and with s = 0:',))
+    """
+    first, *rest = parts
+    if not isinstance(first, str):
+        return (", ", *parts)
+    joint = " and " if first.startswith("With ") else ", "
+    return (joint + first[:1].lower() + first[1:], *rest)
+
+
 def with_results(blocks: Sequence[Block]) -> list[Block]:
-    """The blocks, without each `Uses` that no formula follows."""
+    """The blocks, without each `Uses` that says nothing else and that no formula follows."""
     return [
         block
         for block, after in zip_longest(blocks, blocks[1:])
-        if not isinstance(block, Uses) or isinstance(after, Formula | Equations)
+        if not isinstance(block, Uses) or block.parts or isinstance(after, Formula | Equations)
     ]
 
 

@@ -84,8 +84,12 @@ class _Page(Page[StyledLine]):
         return self.printer.text(node).replace(" ", HARD_SPACE)
 
     def text(self, text: Text) -> Iterator[StyledLine]:
+        yield from self.paragraph(self.prose(text.parts))
+
+    def paragraph(self, sentence: str) -> Iterator[StyledLine]:
+        """A sentence, broken into lines."""
         room = min(self.columns, _PROSE)
-        for line in wrap(self.prose(text.parts), room, room):
+        for line in wrap(sentence, room, room):
             yield StyledLine(line)
         yield StyledLine("")
 
@@ -129,7 +133,7 @@ class _Page(Page[StyledLine]):
         yield StyledLine("")
 
     def uses(self, sentence: str) -> Iterator[StyledLine]:
-        yield from ()
+        yield from self.paragraph(sentence)
 
     def picture(self, picture: Picture) -> Iterator[StyledLine]:
         yield from ()

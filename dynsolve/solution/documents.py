@@ -31,6 +31,7 @@ from dynsolve.notation.tree import Relation, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
+from dynsolve.render.page_ends import leads_on
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.earlier_results import EarlierResults, labelled_results
 from dynsolve.solution.said_once import SaidOnce
@@ -225,29 +226,42 @@ def step_blocks(
 
 
 def _way(step: Step, inputs: tuple[str, ...]) -> Iterator[Block]:
-    """The way to the result: the formula, this robot's quantities in it, and the lines that lead on.
+    """The way to the result: the formulas in letters, this robot's quantities in them, and what leads on.
 
     What goes in is named where it goes in: before the working, the first line, or else the result.
     """
-    uses = (Uses(inputs),) if inputs else ()
     if step.formula is not None:
         yield Formula(step.formula, step.source)
-    led_on = bool(step.lines or step.concluding)
-    if led_on and step.working:
-        yield from uses
+    for formula in step.further:
+        yield Formula(formula, optional=True)
+    following = tuple(_leading_on(step))
+    yield from _with_uses(following, inputs) if inputs else following
+
+
+def _leading_on(step: Step) -> Iterator[Block]:
+    """What leads from the formulas in letters to the result."""
     for working in step.working:
         yield Formula(working, optional=True)
-    for place, line in enumerate(step.lines):
-        yield Text(line.by)
-        if place == 0 and not step.working:
-            yield from uses
+    for line in step.lines:
+        if line.by:
+            yield Text(line.by)
         yield (
             Formula(line.formulas[0], optional=True) if len(line.formulas) == 1 else Equations(line.formulas)
         )
     if step.concluding:
         yield Text(step.concluding)
-    if not led_on:
-        yield from uses
+
+
+def _with_uses(blocks: tuple[Block, ...], labels: tuple[str, ...]) -> Iterator[Block]:
+    """The blocks, what goes in named before the first formula: in its lead-in, where it has one."""
+    match blocks:
+        case (Text(parts), *rest) if leads_on(parts):
+            yield Uses(labels, parts)
+        case (Text() as sentence, *rest):
+            yield from (sentence, Uses(labels))
+        case (*rest,):
+            yield Uses(labels)
+    yield from rest
 
 
 def _closing(solution: Dynamics) -> Iterator[Block]:

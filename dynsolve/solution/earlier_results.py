@@ -42,7 +42,7 @@ class EarlierResults:
     def used(self, step: Step, names: Iterable[str]) -> tuple[str, ...]:
         """The labels of the equations of the steps `names` that a step uses; `x#2` is the second of x."""
         lines = [node for line in step.lines for node in line.formulas]
-        formulas = [node for node in (step.formula, *step.working, *lines) if node is not None]
+        formulas = [node for node in (step.formula, *step.further, *step.working, *lines) if node is not None]
         parts = frozenset(walk(*formulas))
         labels: list[str] = []
         for whole in names:

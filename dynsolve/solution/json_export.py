@@ -175,7 +175,7 @@ class _Exporter:
         }
 
     def step(self, step: Step) -> dict[str, Any]:
-        formulas = [*([step.formula] if step.formula else []), *step.working, *step.result]
+        formulas = [*([step.formula] if step.formula else []), *step.further, *step.working, *step.result]
         return {
             "id": step.id,
             "stage": step.stage,

@@ -113,8 +113,8 @@ def _slope(x: Expr, q: Coordinate) -> Expr:
 def _along(context: Context, body: Body, i: int, turned: Matrix) -> Line:
     """v along the axes of another frame, in which its square is the same."""
     v, R = letters.of_body("v", body, "bold"), letters.R(context.robot, i)
-    why: Prose = (f"The speed is the same along the axes of frame {i}, where the velocity is",)
-    return Line((*why, ":"), (equation(Product((Transpose(R), v)), context.show(turned)),))
+    why: Prose = (f"The speed is the same along the axes of frame {i}.",)
+    return Line(why, (equation(Product((Transpose(R), v)), context.show(turned)),))
 
 
 def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | None:

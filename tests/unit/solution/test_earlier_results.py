@@ -26,8 +26,12 @@ def folds(problem: str) -> tuple[Fold, ...]:
 
 def cited(problem: str, title: str) -> tuple[str, ...]:
     """The labels that the step of a title refers to."""
+    return next((block.labels for block in fold_of(problem, title).blocks if isinstance(block, Uses)), ())
+
+
+def fold_of(problem: str, title: str) -> Fold:
     (fold,) = (fold for fold in folds(problem) if fold.title.split(" ", 1)[1] == title)
-    return next((block.labels for block in fold.blocks if isinstance(block, Uses)), ())
+    return fold
 
 
 # title of the step -> the labels of what stands in its formula
@@ -47,6 +51,22 @@ USED = [
 @pytest.mark.parametrize(("title", "labels"), USED)
 def test_every_equation_that_is_used_is_cited(title: str, labels: tuple[str, ...]) -> None:
     assert cited("elbow-3r", title) == labels
+
+
+def test_what_goes_in_is_named_before_it_is_put_in() -> None:
+    kinds = [type(block).__name__ for block in fold_of("elbow-3r", "Column 1 of the Jacobian").blocks]
+    assert kinds == ["Text", "Formula", "Uses", "Formula", "Formula"]
+
+
+def test_what_goes_in_is_named_in_the_words_that_lead_on() -> None:
+    blocks = fold_of("elbow-3r", "Coordinate 1: time derivative of the momentum").blocks
+    (uses,) = (block for block in blocks if isinstance(block, Uses))
+    assert uses == Uses(("dLdqd1",), ("Term by term:",))
+
+
+def test_both_jacobians_are_defined_before_anything_is_put_in() -> None:
+    _, linear, angular, uses, *_ = fold_of("elbow-3r", "Jacobians of the mass centre of body 2").blocks
+    assert isinstance(linear, Formula) and isinstance(angular, Formula) and isinstance(uses, Uses)
 
 
 def test_c_is_made_of_all_christoffel_symbols() -> None:
