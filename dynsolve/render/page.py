@@ -95,7 +95,7 @@ class Page(ABC, Generic[_Piece]):
         """Equations in one display."""
 
     def leading_on(self, uses: Uses, numbers: Mapping[str, int]) -> str:
-        """With (3) and (7), term by term: the results used in the next formula, as far as they have numbers."""
+        """With (3) and (7), term by term: the numbered results that are used in the next formula."""
         references = [self.references(run, numbers) for run in runs(uses.labels, numbers)]
         if not references:
             return self.prose(uses.parts)
