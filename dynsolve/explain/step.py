@@ -41,10 +41,10 @@ class Step:
 
     `id` is the name of what it gives (`A1`, `Jv2`, `tau1`), `also` the names of further
     results.  `formula` is general and stands in the textbook at `source`, `further` are formulas in
-    letters that belong to it; `working` is the same with this robot's quantities; `lines` lead on from there to the `result`, what comes
-    out, one operation after the other, the last one being said in `concluding`.  `uses` names the
-    earlier steps that it is computed from, unless these are the inputs of its rule; `x#2` is the
-    second result of x alone.
+    letters that belong to it; `working` is the same with this robot's quantities; `lines` lead on
+    from there to the `result`, what comes out, one operation after the other, the last one being
+    said in `concluding`.  `uses` names the earlier steps that it is computed from, unless these are
+    the inputs of its rule; `x#2` is the second result of x alone.
 
     How it is shown: `entries` names the entries of a result that is a matrix too wide for
     the page; an `optional` result says nothing new, and is left out where it does not fit;
