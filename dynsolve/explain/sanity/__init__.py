@@ -1,10 +1,10 @@
 """Checks that a person can do on a finished model, each found by the program and proved before it is said.
 
-    cyclic        a coordinate that stands nowhere in L: its momentum is conserved
+    cyclic        a coordinate that does not appear in L: its momentum is conserved
     definite      D is positive definite, by its diagonal and its determinants or body by body
     inertia_poses the moments of inertia on the diagonal of D, the arm stretched and folded
-    equilibrium   the poses in which g is zero: hanging and upright
-    point_masses  what is left of D without the extent of the bodies
+    equilibrium   the poses in which g is zero, hanging and upright among them
+    point_masses  D without the moments of inertia of the bodies, and what is left over
 
 They are made of
 
@@ -43,7 +43,7 @@ CHECKS = (
     Check("cyclic", "a coordinate stands neither in K nor in P", cyclic_step),
     Check("definite", "D is seen to be definite for positive masses", definite_step),
     Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
-    Check("equilibrium", "gravity is balanced everywhere, or where the arm hangs", equilibrium_step),
+    Check("equilibrium", "gravity is balanced everywhere, or in some poses", equilibrium_step),
     Check("point_masses", "a body has extent, and D is something without it", point_masses_step),
 )
 """All checks, in the order in which they are shown."""

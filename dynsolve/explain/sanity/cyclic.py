@@ -1,4 +1,4 @@
-"""A coordinate that stands nowhere in L: its momentum is conserved (Goldstein, Classical Mechanics, 2.6)."""
+"""A coordinate that does not appear in L: its momentum is conserved (Goldstein, Classical Mechanics, 2.6)."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def cyclic_step(context: Context) -> Step | None:
         return None
     one = len(free) == 1
     momenta = [letters.partial_derivative(letters.L, letters.velocity(q)) for q in free]
-    why: Prose = (*listed([Symbol(q.name) for q in free]), f" {'stands' if one else 'stand'} nowhere in ")
+    why: Prose = (*listed([Symbol(q.name) for q in free]), f" {'does' if one else 'do'} not appear in ")
     why += (letters.L, f": {'a cyclic coordinate' if one else 'cyclic coordinates'}. As long as ")
     why += (
         *listed([equation(driving_row(context, q), Number(0)) for q in free]),

@@ -37,19 +37,12 @@ def definite_step(context: Context) -> Step | None:
     if found is None:
         return None
     why, result = found
-    square = equation(letters.transposed_product(letters.QD, letters.D), Product((Number(2), letters.K)))
-    start: Prose = (
-        "Since ",
-        square,
-        ", ",
-        letters.D,
-        " must be positive definite where masses and moments of inertia ",
-    )
+    assumed: Prose = ("Let all parameters be positive. ",) if context.robot.parameters else ()
     return Step(
         id="definite",
         stage=Stage.VECTORIZED,
         title="Check: the inertia matrix is positive definite",
-        why=(*start, "are positive. ", *why),
+        why=(*assumed, *why),
         source=spong("7.5.1"),
         result=result,
         is_task=False,
@@ -58,30 +51,58 @@ def definite_step(context: Context) -> Step | None:
 
 def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
     """By the entries of the diagonal, and by minors where coordinates are coupled."""
-    squares: list[Node] = []
+    firsts: list[int] = []
     determinants: list[Node] = []
     used: dict[Identity, None] = {}
-    for block in blocks(context.values["D"]):
-        first = next((k for k in (block[0], block[-1]) if _is_sum_of_squares(context, k)), None)
+    D = context.values["D"]
+    for block in blocks(D):
+        first = next((k for k in (block[0], block[-1]) if _own_part(context, k) is not None), None)
         if first is None:
             return None
-        squares.append(letters.entry("d", first + 1, first + 1))
+        firsts.append(first)
         if len(block) > 1:
             minors = _minors(context, block if first == block[0] else block[::-1])
             if minors is None:
                 return None
             determinants += minors
             used |= dict.fromkeys(_identities(context, block))
-    verb = "is a sum" if len(squares) == 1 else "are sums"
-    why: Prose = (*listed(squares), f" {verb} of masses and moments times squares, which never all vanish")
-    if determinants:
-        why += ("; entries between coordinates that are not coupled are zero",) if len(squares) > 1 else ()
-        why += ("; and the determinant" + "s" * (len(determinants) > 1), " below ")
-        why += ("are" if len(determinants) > 1 else "is", " positive, too (Sylvester's criterion)")
-        why += ("; multiplied out, with ", *said(list(used)), ":") if used else (":",)
-    else:
-        why += (", and the other entries are zero.",)
+    why = _diagonal(context, firsts)
+    if not determinants:
+        return (*why, " All other entries are zero."), ()
+    if len(firsts) > 1:
+        why += (" Entries between coordinates that are not coupled are zero.",)
+    why += (f" The determinant{'s' * (len(determinants) > 1)} below ",)
+    why += ("are" if len(determinants) > 1 else "is", " positive, too (Sylvester's criterion)")
+    why += (", multiplied out with ", *said(list(used)), ":") if used else (":",)
     return why, tuple(determinants)
+
+
+def _diagonal(context: Context, places: Sequence[int]) -> Prose:
+    """Why entries of the diagonal are positive: seen from them, or from what one body adds to them."""
+    names: list[Node] = [letters.entry("d", k + 1, k + 1) for k in places]
+    one = len(places) == 1
+    if all(_is_positive(context, context.show(context.values["D"][k, k])) for k in places):
+        seen = "no term of it can be negative, and not all are zero"
+        return (
+            *listed(names),
+            f" {'is' if one else 'are'} positive: {seen if one else seen.replace('it', 'them', 1)}.",
+        )
+    twice = equation(letters.transposed_product(letters.QD, letters.D), Product((Number(2), letters.K)))
+    why: Prose = (
+        "Since ",
+        twice,
+        f", no body takes anything away from the diagonal, and {'' if one else 'each of '}",
+    )
+    why += (*listed(names), " is positive: ")
+    return (*why, *listed(tuple(_adding(context, k) for k in places)), ".")
+
+
+def _adding(context: Context, k: int) -> Prose:
+    """Which body or rotor surely adds something to d_kk, and what."""
+    part = _own_part(context, k)
+    assert part is not None
+    who, form = part
+    return (who, " ", form, " to ", letters.entry("d", k + 1, k + 1))
 
 
 def _by_bodies(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
@@ -102,11 +123,14 @@ def _by_bodies(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
             resting.add(k)
     if len(resting) < robot.n:
         return None
+    twice = equation(letters.transposed_product(letters.QD, letters.D), Product((Number(2), letters.K)))
     why: Prose = (
-        "No body has a negative kinetic energy, so where ",
+        "Since ",
+        twice,
+        ", the kinetic energy must be 0 at rest only. No body has a negative one, so where ",
         letters.K,
-        " is 0, that of each body is. By the lines below the rates are then 0 one after the other; each "
-        "line is written with those of the lines before it equal to 0:",
+        " is 0, that of each body is. Each line below is written with the rates of the lines before it equal "
+        "to 0, so that one rate after the other must be 0:",
     )
     return why, tuple(lines)
 
@@ -121,11 +145,15 @@ def blocks(D: Matrix) -> list[list[int]]:
     return sorted(found)
 
 
-def _is_sum_of_squares(context: Context, k: int) -> bool:
-    """Whether a body or the rotors surely add something to d_kk; nothing takes anything away."""
-    parts = [f"D{kind}{body.name}" for body in context.robot.bodies for kind in "vw"]
-    parts += ["Dm"] if context.robot.actions.motors else []
-    return any(_is_positive(context, context.show(context.values[part][k, k])) for part in parts)
+def _own_part(context: Context, k: int) -> tuple[str, Node] | None:
+    """A body, or the rotors, that surely add something to d_kk, and what; nothing takes anything away."""
+    parts = [
+        (f"body {body.name} adds", context.values[f"Dv{body.name}"] + context.values[f"Dw{body.name}"])
+        for body in context.robot.bodies
+    ]
+    parts += [("the rotors add", context.values["Dm"])] if context.robot.actions.motors else []
+    shown = ((who, context.show(added[k, k])) for who, added in parts)
+    return next(((who, form) for who, form in shown if _is_positive(context, form)), None)
 
 
 def _is_positive(context: Context, form: Node) -> bool:

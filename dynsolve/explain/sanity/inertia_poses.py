@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import chain
 
+from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import axis, origin
@@ -20,7 +21,7 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, Joint, JointType
 
-LONGEST = 20
+LONGEST = 40
 """The operations up to which a moment of inertia is of use to a reader."""
 
 MOST_ANGLES = 2
@@ -53,9 +54,9 @@ def inertia_poses_step(context: Context) -> Step | None:
 
 
 def _table(rows: Sequence[tuple[Inline, ...]]) -> Table:
-    """The rows under their header, without the words where no pose has any."""
+    """The rows under their header, with words on the arm where there are some for each pose."""
     header: tuple[Inline, ...] = ("pose", "the arm", "moment of inertia")
-    places = [0, 1, 2] if any(row[1] for row in rows) else [0, 2]
+    places = [0, 1, 2] if all(row[1] for row in rows) else [0, 2]
     return Table(tuple(header[k] for k in places), tuple(tuple(row[k] for k in places) for row in rows))
 
 
@@ -74,19 +75,22 @@ def _turns_one_joint(context: Context, q: Coordinate) -> bool:
 
 
 def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
-    """The poses that differ, each with the entry of the diagonal."""
+    """The poses that differ, each with the entry of the diagonal; none where one is too long."""
     value, ring = context.values["D"][q.index - 1, q.index - 1], context.robot.ring
     names = turning_in(context.robot, value)
     if not names or len(names) > MOST_ANGLES or not _turns_one_joint(context, q):
         return
-    seen = []
+    found: list[tuple[Expr, Pose]] = []
     for pose in _simple(names):
         there = at(ring, value, pose)
-        form = context.show(there)
-        if there not in seen and cost(form) <= LONGEST:
-            seen.append(there)
-            entry = equation(letters.entry("d", q.index, q.index), form)
-            yield side_by_side(written(pose)), _shape(context, pose), entry
+        if there not in [known for known, _ in found]:
+            found.append((there, pose))
+    forms = [context.show(there) for there, _ in found]
+    if max(map(cost, forms)) > LONGEST:
+        return
+    for form, (_, pose) in zip(forms, found, strict=True):
+        entry = equation(letters.entry("d", q.index, q.index), form)
+        yield side_by_side(written(pose)), _shape(context, pose), entry
 
 
 def _simple(names: Sequence[str]) -> Iterator[Pose]:
@@ -101,13 +105,11 @@ def _simple(names: Sequence[str]) -> Iterator[Pose]:
 
 
 def _shape(context: Context, pose: Pose) -> str:
-    """`stretched` or `folded` at the joints of the pose that are parallel to the one before them."""
+    """`stretched`, `folded` or `bent` at the joints of the pose that are parallel to the one before them."""
     moved = [joint for joint in context.robot.joints if _moves_with(context, joint, pose)]
     found = {_at_joint(context, joint, pose) for joint in moved}
     found.discard("")
-    if "bent" in found or not found:
-        return ""
-    return "folded" if "folded" in found else "stretched"
+    return next((word for word in ("bent", "folded", "stretched") if word in found), "")
 
 
 def _moves_with(context: Context, joint: Joint, pose: Pose) -> bool:

@@ -66,7 +66,7 @@ def values_of(context: Context, seed: int) -> dict[str, float]:
 def test_the_planar_arm_stretched_and_folded() -> None:
     assert rows("planar-2r", "inertia_poses") == [
         ["q₂ = 0", "stretched", "d₁₁ = m₁ l_c1² + m₂ (l₁ + l_c2)² + I₁ + I₂"],
-        ["q₂ = 90°", "", "d₁₁ = m₁ l_c1² + m₂ (l₁² + l_c2²) + I₁ + I₂"],
+        ["q₂ = 90°", "bent", "d₁₁ = m₁ l_c1² + m₂ (l₁² + l_c2²) + I₁ + I₂"],
         ["q₂ = 180°", "folded", "d₁₁ = m₁ l_c1² + m₂ (l₁ - l_c2)² + I₁ + I₂"],
     ]
 
@@ -78,9 +78,31 @@ def test_an_upright_elbow_has_no_mass_away_from_its_waist() -> None:
 
 
 def test_where_the_planar_arm_hangs_and_where_it_stands() -> None:
-    text = said("planar-2r", "equilibrium")
-    assert "At q₁ = -90° and q₂ = 0, g is zero and 𝒫 has a minimum: the arm hangs" in text
-    assert "At q₁ = 90° and q₂ = 0, g is zero and 𝒫 has a maximum" in text
+    assert said("planar-2r", "equilibrium") == "Let all parameters be positive. g = 0 exactly in these poses:"
+    assert rows("planar-2r", "equilibrium") == [
+        ["q₁ = 90°, q₂ = 0", "maximum: the arm stands upright", "unstable"],
+        ["q₁ = 90°, q₂ = 180°", "decreases in some direction", "unstable"],
+        ["q₁ = -90°, q₂ = 0", "minimum: the arm hangs", "stable"],
+        ["q₁ = -90°, q₂ = 180°", "decreases in some direction", "unstable"],
+    ]
+
+
+def test_a_waist_is_balanced_in_any_pose() -> None:
+    assert said("elbow-3r", "equilibrium").endswith("exactly in these poses, whatever θ₁ is:")
+    assert ["θ₂ = -90°, θ₃ = 0", "minimum", "stable in θ₂ and θ₃"] in rows("elbow-3r", "equilibrium")
+
+
+TILTED_BASE = """
+convention: modified
+base: Rx(30deg)
+dh: [{theta: q1*}, {theta: q2*, alpha: 90deg}]
+masses: [{mass: m2, link: 2, center: [lc2, 0, 0], inertia: {zz: I2}}]
+"""
+"""Balanced upright at q1 = 90°, q2 = 60°, and at quarter turns only where P is no extremum."""
+
+
+def test_nothing_is_said_where_the_poses_are_not_all_known() -> None:
+    assert check(TILTED_BASE, "equilibrium") is None
 
 
 def test_an_arm_in_the_horizontal_plane_needs_nothing_against_gravity() -> None:
@@ -101,7 +123,7 @@ def test_a_counterweight() -> None:
 
 def test_a_waist_keeps_its_momentum() -> None:
     assert said("in3140-rp", "cyclic") == (
-        "θ₁ stands nowhere in ℒ: a cyclic coordinate. As long as τ₁ = 0, the Euler-Lagrange equation says "
+        "θ₁ does not appear in ℒ: a cyclic coordinate. As long as τ₁ = 0, the Euler-Lagrange equation says "
         "that the momentum ∂ℒ/∂θ̇₁ is conserved."
     )
     assert check("planar-2r", "cyclic") is None
@@ -112,9 +134,26 @@ def test_the_determinant_of_the_planar_arm() -> None:
     assert step is not None
     (shown,) = step.result
     assert to_unicode(shown, solved("planar-2r").style).startswith("d₁₁ d₂₂ - d₁₂² = ")
-    assert said("in3140-rp", "definite").endswith(
-        "d₁₁ and d₂₂ are sums of masses and moments times squares, which never all vanish, and the other "
-        "entries are zero."
+    assert "d₁₁ is positive: body 1 adds m₁ l_c1² + I₁ to d₁₁." in said("planar-2r", "definite")
+    assert said("in3140-rp", "definite") == (
+        "Let all parameters be positive. d₁₁ and d₂₂ are positive: no term of them can be negative, and not "
+        "all are zero. All other entries are zero."
+    )
+
+
+def test_a_body_shows_that_an_entry_is_positive_where_its_terms_do_not() -> None:
+    """m₂ (4l₂² - b²)/12 c₂² stands in d₁₁ of the box, and is negative where b > 2l₂."""
+    assert "body 1 adds m₁ r₁²/2 to d₁₁" in said("box-cylinder-rod-sphere", "definite")
+
+
+def test_without_moments_of_inertia_the_linear_parts_are_left() -> None:
+    step = check("in3140-rp", "point_masses")
+    assert step is not None
+    style = solved("in3140-rp").style
+    _, rest = (to_unicode(node, style) for node in step.result)
+    assert rest == "𝐃 - 𝐃_p = [[I_1zz, 0], [0, 0]]"
+    assert said("in3140-rp", "point_masses").endswith(
+        "in each term, and nothing for L₂, which turns no body:"
     )
 
 
@@ -139,7 +178,7 @@ def test_body_by_body_where_the_determinants_are_long() -> None:
         "2K₂ = (m₂ x₂² + C₂) q̇₂²",
         "2K₃ = (m₃ x₃² + C₃) q̇₃²",
     ]
-    assert "the rates are then 0 one after the other" in said(TILTED, "definite")
+    assert "one rate after the other must be 0" in said(TILTED, "definite")
 
 
 POINTS = "dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]\nmasses: [{mass: m2, link: 2}]\n"
