@@ -33,6 +33,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
                 products and quotients: a determinant in its factors, fractions
     entry_formulas
                 energies, momenta and forces in the entries of D and g and the Christoffel symbols
+    statement   what is given and what is to be found
+    shapes      what uniform shapes are called
     style       how a robot's formulas look: s_1 for sin θ_1
     signs       the style of a report, in which no sign stands for two things
     citations   the books and their sections that steps refer to

@@ -15,6 +15,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.density import density_step
 from dynsolve.explain.mass_centers import is_given_by, mass_center_step
 from dynsolve.explain.placed_bodies import center_step, orientation_step
+from dynsolve.explain.shapes import SHAPES
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.working.proved import MOST_JOINTS
@@ -38,17 +39,6 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import AxesKind, Body
 
 STAGE = Stage.INERTIA
-
-_SHAPES = {
-    "box": "rectangular solid",
-    "cylinder": "solid cylinder",
-    "hollow_cylinder": "hollow cylinder",
-    "rod": "slender rod",
-    "disk": "thin disk",
-    "sphere": "solid sphere",
-    "shell": "thin spherical shell",
-}
-
 
 _SOURCES = {
     "box": spong("7.2.1"),
@@ -147,7 +137,7 @@ def _shape(context: Context, body: Body) -> tuple[Node | None, tuple[Node, ...],
     given = [equation(Symbol("m"), context.show(body.mass))]
     given += [equation(Symbol(letter), context.show(value)) for letter, value in shape.letters]
     given = [relation for relation in given if relation.parts[0] != relation.parts[1]]
-    why: Prose = (f"{name_of(body).capitalize()} is a uniform {_SHAPES[shape.kind]}",)
+    why: Prose = (f"{name_of(body).capitalize()} is a uniform {SHAPES[shape.kind]}",)
     if shape.axis:
         why += (f", its own axis along {shape.axis} of the body's frame",)
     why += (". Its principal moments about the mass centre:",)

@@ -25,6 +25,7 @@ from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
 from dynsolve.explain.citations import KHALIL_DOMBRE, cited
 from dynsolve.explain.notation_list import notation
+from dynsolve.explain.statement import statement
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed, machine
 from dynsolve.notation.tree import Relation, equation
@@ -68,6 +69,7 @@ def solution_document(
     )
     return Document((
         *_opening(solution, _sources(steps, detail, short)),
+        *(() if stages else map(Text, statement(solution.forms, solution.problem.find))),
         *_notation(solution, derivation, detail, short),
         *derivation,
         *_closing(solution),

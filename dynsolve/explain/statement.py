@@ -1,0 +1,101 @@
+"""What is given and what is to be found: the exercise in two sentences, before its solution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from dynsolve.document import Prose
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.shapes import SHAPES
+from dynsolve.explain.writing import listed, machine, name_of
+from dynsolve.notation.tree import Node
+from dynsolve.quantities.index import quantities
+from dynsolve.robot.model import Body
+
+MOST_BODIES = 4
+"""Up to this number of bodies each is named."""
+
+_CALLED = {
+    "K": "the kinetic energy",
+    "P": "the potential energy",
+    "L": "the Lagrangian",
+    "tau": "the generalized forces",
+    "D": "the inertia matrix",
+    "C": "the matrix of Coriolis and centrifugal terms",
+    "g": "the gravity terms",
+    "Ps": "the potential energy of the springs",
+    "Km": "the kinetic energy of the rotors",
+    "friction": "the friction",
+    "DH": "the Denavit-Hartenberg parameters",
+    "J": "the Jacobian",
+    "r": "the task vector",
+    "Jr": "the Jacobian of the task",
+    "det": "the determinant",
+    "singular": "the singular configurations",
+    "inverse": "the inverse kinematics",
+    "qd": "the rates of the coordinates",
+    "qdd": "the accelerations of the coordinates",
+    "Y": "the regressor",
+    "a": "the dynamic parameters",
+    "equilibria": "the equilibria",
+    "balance": "the conditions for balance",
+    "Ac": "the matrix of the constraints",
+    "Ac_dot": "its rate",
+    "lambda": "the multipliers",
+    "reduced": "the equations without multipliers",
+    "Lambda": "the inertia matrix of the task",
+    "definite": "which of the matrices can be inertia matrices",
+}
+"""What whole answers are called; others are told by their letters."""
+
+
+def statement(forms: Forms, asked: Sequence[str]) -> Iterator[Prose]:
+    """Given: ...; To be found: ..., of an arm with a table; of others what is to be found."""
+    if forms.robot.has_table and forms.robot.bodies:
+        yield ("Given: ", *_given(forms), ".")
+    found = [told for name in asked if (told := _called(forms, name)) is not None]
+    if found:
+        yield ("To be found: ", *listed(found), ".")
+
+
+def _given(forms: Forms) -> Prose:
+    """The table, and what has mass."""
+    bodies, what = forms.robot.bodies, machine(forms.robot)
+    if len(bodies) > MOST_BODIES:
+        return (f"the table of the {what} (1.1), and mass, mass centre and tensor of {len(bodies)} bodies",)
+    told = [_body(forms, body) for body in bodies]
+    count = "one body" if len(told) == 1 else f"{len(told)} bodies"
+    parts: Prose = told[0]
+    for each in told[1:]:
+        parts += ("; ", *each)
+    return (f"the table of the {what} (1.1) and {count}: ", *parts)
+
+
+def _body(forms: Forms, body: Body) -> Prose:
+    """body 2 in link 2, a uniform slender rod of mass m₂"""
+    kind = "a point" if body.is_point else ""
+    if body.shape is not None and body.shape.formulas:
+        kind = f"a uniform {SHAPES[body.shape.kind]}"
+    mass: Prose = (" of mass ", forms.of(body.mass))
+    if body.mass.is_zero:
+        mass = (" without mass",)
+    return (f"{name_of(body)} in link {body.link},", f" {kind}" if kind else "", *mass)
+
+
+def _called(forms: Forms, name: str) -> Prose | None:
+    """the inertia matrix D; None for what has neither words nor a letter"""
+    words = _CALLED.get(name, "")
+    letter = None if name == "DH" else _letter(forms, name)
+    if not words and letter is None:
+        return None
+    both: list[Node | str] = [words] if words else []
+    if letter is not None:
+        both += [" ", letter] if words else [letter]
+    return tuple(both)
+
+
+def _letter(forms: Forms, name: str) -> Node | None:
+    try:
+        return quantities(forms.robot)[name].letter(forms.robot)
+    except LookupError:
+        return None
