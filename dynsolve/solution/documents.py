@@ -69,11 +69,17 @@ def solution_document(
     )
     return Document((
         *_opening(solution, _sources(steps, detail, short)),
-        *(() if stages else map(Text, statement(solution.forms, solution.problem.find))),
+        *_statement(solution, detail, stages),
         *_notation(solution, derivation, detail, short),
         *derivation,
         *_closing(solution),
     ))  # fmt: skip
+
+
+def _statement(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
+    """The exercise, before a whole solution of it."""
+    if stages is None and detail > Detail.BRIEF:
+        yield from map(Text, statement(solution.forms, solution.problem.find))
 
 
 def _notation(
