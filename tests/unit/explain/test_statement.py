@@ -33,8 +33,9 @@ CASES = [
     ),
     (
         "knife-edge",
-        "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and centrifugal "
-        "terms 𝐂, the gravity terms 𝐠, the matrix of the constraints 𝐀_c, its rate 𝐀̇_c and the multipliers 𝛌.",
+        "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and "
+        "centrifugal terms 𝐂, the gravity terms 𝐠, the matrix of the constraints 𝐀_c, its rate 𝐀̇_c "
+        "and the multipliers 𝛌.",
     ),
 ]
 
