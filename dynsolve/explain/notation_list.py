@@ -11,14 +11,15 @@ from dataclasses import dataclass, replace
 
 from dynsolve.document import Block, Inline, Prose, Table
 from dynsolve.explain.abbreviations import Abbreviated
-from dynsolve.explain.roles import Role, roles
-from dynsolve.explain.sign_kinds import Kind, formulas_in, kind_of, kinds_in
+from dynsolve.explain.parameter_meanings import meanings, told_together
+from dynsolve.explain.roles import Role
+from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.signs import shorthands
-from dynsolve.explain.textbook_letters import SHAPES, Line, textbook
+from dynsolve.explain.textbook_letters import BY_ENTRY, SHAPES, Line, of_entries, textbook
 from dynsolve.explain.writing import listed, side_by_side
-from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Words, equation
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.shapes import MASS
 from dynsolve.robot.units import node as unit_node
@@ -41,12 +42,16 @@ def problem_names(robot: Robot) -> Iterator[Line]:
     candidates = [one.name for one in robot.questions.candidates if robot.given is None]
     if candidates:
         yield _named(candidates, "matrices that are to be judged", "")
-    known = roles(robot)
+    known = meanings(robot)
     for role in Role:
-        units = dict.fromkeys(unit for own, unit in known.values() if own is role)
+        units = dict.fromkeys(unit for own, unit, _ in known.values() if own is role)
         for unit in units:
-            names = [name for name, found in known.items() if found == (role, unit)]
-            yield _named(names, role.meaning if len(names) > 1 else role.of_one, unit)
+            alike = [(name, told) for name, (own, its, told) in known.items() if (own, its) == (role, unit)]
+            for names, words in told_together([(name, told) for name, told in alike if told.words]):
+                yield _named(names, words, unit)
+            names = [name for name, told in alike if not told.words]
+            if names:
+                yield _named(names, role.meaning if len(names) > 1 else role.of_one, unit)
 
 
 def _named(names: Sequence[str], meaning: str, unit: str) -> Line:
@@ -129,14 +134,27 @@ def notation(
     general = [replace(line, kinds=line.kinds - own) for line in textbook(robot, style)]
     lines = [
         *of_problem(robot, style),
-        *_of_abbreviations(short),
+        *_of_abbreviations(robot, short),
         *general,
         *_of_shapes(robot, occurring - own),
     ]
-    shown = tuple(
+    shown = _merged(
         _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
     )
     return Notation((*_counting(occurring - own), *_numbers(style), *_bold(occurring)), shown)
+
+
+def _merged(lines: Iterable[Line]) -> tuple[Line, ...]:
+    """The lines, those of one meaning in one: the masses m_1 and m_2 of the problem, and m_i of a formula."""
+    found: dict[object, Line] = {}
+    for line in lines:
+        first = found.get(key := (line.words, line.unit))
+        found[key] = (
+            line
+            if first is None
+            else replace(first, signs=(*first.signs, *line.signs), kinds=first.kinds | line.kinds)
+        )
+    return tuple(found.values())
 
 
 def _told(line: Line, style: Style) -> Line:
@@ -146,18 +164,20 @@ def _told(line: Line, style: Style) -> Line:
         return replace(line, meaning=_meaning_of_shorthands(sines))
     changed = [sign for sign in line.signs if isinstance(sign, Letter) and style.base(sign) != sign.base]
     if changed:
-        letter = GREEK.get(changed[0].base, changed[0].base)
-        return replace(line, meaning=f"{line.meaning}; the textbook's letter is {letter}")
+        return replace(line, meaning=f"{line.meaning}; Spong writes {to_unicode(changed[0])}")
     return line
 
 
-def _of_abbreviations(short: Abbreviated | None) -> Iterator[Line]:
+def _of_abbreviations(robot: Robot, short: Abbreviated | None) -> Iterator[Line]:
     """The names of constants and recurring terms."""
     if short is not None and short.constants:
-        yield _named([d.name.name for d in short.constants], "inertial constants, see Abbreviations", "")
+        yield _named([d.name.name for d in short.constants], "inertial constants, see Abbreviations", BY_ENTRY)
     if short is not None and short.sums:
-        what = "values of Christoffel symbols" if short.at_symbols else "recurring terms, see Abbreviations"
-        yield _named([d.name.name for d in short.sums], what, "")
+        names = [d.name.name for d in short.sums]
+        if short.at_symbols:
+            yield _named(names, "values of Christoffel symbols", of_entries(robot, "kg m^2", "kg"))
+        else:
+            yield _named(names, "recurring terms, see Abbreviations", BY_ENTRY)
 
 
 def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
@@ -165,9 +185,10 @@ def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
     shapes = [body.shape for body in robot.bodies if body.shape is not None]
     used = {letter for shape in shapes for letter, _ in shape.letters} | ({MASS} if shapes else set())
     names = [name for name in SHAPES if name in used and ("", "name", name) in occurring]
-    if names:
-        meaning = f"of a uniform shape: {', '.join(SHAPES[name] for name in names)}"
-        yield _named(names, meaning, "")
+    for unit in ("kg", "m"):
+        own = [name for name in names if (name == MASS) == (unit == "kg")]
+        if own:
+            yield _named(own, f"{', '.join(SHAPES[name] for name in own)} of a uniform shape", unit)
 
 
 def _counting(occurring: set[Kind]) -> Iterator[Inline]:
@@ -179,6 +200,8 @@ def _counting(occurring: set[Kind]) -> Iterator[Inline]:
         yield from (Symbol("n"), " is the number of coordinates. ")
     if "t" in names:
         yield from ("A dot is the derivative with respect to the time ", Symbol("t"), ". ")
+    if TRANSPOSED in occurring:
+        yield "A raised T transposes. "
 
 
 def _numbers(style: Style) -> Iterator[Inline]:

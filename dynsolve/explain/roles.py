@@ -70,43 +70,43 @@ def _dimensions(robot: Robot) -> dict[str, str]:
 def _places(robot: Robot) -> Iterator[tuple[Role, Iterable[str]]]:
     """Where parameters stand, the strongest role first."""
     for entry in robot.gravity.entries:
-        yield Role.GRAVITY, _names(entry)
+        yield Role.GRAVITY, names_in(entry)
     for joint in robot.joints:
-        yield Role.LENGTH, (*_names(joint.d), *_names(joint.a))
+        yield Role.LENGTH, (*names_in(joint.d), *names_in(joint.a))
         yield Role.ANGLE, (*names_of(joint.theta), *names_of(joint.alpha))
     for entry in robot.base_position.entries:
-        yield Role.BASE, _names(entry)
+        yield Role.BASE, names_in(entry)
     for body in robot.bodies:
-        yield Role.MASS, _names(body.mass)
+        yield Role.MASS, names_in(body.mass)
     for body in robot.bodies:
         given = body.inertia.rows if body.inertia is not None else ()
         for i, j in ((i, j) for i, row in enumerate(given) for j in range(len(row))):
             own = Role.INERTIA if i == j else Role.PRODUCT
-            yield own if body.shape is None else Role.SHAPE, _names(given[i][j])
+            yield own if body.shape is None else Role.SHAPE, names_in(given[i][j])
     for body in robot.bodies:
         for entry in body.center.entries:
-            yield Role.CENTER if robot.has_table else Role.POSITION, _names(entry)
+            yield Role.CENTER if robot.has_table else Role.POSITION, names_in(entry)
         for turn in body.turns:
-            yield Role.POSITION, (name for rate in turn.rates.entries for name in _names(rate))
+            yield Role.POSITION, (name for rate in turn.rates.entries for name in names_in(rate))
     yield from _places_in(robot.actions)
 
 
 def _places_in(acting: Actions) -> Iterator[tuple[Role, Iterable[str]]]:
     """Where the parameters of what acts stand."""
     for motor in acting.motors:
-        yield Role.ROTOR, _names(motor.inertia)
-        yield Role.RATIO, _names(motor.ratio)
+        yield Role.ROTOR, names_in(motor.inertia)
+        yield Role.RATIO, names_in(motor.ratio)
     for law in (spring.law for spring in acting.springs if spring.law):
-        yield Role.STIFFNESS, _names(law.stiffness)
-        yield Role.REST, _names(law.rest)
+        yield Role.STIFFNESS, names_in(law.stiffness)
+        yield Role.REST, names_in(law.rest)
     for one in acting.friction:
-        yield Role.VISCOUS, _names(one.viscous)
-        yield Role.COULOMB, _names(one.coulomb)
+        yield Role.VISCOUS, names_in(one.viscous)
+        yield Role.COULOMB, names_in(one.coulomb)
     for damper in acting.dampers:
-        yield Role.DAMPING, _names(damper.damping)
+        yield Role.DAMPING, names_in(damper.damping)
 
 
-def _names(expr: Expr) -> Iterator[str]:
+def names_in(expr: Expr) -> Iterator[str]:
     """The symbols of a value."""
     for generator, degree in zip(expr.ring.generators, expr.poly.degrees(), strict=True):
         if degree > 0 and generator.kind == "symbol":

@@ -11,13 +11,15 @@ from collections.abc import Iterable, Iterator
 from dynsolve.document import Block, Equations, Fold, Formula, List, Note, Table, Text, Uses
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import Style, shorthand
-from dynsolve.notation.tree import Function, Letter, Node, Row, Symbol, Words
+from dynsolve.notation.tree import Function, Letter, Node, Row, Symbol, Transpose, Words
 from dynsolve.notation.walk import children
 
 Kind = tuple[str, str, str]
 """Base, style and shape of the indices; of a name ("", "name", the name)."""
 
 TIME: Kind = ("", "name", "t")
+TRANSPOSED: Kind = ("T", "raised", "")
+"""The T over a matrix that is transposed."""
 
 _SAME: dict[Kind, Kind] = {
     ("x", "bold", ""): ("x", "bold", "#"),
@@ -88,6 +90,8 @@ def kinds_in(nodes: Iterable[Node], style: Style) -> set[Kind]:
             found.add(kind)
         if isinstance(node, Letter | Symbol) and node.dots:
             found.add(TIME)  # a dot is a derivative by it
+        if isinstance(node, Transpose):
+            found.add(TRANSPOSED)
         if not (isinstance(node, Letter) or (kind and kind[1] == "shorthand")):
             pending += children(node)
     return found

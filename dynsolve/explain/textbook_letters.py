@@ -20,6 +20,9 @@ from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Convention, JointType, Robot
 
+BY_ENTRY = "by entry"
+"""In the place of a unit: each entry has its own."""
+
 WIDEST = 8.0
 """Signs of one meaning that are wider together, in em, are the first, the second and the last."""
 
@@ -44,7 +47,7 @@ class Line:
         if len(shown) == 1:
             return shown[0]
         together = side_by_side(shown)
-        if len(shown) > 3 and Ruler().width(together) > WIDEST:
+        if len(shown) > 3 and not self.each and Ruler().width(together) > WIDEST:
             return Row((*side_by_side(shown[:2]).parts, Words(", …, "), shown[-1]))
         return together
 
@@ -108,7 +111,7 @@ def _kinematics(columns: Sequence[Node], ground: str, above: Node | None) -> Ite
     yield _line(
         [Letter(name, style="upright") for name in MOTIONS], "rotation about, translation along an axis"
     )
-    yield _line([Symbol("U"), Symbol("V")], "any two expressions, in an identity")
+    yield _line([Symbol("U"), Symbol("V")], "expressions of an identity, given where they stand")
     yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
     yield _each([(frame, "frame i"), (turned, "its orientation")], f", seen from {ground}")
@@ -121,7 +124,7 @@ def _kinematics(columns: Sequence[Node], ground: str, above: Node | None) -> Ite
         (letters.JW, "its angular part"), (_numbered("J"), "its column i"),
     ])  # fmt: skip
     velocities = [(letters.bold("v"), "velocity"), (letters.bold("omega"), "angular velocity")]
-    yield _each(velocities, " of the last frame")
+    yield _each(velocities, " of the last frame", "m/s, rad/s")
 
 
 def _questions(robot: Robot) -> Iterator[Line]:
@@ -237,7 +240,7 @@ def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     velocities = [
         (_numbered("v"), "velocity of the mass centre"), (_numbered("omega"), "angular velocity"),
     ]  # fmt: skip
-    yield _each(velocities, " of body i")
+    yield _each(velocities, " of body i", "m/s, rad/s")
     energies = [
         (_body("K"), "kinetic energy"), (_sub("K", "v"), "its part of translation"),
         (_sub("K", "omega"), "its part of rotation"), (_body("P"), "potential energy"),
@@ -247,15 +250,17 @@ def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     yield _each(totals, f" of the {machine(robot)}", "J")
     yield from _forces(robot, style)
     yield from _actions()
-    yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")])
-    yield _line(letters.D_POINTS, "inertia matrix of the masses alone, as points")
-    yield _line(_entry("c", _I, _J, _K), "Christoffel symbol")
-    yield _each(
-        [(letters.C, "matrix of the Coriolis and centrifugal terms"), (_entry("c", _K, _J), "its entries")]
-    )
-    yield _each([(letters.G, "column of the gravity terms"), (_entry("g", _K), "its entries")])
+    inertia, rate = of_entries(robot, "kg m^2", "kg"), of_entries(robot, "kg m^2/s", "kg/s")
+    yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")], "", inertia)
+    yield _line(letters.D_POINTS, "inertia matrix of the masses alone, as points", inertia)
+    yield _line(_entry("c", _I, _J, _K), "Christoffel symbol", inertia)
+    coriolis = letters.C, "matrix of the Coriolis and centrifugal terms"
+    yield _each([coriolis, (_entry("c", _K, _J), "its entries")], "", rate)
+    gravity = letters.G, "column of the gravity terms"
+    yield _each([gravity, (_entry("g", _K), "its entries")], "", of_entries(robot, "N m", "N"))
     yield from _linear()
-    yield _each([(letters.bold("N"), "matrix that is skew-symmetric"), (_entry("n", _I, _J), "its entries")])
+    skew = letters.bold("N"), "matrix that is skew-symmetric"
+    yield _each([skew, (_entry("n", _I, _J), "its entries")], "", rate)
 
 
 def _forces(robot: Robot, style: Style) -> Iterator[Line]:
@@ -275,7 +280,15 @@ def _forces(robot: Robot, style: Style) -> Iterator[Line]:
     else:
         meaning = f"generalized force i: a torque {turning}, a force ({written}) {sliding}"
         yield _line([torque, force], meaning, "N m or N")
-    yield _line(letters.TAU, "column of the generalized forces")
+    yield _line(letters.TAU, "column of the generalized forces", of_entries(robot, "N m", "N"))
+
+
+def of_entries(robot: Robot, turning: str, sliding: str) -> str:
+    """The unit of the entries of a matrix: that of angles or of lengths, where there are no others."""
+    kinds = {q.type for q in robot.coordinates}
+    if len(kinds) > 1:
+        return BY_ENTRY
+    return turning if JointType.REVOLUTE in kinds else sliding
 
 
 def _actions() -> Iterator[Line]:

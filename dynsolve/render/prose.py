@@ -22,6 +22,8 @@ _SUPERSCRIPTS = dict(zip(SUPERSCRIPT_DIGITS + "ⁱⁿᵀ", "0123456789inT", stri
 _DOTS = {"\u0307": 1, "\u0308": 2}
 _SCRIPTS = {"ℒ": ("L", "script"), "𝒦": ("K", "script"), "𝒫": ("P", "script"), "𝓘": ("I", "bold script")}
 """Letters of a script alphabet: the letter, and its style."""
+_BOLD_LETTERS = {"𝐨": "o", "𝐱": "x", "𝐳": "z"}
+"""Letters that are bold wherever they stand: the origin and the axes of a frame."""
 _DOTTED = {"Ḋ": "D", "ẋ": "x", "ẏ": "y", "ż": "z"}
 _BOLD = {True: frozenset("AH"), False: frozenset({"q", "D", "tau", "omega"})}
 """The vectors and matrices that the explanations name in words: A₁ with an index, q̇ and ω without one."""
@@ -29,12 +31,12 @@ _BOLD = {True: frozenset("AH"), False: frozenset({"q", "D", "tau", "omega"})}
 _GREEK_LETTERS = "".join(_SPELLED)
 
 _FORMULA = re.compile(
-    rf"(?P<base>[A-Za-z{_GREEK_LETTERS}{''.join(_SCRIPTS)}{''.join(_DOTTED)}])"
+    rf"(?P<base>[A-Za-z{_GREEK_LETTERS}{''.join((*_SCRIPTS, *_BOLD_LETTERS, *_DOTTED))}])"
     rf"(?P<dots>[{''.join(_DOTS)}]?)"
     rf"(?P<sub>[{''.join(_SUBSCRIPTS)}]*)"
     rf"(?P<sup>[{''.join(_SUPERSCRIPTS)}]*)"
 )
-_COUNTED = "body|column|coordinate|force|frame|joint|link|matrix|motor|row"
+_COUNTED = "[Bb]ody|[Cc]olumn|coordinate|force|frame|joint|link|matrix|motor|[Rr]ow|turn"
 _COUNT = rf"(?P<counted>\b(?:{_COUNTED}) )(?P<count>[ijkn])(?P<less>-1)?(?!\w)"
 """What is counted by a letter: frame i-1."""
 
@@ -118,8 +120,13 @@ def _parts(text: str) -> tuple[str | Node, ...]:
 
 @lru_cache(maxsize=2048)
 def _formula(base: str, dots: str, sub: str, sup: str) -> Node:
-    letter, style = _SCRIPTS.get(base) or (_DOTTED.get(base) or _SPELLED.get(base) or base, "")
-    style = style or ("bold" if letter in _BOLD[bool(sub)] else "italic")
+    if base in _SCRIPTS:
+        letter, style = _SCRIPTS[base]
+    elif base in _BOLD_LETTERS:
+        letter, style = _BOLD_LETTERS[base], "bold"
+    else:
+        letter = _DOTTED.get(base) or _SPELLED.get(base) or base
+        style = "bold" if letter in _BOLD[bool(sub)] else "italic"
     count = _DOTS.get(dots, 1 if base in _DOTTED else 0)
     return Letter(letter, _index(sub, _SUBSCRIPTS), _index(sup, _SUPERSCRIPTS), style, count)
 

@@ -75,7 +75,7 @@ NAMES = [
     (r"T", "m_1", "K"),
     (r"\mathcal{L}", "m_1", "L"),
     ("ℒ", "m_1", "L"),
-    ("ℒ", "m_1", "L"),
+    ("\U0001d4db", "m_1", "L"),
     (r"L(q, \dot q)", "m_1", "L"),
     (r"\frac{\partial \mathcal{L}}{\partial \dot{q}_1}", "m_1", "dLdqd1"),
     (r"\frac{\partial L}{\partial \dot{\theta}_2}", "m_1", "dLdqd2"),

@@ -1,0 +1,263 @@
+"""What each parameter of a problem is, in words: length of link 2, from o_1 to o_2.
+
+It is told from where the parameter stands and how: alone, as the entry a of row 2, it is the distance between
+two axes; in a sum with others it is only said to stand in that row.  Parameters that are alike, each with its
+own number, are told in one line with i (`told_together`).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from string import ascii_letters, digits
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.algebra.positivity import is_positive
+from dynsolve.explain.roles import Role, names_in, roles
+from dynsolve.explain.writing import and_joined
+from dynsolve.notation.names import split
+from dynsolve.notation.unicode import lowered
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body, Convention, Joint, Robot
+
+AXES = "xyz"
+
+_DIMENSIONS = {
+    "radius": "radius",
+    "length": "length",
+    "outer": "outer radius",
+    "inner": "inner radius",
+}
+"""The dimensions of uniform shapes, by their keys in a file; those of a box are its sides along the axes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """What a parameter is.
+
+    `words` hold {link}, {body} and {before} where numbers stand, as o{link} where one is an index of 𝐨, 𝐱 or
+    𝐳, and {axes} or {coordinates} where some of x, y and z stand.
+    """
+
+    words: str
+    link: int = 0
+    body: str = ""
+    before: int = -1
+    axes: tuple[str, ...] = ()
+
+    @property
+    def number(self) -> str:
+        """What may be told as i; empty where the numbers in the words differ from each other."""
+        if self.body and self.link and self.body != str(self.link):
+            return ""
+        if self.before >= 0 and self.before != self.link - 1:
+            return ""
+        return self.body or str(self.link or "")
+
+    def text(self, counted: bool = False) -> str:
+        """The words with the numbers, or with i for them."""
+        values = {"link": str(self.link), "body": self.body, "before": str(self.before)}
+        if counted:
+            values = {"link": "i", "body": "i", "before": "i-1"}
+        text = _INDEXED.sub(lambda found: _AXIS[found[1]] + lowered(values[found[2]]), self.words)
+        several, which = len(self.axes) > 1, and_joined(self.axes)
+        axes, coordinates = ("axes", "coordinates") if several else ("axis", "coordinate")
+        return text.format(**values, axes=f"{axes} {which}", coordinates=f"{coordinates} {which}")
+
+
+_AXIS = {"o": "𝐨", "x": "𝐱", "z": "𝐳"}
+_INDEXED = re.compile(r"\b([oxz])\{(\w+)\}")
+
+
+def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
+    """The role, the SI unit and the meaning of every parameter, in their order."""
+    found: dict[str, tuple[Role, Meaning]] = {}
+    for role, name, meaning in (*_of_table(robot), *_of_bodies(robot)):
+        before = found.get(name)
+        if before is None:
+            found[name] = role, meaning
+        elif before[0] is role and before[1] != meaning:
+            found[name] = role, _both(before[1], meaning)
+    known = roles(robot)
+    return {
+        name: (role, unit, found[name][1] if name in found and found[name][0] is role else Meaning(""))
+        for name, (role, unit) in known.items()
+    }
+
+
+def _both(first: Meaning, second: Meaning) -> Meaning:
+    """What stands in two places: of one body about two axes; of others there is no one meaning."""
+    axes = (*first.axes, *(axis for axis in second.axes if axis not in first.axes))
+    merged = replace(first, axes=axes)
+    return merged if replace(second, axes=axes) == merged else Meaning("")
+
+
+# -- the table -------------------------------------------------------------------------------------
+
+
+def _of_table(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
+    """The lengths of the table."""
+    for joint in robot.joints:
+        for name in names_in(joint.a):
+            yield Role.LENGTH, name, _along_x(robot, joint) if _is(joint.a, name) else _in_row(joint)
+        for name in names_in(joint.d):
+            yield Role.LENGTH, name, _along_z(robot, joint, name)
+
+
+def _in_row(joint: Joint) -> Meaning:
+    return Meaning("length in row {link} of the table", joint.index)
+
+
+def _along_x(robot: Robot, joint: Joint) -> Meaning:
+    """What a is: the length of a link where its d is zero, so that no way along z is added."""
+    place = {"link": joint.index, "before": joint.parent}
+    if robot.convention is Convention.MODIFIED:
+        if joint.d.is_zero and joint.parent:
+            return Meaning("length of link {before}, from o{before} to o{link}", **place)
+        return Meaning("distance from z{before} to z{link}, along x{before}", **place)
+    if joint.d.is_zero:
+        return Meaning("length of link {link}, from o{before} to o{link}", **place)
+    return Meaning("distance from z{before} to z{link}, along x{link}", **place)
+
+
+def _along_z(robot: Robot, joint: Joint, name: str) -> Meaning:
+    """What stands in d: alone, or beside a coordinate."""
+    axis = "z{before}" if robot.convention is Convention.STANDARD else "z{link}"
+    if not _is(joint.d, name):
+        if joint.variable == "d":
+            return Meaning("constant part of d in row {link} of the table", joint.index)
+        return _in_row(joint)
+    if joint.parent == 0 and _is_upright(robot):
+        return Meaning("height of o{link} above o{before}", joint.index, "", 0)
+    return Meaning(f"distance from o{{before}} to o{{link}}, along {axis}", joint.index, "", joint.parent)
+
+
+def _is_upright(robot: Robot) -> bool:
+    """Whether z_0 points up, against gravity."""
+    x, y, z = robot.gravity.entries
+    return x.is_zero and y.is_zero and is_positive(-z) and not letters.has_base(robot)
+
+
+# -- the bodies ------------------------------------------------------------------------------------
+
+
+def _of_bodies(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
+    """Masses, moments of inertia, dimensions, and where the mass centres are."""
+    for body in robot.bodies:
+        alone = Meaning("mass of body {body}", body=body.name)
+        part = Meaning("part of the mass of body {body}", body=body.name)
+        for name in names_in(body.mass):
+            yield Role.MASS, name, alone if _is(body.mass, name) else part
+        if body.shape is None:
+            yield from _moments(body)
+        else:
+            for key, value in body.shape.dimensions:
+                for name in names_in(value):
+                    if _is(value, name):
+                        yield Role.SHAPE, name, _dimension(body, key)
+        if robot.has_table:
+            yield from _center(robot, body)
+
+
+def _dimension(body: Body, key: str) -> Meaning:
+    if key in AXES:
+        return Meaning("side of body {body} along its {axes}", body=body.name, axes=(key,))
+    return Meaning(f"{_DIMENSIONS[key]} of body {{body}}", body=body.name)
+
+
+def _moments(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
+    """The entries of a given tensor."""
+    point = {"center": "its mass centre", "origin": "the origin of its frame"}.get(body.about, "its joint")
+    rows = body.inertia.rows if body.inertia is not None else ()
+    for i, row in enumerate(rows):
+        for j, entry in enumerate(row):
+            for name in names_in(entry):
+                if i != j:
+                    yield Role.PRODUCT, name, Meaning("products of inertia of body {body}", body=body.name)
+                elif _is(entry, name):
+                    words = f"moment of inertia of body {{body}} about its {{axes}} through {point}"
+                    yield Role.INERTIA, name, Meaning(words, body=body.name, axes=(AXES[i],))
+
+
+def _center(robot: Robot, body: Body) -> Iterator[tuple[Role, str, Meaning]]:
+    """Where a mass centre is: so far from an end of its link, or by coordinates in its frame."""
+    own = {"link": body.link, "body": body.name}
+    near = _from_near_end(robot, body)
+    for name in dict.fromkeys(name for entry in body.center.entries for name in names_in(entry)):
+        if near is not None and _is_distance(near, name):
+            words = "distance from o{before} to the mass centre of body {body}"
+            yield Role.CENTER, name, Meaning(words, before=robot.joints[body.link - 1].parent, **own)
+        elif _is_distance(body.center, name):
+            words = "distance from o{link} to the mass centre of body {body}"
+            yield Role.CENTER, name, Meaning(words, **own)
+        else:
+            for axis, entry in zip(AXES, body.center.entries, strict=True):
+                if _is(entry, name):
+                    words = "{coordinates} of the mass centre of body {body}, in frame {link}"
+                    yield Role.CENTER, name, Meaning(words, axes=(axis,), **own)
+
+
+def _from_near_end(robot: Robot, body: Body) -> Matrix | None:
+    """The mass centre from the near end of its link, o_{i-1}, along the axes of its frame.
+
+    None in the modified convention, in which that end is the origin of the frame itself.
+    """
+    if robot.convention is Convention.MODIFIED:
+        return None
+    row, ring = robot.joints[body.link - 1], robot.ring
+    across, along = row.d * ring.sin(row.alpha), row.d * ring.cos(row.alpha)
+    return body.center + Matrix.column(ring, (row.a, across, along))
+
+
+def _is_distance(place: Matrix, name: str) -> bool:
+    """Whether a place lies on an axis, as far out as the parameter says."""
+    far = [entry for entry in place.entries if not entry.is_zero]
+    return len(far) == 1 and _is(far[0], name)
+
+
+def _is(value: Expr, name: str) -> bool:
+    """Whether a value is the parameter itself, or its negative."""
+    symbol = value.ring.symbol(name)
+    return value in (symbol, -symbol)
+
+
+# -- several in one line ---------------------------------------------------------------------------
+
+
+def told_together(of: Sequence[tuple[str, Meaning]]) -> Iterator[tuple[list[str], str]]:
+    """Names that are told by the same words, and these: with i where each name has its own number."""
+    told: dict[tuple[str, object], list[tuple[str, Meaning]]] = {}
+    for name, meaning in of:
+        told.setdefault(_key(name, meaning), []).append((name, meaning))
+    for (_, counted), alike in told.items():
+        names = [name for name, _ in alike]
+        meaning = _over_all_axes([meaning for _, meaning in alike])
+        numbers = {meaning.number for _, meaning in alike}
+        yield names, meaning.text(counted is True and len(numbers) > 1)
+
+
+def _key(name: str, meaning: Meaning) -> tuple[str, object]:
+    """What names have in common that are told together."""
+    axes = () if not meaning.axes or _names_axis(name, meaning.axes) else meaning.axes
+    if meaning.number and _has_number(name, meaning.number):
+        return f"{meaning.words} {axes}", True
+    return f"{meaning.text()} {axes}", (meaning.link, meaning.body)
+
+
+def _over_all_axes(alike: Sequence[Meaning]) -> Meaning:
+    axes = dict.fromkeys(axis for meaning in alike for axis in meaning.axes)
+    return replace(alike[0], axes=tuple(sorted(axes)))
+
+
+def _has_number(name: str, number: str) -> bool:
+    """Whether a name has a number as its index: m_1 and l_c1 have 1, m_p has p."""
+    return any(number in (group, group.strip(ascii_letters)) for group in split(name)[1])
+
+
+def _names_axis(name: str, axes: Iterable[str]) -> bool:
+    """Whether a name tells its axis itself: x_1, I_1zz."""
+    base, groups = split(name)
+    known = {base, *(group.strip(digits) for group in groups)}
+    return any(axis in known or 2 * axis in known for axis in axes)

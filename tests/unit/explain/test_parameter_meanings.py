@@ -1,0 +1,73 @@
+"""What a parameter is, told from where it stands."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.explain.parameter_meanings import meanings, told_together
+from tests.support import solved
+
+MASS = "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]"
+
+
+def told(problem: str) -> dict[str, str]:
+    """The names that are told together -> their meaning."""
+    known = [(name, meaning) for name, (_, _, meaning) in meanings(solved(problem).robot).items() if meaning.words]
+    return {" ".join(names): words for names, words in told_together(known)}
+
+
+# rows of the table, and what is told of a length in them
+LENGTHS = [
+    ("[{theta: q1*, a: l1}, {theta: q2*, a: l2}]", "l1 l2", "length of link i, from 𝐨ᵢ₋₁ to 𝐨ᵢ"),
+    ("[{theta: q1*, a: l2}, {theta: q2*, a: l1}]", "l2", "length of link 1, from 𝐨₀ to 𝐨₁"),
+    ("[{theta: q1*, a: l1, d: h}, {theta: q2*}]", "l1", "distance from 𝐳₀ to 𝐳₁, along 𝐱₁"),
+    ("[{theta: q1*, d: h}, {theta: q2*}]", "h", "distance from 𝐨₀ to 𝐨₁, along 𝐳₀"),
+    ("[{theta: q1*}, {d: q2* + h}]", "h", "constant part of d in row 2 of the table"),
+    ("[{theta: q1*, a: l + b}, {theta: q2*}]", "b", "length in row 1 of the table"),
+]
+
+
+@pytest.mark.parametrize(("table", "names", "meaning"), LENGTHS)
+def test_a_length_of_the_table(table: str, names: str, meaning: str) -> None:
+    found = told(f"gravity: [0, -g, 0]\ndh: {table}\n{MASS}")
+    assert {name: words for key, words in found.items() for name in key.split()}[names.split()[0]] == meaning
+    assert names in found or " " not in names
+
+
+def test_a_length_along_the_vertical_is_a_height() -> None:
+    assert told(f"dh: [{{theta: q1*, d: h}}, {{theta: q2*}}]\n{MASS}")["h"] == "height of 𝐨₁ above 𝐨₀"
+    turned = "base: Rx(90deg)\ngravity: [0, 0, -g]"
+    assert told(f"{turned}\ndh: [{{theta: q1*, d: h}}, {{theta: q2*}}]\n{MASS}")["h"] != "height of 𝐨₁ above 𝐨₀"
+
+
+# the one body, and what is told of its parameters
+BODIES = [
+    ("{mass: m, link: 1, center: {near: [c, 0, 0]}}", "c", "distance from 𝐨₀ to the mass centre of body 1"),
+    ("{mass: m, link: 1, center: [c, 0, 0]}", "c", "distance from 𝐨₁ to the mass centre of body 1"),
+    ("{mass: m, link: 1, center: [x1, y1, 0]}", "x1 y1",
+     "coordinates x and y of the mass centre of body 1, in frame 1"),
+    ("{mass: m, link: 1, center: tip, inertia: {xx: A, zz: B}}", "A",
+     "moment of inertia of body 1 about its axis x through its mass centre"),
+    ("{mass: m, link: 1, center: tip, inertia: {xx: A, yy: A}}", "A",
+     "moment of inertia of body 1 about its axes x and y through its mass centre"),
+    ("{mass: m, link: 1, center: tip, inertia: {xx: I1xx, zz: I1zz}}", "I1xx I1zz",
+     "moment of inertia of body 1 about its axes x and z through its mass centre"),
+    ("{mass: m, link: 1, center: tip, inertia: {zz: J}, about: joint}", "J",
+     "moment of inertia of body 1 about its axis z through its joint"),
+    ("{mass: m, link: 1, center: tip, shape: {disk: {radius: r}}}", "r", "radius of body 1"),
+    ("{mass: M + m, link: 1}", "M m", "part of the mass of body 1"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("body", "names", "meaning"), BODIES)
+def test_a_parameter_of_a_body(body: str, names: str, meaning: str) -> None:
+    found = told(f"gravity: [0, -g, 0]\ndh: [{{theta: q*, a: l}}]\nmasses: [{body}]")
+    assert found[names] == meaning
+
+
+def test_in_the_modified_table_a_length_is_that_of_the_link_before() -> None:
+    table = "dh: [{theta: q1*}, {theta: q2*, a: l1}, {d: d3*}]"
+    bodies = "masses: [{mass: m1, link: 1}, {mass: m2, link: 2, center: [c, 0, 0]}, {mass: m3, link: 3, center: origin}]"
+    found = told(f"convention: modified\n{table}\n{bodies}")
+    assert found["l1"] == "length of link 1, from 𝐨₁ to 𝐨₂"
+    assert found["c"] == "distance from 𝐨₂ to the mass centre of body 2"
