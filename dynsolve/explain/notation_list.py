@@ -171,7 +171,9 @@ def _told(line: Line, style: Style) -> Line:
 def _of_abbreviations(robot: Robot, short: Abbreviated | None) -> Iterator[Line]:
     """The names of constants and recurring terms."""
     if short is not None and short.constants:
-        yield _named([d.name.name for d in short.constants], "inertial constants, see Abbreviations", BY_ENTRY)
+        yield _named(
+            [d.name.name for d in short.constants], "inertial constants, see Abbreviations", BY_ENTRY
+        )
     if short is not None and short.sums:
         names = [d.name.name for d in short.sums]
         if short.at_symbols:

@@ -97,7 +97,9 @@ def test_every_sign_is_in_the_list(problem: str, detail: Detail) -> None:
 def test_nothing_is_listed_that_is_not_printed(problem: str, detail: Detail) -> None:
     """The names of entries count for nothing: where a matrix fits the page, they are not printed."""
     solution = solved(problem)
-    told = notation(solution.robot, solution.style, document(problem, detail).blocks, solution.abbreviated("auto"))
+    told = notation(
+        solution.robot, solution.style, document(problem, detail).blocks, solution.abbreviated("auto")
+    )
     printed = [
         replace(block, entries=()) if isinstance(block, Formula) else block
         for block in unfolded(document(problem, detail).blocks)

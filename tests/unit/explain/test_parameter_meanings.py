@@ -12,7 +12,9 @@ MASS = "masses: [{mass: m1, link: 1}, {mass: m2, link: 2}]"
 
 def told(problem: str) -> dict[str, str]:
     """The names that are told together -> their meaning."""
-    known = [(name, meaning) for name, (_, _, meaning) in meanings(solved(problem).robot).items() if meaning.words]
+    known = [
+        (name, meaning) for name, (_, _, meaning) in meanings(solved(problem).robot).items() if meaning.words
+    ]
     return {" ".join(names): words for names, words in told_together(known)}
 
 
@@ -37,7 +39,9 @@ def test_a_length_of_the_table(table: str, names: str, meaning: str) -> None:
 def test_a_length_along_the_vertical_is_a_height() -> None:
     assert told(f"dh: [{{theta: q1*, d: h}}, {{theta: q2*}}]\n{MASS}")["h"] == "height of 𝐨₁ above 𝐨₀"
     turned = "base: Rx(90deg)\ngravity: [0, 0, -g]"
-    assert told(f"{turned}\ndh: [{{theta: q1*, d: h}}, {{theta: q2*}}]\n{MASS}")["h"] != "height of 𝐨₁ above 𝐨₀"
+    assert (
+        told(f"{turned}\ndh: [{{theta: q1*, d: h}}, {{theta: q2*}}]\n{MASS}")["h"] != "height of 𝐨₁ above 𝐨₀"
+    )
 
 
 # the one body, and what is told of its parameters
@@ -67,7 +71,10 @@ def test_a_parameter_of_a_body(body: str, names: str, meaning: str) -> None:
 
 def test_in_the_modified_table_a_length_is_that_of_the_link_before() -> None:
     table = "dh: [{theta: q1*}, {theta: q2*, a: l1}, {d: d3*}]"
-    bodies = "masses: [{mass: m1, link: 1}, {mass: m2, link: 2, center: [c, 0, 0]}, {mass: m3, link: 3, center: origin}]"
+    bodies = (
+        "masses: [{mass: m1, link: 1}, {mass: m2, link: 2, center: [c, 0, 0]}, "
+        "{mass: m3, link: 3, center: origin}]"
+    )
     found = told(f"convention: modified\n{table}\n{bodies}")
     assert found["l1"] == "length of link 1, from 𝐨₁ to 𝐨₂"
     assert found["c"] == "distance from 𝐨₂ to the mass centre of body 2"
