@@ -112,14 +112,12 @@ def _in_row(joint: Joint) -> Meaning:
 
 def _along_x(robot: Robot, joint: Joint) -> Meaning:
     """What a is: the length of a link where its d is zero, so that no way along z is added."""
-    place = {"link": joint.index, "before": joint.parent}
-    if robot.convention is Convention.MODIFIED:
-        if joint.d.is_zero and joint.parent:
-            return Meaning("length of link {before}, from o{before} to o{link}", **place)
-        return Meaning("distance from z{before} to z{link}, along x{before}", **place)
-    if joint.d.is_zero:
-        return Meaning("length of link {link}, from o{before} to o{link}", **place)
-    return Meaning("distance from z{before} to z{link}, along x{link}", **place)
+    modified = robot.convention is Convention.MODIFIED
+    if joint.d.is_zero and (joint.parent or not modified):
+        words = f"length of link {{{'before' if modified else 'link'}}}, from o{{before}} to o{{link}}"
+    else:
+        words = f"distance from z{{before}} to z{{link}}, along x{{{'before' if modified else 'link'}}}"
+    return Meaning(words, joint.index, before=joint.parent)
 
 
 def _along_z(robot: Robot, joint: Joint, name: str) -> Meaning:
@@ -183,20 +181,20 @@ def _moments(body: Body) -> Iterator[tuple[Role, str, Meaning]]:
 
 def _center(robot: Robot, body: Body) -> Iterator[tuple[Role, str, Meaning]]:
     """Where a mass centre is: so far from an end of its link, or by coordinates in its frame."""
-    own = {"link": body.link, "body": body.name}
     near = _from_near_end(robot, body)
     for name in dict.fromkeys(name for entry in body.center.entries for name in names_in(entry)):
         if near is not None and _is_distance(near, name):
             words = "distance from o{before} to the mass centre of body {body}"
-            yield Role.CENTER, name, Meaning(words, before=robot.joints[body.link - 1].parent, **own)
+            before = robot.joints[body.link - 1].parent
+            yield Role.CENTER, name, Meaning(words, body.link, body.name, before)
         elif _is_distance(body.center, name):
             words = "distance from o{link} to the mass centre of body {body}"
-            yield Role.CENTER, name, Meaning(words, **own)
+            yield Role.CENTER, name, Meaning(words, body.link, body.name)
         else:
             for axis, entry in zip(AXES, body.center.entries, strict=True):
                 if _is(entry, name):
                     words = "{coordinates} of the mass centre of body {body}, in frame {link}"
-                    yield Role.CENTER, name, Meaning(words, axes=(axis,), **own)
+                    yield Role.CENTER, name, Meaning(words, body.link, body.name, axes=(axis,))
 
 
 def _from_near_end(robot: Robot, body: Body) -> Matrix | None:
