@@ -18,9 +18,10 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.entry_formulas import EntryFormulas, coriolis_matrix
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, negated, times, total
+from dynsolve.notation.build import cost, negated, number_in_front, times, total
 from dynsolve.notation.tree import ZERO, Node
 from dynsolve.quantities import families
+from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
 from dynsolve.robot.model import Convention, JointType, Robot
@@ -34,6 +35,9 @@ LONG = 300
 
 LONG_REGRESSOR = 1500
 """From this number of terms on a regressor is written in the first way that is tried."""
+
+_ENERGIES = (families.KV, families.KW, families.K_BODY, families.K, PS, KM)
+"""Their ½ stands in front, as in their definitions."""
 
 _SHORT = 5
 """The terms of an entry of a long regressor for which both ways are tried."""
@@ -70,7 +74,11 @@ class Forms:
         """The compact tree of a value, a `tree.Matrix` for a matrix."""
         found = self._made.get(name)
         if found is None:
-            found = self._made[name] = self._make(name)
+            found = self._make(name)
+            quantity = quantities(self.robot).of_rule(name)
+            if quantity is not None and quantity.family in _ENERGIES:
+                found = number_in_front(found)
+            self._made[name] = found
         return found
 
     def of(self, value: Expr | Matrix | FractionMatrix) -> Node:

@@ -142,6 +142,27 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
     return Negative(node) if coefficient < 0 else node
 
 
+def number_in_front(node: Node) -> Node:
+    """Each term of a sum with its fraction as a factor in front, as energies are written: ½ m v² and not m v²/2.
+
+    >>> square = Power(Symbol("v"), Number(2))
+    >>> number_in_front(Quotient(square, Number(2))) == Product((Number(1, 2), square))
+    True
+    """
+    match node:
+        case Sum(terms):
+            return Sum(tuple(map(number_in_front, terms)))
+        case Negative(argument):
+            return Negative(number_in_front(argument))
+        case Quotient(Product((Number(p, 1), *others)), Number(q, 1)):
+            return Product((Number(p, q), *others))
+        case Quotient(Product(factors), Number(q, 1)):
+            return Product((Number(1, q), *factors))
+        case Quotient(Symbol() | Power() | Sum() as numerator, Number(q, 1)):
+            return Product((Number(1, q), numerator))
+    return node
+
+
 def _put_factor(node: Node, coefficient: Fraction | int, above: list[Node]) -> Fraction | int:
     """Put one positive factor above the line, its numbers into the coefficient."""
     match node:
