@@ -143,7 +143,7 @@ def times(coefficient: Fraction | int, factors: Iterable[tuple[Node, int]], *, d
 
 
 def number_in_front(node: Node) -> Node:
-    """Each term of a sum with its fraction as a factor in front, as energies are written: ½ m v² and not m v²/2.
+    """Each term of a sum with its fraction as a factor in front, as energies have it: ½ m v².
 
     >>> square = Power(Symbol("v"), Number(2))
     >>> number_in_front(Quotient(square, Number(2))) == Product((Number(1, 2), square))
