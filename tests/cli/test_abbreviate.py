@@ -46,7 +46,7 @@ def test_a_robot_without_masses_has_nothing_to_name(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("form", ["--latex", "--html", "--markdown"])
 def test_every_form_has_them(form: str) -> None:
-    ran = dynsolve("solve", "stanford-6", form)
+    ran = dynsolve("solve", "stanford-6", "--stage", "vectorized", form)
     assert ran.code == 0
     assert "Abbreviations" in ran.out
     assert ("\\kappa_{1} " in ran.out or "\\kappa_1 " in ran.out) if form != "--html" else "κ" in ran.out

@@ -29,7 +29,11 @@ WRONG = RIGHT.replace("L2^2*theta1'^2)", "L2*theta1'^2)")
 
 @pytest.fixture
 def set_folder(tmp_path: Path) -> Path:
-    folder = tmp_path / "set"
+    return _set_in(tmp_path)
+
+
+def _set_in(place: Path) -> Path:
+    folder = place / "set"
     folder.mkdir()
     (folder / "in3140-rp.yaml").write_text((ROOT / "problems" / "in3140-rp.yaml").read_text())
     (folder / "set.yaml").write_text("title: Assignment 2\nmarks: {in3140-rp: {K: 4, g: 2}}\n")
@@ -231,34 +235,46 @@ def _at_work(run: subprocess.Popen[bytes]) -> list[int]:
     return []
 
 
-def test_a_run_that_is_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
-    problem_set(tmp_path / "set")
-    course(tmp_path / "in", 60)
-    words = (tmp_path / "set", tmp_path / "in")
-    start = time.monotonic()
-    with _grade(*words, tmp_path / "whole") as whole:
-        assert whole.wait() == 0
-    took = time.monotonic() - start
-    chance = random.Random(5)
-    for _ in range(10):
-        with _grade(*words, tmp_path / "killed") as run:
-            time.sleep(chance.uniform(0.1, took / 2))
-            run.send_signal(signal.SIGKILL)
-    with _grade(*words, tmp_path / "killed") as run:
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, float]:
+    """A folder with a set, hand-ins and what an undisturbed run makes of them; how long its workers took."""
+    folder = tmp_path_factory.mktemp("whole")
+    problem_set(folder / "set")
+    course(folder / "in", 60)
+    with _grade(folder / "set", folder / "in", folder / "out") as run:
+        _at_work(run)
+        start = time.monotonic()
         assert run.wait() == 0
-    assert _contents(tmp_path / "killed") == _contents(tmp_path / "whole")
-    assert record_of(tmp_path / "killed") == record_of(tmp_path / "whole")
+    return folder, time.monotonic() - start
+
+
+def _is_whole(folder: Path, whole: Path) -> None:
+    assert _contents(folder) == _contents(whole / "out")
+    assert record_of(folder) == record_of(whole / "out")
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-def test_a_run_whose_workers_are_killed_comes_to_the_same_bytes(tmp_path: Path) -> None:
-    problem_set(tmp_path / "set")
-    course(tmp_path / "in", 60)
-    words = (tmp_path / "set", tmp_path / "in")
-    with _grade(*words, tmp_path / "whole") as whole:
-        assert whole.wait() == 0
+def test_a_run_that_is_killed_goes_on_to_the_same_bytes(tmp_path: Path, whole: tuple[Path, float]) -> None:
+    folder, took = whole
+    words = (folder / "set", folder / "in", tmp_path / "killed")
+    chance = random.Random(5)
+    for _ in range(6):
+        with _grade(*words) as run:
+            _at_work(run)  # before that, there is nothing that a kill could spoil
+            time.sleep(chance.uniform(0, took / 3))
+            run.send_signal(signal.SIGKILL)
+    with _grade(*words) as run:
+        assert run.wait() == 0
+    _is_whole(tmp_path / "killed", folder)
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_a_run_whose_workers_are_killed_comes_to_the_same_bytes(
+    tmp_path: Path, whole: tuple[Path, float]
+) -> None:
+    folder, _ = whole
     killed = 0
-    with _grade(*words, tmp_path / "killed", "--jobs", "1") as run:
+    with _grade(folder / "set", folder / "in", tmp_path / "killed", "--jobs", "1") as run:
         while run.poll() is None and killed < 4:
             for worker in _at_work(run):
                 time.sleep(0.3)
@@ -267,8 +283,7 @@ def test_a_run_whose_workers_are_killed_comes_to_the_same_bytes(tmp_path: Path) 
                     killed += 1
         assert run.wait() == 0
     assert killed
-    assert _contents(tmp_path / "killed") == _contents(tmp_path / "whole")
-    assert record_of(tmp_path / "killed") == record_of(tmp_path / "whole")
+    _is_whole(tmp_path / "killed", folder)
 
 
 def test_a_full_disk_is_said_and_the_same_command_goes_on(tmp_path: Path) -> None:
@@ -375,6 +390,15 @@ def test_marks_for_what_was_not_handed_in_are_read_by_the_student(tmp_path: Path
     assert 'href="feedback/a/planar-2r.html"' in (out / "report.html").read_text()
 
 
+@pytest.fixture(scope="module")
+def graded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The results of a set with one hand-in, for what changes nothing in them."""
+    folder = tmp_path_factory.mktemp("graded")
+    words = (_set_in(folder), with_files(folder / "in", {"a/in3140-rp.yaml": RIGHT}))
+    assert dynsolve("grade", *map(str, words), "-o", str(folder / "out")).code == 0
+    return folder / "out"
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -385,14 +409,12 @@ def test_marks_for_what_was_not_handed_in_are_read_by_the_student(tmp_path: Path
         (("a", "in3140-rp", "K", "--marks", "x"), "is no number of marks"),
     ],
 )
-def test_a_wrong_override_is_refused(
-    tmp_path: Path, set_folder: Path, words: tuple[str, ...], message: str
-) -> None:
-    hand_ins = with_files(tmp_path / "in", {"a/in3140-rp.yaml": RIGHT})
-    dynsolve("grade", str(set_folder), str(hand_ins), "-o", str(tmp_path / "out"))
-    ran = dynsolve("override", str(tmp_path / "out"), *words, "--why", "x")
+def test_a_wrong_override_is_refused(graded: Path, words: tuple[str, ...], message: str) -> None:
+    before = record_of(graded)
+    ran = dynsolve("override", str(graded), *words, "--why", "x")
     assert ran.code == 2
     assert message in ran.err
+    assert record_of(graded) == before
 
 
 def test_a_roster_without_its_platform_says_what_is_needed(tmp_path: Path, set_folder: Path) -> None:

@@ -72,15 +72,19 @@ class Page:
 
     def open(self, path: Path, width: int, scheme: str = "light") -> None:
         """Open a file on a page of a width, and wait until it is there."""
-        self.call(
-            "Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False
-        )
+        self.resize(width)
         features = [{"name": "prefers-color-scheme", "value": scheme}]
         self.call("Emulation.setEmulatedMedia", media="", features=features)
         self.events.clear()
         self.call("Page.navigate", url=path.as_uri())
         while not any(event.get("method") == "Page.loadEventFired" for event in self.events):
             self.events.append(self._read())
+
+    def resize(self, width: int) -> None:
+        """Give the page another width; what is open is laid out anew."""
+        self.call(
+            "Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False
+        )
 
     def ask(self, script: str) -> Any:
         """The value of an expression of JavaScript."""

@@ -10,9 +10,12 @@ from __future__ import annotations
 import doctest
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
+
+from tests.cli.running import Ran, dynsolve, environment
 
 _FILE = re.compile(r"^`([\w.-]+)`:\n+```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _SECTION = re.compile(r"^## ([^\n]+)\n(.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
@@ -45,15 +48,31 @@ def examples(text: str) -> list[tuple[str, str]]:
 
 def run(commands: list[tuple[str, str]], folder: Path) -> None:
     """Run commands one after the other in one folder, and compare what they print."""
-    here = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    inherited = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
-    environment = {**inherited, "PATH": here, "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"}
     for command, expected in commands:
-        done = subprocess.run(
-            ["bash", "-c", command],
-            cwd=folder, env=environment, capture_output=True, text=True, check=False,
-        )  # fmt: skip
-        assert done.returncode == 0 or "help:" in expected, f"{command}\n{done.stderr}"
-        printed = done.stdout + done.stderr
+        plain = command.startswith("dynsolve ") and not set(command) & _SHELL
+        ran = (
+            dynsolve(*shlex.split(command)[1:], cwd=folder, NO_COLOR="1") if plain else _bash(command, folder)
+        )
+        assert ran.code == 0 or "help:" in expected, f"{command}\n{ran.err}"
+        printed = ran.out + ran.err
         options = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
         assert doctest.OutputChecker().check_output(expected, printed, options), f"{command}\n{printed}"
+
+
+_SHELL = set("|&;<>()$`\\*?[]{}~#!")
+"""A command without any of these is the same words for every shell, and needs none."""
+
+
+def _ran(command: str, folder: Path) -> Ran:
+    if command.startswith("dynsolve ") and not set(command) & _SHELL:
+        return dynsolve(*shlex.split(command)[1:], cwd=folder, NO_COLOR="1")
+    return _bash(command, folder)
+
+
+def _bash(command: str, folder: Path) -> Ran:
+    here = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    done = subprocess.run(
+        ["bash", "-c", command],
+        cwd=folder, env=environment(PATH=here, NO_COLOR="1"), capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    return Ran(done.returncode, done.stdout, done.stderr)
