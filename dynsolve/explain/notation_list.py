@@ -208,8 +208,11 @@ def _counting(occurring: set[Kind]) -> Iterator[Inline]:
 
 def _numbers(style: Style) -> Iterator[Inline]:
     """How numbers are shown."""
-    if style.digits:
-        yield f"Numbers are exact, and shown with {style.digits} significant digits. "
+    if not style.digits:
+        return
+    which = f"those that do not end within {style.exact} digits" if style.exact > style.digits else "they"
+    yield f"Numbers are exact, in SI units (m, kg, s, N); {which} are shown with {style.digits} significant "
+    yield "digits, and rounded only where they are printed. "
 
 
 def _bold(occurring: set[Kind]) -> Iterator[Inline]:

@@ -44,10 +44,16 @@ CONSTANTS_OF_SOLUTIONS = "ABDXY"
 """What a solution of inverse kinematics calls what stands beside its sines and cosines."""
 
 
+ENDING_SOON = 2
+"""A decimal that has so many digits more than are shown of others is not rounded: 0.15625."""
+
+
 def report_style(robot: Robot, digits: int | None = None) -> Style:
     """The style of a report on a robot, in which every sign has one meaning.
 
-    A model in numbers is shown with `digits` significant digits, or as many as its longest number has.
+    A model in numbers is shown with `digits` significant digits.  Without these, decimals that end soon are
+    shown as they are, so that a reader can follow them; the others have as many digits as the longest number
+    of the problem.
     """
     style = _with_free_shorthands(robot, style_of(robot))
     taken = frozenset(_own(robot, style))
@@ -58,7 +64,8 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
             found[base, "italic", count] = other
     decimal = style.decimal or digits is not None
     shown = (digits or shown_digits(robot)) if decimal else 0
-    return replace(style, letters=found, bold=True, decimal=decimal, digits=shown)
+    exact = shown + ENDING_SOON if shown and digits is None else shown
+    return replace(style, letters=found, bold=True, decimal=decimal, digits=shown, exact=exact)
 
 
 def _printed(nodes: Iterable[Node]) -> Iterator[str]:

@@ -55,7 +55,7 @@ class Style:
     `shorthand` maps the name of a coordinate to its subscript in s_1 and c_12,
     `star` shows the mark of joint variables, and `stars` puts it on every symbol of
     these names; `decimal` writes 981/100 as 9.81 where that is exact, and with `digits` every number
-    as a decimal of so many significant digits.
+    as a decimal of so many significant digits, or of up to `exact` where that is all of them.
 
     Letters of the textbook that would be taken for something else are set otherwise:
     `letters` maps their base, style and number of lower indices to another base; with `bold`
@@ -67,6 +67,7 @@ class Style:
     decimal: bool = False
     stars: frozenset[str] = frozenset()
     digits: int = 0
+    exact: int = 0
     letters: Mapping[Sign, str] = field(default_factory=dict)
     bold: bool = False
 
@@ -75,9 +76,9 @@ class Style:
         if not (self.decimal or node.decimal):
             return None
         text = decimal_text(node.p, node.q)
-        if self.digits and (text is None or len(text.replace(".", "").lstrip("-0")) > self.digits):
-            value = significant(Fraction(node.p, node.q), self.digits)
-            return decimal_text(value.numerator, value.denominator)
+        longest = max(self.digits, self.exact)
+        if self.digits and (text is None or len(text.replace(".", "").lstrip("-0")) > longest):
+            return rounded_text(Fraction(node.p, node.q), self.digits)
         return text
 
     def base(self, node: Letter) -> str:
@@ -207,16 +208,35 @@ def decimal_text(p: int, q: int) -> str | None:
 
 
 def significant(value: Fraction, digits: int) -> Fraction:
-    """A number rounded to significant digits; the digits before the point are all kept.
+    """A number rounded to significant digits, a half away from 0; the digits before the point are all kept.
 
-    >>> significant(Fraction(2, 3), 4), significant(Fraction(123456), 4)
-    (Fraction(6667, 10000), Fraction(123456, 1))
+    >>> significant(Fraction(2, 3), 4), significant(Fraction(123456), 4), significant(Fraction("0.15625"), 4)
+    (Fraction(6667, 10000), Fraction(123456, 1), Fraction(1563, 10000))
     """
-    if not value:
-        return value
+    unit = 10 ** _places(value, digits)
+    size = Fraction(int(abs(value) * unit + Fraction(1, 2)), unit)
+    return -size if value < 0 else size
+
+
+def rounded_text(value: Fraction, digits: int) -> str:
+    """A number rounded to significant digits, the last of which are written where they are 0.
+
+    >>> rounded_text(Fraction("15.696"), 4), rounded_text(Fraction("0.99996"), 4)
+    ('15.70', '1.000')
+    """
+    shown = significant(value, digits)
+    places = _places(shown, digits)
+    whole, rest = divmod(int(abs(shown) * 10**places), 10**places)
+    sign = "-" if shown < 0 else ""
+    return f"{sign}{whole}.{rest:0{places}}" if places else f"{sign}{whole}"
+
+
+def _places(value: Fraction, digits: int) -> int:
+    """How many decimals make so many significant digits."""
     size = abs(value)
-    exponent = len(str(int(size))) if size >= 1 else -_zeros(size)
-    return round(value, max(digits - exponent, 0))
+    if not size:
+        return 0
+    return max(digits - (len(str(int(size))) if size >= 1 else -_zeros(size)), 0)
 
 
 def _zeros(size: Fraction) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
@@ -178,6 +180,17 @@ def test_the_star_is_shown_where_it_is_asked_for():
     tree = Power(Symbol("L2", 1, star=True), Number(2))
     assert to_unicode(tree) == "L\u0307₂²"
     assert to_unicode(tree, Style(star=True)) == "L\u0307₂⋆²"
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [("15.696", "15.696"), ("0.078125", "0.078125"), ("1/3", "0.3333"), ("0.1234567", "0.1235"),
+     ("0.99996001", "1.000"), ("123456789/1000", "123457")],
+)  # fmt: skip
+def test_decimals_that_end_soon_are_not_rounded(text: str, shown: str) -> None:
+    value = Fraction(text)
+    style = Style(decimal=True, digits=4, exact=6)
+    assert to_unicode(Number(value.numerator, value.denominator), style) == shown
 
 
 def test_decimals_where_they_are_asked_for():

@@ -69,6 +69,8 @@ def test_significant_digits() -> None:
     assert significant(Fraction("123456.789"), 4) == 123457
     assert significant(Fraction("9.9999"), 4) == 10
     assert significant(Fraction(0), 4) == 0
+    assert significant(Fraction("0.15625"), 4) == Fraction("0.1563")  # a half goes up, as it is taught
+    assert significant(Fraction("-0.078125"), 4) == Fraction("-0.07813")
 
 
 def test_rounding_touches_numbers_and_not_exponents() -> None:
