@@ -59,13 +59,7 @@ def simplified(tokens: list[Token]) -> list[Token]:
             groups.append(Group(len(out)))
             out.append(token)
         elif kind == "}" and groups:
-            group = groups.pop()
-            if len(out) == group.start + 1 and not group.closes_matrix and frame_follows(tokens, position):
-                out.append(token)
-            else:
-                close_group(token, group, out, tokens[position].kind)
-            if groups and out[-1].kind == "}":
-                groups[-1].depth = max(groups[-1].depth, group.depth + 1)
+            _close(token, tokens, position, groups, out)
         elif kind == "command":
             position = _simplify_command(token, tokens, position, groups, out)
         elif kind == "begin" or kind == "close":
@@ -98,6 +92,18 @@ def simplified(tokens: list[Token]) -> list[Token]:
         else:
             out.append(token)
     return out
+
+
+def _close(brace: Token, tokens: list[Token], position: int, groups: list[Group], out: list[Token]) -> None:
+    """The end of a group; an empty one stays before the frame of what follows: {}^0 R."""
+    group = groups.pop()
+    is_empty = len(out) == group.start + 1 and not group.closes_matrix
+    if is_empty and frame_follows(tokens, position):
+        out.append(brace)
+    else:
+        close_group(brace, group, out, tokens[position].kind)
+    if groups and out[-1].kind == "}":
+        groups[-1].depth = max(groups[-1].depth, group.depth + 1)
 
 
 def _word_matrix(tokens: list[Token], position: int, sign: Token, out: list[Token]) -> int:
