@@ -7,7 +7,7 @@ from dynsolve.derivation.agreement import agreement
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
-from dynsolve.explain.working.derivatives import inertia_rate
+from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
 from dynsolve.explain.writing import is_small, listed, spong
 from dynsolve.notation.tree import (
     Letter,
@@ -49,6 +49,8 @@ def agreement_step(context: Context) -> Step:
         title="Both ways agree" if not wrong else "The two ways differ",
         why=why,
         source=spong("7.3"),
+        lines=coriolis_rows(context) if agreed.coriolis else (),
+        uses=("christoffel",),
         is_task=False,
     )
 
@@ -79,19 +81,25 @@ def skew_step(context: Context) -> Step:
         why=(
             "With ",
             letters.C,
-            " from the Christoffel symbols, ",
+            " from the Christoffel symbols, the matrix ",
             name,
-            " plus its transpose is zero, compared exactly",
+            " must be skew-symmetric",
             *_by_entries(robot.n),
-            ", so that ",
-            equation(letters.transposed_product(letters.QD, name), Number(0)),
-            " for all rates. Passivity follows from this.",
+            ".",
         ),
         formula=equation(name, SKEW),
         lines=rate,
         entries=letters.entries("n", robot.n, robot.n) if robot.n > 1 else (),
         source=spong("7.5.1"),
         result=(*result, equation(Sum((name, Transpose(name))), letters.bold("0"))),
+        notes=(
+            (
+                *(() if result else ("The sum was compared exactly. ",)),
+                "Hence ",
+                equation(letters.transposed_product(letters.QD, name), Number(0)),
+                " for all rates. Passivity follows from this.",
+            ),
+        ),
         hint=(
             "A check at the end: with ",
             letters.C,

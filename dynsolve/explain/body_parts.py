@@ -1,20 +1,22 @@
-"""What each body adds to D: m J_vᵀ J_v and J_ωᵀ 𝓘 J_ω, with this robot's matrices, multiplied out."""
+"""What each body adds to D: m J_vᵀ J_v and J_ωᵀ 𝓘 J_ω, with this robot's matrices; the sum."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
+from dynsolve.explain.closing import WIDEST, matrix_width
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.working.rotational import along_own_axes, turned
-from dynsolve.explain.writing import spong
-from dynsolve.notation.tree import Node, Product, equation
+from dynsolve.explain.writing import spong, sum_of
+from dynsolve.notation.tree import ZERO, Node, Product, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
@@ -53,6 +55,55 @@ def part_step(context: Context, body: Body) -> Step:
         detail=Detail.NORMAL if is_short else Detail.FULL,
         is_task=False,
     )
+
+
+def sum_step(context: Context) -> Step | None:
+    """D as the sum of what the bodies and the rotors add; None where one of them alone adds something."""
+    parts = _summands(context)
+    if len(parts) < 2:
+        return None
+    forms = [context.matrix(name) for name in parts]
+    fits = sum(matrix_width(context, form) for form in forms) <= WIDEST
+    same = context.values["D"] == context.values["D_direct"]
+    who = "body" if len(context.robot.bodies) == 1 else "bodies"
+    who += " and the rotors" if context.robot.actions.motors else ""
+    adds = "adds" if who == "body" else "add"
+    verdict = " is the " if same else " is not the "
+    return Step(
+        id="D_sum",
+        stage=Stage.VECTORIZED,
+        title="The sum of these matrices",
+        why=(
+            f"Summed up, what the {who} {adds}{verdict}",
+            letters.D,
+            f" read off above{', entry by entry' * same}.",
+        ),
+        source=spong("7.2.2"),
+        result=(equation(letters.D, sum_of(forms)),) if fits else tuple(_summed_entries(context, parts)),
+        listed=not fits,
+        uses=(*(f"D_direct{body.name}" for body in context.robot.bodies), "Dm"),
+        is_task=False,
+    )
+
+
+def _summands(context: Context) -> list[str]:
+    """The quantities that D is the sum of, without those that are zero."""
+    names = [part + body.name for body in context.robot.bodies for part in ("Dv", "Dw")]
+    names += ["Dm"] * bool(context.robot.actions.motors)
+    return [name for name in names if name in context.values.rules and not context.values[name].is_zero]
+
+
+def _summed_entries(context: Context, parts: Sequence[str]) -> Iterator[Node]:
+    """The entries of D to which several add: as a sum, and as they are read off."""
+    D = context.matrix("D")
+    for i in range(context.robot.n):
+        for j in range(i, context.robot.n):
+            entries = [context.matrix(name).rows[i][j] for name in parts]
+            added = [entry for entry in entries if entry != ZERO]
+            if len(added) > 1:
+                names = dict.fromkeys(letters.entry("d", r + 1, c + 1) for r, c in ((i, j), (j, i)))
+                plain, read_off = sum_of(added), D.rows[i][j]
+                yield equation(*names, plain, *(() if are_alike(plain, read_off) else (read_off,)))
 
 
 def _why(context: Context, body: Body) -> Prose:

@@ -67,7 +67,7 @@ def christoffel_step(context: Context) -> Step:
             "Each is made of three partial derivatives of entries of D. The "
             "first two indices may be swapped, which halves the work.",
         ),
-        notes=tuple(_zero_note(zero)) if nonzero else (),
+        notes=tuple(_zero_note(context, zero)) if nonzero else (),
     )
 
 
@@ -94,19 +94,24 @@ def _sorted_symbols(context: Context) -> tuple[list[tuple[int, int, int]], list[
 
 def _symbol(context: Context, i: int, j: int, k: int) -> Node:
     """c_ijk = c_jik = ½ (...) = its value; partial derivatives that are zero are left out."""
-    ring, D = context.robot.ring, context.values["D"]
     value = context.forms.christoffel(i, j, k)
     names: list[Node] = [letters.entry("c", i + 1, j + 1, k + 1)]
     if i != j:
         names.append(letters.entry("c", j + 1, i + 1, k + 1))
-    slopes = [(D[k, j], (k, j), i, 1), (D[k, i], (k, i), j, 1), (D[i, j], (i, j), k, -1)]
-    weights: dict[tuple[tuple[int, int], int], int] = {}
-    for entry, (row, col), by, sign in slopes:
-        if not ring.diff(entry, by).is_zero:
-            key = ((min(row, col), max(row, col)), by)
-            weights[key] = weights.get(key, 0) + sign
+    weights = _weights(context, i, j, k)
     parts = [_weighted(context, key, weight) for key, weight in weights.items() if weight]
     return equation(*names, _halved(parts), value)
+
+
+def _weights(context: Context, i: int, j: int, k: int) -> dict[tuple[tuple[int, int], int], int]:
+    """How often each slope ∂d_ab/∂q_c that is not zero, a ≤ b, occurs in twice c_ijk; 0 where two cancel."""
+    ring, D = context.robot.ring, context.values["D"]
+    weights: dict[tuple[tuple[int, int], int], int] = {}
+    for (row, col), by, sign in (((k, j), i, 1), ((k, i), j, 1), ((i, j), k, -1)):
+        if not ring.diff(D[row, col], by).is_zero:
+            key = ((min(row, col), max(row, col)), by)
+            weights[key] = weights.get(key, 0) + sign
+    return weights
 
 
 def _weighted(context: Context, key: tuple[tuple[int, int], int], weight: int) -> tuple[int, Node]:
@@ -128,13 +133,22 @@ def _halved(parts: Sequence[tuple[int, Node]]) -> Node:
     return Product((letters.HALF, Parenthesized(Sum(tuple(terms)))))
 
 
-def _zero_note(zero: Sequence[tuple[int, int, int]]) -> Iterator[Prose]:
+def _zero_note(context: Context, zero: Sequence[tuple[int, int, int]]) -> Iterator[Prose]:
     if not zero:
         return
     if len(zero) > MOST_ZEROS:
         yield ("All the others are zero.",)
         return
-    yield (
-        *listed([letters.entry("c", i + 1, j + 1, k + 1) for i, j, k in zero]),
-        " are zero." if len(zero) > 1 else " is zero.",
-    )
+    cancelled = [ijk for ijk in zero if _weights(context, *ijk)]
+    names = _named([ijk for ijk in zero if ijk not in cancelled])
+    note: Prose = (*names, " are zero." if len(names) > 1 else " is zero.") if names else ()
+    if cancelled:
+        by_symmetry = not any(weight for ijk in cancelled for weight in _weights(context, *ijk).values())
+        note += (f"{' ' * bool(note)}In ", *_named(cancelled), " the derivatives cancel")
+        note += (", ", letters.D, " being symmetric.") if by_symmetry else (".",)
+    yield note
+
+
+def _named(symbols: Sequence[tuple[int, int, int]]) -> Prose:
+    """c_111 and c_222"""
+    return listed([letters.entry("c", i + 1, j + 1, k + 1) for i, j, k in symbols])

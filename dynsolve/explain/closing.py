@@ -51,7 +51,7 @@ def closing_step(context: Context) -> Step:
     passive = robot.actions.passive
     forces = column(*(ZERO if k in passive else letters.force(q) for k, q in enumerate(robot.coordinates)))
     result: tuple[Node, ...] = ()
-    if robot.n <= MOST_JOINTS and all(_width(context, part) <= WIDEST for part in parts):
+    if robot.n <= MOST_JOINTS and all(matrix_width(context, part) <= WIDEST for part in parts):
         left = Sum((Product((parts[0], qdd)), Product((parts[1], qd)), *parts[2:]))
         result = (equation(left, sum_of([forces, *_beside_motors(context)])),)
     return Step(
@@ -152,7 +152,7 @@ def with_force_letters(robot: Robot) -> Callable[[Node], Node]:
     return lambda part: forces.get(part.name, part) if isinstance(part, Symbol) else part
 
 
-def _width(context: Context, matrix: Matrix) -> int:
+def matrix_width(context: Context, matrix: Matrix) -> int:
     """How wide a matrix is in characters, two blanks between its columns."""
     printer = UnicodePrinter(style_of(context.robot))
     columns = zip(*matrix.rows, strict=True)

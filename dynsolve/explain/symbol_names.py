@@ -20,7 +20,7 @@ from dynsolve.explain.forms import Forms
 from dynsolve.explain.recurring import Definition
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import Kind, Term, name_of_term, rates_of, terms_of
-from dynsolve.explain.working.derivatives import inertia_rate
+from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
@@ -85,6 +85,7 @@ def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abb
         "christoffel": lambda step: _christoffel(step, context, short),
         "C": lambda step: _result_exchanged(step, {context.form("C"): short.C}),
         "model": lambda step: _result_exchanged(step, {context.form("C"): short.C}),
+        "agreement": lambda step: replace(step, lines=coriolis_rows(context, short.symbol)),
         "skew": lambda step: _skew(step, context, short),
         "terms": lambda step: _terms(step, context, short),
     }

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dynsolve.document import Prose
 from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
-from dynsolve.explain.body_parts import angular_name, linear_name, part_step
+from dynsolve.explain.body_parts import angular_name, linear_name, part_step, sum_step
 from dynsolve.explain.christoffel import SLOPES, christoffel_step
 from dynsolve.explain.closing import closing_step, driving_side
 from dynsolve.explain.context import Context
@@ -14,7 +14,7 @@ from dynsolve.explain.given_model import inertia_step
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
-from dynsolve.explain.working.derivatives import coriolis_sums
+from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import and_joined, are_counted, listed, spong, sum_of, turns
 from dynsolve.notation.tree import (
@@ -59,6 +59,7 @@ def steps(context: Context) -> Iterator[Step]:
             from dynsolve.explain.actions import rotor_part_step
 
             yield from rotor_part_step(context)
+        yield from _sum(context)
     yield christoffel_step(context)
     yield _coriolis(context)
     if from_energies:
@@ -184,9 +185,15 @@ def _inertia_direct(context: Context) -> Step:
             " What each adds follows." if robot.n <= MOST_JOINTS and _is_short(context) else "",
             " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
             *((" The rotors add ", letters.DM, ".") if rotors else ()),
-            " The sum is the same " if same else " The sum is not the same ",
-            letters.D,
-            ", entry by entry." if same else ".",
+            *(
+                ()
+                if _sum(context)
+                else (
+                    " The sum is the same " if same else " The sum is not the same ",
+                    letters.D,
+                    ", entry by entry." if same else ".",
+                )
+            ),
         ),
         formula=equation(letters.D, sum_of([BigSum(total, i, Number(1), name), *rotors])),
         source=spong("7.2.2"),
@@ -196,6 +203,14 @@ def _inertia_direct(context: Context) -> Step:
             "read off from the forces.",
         ),
     )
+
+
+def _sum(context: Context) -> tuple[Step, ...]:
+    """The sum of the parts of D, of short arms whose parts are shown."""
+    if context.robot.given is not None or context.robot.n > MOST_JOINTS or not _is_short(context):
+        return ()
+    step = sum_step(context)
+    return () if step is None else (step,)
 
 
 def _named_otherwise(robot: Robot) -> str:
@@ -220,7 +235,9 @@ def _coriolis(context: Context) -> Step:
     none = context.values["C"].is_zero
     why: Prose = ("Row ", _K, ", column ", _J, ". ", Cqd, " holds the centrifugal terms (a rate squared)")
     why += (" and the Coriolis terms (a product of two rates)",) if context.robot.n > 1 else ()
-    why += (". There are none here.",) if none else (". Multiplied out, it is the one read off above.",)
+    compared = _from_energies(context) and coriolis_rows(context)  # row by row, in a step of its own
+    same = "." if compared else ". Multiplied out, it is the one read off above."
+    why += (". There are none here.",) if none else (same,)
     return Step(
         id="C",
         stage=STAGE,

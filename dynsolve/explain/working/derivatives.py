@@ -17,10 +17,11 @@ from dynsolve.explain.working.differentiation import Rule, by_symbol, by_time, d
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain, equals
 from dynsolve.explain.writing import sum_of
-from dynsolve.notation.tree import Node, Product, Sum, Symbol, equation
+from dynsolve.notation.build import times, total
+from dynsolve.notation.tree import Entry, Node, Number, Product, Sum, Symbol, equation
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Coordinate
+from dynsolve.robot.model import Coordinate, Robot
 
 
 def momentum_rate(context: Context, q: Coordinate) -> Way:
@@ -43,12 +44,12 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: s
     value, form = context.values[result], context.form(result)
     found = differentiated(context.form(name), rule, decimal=is_numeric(context.robot))
     used = identities(value.ring, found.tree, form)
-    if not (found.by_product_rule or used) or _are_alike(found.tree, form):
+    if not (found.by_product_rule or used) or are_alike(found.tree, form):
         return SILENT
     return chain(value, [((by,), found.tree)], lambda tree: equation(left, tree), _collected(used or ()))
 
 
-def _are_alike(left: Node, right: Node) -> bool:
+def are_alike(left: Node, right: Node) -> bool:
     """Whether two trees are the same but for the order of terms and factors."""
     return mapped(left, _ordered) == mapped(right, _ordered)
 
@@ -56,7 +57,8 @@ def _are_alike(left: Node, right: Node) -> bool:
 def _ordered(node: Node) -> Node:
     match node:
         case Sum(terms):
-            return Sum(tuple(sorted(terms, key=repr)))
+            flat = [part for term in terms for part in (term.terms if isinstance(term, Sum) else (term,))]
+            return Sum(tuple(sorted(flat, key=repr)))
         case Product(factors):
             return Product(tuple(sorted(factors, key=repr)))
     return node
@@ -81,11 +83,7 @@ def slopes(context: Context) -> Way:
         entry = context.matrix("D").rows[i][j]
         found = differentiated(entry, by_symbol(Symbol(q.name)), decimal=is_numeric(context.robot))
         named = identities(value.ring, found.tree, form)
-        if (
-            (found.by_product_rule or named)
-            and not _are_alike(found.tree, form)
-            and equals(found.tree, value)
-        ):
+        if (found.by_product_rule or named) and not are_alike(found.tree, form) and equals(found.tree, value):
             shown.append(equation(_slope(i, j, q), found.tree, form))
             used |= dict.fromkeys(named or ())
     if not shown:
@@ -153,6 +151,36 @@ def coriolis_sums(context: Context) -> tuple[Line, ...]:
             if terms:
                 shown.append(equation(letters.entry("c", k + 1, j + 1), sum_of(terms)))
     return (Line(("The sums, without what is zero:",), tuple(shown)),)
+
+
+def coriolis_rows(context: Context, named: Callable[[int, int, int], Node] | None = None) -> tuple[Line, ...]:
+    """(C q̇)_k = Σ c_ijk q̇_i q̇_j, row by row, those that are not zero; `named` has other names for c_ijk."""
+    n, robot = context.robot.n, context.robot
+    if n > MOST_JOINTS or context.values["C"].is_zero:
+        return ()
+    rows = context.matrix("Cqd").rows
+    product = Product((letters.C, letters.QD))
+    shown = []
+    for k in range(n):
+        pairs = [(i, j) for i in range(n) for j in range(i, n) if not _symbol(context, i, j, k).is_zero]
+        if pairs:
+            whole = Entry(product, Number(k + 1)) if n > 1 else product
+            by_symbols = total(
+                [_quadratic(robot, letters.entry("c", i + 1, j + 1, k + 1), i, j) for i, j in pairs]
+            )
+            value = rows[k][0]
+            if named is not None:
+                value = total([_quadratic(robot, named(i, j, k), i, j) for i, j in pairs])
+            shown.append(equation(whole, by_symbols, value))
+    by = f"{'The rows of ' if n > 1 else ''}"
+    return (Line((by, product, ", multiplied out:"), tuple(shown)),)
+
+
+def _quadratic(robot: Robot, symbol: Node, i: int, j: int) -> Node:
+    """c_iik q̇_i², or 2 c_ijk q̇_i q̇_j: once for c_ijk, once for c_jik."""
+    first, second = (letters.velocity(robot.coordinates[place]) for place in (i, j))
+    rates = [(first, 2)] if i == j else [(first, 1), (second, 1)]
+    return times(1 if i == j else 2, [(symbol, 1), *rates])
 
 
 def _symbol(context: Context, i: int, j: int, k: int) -> Expr:

@@ -212,6 +212,29 @@ def test_the_checks_are_shown() -> None:
     assert shown("planar-2r", "skew")[-1] == "𝐍 + 𝐍ᵀ = 𝟎"
 
 
+def test_the_parts_of_d_are_summed_up() -> None:
+    assert shown("planar-2r", "D_sum") == [
+        "d₁₁ = m₁ l_c1² + I₁ + m₂ (l₁² + l_c2² + 2l₁ l_c2 c₂) + I₂",
+        "d₁₂ = d₂₁ = m₂ (l_c2² + l₁ l_c2 c₂) + I₂",
+        "d₂₂ = m₂ l_c2² + I₂",
+    ]
+    (whole,) = shown("in3140-rp", "D_sum")  # small matrices stand side by side
+    assert whole == "𝐃 = [[m₁ L₁², 0], [0, 0]] + [[m₂ L₂², 0], [0, m₂]]"
+    first, *_ = shown("elbow-3r", "D_sum")  # collected where it is read off
+    assert first.count(" = ") == 2
+    assert "D_sum" not in {each.id for each in solved("puma560-first3").steps}  # no parts are shown
+
+
+def test_the_rows_of_c_qd_are_multiplied_out() -> None:
+    (line,) = step("planar-2r", "agreement").lines
+    style = solved("planar-2r").style
+    assert [to_unicode(node, style) for node in line.formulas] == [
+        "(𝐂 𝐪̇)₁ = 2c₁₂₁ q̇₁ q̇₂ + c₂₂₁ q̇₂² = -m₂ l₁ l_c2 s₂ (2q̇₁ q̇₂ + q̇₂²)",
+        "(𝐂 𝐪̇)₂ = c₁₁₂ q̇₁² = m₂ l₁ l_c2 s₂ q̇₁²",
+    ]
+    assert not step("cartesian-pp", "agreement").lines
+
+
 def test_levels_of_detail() -> None:
     levels = {each.id: each.detail for each in solved("planar-2r").steps}
     assert levels["D"] is Detail.BRIEF and levels["Kv1"] is Detail.NORMAL
@@ -305,7 +328,11 @@ def test_a_constant_d_has_no_list_of_zeros_and_no_other_c() -> None:
     assert step("cartesian-pp", "christoffel").notes == step("cartesian-pp", "C").notes == ()
     assert said(step("cartesian-pp", "C").why, "cartesian-pp").endswith("There are none here.")
     (note,) = step("planar-2r", "christoffel").notes
-    assert said(note, "planar-2r") == "c₁₁₁, c₁₂₂ and c₂₂₂ are zero."
+    assert said(note, "planar-2r") == (
+        "c₁₁₁ and c₂₂₂ are zero. In c₁₂₂ the derivatives cancel, 𝐃 being symmetric."
+    )
+    (note,) = step("rp-vertical", "christoffel").notes
+    assert said(note, "rp-vertical") == "c₁₁₁, c₂₂₁, c₁₂₂ and c₂₂₂ are zero."
 
 
 ONE = "dh: [{theta: q*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
