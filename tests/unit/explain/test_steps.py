@@ -219,7 +219,7 @@ def test_the_parts_of_d_are_summed_up() -> None:
         "d₂₂ = m₂ l_c2² + I₂",
     ]
     (whole,) = shown("in3140-rp", "D_sum")  # small matrices stand side by side
-    assert whole == "𝐃 = [[m₁ L₁², 0], [0, 0]] + [[m₂ L₂², 0], [0, m₂]]"
+    assert whole == "𝐃 = [[I_1zz, 0], [0, 0]] + [[m₂ L₂², 0], [0, m₂]]"
     first, *_ = shown("elbow-3r", "D_sum")  # collected where it is read off
     assert first.count(" = ") == 2
     assert "D_sum" not in {each.id for each in solved("puma560-first3").steps}  # no parts are shown
