@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import inertia
 from dynsolve.document import Prose
+from dynsolve.explain import given_axes
 from dynsolve.explain.citations import LYNCH_PARK
 from dynsolve.explain.context import Context
 from dynsolve.explain.density import density_step
@@ -230,14 +231,11 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
             base = (letters.R(robot, 0),) if letters.has_base(robot) else ()
             return turning, Product((frame, Transpose(Parenthesized(at_rest)), *base)), ()
         case AxesKind.BASE:
-            why = f"The rotation from the base to the frame of {name_of(body)} is given by the problem."
-            product = Product((letters.R(robot, 0), turned)) if letters.has_base(robot) else None
             fixed = not inertia.turns_with_link(robot, body, context.values[f"H{link}"])
             note = (
-                f"This frame does not turn with link {link}. It may still be used: the kinetic energy is "
-                "the same as with the frame that turns (compared exactly)."
+                "They may still be used: the kinetic energy is the same as with axes that turn with the link.",
             )
-            return (why,), product, ((note,),) if fixed else ()
+            return given_axes.why(context, body), given_axes.product(context, body), (note,) if fixed else ()
 
 
 def _turned_back(context: Context, body: Body, name: Letter) -> tuple[Node, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.document import Prose, Table
+from dynsolve.explain.base_frame import base_step, motion
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.products import product_named
@@ -18,7 +19,6 @@ from dynsolve.notation.tree import (
     Node,
     Number,
     Product,
-    Row,
     Symbol,
     Words,
     column,
@@ -39,7 +39,7 @@ def steps(context: Context) -> Iterator[Step]:
     """The table, the base frame where it is turned, the general matrix, A_i and H_i."""
     yield _table(context)
     if letters.has_base(context.robot):
-        yield _base(context)
+        yield base_step(context)
     yield _general(context)
     for joint in context.robot.joints:
         yield _row(context, joint)
@@ -172,21 +172,6 @@ def _table_notes(context: Context) -> Iterator[Prose]:
             )
 
 
-def _base(context: Context) -> Step:
-    return Step(
-        id="H0",
-        stage=STAGE,
-        title="The base frame in the world",
-        why=(
-            "Gravity is given in the world w, in which frame 0 is turned or moved. The heights, and every "
-            "vector below, are in world coordinates.",
-        ),
-        source=spong("2.7"),
-        result=(equation(letters.H(context.robot, 0), context.form("H0")),),
-        detail=Detail.BRIEF,
-    )
-
-
 def _cos(angle: Node) -> Node:
     return Function("cos", angle)
 
@@ -219,7 +204,7 @@ def _general(context: Context) -> Step:
              _times(d, _cos(alpha))),
         )  # fmt: skip
         motions = (("x", alpha), ("x", a), ("z", theta), ("z", d))
-    product = Product(tuple(_motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
+    product = Product(tuple(motion(axis, amount, amount in (theta, alpha)) for axis, amount in motions))
     matrix = Matrix((*rows, (_ZERO, _ZERO, _ZERO, _ONE)))
     name = Letter("A", _I, style="bold")
     return Step(
@@ -236,11 +221,6 @@ def _general(context: Context) -> Step:
         task=equation(name, product, matrix),
         detail=Detail.BRIEF,
     )
-
-
-def _motion(axis: str, amount: Node, turns: bool) -> Node:
-    """Rot_{z,θ} or Trans_{z,d}"""
-    return Letter("Rot" if turns else "Trans", Row((Words(axis), Words(","), amount)), style="upright")
 
 
 def _row(context: Context, joint: Joint) -> Step:

@@ -69,6 +69,7 @@ def build_robot(
         gravity=gravity,
         base_rotation=rotation or Matrix.identity(ring, 3),
         base_position=move or Matrix.zero(ring, 3, 1),
+        base_turns=parsed.base.rotation.factors if parsed.base.rotation else (),
         given=given,
         parameters=tuple(name for name in ring.parameters if name not in ("pi", *inputs)),
         inputs=inputs,
@@ -233,7 +234,7 @@ class BodyBuilder:
         if axes.rotation is None:
             return Axes(axes.kind, Matrix.identity(self.ring, 3), axes.written)
         rotation = self.values.rotation(axes.rotation, f"the axes of body {parsed.index}")
-        return Axes(axes.kind, rotation, axes.written) if rotation else None
+        return Axes(axes.kind, rotation, axes.written, axes.rotation.factors) if rotation else None
 
     def _axes_in_link(self, axes: Axes, link: int) -> Matrix:
         """The body-attached axes seen from the link's frame at q = 0, 3×3."""

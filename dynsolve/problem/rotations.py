@@ -15,6 +15,7 @@ from dynsolve.problem.cells import Cell, denominators, read_angle, read_matrix, 
 from dynsolve.problem.fields import describe
 from dynsolve.problem.source import Faults
 from dynsolve.problem.yaml_nodes import FaultyNode, ListNode, ScalarNode, Span, YamlNode
+from dynsolve.robot.model import AxisTurns
 
 _TURN = re.compile(r"R([xyz])\s*\(")
 _BETWEEN = re.compile(r"\s*[*·]?\s*")
@@ -49,6 +50,11 @@ class ParsedRotation:
     def cells(self) -> tuple[Cell, ...]:
         """Every expression in it."""
         return tuple(turn.cell for turn in self.turns) + self.entries
+
+    @property
+    def factors(self) -> AxisTurns:
+        """Its turns, each by its axis and its angle as it is written."""
+        return tuple((turn.axis, turn.cell.tree) for turn in self.turns)
 
 
 def read_rotation(faults: Faults, node: YamlNode | None, what: str) -> ParsedRotation | None:

@@ -121,13 +121,18 @@ class AxesKind(Enum):
     BASE = "base"
 
 
+AxisTurns = tuple[tuple[str, Node], ...]
+"""The factors of a rotation as the problem writes them: (x, y or z, angle); none of a matrix."""
+
+
 @dataclass(frozen=True, slots=True)
 class Axes:
-    """The orientation of a body-attached frame; `rotation` is 3×3."""
+    """The orientation of a body-attached frame; `rotation` is 3×3, the product of `turns`."""
 
     kind: AxesKind
     rotation: Matrix
     written: str = ""
+    turns: AxisTurns = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +171,7 @@ class Body:
 class Robot:
     """A manipulator.
 
-    `base_rotation` (3×3) and `base_position` (3×1) place frame 0 in the world;
+    `base_rotation` (3×3, the product of `base_turns`) and `base_position` (3×1) place frame 0 in the world;
     `gravity` (3×1, world) is the acceleration of gravity, pointing down.  `inputs` are the names
     of generalized forces that results hold.  `questions` are
     what the exercise asks around this model, `actions` what acts beside gravity.  Without joints the
@@ -186,6 +191,7 @@ class Robot:
     questions: Questions = field(default=Questions())
     actions: Actions = NOTHING_ACTS
     given: GivenModel | None = None
+    base_turns: AxisTurns = ()
 
     @property
     def has_table(self) -> bool:

@@ -33,7 +33,7 @@ from dynsolve.notation.walk import mapped
 from dynsolve.robot.actions import Actions, Spring
 from dynsolve.robot.candidates import Candidate
 from dynsolve.robot.mechanism import BodyTurn, GivenModel
-from dynsolve.robot.model import Body, Joint, Robot
+from dynsolve.robot.model import AxisTurns, Body, Joint, Robot
 from dynsolve.robot.questions import Load, Questions, State
 
 Replacements = Mapping[tuple[str, int], Node]
@@ -163,6 +163,7 @@ def robot_with(robot: Robot, values: Replacements, more: Iterable[Node] = ()) ->
         gravity=put.matrix(robot.gravity),
         base_rotation=put.matrix(robot.base_rotation),
         base_position=put.matrix(robot.base_position),
+        base_turns=_axis_turns(robot.base_turns, put),
         parameters=tuple(name for name in robot.parameters if (name, 0) not in values),
         questions=_questions(robot.questions, put),
         actions=_actions(robot.actions, put),
@@ -257,12 +258,18 @@ def _body(body: Body, put: Substitution) -> Body:
         body,
         mass=put(body.mass),
         center=put.matrix(body.center),
-        axes=replace(body.axes, rotation=put.matrix(body.axes.rotation)),
+        axes=replace(
+            body.axes, rotation=put.matrix(body.axes.rotation), turns=_axis_turns(body.axes.turns, put)
+        ),
         inertia=None if body.inertia is None else put.matrix(body.inertia),
         shape=shape,
         about_point=None if body.about_point is None else put.matrix(body.about_point),
         turns=tuple(_turn(turn, put) for turn in body.turns),
     )
+
+
+def _axis_turns(turns: AxisTurns, put: Substitution) -> AxisTurns:
+    return tuple((axis, _written(angle, put.values)) for axis, angle in turns)
 
 
 def _turn(turn: BodyTurn, put: Substitution) -> BodyTurn:

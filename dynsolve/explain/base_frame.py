@@ -1,0 +1,53 @@
+"""The step of the base frame, H_0 in the world, and the elementary motions that matrices are products of."""
+
+from __future__ import annotations
+
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.writing import spong
+from dynsolve.notation.tree import Letter, Node, Product, Row, Words, equation
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import AxisTurns
+
+
+def motion(axis: str, amount: Node, turns: bool) -> Node:
+    """Rot_{z,θ} or Trans_{z,d}"""
+    return Letter("Rot" if turns else "Trans", Row((Words(axis), Words(","), amount)), style="upright")
+
+
+def rotations(turns: AxisTurns) -> tuple[Node, ...]:
+    """The factors of a rotation: Rot_{z,90°}, Rot_{x,30°}."""
+    return tuple(motion(axis, angle, True) for axis, angle in turns)
+
+
+def base_step(context: Context) -> Step:
+    """H_0, the product of how frame 0 is moved and turned, as the problem writes it."""
+    robot = context.robot
+    H, rotation = letters.H(robot, 0), robot.base_rotation
+    moved = tuple(
+        motion(axis, context.show(entry), False)
+        for axis, entry in zip("xyz", robot.base_position.entries, strict=True)
+        if not entry.is_zero
+    )
+    is_turned = rotation != rotation.identity(robot.ring, 3)
+    how = " and ".join([*["turned"] * is_turned, *["moved"] * bool(moved)])
+    why: Prose = (f"Gravity is given in the world w, in which frame 0 is {how}. ",)
+    factors = (*moved, *rotations(robot.base_turns))
+    is_whole = bool(robot.base_turns) or not is_turned
+    if not is_whole:
+        why += ("Its axes are the columns of the rotation that the problem gives. ",)
+    elif len(factors) > 1:
+        why += ("Each motion is along or about an axis of the frame that those before it have led to. ",)
+    why += ("The heights, and every vector below, are in world coordinates.",)
+    return Step(
+        id="H0",
+        stage=Stage.KINEMATICS,
+        title="The base frame in the world",
+        why=why,
+        formula=equation(H, Product(factors) if len(factors) > 1 else factors[0]) if is_whole else None,
+        source=spong("2.7"),
+        result=(equation(H, context.form("H0")),),
+        detail=Detail.BRIEF,
+    )
