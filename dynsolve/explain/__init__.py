@@ -58,6 +58,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     recursions  the Newton-Euler recursions, link by link
     actions     what acts beside gravity: springs, rotors, friction
     acting      where their steps are imported, of robots that have any
+    potential   the potential energy of each body
     base_frame  H_0 in the world, the elementary motions
     given_axes  axes of a body that are given from the base: how they lie in the frame of the link
     density     a rod whose density varies, by integration

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
 from dynsolve.explain.jacobian import ZERO, coordinate_column, crosses_named
 from dynsolve.explain.placed_bodies import jacobians_step
+from dynsolve.explain.potential import potential_steps
 from dynsolve.explain.rotational_energy import rotational_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import kinetic
@@ -59,8 +59,7 @@ def steps(context: Context) -> Iterator[Step]:
         yield from energy_steps(context, context.robot.given)
         return
     bodies = context.robot.bodies
-    for body in bodies:
-        yield _potential(context, body)
+    yield from potential_steps(context)
     springs, rotors = acting_steps(context)
     yield from springs
     yield _total(context, "P", "potential", letters.P, [letters.PS] * len(springs))
@@ -75,93 +74,6 @@ def steps(context: Context) -> Iterator[Step]:
         yield _kinetic(context, body)
     yield from rotors
     yield _total(context, "K", "kinetic", letters.K, [letters.KM] * len(rotors))
-
-
-# -- potential energy ------------------------------------------------------------------------------
-
-
-def _potential(context: Context, body: Body) -> Step:
-    P = letters.of_body("P", body)
-    general = equation(
-        P, Negative(Product((context.mass(body), Transpose(letters.GRAVITY), letters.rc(body))))
-    )
-    formula: Node = general
-    working: tuple[Node, ...] = ()
-    if context.robot.gravity.is_zero:
-        why: Prose = ("There is no gravity.",)
-    elif body.mass.is_zero:
-        why = (f"{name_of(body).capitalize()} has inertia but no mass, so gravity does not act on it.",)
-    else:
-        why, formula, working = _weight(context, body, general)
-    return Step(
-        id=f"P{body.name}",
-        stage=STAGE,
-        title=f"Potential energy of {name_of(body)}",
-        why=why,
-        formula=formula,
-        source=spong("7.2.3"),
-        working=working,
-        result=(equation(P, context.form(f"P{body.name}")),),
-    )
-
-
-def _weight(context: Context, body: Body, general: Node) -> tuple[Prose, Node, tuple[Node, ...]]:
-    """By the height, where gravity lies along an axis, and by the vectors: why, the formula, the working."""
-    P = letters.of_body("P", body)
-    gravity, center = context.show(context.robot.gravity), context.form(f"rc{body.name}")
-    row = Matrix((tuple(entry for (entry,) in _rows(gravity)),))
-    vectors = equation(P, Negative(Product((context.show(body.mass), row, center))))
-    working: tuple[Node, ...] = (vectors,) if is_small(center) else ()
-    product: Prose = (
-        Product((Transpose(letters.GRAVITY), letters.bold("r", Words("c")))),
-        ", ",
-        letters.GRAVITY,
-        " being the acceleration of gravity, which points down.",
-    )
-    height = _height(context, body)
-    if height is None:
-        return ("Minus the mass times ", *product), general, working
-    h, g = letters.height(context.robot, letters.index_of(body.name)), _acceleration(context)
-    where = f" above the origin of the {context.ground}. The same with vectors: minus the mass times "
-    why: Prose = ("The mass times ", g, " times the height ", h, where, *product)
-    formula = side_by_side([equation(P, Product((context.mass(body), g, h))), general])
-    return why, formula, (*_numbers(context, body, g), equation(h, height), *working)
-
-
-def _numbers(context: Context, body: Body, g: Node) -> tuple[Node, ...]:
-    """What the mass and g are where they are numbers: m_2 = 1.2, g = 9.81."""
-    (entry,) = (entry for entry in context.robot.gravity.entries if not entry.is_zero)
-    size = context.show(-entry if _leads_with_minus(entry) else entry)
-    named = ((context.mass(body), context.show(body.mass)), (g, size))
-    given = [equation(letter, value) for letter, value in named if letter != value]
-    return (side_by_side(given),) if given else ()
-
-
-def _rows(node: Node) -> tuple[tuple[Node, ...], ...]:
-    assert isinstance(node, Matrix)
-    return node.rows
-
-
-def _height(context: Context, body: Body) -> Node | None:
-    """The height of the mass centre, where gravity lies along an axis of the base."""
-    along = [(i, entry) for i, entry in enumerate(context.robot.gravity.entries) if not entry.is_zero]
-    if len(along) != 1:
-        return None
-    i, entry = along[0]
-    center: Expr = context.values[f"rc{body.name}"][i, 0]
-    return context.show(center if _leads_with_minus(entry) else -center)
-
-
-def _acceleration(context: Context) -> Node:
-    """The size of gravity along its axis: the problem's symbol, g for a number."""
-    (entry,) = (entry for entry in context.robot.gravity.entries if not entry.is_zero)
-    size = context.show(-entry if _leads_with_minus(entry) else entry)
-    named = "g" in context.robot.parameters
-    return size if named or not entry.is_number else Symbol("g")
-
-
-def _leads_with_minus(expr: Expr) -> bool:
-    return bool(expr.poly.leading_coefficient() < 0)
 
 
 def _total(context: Context, name: str, kind: str, letter: Letter, others: list[Letter]) -> Step:
@@ -270,7 +182,7 @@ def _velocities(context: Context, body: Body) -> Step:
 
 
 def _times_rates(context: Context, body: Body) -> str:
-    alone = body.is_point and not context.robot.has_table
+    alone = body.is_point  # of which J_ω is not needed
     return f"The Jacobian{'s' * (not alone)} times the rates of the coordinates."
 
 

@@ -39,7 +39,7 @@ def why(context: Context, body: Body) -> Prose:
     told = list(_parallel(relative, body.link))
     if len(told) < 3:
         return (given, f"They are turned in {frame}, and fixed in the same link: ", *not_equal, ".")
-    return (given, f"They are not those of {frame}: ", *listed(told), " of the body, and ", *not_equal, ".")
+    return (given, f"They are not those of {frame}: ", *listed(told), ", so ", *not_equal, ".")
 
 
 def _parallel(relative: Matrix, link: int) -> Iterator[Prose]:
@@ -50,5 +50,6 @@ def _parallel(relative: Matrix, link: int) -> Iterator[Prose]:
         if len(along) != 1:
             return
         ((j, entry),) = along
-        sense = "lies along" if entry == one else "points against"
-        yield (Letter(axis, letters.index_of(str(link)), style="bold"), f" {sense} {'xyz'[j]}")
+        lies, whose = ("lies along", "the body's") if i == 0 else ("along", "its")
+        name = Letter(axis, letters.index_of(str(link)), style="bold")
+        yield (name, f" {lies} {whose} {'' if entry == one else '-'}{'xyz'[j]}")

@@ -232,9 +232,7 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
             return turning, Product((frame, Transpose(Parenthesized(at_rest)), *base)), ()
         case AxesKind.BASE:
             fixed = not inertia.turns_with_link(robot, body, context.values[f"H{link}"])
-            note = (
-                "They may still be used: the kinetic energy is the same as with axes that turn with the link.",
-            )
+            note = ("They may still be used: the kinetic energy is the same as with axes that do.",)
             return given_axes.why(context, body), given_axes.product(context, body), (note,) if fixed else ()
 
 
@@ -267,8 +265,8 @@ def _right_frame(context: Context, link: int) -> Iterator[Prose]:
             )
     elif link < len(joints) and joints[link].type:
         yield (
-            f"Frame {link} is the one to take, at the near end of the link in the modified convention. "
-            f"Frame {link + 1}, after the mass, moves with the next link.",
+            f"Frame {link} is the one to take: in the modified convention it is fixed in link {link}, and "
+            f"frame {link + 1} moves with the next link.",
         )
 
 

@@ -23,6 +23,7 @@ TRANSPOSED: Kind = ("T", "raised", "")
 
 _SAME: dict[Kind, Kind] = {
     ("x", "bold", ""): ("x", "bold", "#"),
+    ("y", "bold", ""): ("y", "bold", "#"),
     ("z", "bold", ""): ("z", "bold", "#"),
     ("o", "bold", ""): ("o", "bold", "#"),
     ("A", "bold", ""): ("A", "bold", "#"),

@@ -115,7 +115,7 @@ def _kinematics(columns: Sequence[Node], ground: str, above: Node | None) -> Ite
     yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
     yield _each([(frame, "frame i"), (turned, "its orientation")], f", seen from {ground}")
-    yield _each([(_numbered("x"), "axis x"), (_numbered("z"), "axis z")], " of frame i")
+    yield _each([(_numbered(axis), f"axis {axis}") for axis in "xyz"], " of frame i")
     yield _line(_numbered("o"), "origin of frame i", "m")
     yield _line(letters.bold("0"), "zero vector or matrix")
     yield _each([(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")])
