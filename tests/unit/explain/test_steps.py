@@ -194,10 +194,32 @@ def test_a_shape_with_its_formula_and_its_letters() -> None:
     assert "uniform solid cylinder" in said(each.why, "box-cylinder-rod-sphere")
 
 
+def test_axes_given_from_the_base_are_held_to_the_frame_of_the_link() -> None:
+    """The source gives I_zz2 about the normal of the plane, and z_2 lies along the arm."""
+    assert "𝐱₂ lies along the body's y, 𝐲₂ along its z and 𝐳₂ along its x, so 𝐑₂ is not 𝐑₂⁰." in said(
+        step("rp-vertical", "R2").why, "rp-vertical"
+    )
+    assert formula("rp-vertical", "R2") == "𝐑₂ = Rot_{z,θ1}"
+    for turn, told in {"0": "They are those of frame 1.", "30deg": "They are turned in frame 1"}.items():
+        axes = f"{{base: Rz(q1) Rx({turn})}}"
+        body = f"{{mass: m, link: 1, center: tip, inertia: {{zz: I}}, axes: {axes}}}"
+        assert told in everything_said(f"dh: [{{theta: q1*, d: L}}]\nmasses: [{body}]\n")
+
+
+def test_the_axis_that_points_up_is_named() -> None:
+    told = {
+        "[0, -g, 0]": "𝐲₀ points up, so it is the second entry of 𝐫_c1",
+        "[g, 0, 0]": "𝐱₀ points down, so it is minus the first entry of 𝐫_c1",
+    }
+    for gravity, words in told.items():
+        text = f"gravity: {gravity}\ndh: [{{theta: q1*, a: l1}}]\nmasses: [{{mass: m, link: 1}}]\n"
+        assert words in everything_said(text)
+
+
 def test_a_frame_that_does_not_turn_is_said_to_be_harmless() -> None:
     body = "{mass: m, link: 1, center: tip, inertia: {zz: I}, axes: {base: Rz(0)}}"
     text = f"dh: [{{theta: q1*, d: L}}]\nmasses: [{body}]\n"
-    assert "does not turn with link 1" in everything_said(text)
+    assert "They do not turn with link 1." in everything_said(text)
     assert [warning.code for warning in solved(text).warnings] == ["axes-fixed"]
 
 
@@ -284,7 +306,7 @@ masses:
 
 def test_a_letter_of_the_formula_is_not_another_thing_of_the_problem() -> None:
     assert formula(NAMED, "P1") == "P₁ = m₂ G η₁, P₁ = -m₂ 𝐠₀ᵀ 𝐫_c1"
-    assert shown_working(NAMED, "P1")[0] == "η₁ = h₁/2"
+    assert shown_working(NAMED, "P1")[:2] == ["𝐠₀ = [[0, 0, -G]]ᵀ", "η₁ = h₁/2"]
     assert formula(NAMED, "P2").startswith("P₂ = (m₁ + M) G η₂, ")
     assert shown_working("box-cylinder-rod-sphere", "P2")[0] == "η₂ = h + l₂ s₂/2"
     (summed,) = step(NAMED, "D_direct").further
@@ -366,7 +388,9 @@ def test_fixed_rows_scaled_joints_and_the_world() -> None:
     assert "the body belongs to the ground and does not move." in said(step(ODD, "rc1").why, ODD)
     assert "belongs to the ground" not in said(step(ODD, "rc2").why, ODD)
     assert "world coordinates" in text and "base coordinates" not in text
-    assert formula(ODD, "R2").startswith("𝐑₂ = 𝐑₀^w [[")
+    assert formula(ODD, "R2") == "𝐑₂ = 𝐑₀^w Rot_{z,q₁/2}"
+    assert formula(ODD, "H0") == "𝐇₀^w = Rot_{x,90°}"
+    assert "frame 0 is turned." in text
     assert formula(ODD, "J2") == "𝐉₂ = [[2𝐳₃], [𝟎]]"  # J is a moment of inertia here
 
 
@@ -425,8 +449,8 @@ masses:
 def test_frame_i_is_before_the_mass_in_the_modified_convention() -> None:
     text = everything_said(CRAIG)
     assert "comes after the mass" not in text and "before the mass" not in text
-    assert "Frame 1 is the one to take, at the near end" in text
-    assert "Frame 2, after the mass, moves with the next link." in text
+    assert "Frame 1 is the one to take: in the modified convention it is fixed in link 1" in text
+    assert "frame 2 moves with the next link." in text
     assert "from 𝐨₁, half the way on" in said(step(CRAIG, "rc1").why, CRAIG)
 
 
