@@ -64,6 +64,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     density     a rod whose density varies, by integration
     terms       what each term of a force is: inertial, centrifugal, Coriolis, friction, gravity
     sanity      checks that a person can do on the finished model
+    matrix_factors  what all entries of a matrix share, in front of it
     closing     the step of D q̈ + C q̇ + g = τ
     working     the lines between a formula and its result, each proved before it is shown
 
@@ -97,11 +98,15 @@ from collections.abc import Callable, Iterable, Iterator
 from importlib import import_module
 
 from dynsolve.explain.context import Context
+from dynsolve.explain.matrix_factors import with_factors_in_front
 from dynsolve.explain.step import Detail, Step
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
 
 __all__ = ["Detail", "Step", "explain"]
+
+_OF_BODIES = (Stage.INERTIA, Stage.ENERGY)
+"""The stages whose matrices have the factors that their entries share, masses and lengths, in front."""
 
 
 def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[Step]:
@@ -109,7 +114,8 @@ def explain(context: Context, stages: Iterable[str] | None = None) -> Iterator[S
     wanted = set(Stage if stages is None else stages)
     for stage in stages_of(context.robot):
         if stage in wanted:
-            yield from _steps(stage)(context)
+            steps = _steps(stage)(context)
+            yield from with_factors_in_front(steps, context) if stage in _OF_BODIES else steps
 
 
 def _steps(stage: Stage) -> Callable[[Context], Iterator[Step]]:

@@ -11,6 +11,7 @@ from dynsolve.explain.christoffel import SLOPES, christoffel_step
 from dynsolve.explain.closing import closing_step, driving_side
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import inertia_step
+from dynsolve.explain.matrix_factors import with_factors_in_front
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
@@ -53,8 +54,8 @@ def steps(context: Context) -> Iterator[Step]:
         given = context.robot.given
         yield _inertia_direct(context) if given is None else inertia_step(context, given)
         if _is_short(context):
-            for body in context.robot.bodies:
-                yield part_step(context, body)
+            parts = (part_step(context, body) for body in context.robot.bodies)
+            yield from with_factors_in_front(parts, context)
         if context.robot.actions:
             from dynsolve.explain.actions import rotor_part_step
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from dynsolve.notation.tree import (
     Cross,
@@ -106,7 +107,9 @@ def pieces(node: Node, printer: UnicodePrinter) -> Iterator[TextBox | Matrix]:
         case Sum(terms) if holds_matrix(node):
             yield from _sum(terms, printer)
         case Product(factors) if holds_matrix(node):
-            for i, factor in enumerate(factors):
+            front = tuple(takewhile(lambda factor: not holds_matrix(factor), factors))
+            grouped = (Product(front), *factors[len(front) :]) if len(front) > 1 else factors
+            for i, factor in enumerate(grouped):
                 if i:
                     yield TextBox.of(" ")
                 yield from _factor(factor, printer)

@@ -25,6 +25,7 @@ it keeps the shorter result.
    completed, (a₃ + x₃)²; beside a mass also those of sums of sines and cosines
    (`squares`), (L₂ c₂ + l_c3 c₂₃)².  What is printed as one factor is an atom
    (`atoms`; `ring_atoms` makes those of a ring); `monomials` has the arithmetic.
+   `matrix_factor` finds what all entries of a matrix share.
 
 Add a form of sines and cosines in `trig_forms.trig_forms`: the choice takes it where it
 is cheaper, and nothing else needs to know.

@@ -1,0 +1,88 @@
+"""Steps whose matrices have what all entries share in front: J_v = ½ L [...], I = (1/12) m l² [...].
+
+Only where the matrix, with it in front, fits every page: a wider one is given entry by entry.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from dynsolve.algebra.compact.matrix_factor import matrix_factor
+from dynsolve.explain.closing import matrix_width
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Step
+from dynsolve.notation.build import number_in_front, times
+from dynsolve.notation.tree import Matrix, Node, Number, Product, Quotient, Relation, Transpose
+
+WIDEST = 50
+"""The characters up to which a matrix has its factor in front."""
+
+
+def with_factors_in_front(steps: Iterable[Step], context: Context) -> Iterator[Step]:
+    """The steps, the matrices of their working and results with common factors in front."""
+    for step in steps:
+        lines = (
+            replace(line, formulas=tuple(_written(context, node) for node in line.formulas))
+            for line in step.lines
+        )
+        working = (_written(context, node) for node in step.working)
+        result = (_written(context, node) for node in step.result)
+        yield replace(step, lines=tuple(lines), working=tuple(working), result=tuple(result))
+
+
+def _written(context: Context, node: Node) -> Node:
+    """An equation whose members have their factors in front."""
+    match node:
+        case Relation(parts):
+            return replace(node, parts=tuple(_written(context, part) for part in parts))
+        case Matrix():
+            found = _factored(context, node)
+            return node if found is None else Product((*_factors(found[0]), found[1]))
+        case Product():
+            factors = tuple(_flat(node))
+            if not any(isinstance(factor, Number | Quotient) for factor in factors):
+                return _product(context, factors) or node
+    return node
+
+
+def _flat(product: Product) -> Iterator[Node]:
+    """The factors of a product and of the products in it."""
+    for factor in product.factors:
+        if isinstance(factor, Product):
+            yield from _flat(factor)
+        else:
+            yield factor
+
+
+def _product(context: Context, factors: tuple[Node, ...]) -> Node | None:
+    """A product of matrices, what their entries share in front of it; None where they share nothing."""
+    scalars: list[Node] = []
+    matrices: list[Node] = []
+    for factor in factors:
+        match factor:
+            case Matrix() if found := _factored(context, factor):
+                scalars.append(found[0])
+                matrices.append(found[1])
+            case Transpose(Matrix() as matrix) if found := _factored(context, matrix):
+                scalars.append(found[0])
+                matrices.append(Transpose(found[1]))
+            case Matrix() | Transpose():
+                matrices.append(factor)
+            case _:
+                scalars.append(factor)
+    if not matrices or len(matrices) + len(scalars) == len(factors):
+        return None
+    front = number_in_front(times(1, [(scalar, 1) for scalar in scalars]))
+    return Product((*_factors(front), *matrices))
+
+
+def _factors(node: Node) -> tuple[Node, ...]:
+    return node.factors if isinstance(node, Product) else (node,)
+
+
+def _factored(context: Context, matrix: Matrix) -> tuple[Node, Matrix] | None:
+    found = matrix_factor(context.forms.compactor.collector, matrix)
+    if found is None or matrix_width(context, found[1]) > WIDEST:
+        return None
+    return found

@@ -1,0 +1,45 @@
+"""What all entries of a matrix share stands in front of it, where that takes fractions out of the entries."""
+
+from __future__ import annotations
+
+import pytest
+
+from dynsolve.explain.matrix_factors import with_factors_in_front
+from dynsolve.explain.step import Step
+from dynsolve.notation.tree import Node, equation
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+from tests.support import solved
+
+FACTORS = [
+    ("crustcrawler-2r", "I_body2", "(1/12) m₂ L₂² [[0, 0, 0], [0, 1, 0], [0, 0, 1]]"),
+    ("crustcrawler-2r", "Jv2", "½ L₂ [[-s₁ c₂, -c₁ s₂], [c₁ c₂, -s₁ s₂], [0, c₂]]"),
+    ("crustcrawler-2r", "rc2", "[[L₂ c₁ c₂/2], [L₂ s₁ c₂/2], [L₁ + L₂ s₂/2]]"),  # not all have L₂/2
+    ("box-cylinder-rod-sphere", "I_body2", "(1/12) m₂ [[l₂² + b², 0, 0], [0, l₂² + b², 0], [0, 0, 2b²]]"),
+    ("box-cylinder-rod-sphere", "I4", "(2/5) m₄ r₄² [[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
+    (
+        "spherical-rrp",
+        "Jv2",
+        "[[-l_c2 s₁ c₂, -l_c2 c₁ s₂, 0], [l_c2 c₁ c₂, -l_c2 s₁ s₂, 0], [0, l_c2 c₂, 0]]",
+    ),
+]
+
+
+@pytest.mark.parametrize(("problem", "name", "wanted"), FACTORS)
+def test_fractions_that_all_entries_share_stand_in_front(problem: str, name: str, wanted: str) -> None:
+    solution = solved(problem)
+    step = Step("x", Stage.ENERGY, "", result=(equation(letters.TAU, solution.forms(name)),))
+    (changed,) = with_factors_in_front([step], solution._context)
+    (result,) = changed.result
+    assert to_unicode(last(result), solution.style) == wanted
+
+
+def last(node: Node) -> Node:
+    return node.parts[-1]  # type: ignore[attr-defined,no-any-return]
+
+
+def test_the_factors_of_a_product_of_matrices_are_multiplied() -> None:
+    steps = {step.id: step for step in solved("crustcrawler-2r").explain(["vectorized"])}
+    shown = to_unicode(steps["D_direct2"].working[0], solved("crustcrawler-2r").style)
+    assert "= ¼ m₂ L₂² [[-s₁ c₂" in shown
