@@ -12,7 +12,7 @@ from dynsolve.algebra.compact.matrix_factor import matrix_factor
 from dynsolve.explain.closing import matrix_width
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
-from dynsolve.notation.build import number_in_front, times
+from dynsolve.notation.build import number_in_front
 from dynsolve.notation.tree import Matrix, Node, Number, Product, Quotient, Relation, Transpose
 
 WIDEST = 50
@@ -73,7 +73,8 @@ def _product(context: Context, factors: tuple[Node, ...]) -> Node | None:
                 scalars.append(factor)
     if not matrices or len(matrices) + len(scalars) == len(factors):
         return None
-    front = number_in_front(times(1, [(scalar, 1) for scalar in scalars]))
+    collector = context.forms.compactor.collector
+    front = number_in_front(collector.product(*collector.decompose(Product(tuple(scalars))), ()))
     return Product((*_factors(front), *matrices))
 
 
