@@ -21,6 +21,12 @@ SHORTEST_SUM = 5
 SHORTEST_PRODUCT = 4
 """The operations from which on a recurring product is worth a name: m₂ l₁ l_c2 s₂."""
 
+LEAST_SAVED = 12
+"""The operations that a name in a long model saves, at least: below that it is one more to look up."""
+
+_GLANCE = 3
+"""The operations below which a meaning is read as quickly as its name, however often it stands."""
+
 ROUNDS = 8
 """How often parts that sums share are looked for; each round finds those that do not overlap."""
 
@@ -41,8 +47,8 @@ def name_recurring(
     """(definitions in order of dependence, the entries in which they are used).
 
     Entries that are equal but for sign count once; with `whole` false they count each,
-    so that what several entries consist of gets a name.  `decimal` says that numbers are
-    decimals.
+    so that what several entries consist of gets a name.  A `whole` model is a long one, in
+    which a name must save more.  `decimal` says that numbers are decimals.
 
     >>> from dynsolve.notation.python import to_python
     >>> m, l, r, q, I = map(Symbol, ("m", "l", "r", "q", "I"))
@@ -57,7 +63,7 @@ def name_recurring(
     roots = [sharing.intern(entry) for entry in entries]
     sharing.share_parts()
     uses = sharing.uses(dict.fromkeys(split_sign(r)[1] for r in roots) if whole else roots)
-    writer = _Writer(sharing.terms, uses, names, decimal)
+    writer = _Writer(sharing.terms, uses, names, decimal, LEAST_SAVED if whole else 0)
     used = [writer.write(root) for root in roots]
     return tuple(writer.definitions), used
 
@@ -207,8 +213,9 @@ class _Writer:
         uses: Mapping[Node, int],
         names: Iterator[Symbol],
         decimal: bool,
+        least: int,
     ) -> None:
-        self.terms, self.uses, self.names, self.decimal = terms, uses, names, decimal
+        self.terms, self.uses, self.names, self.decimal, self.least = terms, uses, names, decimal, least
         self.definitions: list[Definition] = []
         self._done: dict[Node, Node] = {}
 
@@ -236,11 +243,17 @@ class _Writer:
         return node
 
     def _named(self, node: Node, meaning: Node, shortest: int) -> Node:
-        if self.uses.get(node, 0) < 2 or cost(meaning) < shortest:
+        if not self._is_worth_a_name(self.uses.get(node, 0), cost(meaning), shortest):
             return meaning
         name = next(self.names)
         self.definitions.append(Definition(name, meaning))
         return name
+
+    def _is_worth_a_name(self, uses: int, size: int, shortest: int) -> bool:
+        """Whether a meaning of some size is used often enough, and is more than a glance."""
+        if self.least:
+            return size >= _GLANCE and (uses - 1) * size >= self.least
+        return uses > 1 and size >= shortest
 
 
 def _canonical(part: _Key) -> _Key:
