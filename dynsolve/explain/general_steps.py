@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 from dynsolve.document import Prose
 from dynsolve.explain.christoffel import SLOPES
@@ -38,7 +37,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Body, JointType, Robot
+from dynsolve.robot.model import Body, JointType
 from dynsolve.robot.questions import Method
 
 _I, _J, _K, _N = (Symbol(name) for name in "ijkn")
@@ -58,7 +57,7 @@ def general_steps(context: Context) -> Iterator[GeneralStep]:
     bodies = [body.name for body in robot.bodies]
     rows = [joint.index for joint in robot.joints]
     yield GeneralStep(_rows(context), _ids(["A"], rows) | _ids(["H"], rows[:-1]))
-    if moves_each_joint_alone(robot):
+    if robot.moves_each_joint_alone:
         yield GeneralStep(_columns(context), _ids(["J"], [q.index for q in robot.coordinates]))
     if bodies and robot.has_table:
         solid = [body for body in robot.bodies if _is_plain(body)]
@@ -76,12 +75,6 @@ def general_steps(context: Context) -> Iterator[GeneralStep]:
 
 def _ids(stems: Sequence[str], names: Sequence[str | int]) -> frozenset[str]:
     return frozenset(f"{stem}{name}" for stem in stems for name in names)
-
-
-def moves_each_joint_alone(robot: Robot) -> bool:
-    """Whether each coordinate is the variable of one joint, so that a joint's column is a coordinate's."""
-    moving = [joint for joint in robot.joints if joint.type]
-    return all(joint.rates == ((i, Fraction(1)),) for i, joint in enumerate(moving))
 
 
 def _is_plain(body: Body) -> bool:

@@ -19,7 +19,8 @@ from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.closing import driving_row
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import EntryFormulas, Factor, coriolis_matrix, pairs
-from dynsolve.explain.general_steps import GeneralStep, general_steps, moves_each_joint_alone
+from dynsolve.explain.general_steps import GeneralStep, general_steps
+from dynsolve.explain.sanity.dependence import is_carried_along
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.products import used_in_product
@@ -356,19 +357,11 @@ class LongModel:
         c = partial(_with_indices, "c")
         why: Prose = (equation(c("ijk"), c("jik")), ", for ", letters.D, " is symmetric. ")
         opposite = equation(c("ijk"), Negative(c("ikj")))
-        if self._is_carried_along:
+        if is_carried_along(self.context):
             entry, coordinate = _with_indices("d", "jk"), Letter("q", Symbol("i"))
             why += ("Joint i moves the links from i on like one body, so ", entry, " does not depend on ")
             why += (coordinate, " where i ≤ j and i ≤ k; there ", opposite, ". ")
         return (*why, "Symbols that are equal, or each other's opposites, stand in one line.")
-
-    @cached_property
-    def _is_carried_along(self) -> bool:
-        """Whether no d_jk depends on q_i with i ≤ j, k: the inertia of a chain about its own joints."""
-        robot, D = self.context.robot, self.context.values["D"]
-        if robot.is_tree or not moves_each_joint_alone(robot):
-            return False
-        return all(robot.ring.diff(D[j, k], i).is_zero for j, k in pairs(self.n) for i in range(j + 1))
 
 
 def _with_indices(letter: str, indices: str) -> Letter:

@@ -225,6 +225,12 @@ class Robot:
         """Whether some row starts from another frame than the one before."""
         return any(joint.parent != joint.index - 1 for joint in self.joints)
 
+    @property
+    def moves_each_joint_alone(self) -> bool:
+        """Whether each coordinate is the variable of one joint, in their order."""
+        moving = [joint for joint in self.joints if joint.type]
+        return all(joint.rates == ((i, Fraction(1)),) for i, joint in enumerate(moving))
+
     def joints_of(self, q: Coordinate) -> tuple[tuple[Joint, Fraction], ...]:
         """The joints that a coordinate moves, each with the rate of its variable."""
         return tuple((joint, rate) for joint in self.joints for k, rate in joint.rates if k == q.index - 1)

@@ -5,11 +5,16 @@
     inertia_poses the moments of inertia on the diagonal of D, the arm stretched and folded
     equilibrium   the poses in which g is zero, hanging and upright among them
     point_masses  D without the moments of inertia of the bodies, and what is left over
+    dependence    the coordinates on which D cannot depend, and its constant entry
+    unloaded      the joints that gravity does not load
 
 They are made of
 
     pose          a value in which some angles have values
     sign          a formula that is positive for positive masses, moments and lengths
+
+Of longer arms those are done that read off a result what its pages hide: a coordinate that is
+cyclic, on what D depends, entries of g that are zero.
 
 To add one, write a file with a function that gives its step, or None where it has nothing to
 say, and a record of it below.
@@ -23,9 +28,11 @@ from dataclasses import dataclass
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.cyclic import cyclic_step
 from dynsolve.explain.sanity.definite import definite_step
+from dynsolve.explain.sanity.dependence import dependence_step
 from dynsolve.explain.sanity.equilibrium import equilibrium_step
 from dynsolve.explain.sanity.inertia_poses import inertia_poses_step
 from dynsolve.explain.sanity.point_masses import point_masses_step
+from dynsolve.explain.sanity.unloaded import unloaded_step
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.proved import MOST_JOINTS
 
@@ -39,21 +46,28 @@ class Check:
     step: Callable[[Context], Step | None]
 
 
+CYCLIC = Check("cyclic", "a coordinate stands neither in K nor in P", cyclic_step)
+
 CHECKS = (
-    Check("cyclic", "a coordinate stands neither in K nor in P", cyclic_step),
+    CYCLIC,
     Check("definite", "D is seen to be definite for positive masses", definite_step),
     Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
     Check("equilibrium", "gravity is balanced everywhere, or in some poses", equilibrium_step),
     Check("point_masses", "a body has extent, and D is something without it", point_masses_step),
 )
-"""All checks, in the order in which they are shown."""
+"""All checks of short arms, in the order in which they are shown."""
+
+CHECKS_OF_LONGER_ARMS = (
+    CYCLIC,
+    Check("dependence", "each coordinate moves its own joint, in a chain", dependence_step),
+    Check("unloaded", "an axis is vertical, or a joint slides level", unloaded_step),
+)
+"""Those of longer arms."""
 
 
 def sanity_steps(context: Context) -> Iterator[Step]:
-    """The checks that speak of a robot; none of longer arms."""
-    if context.robot.n > MOST_JOINTS:
-        return
-    for check in CHECKS:
+    """The checks that speak of a robot."""
+    for check in CHECKS if context.robot.n <= MOST_JOINTS else CHECKS_OF_LONGER_ARMS:
         step = check.step(context)
         if step is not None:
             yield step

@@ -50,7 +50,9 @@ def test_the_products_of_rates_are_collected_before_the_symbols_are_used() -> No
 
 @pytest.mark.slow
 def test_the_potential_energy_of_which_g_is_made() -> None:
-    assert "𝒫 = g (m₁ y₁ + κ₂₄ s₂ + κ₅ c₂ + σ" in said(steps("puma560")["g"], "puma560")
+    assert "𝒫 = g (m₁ y₁ + κ₂₄ s₂ + κ₅ c₂ + s₂₃ (κ₂₂ + σ₅) + c₂₃ (κ₂₁ + σ₆))" in said(
+        steps("puma560")["g"], "puma560"
+    )
     assert not steps("puma560")["P"].result
 
 

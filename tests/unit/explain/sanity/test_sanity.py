@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity import CHECKS, Check, sanity_steps
+from dynsolve.explain.sanity import CHECKS, CHECKS_OF_LONGER_ARMS, Check, sanity_steps
 from dynsolve.explain.sanity.definite import blocks, definite_step, determinant
 from dynsolve.explain.sanity.equilibrium import balanced_poses
 from dynsolve.explain.sanity.pose import at
@@ -31,7 +31,7 @@ def context(problem: str) -> Context:
 
 
 def check(problem: str, id: str) -> Step | None:
-    (record,) = (record for record in CHECKS if record.id == id)
+    record = next(record for record in (*CHECKS, *CHECKS_OF_LONGER_ARMS) if record.id == id)
     return record.step(context(problem))
 
 
@@ -190,15 +190,36 @@ def test_of_a_matrix_that_may_be_singular_nothing_is_said() -> None:
     assert check(POINTS, "point_masses") is None
 
 
-def test_longer_arms_have_no_such_checks() -> None:
-    assert not list(sanity_steps(context("scara-rrpr")))
+def test_longer_arms_have_checks_of_their_own() -> None:
+    assert [step.id for step in sanity_steps(context("scara-rrpr"))] == ["cyclic", "dependence", "unloaded"]
 
 
-@pytest.mark.parametrize("record", CHECKS, ids=lambda record: record.id)
+def test_what_a_joint_moves_is_one_body_to_it() -> None:
+    """The last entry of D: the last link about its joint's axis."""
+    step = check("stanford-6", "dependence")
+    assert step is not None
+    assert [to_unicode(line, solved("stanford-6").style) for line in step.result] == ["d₆₆ = I_6zz"]
+    assert said("stanford-6", "dependence").endswith("it is the moment of inertia about its axis.")
+
+
+@pytest.mark.parametrize(
+    ("problem", "told"),
+    [
+        ("scara-rrpr", "g₁ = 0, g₂ = 0 and g₄ = 0: turning about a vertical axis changes no height. "),
+        ("cylindrical-rpp", "g₁ = 0: turning about a vertical axis changes no height. "
+         "g₃ = 0: sliding along a level axis changes no height. "),
+        ("planar-2r", None),
+    ],
+)  # fmt: skip
+def test_joints_that_gravity_does_not_load(problem: str, told: str | None) -> None:
+    assert (check(problem, "unloaded") is None) if told is None else (said(problem, "unloaded") == told)
+
+
+@pytest.mark.parametrize("record", [*CHECKS, *CHECKS_OF_LONGER_ARMS[1:]], ids=lambda record: record.id)
 def test_a_check_has_its_id_and_speaks_of_some_robots_only(record: Check) -> None:
     found = [
         record.step(context(problem))
-        for problem in ("planar-2r", "elbow-3r", "cartesian-pp", "spherical-rrp", POINTS)
+        for problem in ("planar-2r", "planar-2r-remote", "elbow-3r", "cartesian-pp", "spherical-rrp", POINTS)
     ]
     assert {step.id for step in found if step is not None} == {record.id} and None in found
 
