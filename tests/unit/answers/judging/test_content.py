@@ -13,7 +13,7 @@ from dynsolve.answers.marking.policy import Policy
 from dynsolve.answers.verdict import Report
 from dynsolve.quantities.index import quantities
 from tests.unit.answers.hands import Text, checker, judge, problem, verdicts
-from tests.unit.answers.judging.test_verdicts import D11, D12, D22, G1, G2, TAU1, TAU2, H, K, column
+from tests.unit.answers.judging.elbow import D11, D12, D22, G1, G2, TAU1, TAU2, H, K, column
 
 RP, ELBOW = "in3140-rp", "planar-2r"
 
