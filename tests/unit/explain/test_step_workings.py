@@ -1,0 +1,226 @@
+"""How the steps get to their results: what is put in, and what comes out."""
+
+from __future__ import annotations
+
+from dynsolve.explain.step import Detail
+from dynsolve.notation.unicode import to_unicode
+from tests.support import solved
+from tests.unit.explain.told import everything_said, formula, said, shown, shown_working, step
+
+
+def test_the_tensor_in_base_coordinates_is_shown_where_it_is_used() -> None:
+    """crustcrawler-2r turns its second body's angular velocity into that body's axes, and needs no 𝓘₂."""
+    assert step("crustcrawler-2r", "I2").detail is Detail.FULL
+    assert formula("crustcrawler-2r", "Kw2") == "K_ω2 = ½ 𝛚₂ᵀ 𝓘₂ 𝛚₂ = ½ (𝐑₂ᵀ 𝛚₂)ᵀ 𝐈₂ (𝐑₂ᵀ 𝛚₂)"
+    assert "I2" not in (step("crustcrawler-2r", "Kw2").uses or ())
+    assert (
+        step("planar-2r", "I2").detail is Detail.BRIEF and formula("planar-2r", "Kw2") == "K_ω2 = ½ 𝛚₂ᵀ 𝓘₂ 𝛚₂"
+    )
+
+
+def test_an_axis_that_a_rotation_leaves_in_place_needs_no_product() -> None:
+    line = step("rp-vertical", "Kw1").lines[0]
+    assert to_unicode(line.formulas[0], solved("rp-vertical").style) == "𝐑₁ᵀ 𝛚₁ = 𝛚₁"
+
+
+def test_a_tensor_is_turned_by_one_product_after_the_other() -> None:
+    _, half = shown_working("elbow-3r", "I1")
+    assert half.endswith("[[I_1xx c₁, I_1xx s₁, 0], [0, 0, I_1yy], [I_1zz s₁, -I_1zz c₁, 0]]"), half
+    assert len(shown_working("planar-2r", "I1")) == 1  # turned about z it stays what it is
+
+
+NAMED = """
+gravity: [0, 0, -G]
+dh: [{theta: q1*, d: h1, alpha: 90deg}, {theta: q2*, a: l}]
+masses:
+  - {mass: m2, link: 1, center: midpoint}
+  - {mass: m1 + M, link: 2, center: {along: 1/3}}
+"""
+
+
+def test_a_letter_of_the_formula_is_not_another_thing_of_the_problem() -> None:
+    assert formula(NAMED, "P1") == "P₁ = m₂ G η₁, P₁ = -m₂ 𝐠₀ᵀ 𝐫_c1"
+    assert shown_working(NAMED, "P1")[:2] == ["𝐠₀ = [[0, 0, -G]]ᵀ", "η₁ = h₁/2"]
+    assert formula(NAMED, "P2").startswith("P₂ = (m₁ + M) G η₂, ")
+    assert shown_working("box-cylinder-rod-sphere", "P2")[0] == "η₂ = h + l₂ s₂/2"
+    (summed,) = step(NAMED, "D_direct").further
+    assert to_unicode(summed, solved(NAMED).style) == "𝐃 = m₂ 𝐉_v1ᵀ 𝐉_v1 + (m₁ + M) 𝐉_v2ᵀ 𝐉_v2"
+
+
+def test_a_mass_without_a_symbol_is_called_after_its_body() -> None:
+    assert formula("numeric-2r", "P1") == "P₁ = m₁ g h₁, P₁ = -m₁ 𝐠₀ᵀ 𝐫_c1"
+    assert formula("numeric-2r", "Kvp") == "K_vp = ½ m_p 𝐯_pᵀ 𝐯_p"
+
+
+def test_where_a_centre_comes_from() -> None:
+    assert "from the near end of link 1, 𝐨₀" in said(step("planar-2r", "rc1").why, "planar-2r")
+    assert shown_working("planar-2r", "rc1")[0] == (
+        "𝐫_c1¹ = (𝐑₁⁰)ᵀ (𝐨₀ - 𝐨₁) + [[l_c1], [0], [0]] = [[-l₁], [0], [0]] + [[l_c1], [0], [0]]"
+        " = [[l_c1 - l₁], [0], [0]]"
+    )
+    assert shown_working("in3140-rp", "rc1")[0] == (
+        "𝐫_c1¹ = ½ (𝐑₁⁰)ᵀ (𝐨₀ - 𝐨₁) = ½ [[0], [-L₁], [0]] = [[0], [-L₁/2], [0]]"
+    )
+
+
+def test_numbers_that_go_in_are_named() -> None:
+    assert shown_working("numeric-2r", "P2")[0] == "m₂ = 1.2, g = 9.81"
+    assert shown_working("planar-2r", "P2")[0].startswith("h₂ = ")
+    assert "the bodies 1, 2 and p, counted in this order" in said(
+        step("numeric-2r", "D_direct").why, "numeric-2r"
+    )
+    assert "is ⅓ of the way along link 2, from 𝐨₁ to 𝐨₂." in said(step(NAMED, "rc2").why, NAMED)
+    assert "given by its coordinates in frame 1" in said(step("rp-vertical", "rc1").why, "rp-vertical")
+
+
+def test_c_and_g_are_read_off_too() -> None:
+    assert shown("in3140-rp", "Cqd") == ["𝐂 𝐪̇ = [[2m₂ L₂ θ̇₁ L̇₂], [-m₂ L₂ θ̇₁²]]", "𝐠 = [[0], [0]]"]
+    assert "No term remains at rest here." in said(step("in3140-rp", "Cqd").why, "in3140-rp")
+    assert "Nothing remains" not in said(step("planar-2r", "Cqd").why, "planar-2r")
+    assert "No term has rates here." in said(step("cartesian-pp", "Cqd").why, "cartesian-pp")
+
+
+def test_a_constant_d_has_no_list_of_zeros_and_no_other_c() -> None:
+    assert step("cartesian-pp", "christoffel").notes == step("cartesian-pp", "C").notes == ()
+    assert said(step("cartesian-pp", "C").why, "cartesian-pp").endswith("There are none here.")
+    (note,) = step("planar-2r", "christoffel").notes
+    assert said(note, "planar-2r") == (
+        "c₁₁₁ and c₂₂₂ are zero. In c₁₂₂ the derivatives cancel, 𝐃 being symmetric."
+    )
+    (note,) = step("rp-vertical", "christoffel").notes
+    assert said(note, "rp-vertical") == "c₁₁₁, c₂₂₁, c₁₂₂ and c₂₂₂ are zero."
+
+
+ONE = "dh: [{theta: q*, a: l}]\nmasses: [{mass: m, link: 1}]\n"
+
+
+def test_a_single_joint_has_no_other_rates() -> None:
+    assert said(step(ONE, "dLdqd1").why, ONE).endswith("alone: the coordinate is held fixed.")
+    text = everything_said(ONE)
+    assert "other rates" not in text and "Coriolis terms" not in text and "may be swapped" not in text
+
+
+ODD = """
+base: Rx(90deg)
+dh:
+  - {d: h0}
+  - {theta: q1*/2, a: l1}
+  - {a: l2}
+  - {theta: 0, d: 2*s1*}
+masses:
+  - {mass: mg, link: 1, center: midpoint}
+  - {mass: 0, link: 3, center: tip, inertia: {zz: J}, axes: {base: Rz(q1/2)}}
+  - {mass: m1, link: 4, center: tip}
+"""
+
+
+def test_fixed_rows_scaled_joints_and_the_world() -> None:
+    text = everything_said(ODD)
+    assert "Rows 1 and 3 have no star: frames that are each fixed" in text
+    assert "The joint of row 2 moves at ½ times the rate of q₁." in text
+    assert "combination of coordinates" not in text
+    assert "the body belongs to the ground and does not move." in said(step(ODD, "rc1").why, ODD)
+    assert "belongs to the ground" not in said(step(ODD, "rc2").why, ODD)
+    assert "world coordinates" in text and "base coordinates" not in text
+    assert formula(ODD, "R2") == "𝐑₂ = 𝐑₀^w Rot_{z,q₁/2}"
+    assert formula(ODD, "H0") == "𝐇₀^w = Rot_{x,90°}"
+    assert "frame 0 is turned." in text
+    assert formula(ODD, "J2") == "𝐉₂ = [[2𝐳₃], [𝟎]]"  # J is a moment of inertia here
+
+
+def test_a_body_without_mass_has_no_weight() -> None:
+    assert said(step(ODD, "P2").why, ODD) == "Body 2 has inertia but no mass, so gravity does not act on it."
+    assert said(step(ODD, "Kv2").why, ODD) == "The body has no mass, only inertia."
+    assert not step(ODD, "P2").working and not step(ODD, "Kv2").working
+
+
+def test_several_columns_that_are_zero_are_listed_as_in_a_sentence() -> None:
+    why = said(step("box-cylinder-rod-sphere", "Jv1").why, "box-cylinder-rod-sphere")
+    assert why.endswith("so the columns of θ₂ and d₃ are zero.")
+
+
+def test_a_shared_column_is_worked_out() -> None:
+    (working,) = shown_working("planar-2r-remote", "J1")
+    assert working.startswith("𝐳₀ × (𝐨₂ - 𝐨₀) - 𝐳₁ × (𝐨₂ - 𝐨₁) = ") and working.endswith(
+        "[[-l₁ s₁], [l₁ c₁], [0]]"
+    )
+
+
+def test_the_moments_of_a_shape_stand_where_they_are_said_to() -> None:
+    sources = [step("box-cylinder-rod-sphere", f"I_body{b}").source for b in "1234"]
+    assert sources == [
+        "Lynch and Park §8.2.1",
+        "§7.2.1",
+        "by the integrals of §7.2.1",
+        "Lynch and Park §8.2.1",
+    ]
+
+
+def test_a_long_list_of_zeros_is_not_printed() -> None:
+    (note,) = step("scara-rrpr", "christoffel").notes
+    assert said(note, "scara-rrpr") == "All the others are zero."
+
+
+def test_what_agrees_is_said_in_a_sentence() -> None:
+    assert said(step("planar-2r", "agreement").why, "planar-2r") == (
+        "𝐃, 𝐂 𝐪̇ and 𝐠, read off from the forces and assembled directly, are exactly equal."
+    )
+
+
+CRAIG = """
+convention: modified
+dh: [{theta: q1*}, {theta: q2*, a: l1}, {theta: q3*, a: l2}]
+masses:
+  - {mass: m1, link: 1, center: midpoint, inertia: {zz: I1}}
+  - {mass: m2, link: 2, center: midpoint, inertia: {zz: I2}}
+"""
+
+
+def test_frame_i_is_before_the_mass_in_the_modified_convention() -> None:
+    text = everything_said(CRAIG)
+    assert "comes after the mass" not in text and "before the mass" not in text
+    assert "Frame 1 is the one to take: in the modified convention it is fixed in link 1" in text
+    assert "frame 2 moves with the next link." in text
+    assert "from 𝐨₁, half the way on" in said(step(CRAIG, "rc1").why, CRAIG)
+
+
+def test_a_frame_comes_after_the_mass_where_the_mass_is_on_the_link() -> None:
+    assert "comes after the mass" in said(step("planar-2r", "R2").why, "planar-2r")
+    assert "comes after the mass" not in said(step("spherical-rrp", "R2").why, "spherical-rrp")
+
+
+def test_a_table_without_a_row_for_the_tool_does_not_reach_the_end_of_the_arm() -> None:
+    """In the modified convention the last frame lies in the last joint, unless a fixed row follows."""
+    assert "the end of the arm" not in everything_said(CRAIG).replace(
+        "the end of the arm would need a row", ""
+    )
+    assert "The Jacobian of the origin of frame 3" in everything_said(CRAIG)
+    with_tool = CRAIG.replace("{theta: q3*, a: l2}]", "{theta: q3*, a: l2}, {a: l3}]")
+    assert "The Jacobian of the end of the arm" in everything_said(with_tool)
+    assert "The Jacobian of the end of the arm" in everything_said("planar-2r")
+
+
+def test_a_coordinate_that_joints_share_has_a_force_of_several_joints() -> None:
+    """p₁ and p₂ are absolute angles; joint 2 turns by p₂ - p₁, so τ₁ q̇₁ + τ₂ q̇₂ = τ₁ ṗ₁ + τ₂ (ṗ₂ - ṗ₁)."""
+    why = said(step("planar-2r-remote", "tau1").why, "planar-2r-remote")
+    assert why.endswith("its torque is the torque of joint 1 minus the torque of joint 2.")
+    why = said(step("planar-2r-remote", "tau2").why, "planar-2r-remote")
+    assert why.endswith("its torque is the torque of joint 2.")
+    assert (
+        said(step("planar-2r", "tau1").why, "planar-2r") == "q₁ is an angle, so what drives it is a torque."
+    )
+
+
+def test_one_polynomial_has_one_spelling_with_either_sign() -> None:
+    """c₁₂₁ = -c₁₁₂ of a rod on a sliding joint: the square of the distance is completed in both."""
+    shown_symbols = shown("box-cylinder-rod-sphere", "christoffel")
+    with_square = [
+        text for text in shown_symbols if "(m₂ (4l₂² - b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12)" in text
+    ]
+    assert [text.split(" ")[0] for text in with_square] == ["c₁₂₁", "c₁₁₂"]
+
+
+def test_axes_of_frame_0_at_rest_are_worked_out() -> None:
+    assert shown_working("spherical-rrp", "R1") == [
+        "𝐑₁ = [[c₁, 0, s₁], [s₁, 0, -c₁], [0, 1, 0]] [[1, 0, 0], [0, 0, -1], [0, 1, 0]]ᵀ"
+    ]
