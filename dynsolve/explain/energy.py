@@ -14,7 +14,7 @@ from dynsolve.explain.potential import potential_steps
 from dynsolve.explain.rotational_energy import rotational_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working import kinetic
-from dynsolve.explain.working.sums import sum_named
+from dynsolve.explain.working.sums import summed
 from dynsolve.explain.writing import (
     are_counted,
     is_small,
@@ -91,6 +91,8 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
     if name == "K":
         kinds = {"torque" if turns(q) else "force": None for q in context.robot.coordinates}
         notes = ((f"Each body has its kinetic energy, but each joint its {' or '.join(kinds)}, below.",),)
+    acting = [name + ("s" if name == "P" else "m")] if others else []
+    way = summed(context, [*(name + body.name for body in context.robot.bodies), *acting], name, letter)
     return Step(
         id=name,
         stage=STAGE,
@@ -98,7 +100,8 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
         why=(f"{why}.",),
         formula=equation(*members),
         source=spong("7.2.3" if name == "P" else "7.2.2"),
-        concluding=sum_named(context, [name + body.name for body in context.robot.bodies], name),
+        lines=way.lines,
+        concluding=way.concluding,
         result=(equation(letter, context.form(name)),),
         notes=notes,
         detail=Detail.BRIEF,
@@ -260,6 +263,7 @@ def _pythagoras(angle: Symbol) -> Node:
 def _kinetic(context: Context, body: Body) -> Step:
     K = letters.of_body("K", body)
     parts = Sum((letters.energy_part("v", body), letters.energy_part("omega", body)))
+    way = summed(context, (f"Kv{body.name}", f"Kw{body.name}"), f"K{body.name}", K)
     return Step(
         id=f"K{body.name}",
         stage=STAGE,
@@ -267,6 +271,7 @@ def _kinetic(context: Context, body: Body) -> Step:
         why=("The sum of the linear and the rotational part.",),
         formula=equation(K, parts),
         source=spong("7.2"),
-        concluding=sum_named(context, (f"Kv{body.name}", f"Kw{body.name}"), f"K{body.name}"),
+        lines=way.lines,
+        concluding=way.concluding,
         result=(equation(K, context.form(f"K{body.name}")),),
     )

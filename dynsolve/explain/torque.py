@@ -116,6 +116,7 @@ def _force(context: Context, q: Coordinate) -> Step:
         why=(Symbol(q.name), *_driven_by(context, q)),
         formula=equation(force, Sum((momentum, Negative(derivative), *_resisted(context, q)))),
         source=spong("7.1"),
+        concluding=derivatives.cancelling(context, q),
         result=(equation(force, context.form(f"tau{q.index}")),),
         detail=Detail.BRIEF,
     )

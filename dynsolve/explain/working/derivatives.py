@@ -16,7 +16,7 @@ from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import Rule, by_symbol, by_time, differentiated
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain, equals
-from dynsolve.explain.writing import sum_of
+from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import Entry, Node, Number, Product, Sum, Symbol, equation
 from dynsolve.notation.walk import mapped
@@ -34,8 +34,7 @@ def momentum_rate(context: Context, q: Coordinate) -> Way:
 def coordinate_derivative(context: Context, q: Coordinate) -> Way:
     """From L to ∂L/∂q."""
     left = letters.partial_derivative(letters.L, Symbol(q.name))
-    by = "Term by term, by the product and the chain rule:"
-    return _way(context, "L", by_symbol(Symbol(q.name)), f"dLdq{q.index}", left, by)
+    return _way(context, "L", by_symbol(Symbol(q.name)), f"dLdq{q.index}", left, "Term by term:")
 
 
 def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: str) -> Way:
@@ -44,9 +43,34 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: s
     value, form = context.values[result], context.form(result)
     found = differentiated(context.form(name), rule, decimal=is_numeric(context.robot))
     used = identities(value.ring, found.tree, form)
-    if not (found.by_product_rule or used) or are_alike(found.tree, form):
+    if are_alike(found.tree, form):
         return SILENT
     return chain(value, [((by,), found.tree)], lambda tree: equation(left, tree), _collected(used or ()))
+
+
+def cancelling(context: Context, q: Coordinate) -> Prose:
+    """Which products of rates stand in d/dt ∂L/∂q̇ and in ∂L/∂q, and no longer in the force."""
+    if context.robot.n > MOST_JOINTS:
+        return ()
+    ring = context.robot.ring
+    rate, slope = context.values[f"ddt{q.index}"], context.values[f"dLdq{q.index}"]
+    gone = (_rates(rate) & _rates(slope)) - _rates(rate - slope)
+    products = [
+        product
+        for j, first in enumerate(ring.names)
+        for k, second in enumerate(ring.names[j:], j)
+        if (product := frozenset({(first, 1), (second, 1)} if j < k else {(first, 2)})) in gone
+    ]
+    if not products:
+        return ()
+    named = [times(1, [(Symbol(name, 1), power) for name, power in sorted(each)]) for each in products]
+    return ("The terms with ", *listed(named), " cancel:")
+
+
+def _rates(x: Expr) -> set[frozenset[tuple[str, int]]]:
+    """The products of rates that occur in an expression: each rate with its power."""
+    places = [(name, x.ring.symbol_indices[(name, 1)]) for name in x.ring.names]
+    return {frozenset((name, int(e[i])) for name, i in places if e[i]) for e in x.poly.to_dict()}
 
 
 def are_alike(left: Node, right: Node) -> bool:

@@ -103,6 +103,10 @@ class _Worker:
         slopes = [self.derivative(factor) for factor in factors]
         varying = [k for k, slope in enumerate(slopes) if slope != ZERO]
         self.by_product_rule |= len(varying) > 1
+        if len(factors) == 2 and varying == [1] and (denominator := _one_over(factors[0])):
+            cancelled = divided(slopes[1], denominator)
+            if cancelled is not None:
+                return cancelled
         return total([
             self._times(1, *((slopes[k] if j == k else factor, 1) for j, factor in enumerate(factors)))
             for k in varying
@@ -116,6 +120,16 @@ class _Worker:
                 merged[base] = merged.get(base, 0) + power
         kept = [(node, exponent) for node, exponent in merged.items() if exponent]
         return times(coefficient, _sines_first(sorted(kept, key=_place)), decimal=self.decimal)
+
+
+def _one_over(node: Node) -> Node | None:
+    """The denominator of ½, ⅓, ... in front of an energy."""
+    match node:
+        case Number(1, q) if q > 1:
+            return Number(q)
+        case Quotient(Number(1, 1), denominator):
+            return denominator
+    return None
 
 
 def divided(node: Node, by: Node) -> Node | None:

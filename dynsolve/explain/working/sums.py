@@ -1,4 +1,4 @@
-"""The identities by which a sum of earlier results becomes what is printed."""
+"""The lines from a sum of earlier results to what is printed."""
 
 from __future__ import annotations
 
@@ -7,14 +7,29 @@ from collections.abc import Sequence
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.working.identities import identities, said
-from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
+from dynsolve.notation.tree import Node, Power, Sum, equation
+from dynsolve.notation.walk import walk
 
 
-def sum_named(context: Context, parts: Sequence[str], result: str) -> Prose:
-    """The sentence before the sum of quantities; nothing of longer arms, or where none is used."""
+def summed(context: Context, parts: Sequence[str], result: str, name: Node) -> Way:
+    """The plain sum of scalar quantities, and what it takes to collect it.
+
+    Silent of longer arms, and where the terms are only sorted: no square is opened, no identity used.
+    """
     if context.robot.n > MOST_JOINTS:
-        return ()
-    before = sum_of([context.form(part) for part in parts])
-    used = identities(context.robot.ring, before, context.form(result))
-    return ("Collected, with ", *said(used), ":") if used else ()
+        return SILENT
+    before, after = sum_of([context.form(part) for part in parts]), context.form(result)
+    used = identities(context.robot.ring, before, after)
+    opened = _squares_of_sums(before) - _squares_of_sums(after)
+    if not (used or opened):
+        return SILENT
+    by: Prose = ("The square multiplied out, and collected",) if opened else ("Collected",)
+    by += (", with ", *said(used), ":") if used else (":",)
+    return chain(context.values[result], [((), before)], lambda tree: equation(name, tree), by)
+
+
+def _squares_of_sums(node: Node) -> set[Node]:
+    """The powers of sums that stand in a tree."""
+    return {part for part in walk(node) if isinstance(part, Power) and isinstance(part.base, Sum)}

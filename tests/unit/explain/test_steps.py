@@ -227,7 +227,20 @@ def test_the_parts_of_d_are_summed_up() -> None:
     assert whole == "𝐃 = [[I_1zz, 0], [0, 0]] + [[m₂ L₂², 0], [0, m₂]]"
     first, *_ = shown("elbow-3r", "D_sum")  # collected where it is read off
     assert first.count(" = ") == 2
-    assert "D_sum" not in {each.id for each in solved("puma560-first3").steps}  # no parts are shown
+    assert "D_sum" not in {each.id for each in solved("puma560").steps}  # no parts are shown
+
+
+CANCELLING = [
+    ("planar-2r", "tau1", ""),
+    ("planar-2r", "tau2", "The terms with q̇₁ q̇₂ cancel:"),
+    ("elbow-3r", "tau3", "The terms with θ̇₂ θ̇₃ cancel:"),
+    ("rp-vertical", "tau1", ""),
+]
+
+
+@pytest.mark.parametrize(("problem", "name", "words"), CANCELLING)
+def test_what_cancels_in_a_force_is_said(problem: str, name: str, words: str) -> None:
+    assert said(step(problem, name).concluding, problem) == words
 
 
 def test_the_rows_of_c_qd_are_multiplied_out() -> None:

@@ -111,7 +111,12 @@ def test_a_derivative_term_by_term_where_several_factors_move() -> None:
         "Collected:",
     ]
     assert lines("planar-2r", "ddt2") == [], "its two lines would be the same"
-    assert lines("in3140-rp", "ddt2") == lines("planar-2r", "dLdq2") == []
+    assert lines("in3140-rp", "ddt2") == lines("rp-vertical", "dLdq2") == []
+    assert lines("planar-2r", "dLdq2") == [
+        "Term by term:",
+        "∂ℒ/∂q₂ = -m₂ l₁ l_c2 s₂ q̇₁² - m₂ l₁ l_c2 s₂ q̇₁ q̇₂ - m₂ g l_c2 c₁₂",
+        "Collected:",
+    ]
     assert lines("in3140-rp", "ddt1") == lines("spherical-rrp", "ddt2") == [], "terms in another order"
 
 
@@ -152,7 +157,7 @@ masses: [{mass: m, link: 2}]
 
 def test_a_velocity_is_squared_along_the_axes_in_which_that_is_plain() -> None:
     found = lines(TILTED, "Kv1")
-    assert found[0] == "The speed is the same along the axes of frame 0, where the velocity is:"
+    assert found[0] == "The speed is the same along the axes of frame 0."
     assert found[2] == "Its squares:"
     assert found[4].startswith("By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with U = ")
     assert "√" not in "".join(found)
@@ -204,10 +209,16 @@ def test_the_products_that_make_up_the_inertia_matrix_are_shown() -> None:
 def test_identities_of_cross_products_and_of_sums_of_energies_are_named() -> None:
     box = "box-cylinder-rod-sphere"
     assert lines(box, "Jv2") == ["The cross products, with s₁² + c₁² = 1:"]
-    assert lines(box, "K") == ["Collected, with s₂² + c₂² = 1:"]
+    assert lines(box, "K")[::2] == ["", "Collected, with s₂² + c₂² = 1:"]  # after the plain sum
     assert lines("planar-2r", "Jv2") == lines("planar-2r", "K") == []
+
+
+def test_a_square_of_rates_is_opened_after_it_is_added() -> None:
+    _, plain, concluding = lines("planar-2r", "K2")
+    assert plain.endswith(" + ½ I₂ (q̇₁ + q̇₂)²")
+    assert concluding == "The square multiplied out, and collected:"
 
 
 def test_the_identity_of_a_determinant_is_named() -> None:
     (found,) = (each for each in solved("planar-2r").steps if each.id == "definite")
-    assert said(found.why, "planar-2r").endswith("; multiplied out, with s₂² + c₂² = 1:")
+    assert said(found.why, "planar-2r").endswith(", multiplied out with s₂² + c₂² = 1:")
