@@ -12,7 +12,7 @@ from math import ceil
 
 from dynsolve.render.typesetting import Line
 
-FEWEST = 7
+FEWEST = 20
 """From this number of equations on they are set in columns."""
 
 MOST_COLUMNS = 3
@@ -37,6 +37,11 @@ class Columns:
     count: int
     name: float
     rows: tuple[tuple[Cell, ...], ...]
+
+    @property
+    def begins(self) -> list[bool]:
+        """With which rows an equation begins."""
+        return [any(cell.line.left for cell in row) for row in self.rows]
 
 
 def in_columns(equations: Sequence[Sequence[Line]], room: float) -> Columns:

@@ -35,7 +35,7 @@ from dynsolve.notation.tree import Matrix, Node, Relation, Row, equation
 from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
 from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
-from dynsolve.render.prose import visible
+from dynsolve.render.prose import typographic, visible
 from dynsolve.render.references import levels, numbered, with_results
 from dynsolve.render.typesetting import listed
 
@@ -218,7 +218,7 @@ class _Page(MarkupPage):
         yield "</details>\n"
 
     def escaped(self, text: str) -> str:
-        return escape(text)
+        return escape(typographic(text))
 
     def verbatim(self, text: str) -> str:
         return f'<code dir="auto">{escape(visible(text))}</code>'

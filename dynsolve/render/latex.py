@@ -24,13 +24,12 @@ from dynsolve.notation.extent import FLAT
 from dynsolve.notation.latex import SIGNS, LatexPrinter
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Node, Row, Words
-from dynsolve.render.latex_displays import aligned, gathered, in_columns
+from dynsolve.render.latex_displays import DisplayRow, aligned, gathered, in_columns
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import TypesetPage, prose_columns
+from dynsolve.render.page import SHORT, TypesetPage, prose_columns
 from dynsolve.render.page_ends import introduces
 from dynsolve.render.references import is_long, numbered, running_title, sections, slug
-from dynsolve.render.typesetting import Line
 
 PAGE = 46.9
 """The width of our own page, in em of its letters of ten points."""
@@ -44,6 +43,8 @@ _COLUMN_SPACE = 1.3  # around a column of a table, in em
 _NARROWEST = 12.0
 _MARGIN = 0.8
 _QUAD = 0.9  # what a comma between formulas takes more in LaTeX
+_STAYS = r"\begingroup\postdisplaypenalty=10000"
+_STRUT = r"\rule[-1.7ex]{0pt}{4.7ex}"
 _FENCES = ((FLAT, ""), (1.8, "Big"), (2.4, "bigg"))
 """The sizes of parentheses, each up to a height in em."""
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
@@ -134,11 +135,11 @@ def latex_notation(printer: LatexPrinter) -> Notation:
 
 
 class _Printer(LatexPrinter):
-    """LaTeX for a page: rows with fractions in them stand further apart, formulas side by side too."""
+    """LaTeX for a page: what stands side by side has room, fractions in a matrix are as large as others."""
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
-        lines = [" & ".join(row) for row in rows]
-        ends = [r" \\[3pt] " if r"\frac" in line else r" \\ " for line in lines[:-1]]
+        lines = [" & ".join(row).replace(r"\frac", r"\dfrac") for row in rows]
+        ends = [r" \\[6pt] " if r"\dfrac" in line else r" \\ " for line in lines[:-1]]
         body = "".join(chain.from_iterable(zip(lines, [*ends, ""], strict=True)))
         return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
 
@@ -174,7 +175,12 @@ class _Page(TypesetPage):
                 self.end_is_due = False
                 yield "\\samepage"
             if are_formulas:
-                yield from self.formulas(block for block, _ in run if isinstance(block, Formula))
+                shown = list(run)
+                last, after = shown[-1]
+                stays = introduces(last, after)
+                yield from [_STAYS] if stays else []
+                yield from self.formulas([block for block, _ in shown if isinstance(block, Formula)])
+                yield from ["\\endgroup"] if stays else []
                 in_text = True
                 continue
             for block, following in run:
@@ -217,25 +223,26 @@ class _Page(TypesetPage):
     def formula(self, formula: Formula) -> Iterator[str]:
         yield from self.formulas([formula])
 
-    def formulas(self, formulas: Iterable[Formula]) -> Iterator[str]:
-        """Displays: formulas of one line together, one that is broken alone."""
-        rows: list[tuple[Line, str]] = []
-        keep = False
-        for formula in formulas:
-            last, keep = self.kept(formula), self.closes(formula)
+    def formulas(self, formulas: Sequence[Formula]) -> Iterator[str]:
+        """Displays: formulas of one line together, level where they are results, one that is broken alone."""
+        rows: list[DisplayRow] = []
+        for formula, following in zip_longest(formulas, formulas[1:]):
+            last = self.kept(formula)
             columns = self.columns(formula)
             lines = [] if columns else self.typesetter(formula).set(formula)
             label = self.label(formula)
             if len(lines) == 1:
-                rows.append((lines[0], label))
+                line = self.level_result(formula)
+                stays = self.closes(formula) or introduces(formula, following, following is formulas[-1])
+                rows.append(DisplayRow(line or lines[0], label, line is not None, stays))
                 continue
-            yield from gathered(rows, keep)
+            yield from gathered(rows)
             rows = []
             if columns:
                 yield from in_columns(columns, label, last)
             elif lines:
                 yield from aligned(lines, label, last)
-        yield from gathered(rows, keep)
+        yield from gathered(rows)
 
     def label(self, formula: Formula) -> str:
         """What stands beside a formula: its number, or its source."""
@@ -249,6 +256,12 @@ class _Page(TypesetPage):
             yield from in_columns(columns, last=self.kept(equations))
         else:
             yield from aligned(self.unnumbered.equations(equations.nodes), last=self.kept(equations))
+
+    def inline(self, node: Node) -> str:
+        """A formula in a sentence; a short one is not broken."""
+        if self.ruler.width(node) > SHORT:
+            return super().inline(node)
+        return f"${{{self.printer.text(node)}}}$"
 
     def reference(self, label: str, number: int) -> str:
         return f"\\eqref{{{self.prefix}:{label}}}"
@@ -266,7 +279,7 @@ class _Page(TypesetPage):
 
     def table(self, table: Table) -> Iterator[str]:
         """A tabular, which stays on one page; a long one in several, the first with the header."""
-        head, *body = [" & ".join(map(self.part, row)) + r" \\" for row in (table.header, *table.rows)]
+        head, *body = [self.row(row) for row in (table.header, *table.rows)]
         parts = ceil(len(body) / _MOST_ROWS) or 1
         columns = self.column_kinds(table, parts > 1)
         size = ceil(len(body) / parts)
@@ -276,6 +289,17 @@ class _Page(TypesetPage):
             above = "" if start else f"{head} \\hline\\rule{{0pt}}{{2.6ex}}%\n"
             yield f"{{\\centering\\begin{{tabular}}{{{columns}}}\n{above}{rows}\n\\end{{tabular}}\\par}}"
         yield "\\nopagebreak\\medskip" if self.closes(table) else "\\medskip"
+
+    def row(self, cells: Sequence[Inline]) -> str:
+        """A row of a tabular; around fractions there is room to the rows beside it."""
+        tall = any(isinstance(cell, Node) and self.ruler.height(cell) > FLAT for cell in cells)
+        texts = [
+            f"$\\displaystyle {self.printer.text(cell)}$"
+            if tall and isinstance(cell, Node)
+            else self.part(cell)
+            for cell in cells
+        ]
+        return (_STRUT if tall else "") + " & ".join(texts) + r" \\"
 
     def column_kinds(self, table: Table, fixed: bool) -> str:
         """The columns of a tabular, of `fixed` widths or as wide as they are.

@@ -6,10 +6,12 @@ Where `last` is given, no page ends in so many rows at the end of the display.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain, groupby
 
 from dynsolve.render.columns import Cell, Columns
-from dynsolve.render.page_ends import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, stays
-from dynsolve.render.typesetting import Line
+from dynsolve.render.page_ends import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, stay
+from dynsolve.render.typesetting import INDENT, Line
 
 _MOST_LINES = 60  # what TeX holds in memory at once is bounded
 
@@ -28,12 +30,11 @@ def _end(text: str, keep: bool) -> str:
 def in_columns(columns: Columns, label: str = "", last: int = LAST_OF_DISPLAY) -> Iterator[str]:
     """Rows of equations, the number at the end of the last."""
     yield "\\begingroup\\parskip=1pt\\lineskiplimit=2pt\\lineskip=3pt"
-    count = len(columns.rows)
-    for place, row in enumerate(columns.rows):
+    for row, stays in zip(columns.rows, stay(columns.begins, last), strict=True):
         cells = "".join(_cell(cell, columns) for cell in row)
-        at_end = place == count - 1
+        at_end = row is columns.rows[-1]
         number = f"\\equationnumber{{{label}}}" if label and at_end else ""
-        keep = "\\nopagebreak" if (last == LAST_OF_DOCUMENT if at_end else stays(place, count, last)) else ""
+        keep = "\\nopagebreak" if stays or (at_end and last == LAST_OF_DOCUMENT) else ""
         yield f"\\equationrow{{{cells}{number}}}{keep}"
     yield "\\par\\endgroup"
 
@@ -50,22 +51,37 @@ def level(line: Line) -> str:
 
 
 def _indent(line: Line) -> str:
-    return f"\\hspace{{{line.indent}em}}" if line.indent else ""
+    return r"\qquad " * round(line.indent / INDENT)
 
 
-def gathered(rows: Sequence[tuple[Line, str]], keep: bool = False) -> Iterator[str]:
-    """Formulas of one line each, one under the other; on one page where they are to `keep` together."""
-    if not rows:
-        return
-    texts = [line.alone for line, _ in rows]
+@dataclass(frozen=True, slots=True)
+class DisplayRow:
+    """A formula of one line, `level` with others like it; it `stays` on the page of the next."""
+
+    line: Line
+    label: str = ""
+    level: bool = False
+    stays: bool = False
+
+
+def gathered(rows: Sequence[DisplayRow]) -> Iterator[str]:
+    """Formulas of one line each, one under the other; results that follow each other are level."""
+    for are_level, run in groupby(rows, lambda row: row.level):
+        yield from _gathered(list(run), are_level)
+
+
+def _gathered(rows: Sequence[DisplayRow], are_level: bool) -> Iterator[str]:
     if len(rows) == 1:
-        label = rows[0][1]
-        star = "" if label else "*"
-        yield f"\\begin{{equation{star}}}{label}\n{texts[0]}\n\\end{{equation{star}}}"
+        (row,) = rows
+        star = "" if row.label else "*"
+        yield f"\\begin{{equation{star}}}{row.label}\n{row.line.alone}\n\\end{{equation{star}}}"
         return
-    labelled = [text + (label or r" \notag") for text, (_, label) in zip(texts, rows, strict=True)]
-    body = "".join(text + _end(text, keep) for text in labelled[:-1]) + labelled[-1]
-    yield f"\\begin{{gather}}\n{body}\n\\end{{gather}}"
+    texts = [level(row.line) if are_level else row.line.alone for row in rows]
+    labelled = [text + (row.label or r" \notag") for text, row in zip(texts, rows, strict=True)]
+    ends = [_end(text, row.stays) for text, row in zip(texts, rows[:-1], strict=False)]
+    body = "".join(chain.from_iterable(zip(labelled, [*ends, ""], strict=True)))
+    name = "align" if are_level else "gather"
+    yield f"\\begin{{{name}}}\n{body}\n\\end{{{name}}}"
 
 
 def aligned(lines: Sequence[Line], label: str = "", last: int = LAST_OF_DISPLAY) -> Iterator[str]:
@@ -78,9 +94,8 @@ def aligned(lines: Sequence[Line], label: str = "", last: int = LAST_OF_DISPLAY)
 
 
 def _rows(lines: Sequence[Line], label: str, last: int) -> Iterator[str]:
-    count = len(lines)
-    for place, line in enumerate(lines):
-        at_end = place == count - 1
+    for line, stays in zip(lines, stay([bool(line.left) for line in lines], last), strict=True):
+        at_end = line is lines[-1]
         tag = (label if at_end else r" \notag") if label else ""
         text = level(line) + tag
-        yield text if at_end else text + _end(text, stays(place, count, last))
+        yield text if at_end else text + _end(text, stays)

@@ -31,14 +31,14 @@ from dynsolve.document import (
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.formulas import FormulaPrinter
-from dynsolve.notation.tree import Node
+from dynsolve.notation.tree import Node, Relation
 from dynsolve.render.columns import FEWEST, Columns, in_columns
 from dynsolve.render.line_breaking import Notation
-from dynsolve.render.matrices import height
+from dynsolve.render.matrices import height, holds_matrix
 from dynsolve.render.page_ends import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, closing
 from dynsolve.render.prose import ProseWriter
 from dynsolve.render.references import after_references, runs, unfolded, with_results
-from dynsolve.render.typesetting import Typesetter
+from dynsolve.render.typesetting import Line, Typesetter
 
 _Piece = TypeVar("_Piece")
 
@@ -196,6 +196,9 @@ class MarkupPage(Page[str]):
         """Any text, so that nothing in it is markup."""
 
 
+SHORT = 15.0
+"""Formulas in a sentence that are no wider, in em, are not broken."""
+
 _SOURCE_LETTER = 0.46  # small letters, in em
 _SOURCE_SPACE = 1.5
 
@@ -231,6 +234,14 @@ class TypesetPage(MarkupPage):
         """The entries of a matrix in columns, where that is what a formula has to be."""
         found = self.typesetter(formula).listed(formula)
         return in_columns(found, self.width - self.number) if found and len(found) >= FEWEST else None
+
+    def level_result(self, formula: Formula) -> Line | None:
+        """A numbered equation without matrices in one line, which is level with others beside it."""
+        node = formula.node
+        if formula.label not in self.labels or not isinstance(node, Relation) or holds_matrix(node):
+            return None
+        lines = self.typesetter(formula).equations([node])
+        return lines[0] if len(lines) == 1 else None
 
     def equation_columns(self, equations: Equations) -> Columns | None:
         """Equations in columns, where they may be and are many."""

@@ -1,12 +1,15 @@
 """Where a page may end, in what is set on pages: not at a few lines of a display, or of a document.
 
-Paragraphs stay with the display that they introduce, the first two rows of a display together and its
-last ones too.  So many rows at the end of a document are on one page that none is nearly empty.
+Paragraphs stay with the display that they introduce, a formula without a number with the one that it
+leads to, the last of several results with the one before.  The rows of an equation stay together, of a
+long one the first two and the last ones, as do those of a display.  So many rows at the end of a document
+are on one page that none is nearly empty.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from itertools import accumulate
 
 from dynsolve.document import Block, Equations, Formula, Prose, Table, Text, Uses
 
@@ -27,20 +30,44 @@ def runs_of_rows(count: int, last: int = LAST_OF_DISPLAY) -> tuple[int, ...]:
     return (_FIRST, *[1] * (count - _FIRST - last), last)
 
 
-def stays(row: int, count: int, last: int = LAST_OF_DISPLAY) -> bool:
-    """Whether a row, from 0, of a display stays on the page of the next.
+def runs_of_equations(begins: Sequence[bool], last: int = LAST_OF_DISPLAY) -> tuple[int, ...]:
+    """The same for a display of several equations; `begins` says with which rows one begins.
 
-    >>> [stays(row, 7) for row in range(6)]
-    [True, False, False, False, True, True]
+    >>> runs_of_equations([True] * 3 + [False] + [True] * 4)
+    (2, 2, 1, 3)
+    >>> runs_of_equations([True] + [False] * 6)
+    (2, 1, 1, 3)
     """
-    return count <= _FIRST + last or row < _FIRST - 1 or row >= count - last
+    starts = [row for row, begun in enumerate(begins) if begun or not row]
+    sizes = [end - start for start, end in zip(starts, [*starts[1:], len(begins)], strict=True)]
+    runs = [run for size in sizes for run in runs_of_rows(size, last)]
+    while len(runs) > 1 and runs[0] < _FIRST:
+        runs[:2] = [runs[0] + runs[1]]
+    while len(runs) > 1 and runs[-1] < last:
+        runs[-2:] = [runs[-2] + runs[-1]]
+    return tuple(runs)
 
 
-def introduces(block: Block, following: Block | None) -> bool:
-    """Whether a block belongs on one page with the one that follows."""
+def stay(begins: Sequence[bool], last: int = LAST_OF_DISPLAY) -> list[bool]:
+    """Which rows of a display stay on the page of the next.
+
+    >>> stay([True] + [False] * 6)
+    [True, False, False, False, True, True, False]
+    """
+    ends = set(accumulate(runs_of_equations(begins, last)))
+    return [row not in ends for row in range(1, len(begins) + 1)]
+
+
+def introduces(block: Block, following: Block | None, closes: bool = False) -> bool:
+    """Whether a block belongs on one page with the one that follows; it `closes` where it is the last one."""
     if isinstance(block, Text):
         leads = isinstance(following, Text) and leads_on(following.parts)
         return leads_on(block.parts) or leads or isinstance(following, Formula | Equations | Table | Uses)
+    if isinstance(block, Formula):
+        if block.label:
+            return closes and isinstance(following, Formula)
+        leads = isinstance(following, Formula | Equations | Uses)
+        return leads or (bool(block.source) and isinstance(following, Text))
     return isinstance(block, Uses)
 
 

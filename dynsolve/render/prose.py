@@ -42,6 +42,8 @@ _COUNT = rf"(?P<counted>\b(?:{_COUNTED}) )(?P<count>[ijkn])(?P<less>-1)?(?!\w)"
 
 _AMONG_WORDS = re.compile(rf"{_COUNT}|(?<![^\W_]){_FORMULA.pattern}(?![^\W_])")
 
+_APOSTROPHE = re.compile(r"(?<=[^\W\d_])'(?=s\b)|(?<=[a-z]s)'(?= [a-z])")
+
 
 def visible(text: str) -> str:
     r"""The text without characters that are not seen: controls, marks of direction, strays.
@@ -63,6 +65,15 @@ def _seen(character: str) -> str:
     if kind == "Cf":
         return ""
     return " " if kind[0] in "ZC" and kind not in ("Cs", "Cn", "Co") else "\ufffd"
+
+
+def typographic(text: str) -> str:
+    r"""The text with the apostrophe of printed text in words.
+
+    >>> typographic("the body's frame, the bodies' masses, 'quoted'")
+    'the body’s frame, the bodies’ masses, \'quoted\''
+    """
+    return _APOSTROPHE.sub("’", text) if "'" in text else text
 
 
 def with_formulas(text: str) -> Iterator[str | Node]:

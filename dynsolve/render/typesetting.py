@@ -19,7 +19,7 @@ from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 INDENT = 2.0
 """How far a line is moved in that goes on with a member, in em."""
 
-INSIDE = 1.5
+INSIDE = INDENT
 """How much further for each pair of parentheses that it begins in."""
 
 _LONGEST_NAME = 6.0

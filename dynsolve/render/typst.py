@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import zip_longest
+from itertools import groupby, zip_longest
 
 from dynsolve.document import (
     Block,
     Document,
     Equations,
+    Fold,
     Formula,
     Heading,
+    Inline,
     Picture,
     Prose,
     Table,
@@ -24,9 +26,9 @@ from dynsolve.notation.tree import Node
 from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.columns import Columns
 from dynsolve.render.line_breaking import Notation
-from dynsolve.render.page import TypesetPage, prose_columns
-from dynsolve.render.page_ends import introduces, runs_of_rows
-from dynsolve.render.prose import visible
+from dynsolve.render.page import SHORT, TypesetPage, prose_columns
+from dynsolve.render.page_ends import introduces, runs_of_equations
+from dynsolve.render.prose import typographic, visible
 from dynsolve.render.references import is_long, numbered, running_title
 from dynsolve.render.typesetting import Line
 
@@ -34,34 +36,35 @@ PAGE = 45.0
 """The width of the page, in em."""
 
 _NUMBER = 3.0
+_STICKY = ", sticky: true"
 _LAST_KNOWN = 0x2C00
 _MATHEMATICAL = range(0x1D400, 0x1D800)
 
 _PREAMBLE = """#set document(title: {title}, date: none)
-#set page(paper: "a4", margin: (x: 2.2cm, top: 2.2cm, bottom: 2cm), header-ascent: 40%, header: context {
+#set page(paper: "a4", margin: (x: 2.2cm, top: 2cm, bottom: 1.7cm), header-ascent: 40%, header: context {
   if here().page() > 1 { text(8.5pt, fill: luma(90), [#emph({header}) #h(1fr) #counter(page).display()]) }
 })
 #set text(font: ("New Computer Modern", "Libertinus Serif", "DejaVu Sans Mono"), size: 10pt, lang: "en")
-#set par( leading: 0.6em, spacing: 0.75em)
+#set par(leading: 0.6em, spacing: 0.7em)
 #set math.mat(delim: "[", row-gap: 0.45em, column-gap: 0.9em)
 #set math.equation(numbering: none)
 #show heading: set text(hyphenate: false)
 #show heading.where(level: 1): set text(size: 17pt)
 #show heading.where(level: 2): it => block(above: 1.6em, below: .8em, sticky: true, text(13pt, it.body))
-#show heading.where(level: 3): it => block(above: 1.2em, below: .6em, sticky: true, text(10.5pt, it.body))
+#show heading.where(level: 3): it => block(above: 1.15em, below: .6em, sticky: true, text(10.5pt, it.body))
 #show link: set text(fill: rgb("#1a5a96"))
 #let source(body) = text(size: 8.5pt, fill: luma(90), body)
 #let displayed(body, ..options) = {
   set text(top-edge: "bounds", bottom-edge: "bounds")
-  block(above: 0.9em, below: 0.9em, width: 100%, ..options, body)
+  block(above: 0.85em, below: 0.85em, width: 100%, ..options, body)
 }
-#let formula(body, side) = displayed(breakable: false,
+#let formula(body, side, sticky: false) = displayed(breakable: false, sticky: sticky,
   grid(columns: (1fr, auto, 1fr), align: (left, center, right + horizon), [], body, side))
 #let held(rows) = grid.cell(rowspan: rows, breakable: false, [])
-#let formula-lines(..cells) = displayed(
+#let formula-lines(sticky: false, ..cells) = displayed(sticky: sticky,
   grid(columns: (1fr, auto, auto, 1fr), column-gutter: (0pt, 0.28em, 0pt), row-gutter: 0.6em,
     align: (left, right + horizon, left + horizon, right + horizon), ..cells))
-#let columned(count, ..cells) = displayed(
+#let columned(count, sticky: false, ..cells) = displayed(sticky: sticky,
   grid(columns: (0pt,) + (1fr,) * count + (3em,), row-gutter: 0.65em,
     align: (x, y) => if x == count + 1 { right + horizon } else { left + horizon }, ..cells))
 #let note(body) = {
@@ -116,30 +119,62 @@ def typst_notation(printer: TypstPrinter) -> Notation:
     )
 
 
+class _Printer(TypstPrinter):
+    """Typst's mathematics for a page: fractions in a matrix are as large as beside it."""
+
+    def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
+        return super()._bracketed(
+            [[_displayed(cell) if "frac(" in cell else cell for cell in row] for row in rows]
+        )
+
+
 class _Page(TypesetPage):
     """Turns blocks into Typst."""
 
     def __init__(self, style: Style, document: Document) -> None:
-        printer = TypstPrinter(style)
+        printer = _Printer(style)
         super().__init__(printer, typst_notation(printer), numbered(document), PAGE, _NUMBER)
         self.contents_are_due = is_long(document)
+        self.sticks = False
+        """Whether the block that is written stays on the page of the next."""
         self.close(document)
 
     def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
         """The blocks, in a sticky block what stays on the page of the next."""
         listed = list(blocks)
-        for block, following in zip_longest(listed, listed[1:]):
-            if introduces(block, following) or self.closes(block):
-                yield "#block(sticky: true, width: 100%)["
-                yield from self.block(block)
-                yield "]"
-            else:
-                yield from self.block(block)
+        pairs = zip_longest(listed, listed[1:])
+        for are_level, run in groupby(pairs, lambda pair: self.is_level(pair[0])):
+            shown = list(run)
+            if are_level and len(shown) > 1:
+                yield from self.results([block for block, _ in shown if isinstance(block, Formula)])
+                continue
+            for block, following in shown:
+                self.sticks = self.closes(block) or introduces(block, following, following is listed[-1])
+                yield from self.stuck(block)
+
+    def is_level(self, block: Block) -> bool:
+        """Whether a block is a result that is level with others beside it."""
+        return isinstance(block, Formula) and self.level_result(block) is not None
+
+    def results(self, formulas: Sequence[Formula]) -> Iterator[str]:
+        """Results of one line each in one display, each with its number."""
+        lines = [line for formula in formulas if (line := self.level_result(formula))]
+        sides = [self.side(formula) for formula in formulas]
+        yield _display(lines, sides, self.kept(formulas[-1]), self.closes(formulas[-1]))
+
+    def stuck(self, block: Block) -> Iterator[str]:
+        """A block, in a sticky one where it stays on the page of the next and cannot be sticky itself."""
+        if self.sticks and not isinstance(block, Formula | Equations | Heading | Fold):
+            yield "#block(sticky: true, width: 100%)["
+            yield from self.block(block)
+            yield "]"
+        else:
+            yield from self.block(block)
 
     def heading(self, heading: Heading) -> Iterator[str]:
         if heading.level == 2 and self.contents_are_due:
             self.contents_are_due = False
-            yield "#outline(title: none, target: heading.where(level: 2))"
+            yield "#block(above: 1.6em, outline(title: none, target: heading.where(level: 2)))"
         yield f"#heading(level: {heading.level})[{self.words(heading.text)}]"
 
     def text(self, text: Text) -> Iterator[str]:
@@ -148,9 +183,10 @@ class _Page(TypesetPage):
     def formula(self, formula: Formula) -> Iterator[str]:
         columns = self.columns(formula)
         if columns is not None:
-            yield _in_columns(columns, self.side(formula), self.kept(formula))
+            yield _in_columns(columns, self.side(formula), self.kept(formula), self.sticks)
         elif lines := self.typesetter(formula).set(formula):
-            yield _display(lines, self.side(formula), self.kept(formula))
+            sides = [*[""] * (len(lines) - 1), self.side(formula)]
+            yield _display(lines, sides, self.kept(formula), self.sticks)
 
     def side(self, formula: Formula) -> str:
         """What stands beside a formula: its number, which others refer to, or its source."""
@@ -161,9 +197,15 @@ class _Page(TypesetPage):
     def equations(self, equations: Equations) -> Iterator[str]:
         columns = self.equation_columns(equations)
         if columns is not None:
-            yield _in_columns(columns, "", self.kept(equations))
+            yield _in_columns(columns, "", self.kept(equations), self.sticks)
         else:
-            yield _display(self.unnumbered.equations(equations.nodes), "", self.kept(equations))
+            lines = self.unnumbered.equations(equations.nodes)
+            yield _display(lines, [""] * len(lines), self.kept(equations), self.sticks)
+
+    def inline(self, node: Node) -> str:
+        """A formula in a sentence; a short one is not broken."""
+        formula = super().inline(node)
+        return f"#box({formula})" if self.ruler.width(node) <= SHORT else formula
 
     def reference(self, label: str, number: int) -> str:
         return f"#link(<eq-{label}>)[{super().reference(label, number)}]"
@@ -179,7 +221,7 @@ class _Page(TypesetPage):
         yield f"#note[*Note.* {self.prose(parts)}]"
 
     def table(self, table: Table) -> Iterator[str]:
-        cells = [f"[{self.part(cell)}]" for row in (table.header, *table.rows) for cell in row]
+        cells = [self.cell(cell) for row in (table.header, *table.rows) for cell in row]
         columns = len(table.header)
         side = "left" if prose_columns(table) else "center"
         yield (
@@ -189,44 +231,53 @@ class _Page(TypesetPage):
             f"{', '.join(cells[columns:])}))"
         )
 
+    def cell(self, cell: Inline) -> str:
+        """A cell of a table; around a fraction there is room to the rows beside it."""
+        if isinstance(cell, Node) and self.ruler.height(cell) > FLAT:
+            return f"table.cell(inset: (x: 0.8em, y: 0.6em), block(${_displayed(self.printer.text(cell))}$))"
+        return f"[{self.part(cell)}]"
+
     def picture(self, picture: Picture) -> Iterator[str]:
         image = f'image(bytes({quoted(picture.svg)}), format: "svg")'
         yield f"#align(center)[#{image} #text(size: 9pt)[{self.words(picture.caption)}]]"
 
     def escaped(self, text: str) -> str:
         """Words as a string, so that nothing in them is markup."""
-        return f"#{quoted(_known(text))};"
+        return f"#{quoted(_known(typographic(text)))};"
 
     def verbatim(self, text: str) -> str:
         return f"#raw({quoted(visible(text))});"
 
 
-def _display(lines: Sequence[Line], side: str, last: int) -> str:
-    """A formula in the middle of the page, `side` at the end of its last line.
+def _displayed(text: str) -> str:
+    return f"display({text})"
 
-    A page may end between two lines, but not in so many at the end; what stands at the side is there once.
+
+def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: bool) -> str:
+    """Formulas in the middle of the page, `sides` at the ends of their lines; they may stick to the next.
+
+    A page may end between two lines, but not in so many at the end.
     """
     if len(lines) == 1:
-        return f"#formula({_math(lines[0].alone)}, [{side}])"
+        return f"#formula({_math(lines[0].alone)}, [{sides[0]}]{_STICKY * sticks})"
     cells: list[str] = []
-    for line, run in zip(lines, _held(len(lines), last), strict=True):
-        cells += [*run, _math(line.left), _math(_right(line)), "[]"]
-    cells[-1] = f"[{side}]"
-    return f"#formula-lines({', '.join(cells)})"
+    held = _held([bool(line.left) for line in lines], last)
+    for line, side, run in zip(lines, sides, held, strict=True):
+        cells += [*run, _math(line.left), _math(_right(line)), f"[{side}]"]
+    return f"#formula-lines({', '.join(cells)}{_STICKY * sticks})"
 
 
-def _held(count: int, last: int) -> Iterator[list[str]]:
+def _held(begins: Sequence[bool], last: int) -> Iterator[list[str]]:
     """What stands before each row: at the first of a run of rows a cell as high as all, which holds them."""
-    for run in runs_of_rows(count, last):
+    for run in runs_of_equations(begins, last):
         yield [f"held({run})"]
         yield from [[]] * (run - 1)
 
 
-def _in_columns(columns: Columns, side: str, last: int) -> str:
+def _in_columns(columns: Columns, side: str, last: int, sticks: bool) -> str:
     """Equations in columns, `side` at the end of the last row."""
-    count = len(columns.rows)
     cells: list[str] = []
-    for row, run in zip(columns.rows, _held(count, last), strict=True):
+    for row, run in zip(columns.rows, _held(columns.begins, last), strict=True):
         cells += run
         for cell in row:
             name = f"box(width: {columns.name:.2f}em, align(right, {_math(cell.line.left)}))"
@@ -235,7 +286,7 @@ def _in_columns(columns: Columns, side: str, last: int) -> str:
             cells.append(f"grid.cell(colspan: {rest}, [])")
         cells.append("[]")
     cells[-1] = f"[{side}]"
-    return f"#columned({columns.count}, {', '.join(cells)})"
+    return f"#columned({columns.count}, {', '.join(cells)}{_STICKY * sticks})"
 
 
 def _right(line: Line) -> str:
@@ -244,7 +295,7 @@ def _right(line: Line) -> str:
 
 def _math(text: str) -> str:
     """A formula as large as in a display, though it does not stand in one by itself."""
-    return f"$display({text})$" if text else "none"
+    return f"${_displayed(text)}$" if text else "none"
 
 
 def _known(text: str) -> str:

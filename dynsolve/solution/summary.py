@@ -54,7 +54,7 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
     forces = [f"tau{q.index}" for q in robot.coordinates]
     if all(name in by_id for name in forces):
         yield Text(("Row by row:" if len(forces) > 1 else "Multiplied out:",))
-        yield from _results(by_id, forces)
+        yield Equations(tuple(by_id[name].result[0] for name in forces))
 
 
 def _results(by_id: Mapping[str, Step], names: Sequence[str]) -> Iterator[Formula]:

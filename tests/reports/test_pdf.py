@@ -54,6 +54,28 @@ def test_a_report_has_contents_and_page_numbers(tmp_path: Path) -> None:
         assert page[0].split() == [*"Spatial elbow manipulator (3R)".split(), str(number)]
 
 
+@pytest.mark.parametrize("name", ["elbow-3r", "box-cylinder-rod-sphere"])
+def test_a_formula_of_the_book_is_on_the_page_of_what_comes_of_it(name: str, tmp_path: Path) -> None:
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == name), Format.PDF))
+    pages = lines_of(pdf)
+    laws = [line for page in pages for line in page if LAW.search(line)]
+    assert len(laws) > 20
+    assert [page[-1] for page in pages if LAW.search(page[-1])] == []
+
+
+@pytest.mark.parametrize("name", ["elbow-3r", "box-cylinder-rod-sphere"])
+def test_no_line_ends_with_a_sign_between_two_parts(name: str, tmp_path: Path) -> None:
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == name), Format.PDF))
+    lines = [line for page in lines_of(pdf) for line in page]
+    assert sum("=" in line for line in lines) > 100
+    assert [line for line in lines if line.rstrip().endswith(("=", "−", "+"))] == []
+
+
+LAW = re.compile(r" {3,}§[\d.]+$")
+"""The section of the textbook, at the right edge."""
+
 NUMBER = re.compile(r" {3,}\((\d+)\)$")
 """The number of an equation, at the right edge."""
 
