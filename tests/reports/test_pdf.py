@@ -65,11 +65,11 @@ def test_a_formula_of_the_book_is_on_the_page_of_what_comes_of_it(name: str, tmp
 
 
 @pytest.mark.parametrize("name", ["elbow-3r", "box-cylinder-rod-sphere"])
-def test_no_line_ends_with_a_sign_between_two_parts(name: str, tmp_path: Path) -> None:
+def test_no_line_of_a_sentence_ends_with_a_sign_between_two_parts(name: str, tmp_path: Path) -> None:
     pdf = tmp_path / "report.pdf"
     pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == name), Format.PDF))
-    lines = [line for page in lines_of(pdf) for line in page]
-    assert sum("=" in line for line in lines) > 100
+    lines = [line for page in lines_of(pdf) for line in page if re.search("[a-z]{2} [a-z]{2}", line)]
+    assert sum("=" in line for line in lines) > 10
     assert [line for line in lines if line.rstrip().endswith(("=", "−", "+"))] == []
 
 
