@@ -29,7 +29,7 @@ SLIDE = 0.9
 """How far out a slide is drawn whose letter stands in a drawing."""
 
 CAPTION = "The manipulator with its frames; not to scale."
-PARALLELS = "Dashed lines at a joint are parallel to the x axes between which its angle is counted."
+PARALLELS = "Dashed lines at a joint are parallel to the x axes between which its angle is measured."
 
 _STAR = Style(star=True, decimal=True)
 _PLAIN = Style(decimal=True)

@@ -78,7 +78,7 @@ def _christoffel_why(n: int, count: int) -> Prose:
             " is constant, so every Christoffel symbol is zero.",
         )
     swapped = equation(Letter("c", Row((_I, _J, _K))), Letter("c", Row((_J, _I, _K))))
-    why: Prose = ("They are made of the derivatives of ", letters.D, " by the coordinates. ")
+    why: Prose = ("They are made of the derivatives of ", letters.D, " with respect to the coordinates. ")
     if n > 1:
         why += ("The first two indices may be swapped: ", swapped, ". ")
     return (*why, "Partial derivatives that are zero are left out.")

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.algebra import matrix as algebra
+from dynsolve.algebra.expr import Expr
 from dynsolve.derivation import inertia
 from dynsolve.document import Prose
 from dynsolve.explain import given_axes
@@ -21,7 +22,7 @@ from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.working.rotational import along_own_axes
-from dynsolve.explain.writing import is_small, name_of, side_by_side, spong
+from dynsolve.explain.writing import and_joined, is_small, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
     Negative,
@@ -114,6 +115,7 @@ def _tensor(context: Context, body: Body) -> Step:
         why = (f"That of {name_of(body)}, found above: nothing across the rod, and the same on both sides.",)
     elif body.shape is None or not body.shape.formulas:
         why = (f"The tensor of {name_of(body)} is given, about {about}, along the axes of its own frame.",)
+        why += _left_out(context, body)
     return Step(
         id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",
         stage=STAGE,
@@ -124,6 +126,21 @@ def _tensor(context: Context, body: Body) -> Step:
         working=working,
         result=(equation(tensor, context.show(body.inertia)),),
         uses=(),
+    )
+
+
+def _left_out(context: Context, body: Body) -> Prose:
+    """That a given tensor is 0 about axes of the body where Rᵀ J_ω has a row of zeros: it never turns so."""
+    if context.robot.n > MOST_JOINTS or is_moved(body) or body.inertia is None:
+        return ()
+    turning = context.values[f"R{body.name}"].T @ context.values[f"Jw{body.name}"]
+    still = [i for i in range(3) if all(entry.is_zero for entry in turning.rows[i])]
+    if not still or len(still) > 2 or not all(e.is_zero for i in still for e in body.inertia.rows[i]):
+        return ()
+    axes = and_joined([name for i, name in enumerate("xyz") if i not in still])
+    about = f" It turns about its {axes} alone, so only what belongs to "
+    return (
+        about + f"{'that axis' if len(still) == 2 else 'these axes'} enters; all else is left out, as 0.",
     )
 
 
@@ -277,10 +294,19 @@ def _base_tensor(context: Context, body: Body) -> Step:
         letters.of_body("R", body, "bold"),
         letters.tensor(context.robot, body),
     )
-    base = context.form(f"I{b}")
-    working = tuple(_turned(context, body))
+    base, factor = context.form(f"I{b}"), _factor_of_identity(context.values[f"I_body{b}"])
+    working = tuple(_turned(context, body)) if factor is None else ()
     notes: tuple[Prose, ...] = ()
-    if base == context.form(f"I_body{b}"):
+    why: Prose = ()
+    if factor is not None:
+        shown, turned = context.show(factor), Product((R, Transpose(R)))
+        working = (Product((shown, *turned.factors)), Product((shown, letters.bold("E"))))
+        why = (
+            " The tensor is a multiple of the identity matrix, and ",
+            equation(turned, letters.bold("E")),
+            ".",
+        )
+    elif base == context.form(f"I_body{b}"):
         notes = (("This rotation does not change the tensor.",),)
     return Step(
         id=f"I{b}",
@@ -291,15 +317,22 @@ def _base_tensor(context: Context, body: Body) -> Step:
             f" is written in {context.ground} coordinates, so the tensor must be too: ",
             R,
             f" leads from the body's axes to those of the {context.ground}.",
+            *why,
         ),
         formula=equation(inertia_, Product((R, tensor, Transpose(R)))),
         source=spong("7.2.1"),
         working=tuple(equation(inertia_, line) for line in working),
-        concluding=_turned_named(context, body) if working else (),
+        concluding=_turned_named(context, body) if working and factor is None else (),
         result=(equation(inertia_, base),),
         notes=notes,
         detail=_detail(context, body, base),
     )
+
+
+def _factor_of_identity(tensor: algebra.Matrix) -> Expr | None:
+    """a where a tensor is a E, the same about every axis; None for others."""
+    a = tensor[0, 0]
+    return a if tensor == algebra.Matrix.identity(a.ring, 3).scale(a) else None
 
 
 def _detail(context: Context, body: Body, base: Node) -> Detail:

@@ -69,7 +69,7 @@ def _axes(context: Context) -> Step:
     return Step(
         id="axes",
         stage=STAGE,
-        title="Axes and origins of the joints",
+        title="Axes and origins of the frames",
         why=(
             Letter("z", style="bold"),
             " is the third column of ",
@@ -124,7 +124,7 @@ def _whose(context: Context) -> Prose:
     if context.standard:
         return (", the axis of the frame before it.",)
     return (
-        ", the axis of its own frame: where the textbook, in the standard convention, has ",
+        ", the axis of its own frame: where Spong, in the standard convention, has ",
         Letter("z", Words("i-1"), style="bold"),
         " and ",
         Letter("o", Words("i-1"), style="bold"),

@@ -96,7 +96,7 @@ def _table(context: Context) -> Step:
             " of row i by i-1. ",
         )
     if any(joint.type for joint in robot.joints):
-        why += ("The star marks a joint variable: ", *_kinds(context))
+        why += ("The star only marks a joint variable, and may be left out: ", *_kinds(context))
     return Step(
         id="dh",
         stage=STAGE,

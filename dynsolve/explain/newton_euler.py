@@ -98,7 +98,7 @@ def _lagrange(context: Context) -> Step:
         id="lagrange",
         stage=STAGE,
         title="The same by the Lagrangian",
-        why=("The Euler-Lagrange equations of the same robot give the same ", *forces, ", compared exactly."),
+        why=("The Euler-Lagrange equations of the same robot give the same ", *forces, "."),
         source=spong("7.6"),
         uses=tuple(f"tau{q.index}" for q in context.robot.coordinates),
         is_task=False,

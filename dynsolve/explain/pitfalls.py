@@ -80,7 +80,7 @@ def _task(robot: Robot) -> Iterator[Prose]:
         yield (letters.J_TASK, f" has a row a component and a column a coordinate: {rows}×{columns} here.")
     if any(name.endswith("_dot") for name in asked.asked):
         yield (
-            "In the derivative by time every joint variable of an entry moves: one term for each, with its "
+            "In the time derivative every joint variable of an entry moves: one term for each, with its "
             "rate.",
         )
 
@@ -161,7 +161,7 @@ def _lagrangian(robot: Robot) -> Iterator[Prose]:
 
 def _torque(robot: Robot) -> Iterator[Prose]:
     yield ("One equation for each coordinate, not for each mass.",)
-    yield ("By time, everything that moves is differentiated: ",
+    yield ("With respect to time everything that moves is differentiated: ",
            *listed([Symbol(q.name) for q in robot.coordinates]), " and their rates.",
            " Masses and constant lengths stay as they are.")  # fmt: skip
     yield ("In the partial derivatives a coordinate and its rate are different variables.",)
@@ -198,7 +198,7 @@ def _vectorized(robot: Robot) -> Iterator[Prose]:
 def _singular(robot: Robot) -> Iterator[Prose]:
     yield ("Write the determinant as a product before you look for its zeros: each factor is a case.",)
     if not robot.questions.task or robot.questions.task.is_default:
-        yield ("The first joint moves the whole arm and changes no rank: it stands in no condition.",)
+        yield ("The first joint moves the whole arm and changes no rank: it appears in no condition.",)
 
 
 def _inverse(robot: Robot) -> Iterator[Prose]:
@@ -217,7 +217,7 @@ def _parameters(robot: Robot) -> Iterator[Prose]:
         "Multiply the forces out first: what stands beside one function of the motion is one coefficient.",
     )
     yield ("Coefficients that are sums of others need no entry of their own.",)
-    yield ("No parameter stands in Y unless it is known, and nothing that moves in a.",)
+    yield ("Y contains no parameter that is unknown, and a nothing that moves.",)
 
 
 def _equilibria(robot: Robot) -> Iterator[Prose]:

@@ -25,7 +25,7 @@ from dynsolve.explain.step import Step
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed
 from dynsolve.notation.build import cost, times
-from dynsolve.notation.tree import Node, Symbol, equation
+from dynsolve.notation.tree import Letter, Node, Number, Product, Row, Sum, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
@@ -143,11 +143,19 @@ def terms_step(context: Context) -> Iterator[Step]:
         id="terms",
         stage=Stage.VECTORIZED,
         title="What the terms of the forces are",
-        why=(" ".join(why), *checked),
+        why=(" ".join(why), *(_twice() if Kind.CORIOLIS in kinds else ()), *checked),
         source=spong("7.3"),
         table=Table(header, tuple(rows)),
         is_task=False,
     )
+
+
+def _twice() -> Prose:
+    """Where the 2 of a Coriolis term comes from."""
+    i, j, k = map(Symbol, "ijk")
+    one, other = (Letter("c", Row(indices)) for indices in ((i, j, k), (j, i, k)))
+    both = equation(Sum((one, other)), Product((Number(2), one)))
+    return (" Its 2 comes from the two equal symbols: ", both, ".")
 
 
 def _rows(
@@ -210,4 +218,4 @@ def _said_of_units(coordinates: tuple[Coordinate, ...]) -> Prose:
         said.append((units.node("kg m^2/s^2 = N m"), " in a torque (an angle is a number)"))
     if JointType.PRISMATIC in kinds:
         said.append((units.node("kg m/s^2 = N"), " in a force"))
-    return (" The units are a check: factor times rates gives ", *listed(said), ".")
+    return (" The units are a check: factor times rates or acceleration gives ", *listed(said), ".")

@@ -28,7 +28,7 @@ from dynsolve.explain.notation_list import notation
 from dynsolve.explain.statement import statement
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import listed, machine
-from dynsolve.notation.tree import Relation, equation
+from dynsolve.notation.tree import Number, Power, Relation, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
@@ -274,17 +274,32 @@ def _with_uses(blocks: tuple[Block, ...], labels: tuple[str, ...]) -> Iterator[B
 
 def _closing(solution: Dynamics) -> Iterator[Block]:
     verification = solution.verification
-    how = verification.method
+    what, how = "the results", verification.method
     if not solution.robot.has_dynamics:
         if not any(stage.asked_for for stage in stages_of(solution.robot)):
             yield Text(("No body has mass, so the derivation ends with the Jacobian.",))
         if solution.robot.has_table:
-            how = f"the last frame and the Jacobian by the outward half of {how}"
-    told = f"Verified: {how} at {verification.states} random states, "
-    told += f"relative error {verification.max_relative_error:.1e}."
+            what, how = "the last frame and the Jacobian", f"the outward half of {how}"
+    told: Prose = (
+        f"Verified: {what} agree with {how} at {verification.states} random states (relative error ",
+    )
+    told += (*_in_powers_of_ten(verification.max_relative_error), ").")
     if solution.robot.questions.asked:
         told += (
-            " What only this exercise asks agrees with computations on numbers that share no formula with it."
+            " What only this exercise asks agrees with computations on numbers that share no formula "
+            "with it.",
         )
     yield Heading("Verification", 2)
-    yield Text((told,))
+    yield Text(told)
+
+
+def _in_powers_of_ten(size: float) -> Prose:
+    """3.6·10⁻¹⁶; 0 for what is exact.
+
+    >>> _in_powers_of_ten(0.0)
+    ('0',)
+    """
+    if not size:
+        return ("0",)
+    mantissa, exponent = f"{size:.1e}".split("e")
+    return (f"{mantissa}·", Power(Number(10), Number(int(exponent))))

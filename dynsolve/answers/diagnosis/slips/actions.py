@@ -85,7 +85,8 @@ find: [tau_static]
 """, "tau_static", [["-l1*cos(q1)*F"]])),
     Slip("constraint_forces", "the forces of the constraint",
          "The forces of the constraint are not A_cᵀ λ; without them the equation is right.",
-         "Beside λ stand the derivatives of its constraint by the coordinates, with one sign everywhere.",
+         "Beside λ stand the derivatives of its constraint with respect to the coordinates, with one sign "
+         "everywhere.",
          Example(_BLADE, "tau", [["m*x_ddot - lambda1*sin(phi)"], ["m*y_ddot - lambda1*cos(phi)"],
                  ["J*phi_ddot"]])),
 )  # fmt: skip
