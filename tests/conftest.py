@@ -5,11 +5,15 @@ Whatever is done with a robot of six or more joints takes long, so it is marked 
 
 from __future__ import annotations
 
+import gc
 import os
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+# As the program has it: solutions are kept whole, and to look for garbage among them took a tenth of the time
+gc.set_threshold(50_000)
 
 LARGE = {"panda-7r", "puma560", "stanford-6"}
 """The problems of the library with six or more joints."""
