@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from dynsolve.document import Prose
 from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
-from dynsolve.explain.jacobian import ZERO, coordinate_column, crosses_named
+from dynsolve.explain.jacobian import ZERO, coordinate_column, crosses, end_of
 from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.potential import potential_steps
 from dynsolve.explain.rotational_energy import rotational_step
@@ -131,32 +132,62 @@ def _jacobians(context: Context, body: Body) -> Step:
         coordinate_column(context, k, body.link, letters.rc(body)) or (ZERO, ZERO) for k in range(robot.n)
     ]
     late = [Symbol(q.name) for q, both in zip(robot.coordinates, columns, strict=True) if both[0] == ZERO]
-    why: Prose = (
-        f"As for {context.end}, but for the mass centre: only the joints up to the body's link move it",
-    )
-    if late:
-        why += (", so the column of " if len(late) == 1 else ", so the columns of ", *listed(late))
-        why += (" is zero." if len(late) == 1 else " are zero.",)
-    else:
-        why += (".",)
     linear = equation(letters.jv(body), Matrix((tuple(v for v, _ in columns),)))
     angular = equation(letters.jw(body), Matrix((tuple(w for _, w in columns),)))
     beside = robot.n <= _BESIDE and not any(isinstance(v, Sum) for v, _ in columns)
-    return Step(
+    working, named = crosses(
+        context, body.link, letters.rc(body), context.values[f"rc{b}"], context.matrix(f"Jv{b}")
+    )
+    turning = () if body.is_point else (angular,)
+    step = Step(
         id=f"Jv{b}",
         stage=STAGE,
-        title=f"Jacobians of the mass centre of {name_of(body)}",
-        why=why,
-        formula=side_by_side([linear, angular]) if beside else linear,
+        title=f"Jacobian{'s' * bool(turning)} of the mass centre of {name_of(body)}",
+        why=_jacobians_why(context, late),
+        formula=side_by_side([linear, *turning]) if beside else linear,
         source=spong("7.2.2"),
-        further=() if beside else (angular,),
-        concluding=crosses_named(context, body.link, context.values[f"rc{b}"]),
+        further=() if beside else turning,
+        working=working,
+        concluding=named,
         result=(
             equation(letters.jv(body), context.form(f"Jv{b}")),
-            equation(letters.jw(body), context.form(f"Jw{b}")),
+            *((equation(letters.jw(body), context.form(f"Jw{b}")),) if turning else ()),
         ),
         also=(f"Jw{b}",),
         uses=("axes", f"rc{b}"),
+    )
+    return _at_the_end(context, body, step) if _is_at_the_end(context, body) else step
+
+
+def _jacobians_why(context: Context, late: Sequence[Node]) -> Prose:
+    """Which joints move a mass centre; `late` are the coordinates that do not."""
+    why = f"As for {context.end}, but for the mass centre"
+    if not late:
+        return (f"{why}.",)
+    columns = "column of " if len(late) == 1 else "columns of "
+    verb = " is zero." if len(late) == 1 else " are zero."
+    return (f"{why}: only the joints up to the body's link move it, so the {columns}", *listed(late), verb)
+
+
+def _is_at_the_end(context: Context, body: Body) -> bool:
+    """Whether the mass centre of a body is the end of the arm."""
+    is_last = body.link == len(context.robot.joints)
+    return is_last and bool(context.values[f"rc{body.name}"] == end_of(context))
+
+
+def _at_the_end(context: Context, body: Body, step: Step) -> Step:
+    """The Jacobians of a mass centre that is the end of the arm: they are known."""
+    center = equation(letters.rc(body), letters.o(body.link))
+    same = [equation(letters.jv(body), letters.JV)]
+    same += [] if body.is_point else [equation(letters.jw(body), letters.JW)]
+    return replace(
+        step,
+        why=("The mass centre is ", context.end, ", ", center, ", so nothing is to be worked out."),
+        formula=side_by_side(same),
+        further=(),
+        working=(),
+        concluding=(),
+        uses=("J",),
     )
 
 

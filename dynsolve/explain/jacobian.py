@@ -13,7 +13,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.identities import Identity, said
-from dynsolve.explain.working.products import product_named, used_in_product
+from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import block_of, column_of, craig, is_small, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
@@ -32,6 +32,7 @@ from dynsolve.notation.tree import (
     equation,
     number,
 )
+from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
@@ -200,7 +201,9 @@ def _column(context: Context, q: Coordinate) -> Step:
         why=(Symbol(q.name), *_column_why(context, q, joint)),
         formula=equation(name, column(*in_letters)),
         source=spong("4.6.3"),
-        working=_working(context, k, in_letters[0], None if named else linear),
+        working=_working(
+            context, _moved(context, k, last), end_of(context), in_letters[0], None if named else linear
+        ),
         concluding=named,
         result=(equation(name, Matrix(linear.rows + angular.rows)),),
         uses=("axes",),
@@ -223,41 +226,84 @@ def _still_column(context: Context, q: Coordinate) -> Step:
 
 def _turning_named(context: Context, joint: Joint | None) -> Prose:
     """The identities by which z × (o_n - o), worked out, becomes what is printed."""
-    if joint is None or joint.type is JointType.PRISMATIC:
+    if joint is None or joint.type is JointType.PRISMATIC or context.robot.n > MOST_JOINTS:
         return ()
+    used = _used_in_cross(context, joint, end_of(context))
+    return ("With ", *said(used), ":") if used else ()
+
+
+def crosses(
+    context: Context, link: int, name: Node, point: algebra.Matrix, J: Matrix
+) -> tuple[tuple[Node, ...], Prose]:
+    """The columns z × (p - o) of a point p of a link that are more than a look, and their identities.
+
+    Where z is an axis of the base the product is one: two coordinates of p - o change places.
+    """
+    shown: list[Node] = []
+    for k in range(context.robot.n):
+        moved = _moved(context, k, link)
+        turning = [joint for _, joint in moved if joint.type is JointType.REVOLUTE]
+        if all(_is_along_the_base(context, joint) for joint in turning):
+            continue
+        in_letters = coordinate_column(context, k, link, name)
+        assert in_letters is not None
+        named = any(_used_in_cross(context, joint, point) for joint in turning)
+        shown += _working(context, moved, point, in_letters[0], None if named else column_of(J, k))
+    used = _used_in_crosses(context, link, point)
+    words = "With " if shown else "The cross products, with "
+    return tuple(shown), (words, *said(used), ":") if used else ()
+
+
+def _moved(context: Context, k: int, link: int) -> list[tuple[Fraction, Joint]]:
+    """The joints up to a link that coordinate k (from 0) moves, each with its rate."""
+    return [(rate, joint) for joint in context.robot.path(link) for i, rate in joint.rates if i == k]
+
+
+def _is_along_the_base(context: Context, joint: Joint) -> bool:
+    """Whether the axis of a joint is one of those of the base."""
     z = axis(context.values[f"H{joint_frame(context.robot, joint)}"])
-    lever = _lever(context, joint)
-    return product_named(context, algebra.skew(z), lever, algebra.cross(z, lever))
+    return sum(not entry.is_zero for entry in z.entries) == 1
 
 
-def crosses_named(context: Context, link: int, point: algebra.Matrix) -> Prose:
-    """The identities by which the columns z × (p - o) up to a link become what is printed."""
+def _used_in_cross(context: Context, joint: Joint, point: algebra.Matrix) -> list[Identity]:
+    """The identities by which z × (p - o) of a joint becomes what is printed."""
+    z, lever = axis(context.values[f"H{joint_frame(context.robot, joint)}"]), _lever(context, joint, point)
+    return used_in_product(context, algebra.skew(z), lever, algebra.cross(z, lever))
+
+
+def _used_in_crosses(context: Context, link: int, point: algebra.Matrix) -> list[Identity]:
+    """Those of all columns up to a link, each once; none of longer arms."""
     used: dict[Identity, None] = {}
-    if context.robot.n > MOST_JOINTS:
-        return ()
-    for joint in context.robot.path(link):
-        if joint.type is JointType.REVOLUTE:
-            start = context.values[f"H{joint_frame(context.robot, joint)}"]
-            z, lever = axis(start), point - origin(start)
-            used |= dict.fromkeys(used_in_product(context, algebra.skew(z), lever, algebra.cross(z, lever)))
-    return ("The cross products, with ", *said(list(used)), ":") if used else ()
+    if context.robot.n <= MOST_JOINTS:
+        for joint in context.robot.path(link):
+            if joint.type is JointType.REVOLUTE:
+                used |= dict.fromkeys(_used_in_cross(context, joint, point))
+    return list(used)
 
 
-def _working(context: Context, k: int, in_letters: Node, linear: Matrix | None) -> tuple[Node, ...]:
-    """The linear part with this robot's axes and levers put in, where there is anything to work out.
+def _working(
+    context: Context,
+    moved: Sequence[tuple[Fraction, Joint]],
+    point: algebra.Matrix,
+    in_letters: Node,
+    linear: Matrix | None,
+) -> tuple[Node, ...]:
+    """A column of J_v with this robot's axes and levers put in, where there is anything to work out.
 
     Its value stands at the end, unless it is None: then an identity is named before the result.
     """
     robot = context.robot
-    moved = [(rate, joint) for joint in robot.joints for i, rate in joint.rates if i == k]
     if all(joint.type is JointType.PRISMATIC for _, joint in moved):
         return ()
+    if len(moved) == 1 and _lever(context, moved[0][1], point).is_zero:
+        between = next(part.argument for part in walk(in_letters) if isinstance(part, Parenthesized))
+        return (equation(between, ZERO),)
     parts: list[tuple[Fraction, Node]] = []
     small: list[Node] = []
     for rate, joint in moved:
         z = frame_parts(context, joint_frame(robot, joint))[0]
         if joint.type is JointType.REVOLUTE:
-            lever = context.show(_lever(context, joint))
+            lever = context.show(_lever(context, joint, point))
             small += [z, lever]
             parts.append((rate, Cross(z, lever)))
         else:
@@ -267,11 +313,14 @@ def _working(context: Context, k: int, in_letters: Node, linear: Matrix | None) 
     return (equation(*members),) if is_small(*small) else ()
 
 
-def _lever(context: Context, joint: Joint) -> algebra.Matrix:
-    """o_n - o, from the joint's axis to the end of the arm."""
-    end: algebra.Matrix = context.values[f"H{len(context.robot.joints)}"]
-    start: algebra.Matrix = context.values[f"H{joint_frame(context.robot, joint)}"]
-    return origin(end) - origin(start)
+def _lever(context: Context, joint: Joint, point: algebra.Matrix) -> algebra.Matrix:
+    """p - o, from the joint's axis to a point."""
+    return point - origin(context.values[f"H{joint_frame(context.robot, joint)}"])
+
+
+def end_of(context: Context) -> algebra.Matrix:
+    """o_n, the end of the arm."""
+    return origin(context.values[f"H{len(context.robot.joints)}"])
 
 
 def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
