@@ -27,6 +27,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
                 bodies that are given by their positions: r_c, turns, Jacobians by differentiation
     rotational_energy
                 K_ω of a body, along its own axes where these make it short
+    jacobian_columns
+                the columns of Jacobians in letters, and with axes and levers put in
     body_parts  what each body adds to D, its products multiplied out
     given_model energies and D of a model that is given without bodies
     product_forms

@@ -9,7 +9,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
-from dynsolve.explain.jacobian import ZERO, coordinate_column, crosses, end_of
+from dynsolve.explain.jacobian_columns import ZERO, coordinate_column, crosses, end_of
 from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.potential import potential_steps
 from dynsolve.explain.rotational_energy import rotational_step

@@ -15,7 +15,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
-from dynsolve.explain.jacobian import ZERO
+from dynsolve.explain.jacobian_columns import ZERO
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import side_by_side, spong
 from dynsolve.notation.tree import (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from itertools import pairwise
 
 from dynsolve.algebra import matrix as algebra
@@ -11,36 +10,36 @@ from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
+from dynsolve.explain.jacobian_columns import (
+    ZERO,
+    column_shown,
+    coordinate_column,
+    end_of,
+    frame_parts,
+    joints_moved,
+    used_in_cross,
+)
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.working.identities import Identity, said
-from dynsolve.explain.working.products import used_in_product
+from dynsolve.explain.working.identities import said
 from dynsolve.explain.working.proved import MOST_JOINTS
-from dynsolve.explain.writing import block_of, column_of, craig, is_small, listed, side_by_side, spong, turns
+from dynsolve.explain.writing import column_of, craig, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
-    Cross,
     Letter,
     Matrix,
-    Negative,
     Node,
     Number,
-    Parenthesized,
     Product,
-    Sum,
     Symbol,
     Words,
     column,
     equation,
     number,
 )
-from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, Joint, JointType, Robot
 
 STAGE = Stage.JACOBIAN
-
-ZERO = Letter("0", style="bold")
-"""The zero vector."""
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -49,12 +48,6 @@ def steps(context: Context) -> Iterator[Step]:
     for q in context.robot.coordinates:
         yield _column(context, q)
     yield _whole(context)
-
-
-def frame_parts(context: Context, i: int) -> tuple[Matrix, Matrix]:
-    """(z_i, o_i) as trees."""
-    H = context.matrix(f"H{i}")
-    return block_of(H, 3, 2, 3), block_of(H, 3, 3, 4)
 
 
 def _axes(context: Context) -> Step:
@@ -137,47 +130,6 @@ def _whose(context: Context) -> Prose:
     )
 
 
-def column_letters(context: Context, joint: Joint, point: Node) -> tuple[Node, Node]:
-    """(J_v, J_ω) of one joint in letters: z × (p - o) and z, or z and 0."""
-    i = joint_frame(context.robot, joint)
-    if joint.type is JointType.REVOLUTE:
-        arm = Parenthesized(Sum((point, Negative(letters.o(i)))))
-        return Cross(letters.z(i), arm), letters.z(i)
-    return letters.z(i), ZERO
-
-
-def coordinate_column(context: Context, k: int, link: int, point: Node) -> tuple[Node, Node] | None:
-    """(J_v, J_ω) of coordinate k (from 0) in letters, None where no joint up to `link` moves with it."""
-    terms = [
-        (rate, column_letters(context, joint, point))
-        for joint in context.robot.path(link)
-        for i, rate in joint.rates
-        if i == k
-    ]
-    if not terms:
-        return None
-    return (
-        _total([(rate, linear) for rate, (linear, _) in terms]),
-        _total([(rate, angular) for rate, (_, angular) in terms if angular != ZERO]),
-    )
-
-
-def _total(terms: Sequence[tuple[Fraction, Node]]) -> Node:
-    """Σ rate·part"""
-    if not terms:
-        return ZERO
-    rated = tuple(_rated(rate, part) for rate, part in terms)
-    return rated[0] if len(rated) == 1 else Sum(rated)
-
-
-def _rated(rate: Fraction, node: Node) -> Node:
-    if rate == 1:
-        return node
-    if rate == -1:
-        return Negative(node)
-    return Product((number(rate), node))
-
-
 def _plain_joint(robot: Robot, k: int) -> Joint | None:
     """The one joint that coordinate k (from 0) moves, at its own rate; None for several, or scaled."""
     moved = [(joint, rate) for joint in robot.joints for i, rate in joint.rates if i == k]
@@ -201,8 +153,8 @@ def _column(context: Context, q: Coordinate) -> Step:
         why=(Symbol(q.name), *_column_why(context, q, joint)),
         formula=equation(name, column(*in_letters)),
         source=spong("4.6.3"),
-        working=_working(
-            context, _moved(context, k, last), end_of(context), in_letters[0], None if named else linear
+        working=column_shown(
+            context, joints_moved(context, k, last), end_of(context), in_letters[0], None if named else linear
         ),
         concluding=named,
         result=(equation(name, Matrix(linear.rows + angular.rows)),),
@@ -228,99 +180,8 @@ def _turning_named(context: Context, joint: Joint | None) -> Prose:
     """The identities by which z × (o_n - o), worked out, becomes what is printed."""
     if joint is None or joint.type is JointType.PRISMATIC or context.robot.n > MOST_JOINTS:
         return ()
-    used = _used_in_cross(context, joint, end_of(context))
+    used = used_in_cross(context, joint, end_of(context))
     return ("With ", *said(used), ":") if used else ()
-
-
-def crosses(
-    context: Context, link: int, name: Node, point: algebra.Matrix, J: Matrix
-) -> tuple[tuple[Node, ...], Prose]:
-    """The columns z × (p - o) of a point p of a link that are more than a look, and their identities.
-
-    Where z is an axis of the base the product is one: two coordinates of p - o change places.
-    """
-    shown: list[Node] = []
-    for k in range(context.robot.n):
-        moved = _moved(context, k, link)
-        turning = [joint for _, joint in moved if joint.type is JointType.REVOLUTE]
-        if all(_is_along_the_base(context, joint) for joint in turning):
-            continue
-        in_letters = coordinate_column(context, k, link, name)
-        assert in_letters is not None
-        named = any(_used_in_cross(context, joint, point) for joint in turning)
-        shown += _working(context, moved, point, in_letters[0], None if named else column_of(J, k))
-    used = _used_in_crosses(context, link, point)
-    words = "With " if shown else "The cross products, with "
-    return tuple(shown), (words, *said(used), ":") if used else ()
-
-
-def _moved(context: Context, k: int, link: int) -> list[tuple[Fraction, Joint]]:
-    """The joints up to a link that coordinate k (from 0) moves, each with its rate."""
-    return [(rate, joint) for joint in context.robot.path(link) for i, rate in joint.rates if i == k]
-
-
-def _is_along_the_base(context: Context, joint: Joint) -> bool:
-    """Whether the axis of a joint is one of those of the base."""
-    z = axis(context.values[f"H{joint_frame(context.robot, joint)}"])
-    return sum(not entry.is_zero for entry in z.entries) == 1
-
-
-def _used_in_cross(context: Context, joint: Joint, point: algebra.Matrix) -> list[Identity]:
-    """The identities by which z × (p - o) of a joint becomes what is printed."""
-    z, lever = axis(context.values[f"H{joint_frame(context.robot, joint)}"]), _lever(context, joint, point)
-    return used_in_product(context, algebra.skew(z), lever, algebra.cross(z, lever))
-
-
-def _used_in_crosses(context: Context, link: int, point: algebra.Matrix) -> list[Identity]:
-    """Those of all columns up to a link, each once; none of longer arms."""
-    used: dict[Identity, None] = {}
-    if context.robot.n <= MOST_JOINTS:
-        for joint in context.robot.path(link):
-            if joint.type is JointType.REVOLUTE:
-                used |= dict.fromkeys(_used_in_cross(context, joint, point))
-    return list(used)
-
-
-def _working(
-    context: Context,
-    moved: Sequence[tuple[Fraction, Joint]],
-    point: algebra.Matrix,
-    in_letters: Node,
-    linear: Matrix | None,
-) -> tuple[Node, ...]:
-    """A column of J_v with this robot's axes and levers put in, where there is anything to work out.
-
-    Its value stands at the end, unless it is None: then an identity is named before the result.
-    """
-    robot = context.robot
-    if all(joint.type is JointType.PRISMATIC for _, joint in moved):
-        return ()
-    if len(moved) == 1 and _lever(context, moved[0][1], point).is_zero:
-        between = next(part.argument for part in walk(in_letters) if isinstance(part, Parenthesized))
-        return (equation(between, ZERO),)
-    parts: list[tuple[Fraction, Node]] = []
-    small: list[Node] = []
-    for rate, joint in moved:
-        z = frame_parts(context, joint_frame(robot, joint))[0]
-        if joint.type is JointType.REVOLUTE:
-            lever = context.show(_lever(context, joint, point))
-            small += [z, lever]
-            parts.append((rate, Cross(z, lever)))
-        else:
-            small.append(z)
-            parts.append((rate, z))
-    members = [in_letters, _total(parts), *([linear] if linear else [])]
-    return (equation(*members),) if is_small(*small) else ()
-
-
-def _lever(context: Context, joint: Joint, point: algebra.Matrix) -> algebra.Matrix:
-    """p - o, from the joint's axis to a point."""
-    return point - origin(context.values[f"H{joint_frame(context.robot, joint)}"])
-
-
-def end_of(context: Context) -> algebra.Matrix:
-    """o_n, the end of the arm."""
-    return origin(context.values[f"H{len(context.robot.joints)}"])
 
 
 def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:

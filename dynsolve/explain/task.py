@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
-from dynsolve.explain.jacobian import ZERO, coordinate_column
+from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
 from dynsolve.explain.rates import determinant_step
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import is_small, listed, spong

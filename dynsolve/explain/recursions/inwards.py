@@ -9,7 +9,7 @@ from dynsolve.derivation import recursions
 from dynsolve.derivation.kinematics import origin, rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
-from dynsolve.explain.jacobian import ZERO
+from dynsolve.explain.jacobian_columns import ZERO
 from dynsolve.explain.recursions import formulas
 from dynsolve.explain.recursions.links import source_of, tensor_value
 from dynsolve.explain.recursions.names import BodyNames, LinkNames

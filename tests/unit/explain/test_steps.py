@@ -230,6 +230,20 @@ def test_the_parts_of_d_are_summed_up() -> None:
     assert "D_sum" not in {each.id for each in solved("puma560").steps}  # no parts are shown
 
 
+def test_the_decisive_cross_products_of_a_mass_centre_are_shown() -> None:
+    assert shown_working("elbow-3r", "Jv2") == [  # not about z₀, where two coordinates change places
+        "𝐳₁ × (𝐫_c2 - 𝐨₁) = [[s₁], [-c₁], [0]] × [[l_c2 c₁ c₂], [l_c2 s₁ c₂], [l_c2 s₂]]"
+    ]
+    assert shown_working("planar-2r", "Jv2") == []
+
+
+def test_a_mass_centre_at_the_end_of_the_arm_has_its_jacobian() -> None:
+    assert formula("in3140-rp", "Jv2") == "𝐉_v2 = 𝐉_v"  # a point: its 𝐉_ω is of no use
+    assert len(step("in3140-rp", "Jv2").result) == 1
+    assert step("in3140-rp", "Jv2").uses == ("J",)
+    assert formula("in3140-rp", "Jv1").endswith("𝐉_ω1 = [[𝐳₀, 𝟎]]")
+
+
 CANCELLING = [
     ("planar-2r", "tau1", ""),
     ("planar-2r", "tau2", "The terms with q̇₁ q̇₂ cancel:"),

@@ -208,7 +208,7 @@ def test_the_products_that_make_up_the_inertia_matrix_are_shown() -> None:
 
 def test_identities_of_cross_products_and_of_sums_of_energies_are_named() -> None:
     box = "box-cylinder-rod-sphere"
-    assert lines(box, "Jv2") == ["The cross products, with s₁² + c₁² = 1:"]
+    assert lines(box, "Jv2") == ["With s₁² + c₁² = 1:"]
     assert lines(box, "K")[::2] == ["", "Collected, with s₂² + c₂² = 1:"]  # after the plain sum
     assert lines("planar-2r", "Jv2") == lines("planar-2r", "K") == []
 
