@@ -199,6 +199,19 @@ def test_the_axis_that_points_up_is_named() -> None:
         assert words in everything_said(text)
 
 
+def test_of_a_given_tensor_it_is_said_what_does_not_enter() -> None:
+    told = "It turns about its z alone, so only what belongs to that axis enters; all else is left out, as 0."
+    assert told in said(step("planar-2r", "I_body1").why, "planar-2r")
+    assert "turns about" not in said(step("elbow-3r", "I_body2").why, "elbow-3r")  # about all of its axes
+    assert "turns about" not in said(step("rp-vertical", "I_body1").why, "rp-vertical")  # all are given
+
+
+def test_a_multiple_of_the_identity_is_not_turned_by_its_entries() -> None:
+    assert shown_working("box-cylinder-rod-sphere", "I4") == [
+        "𝓘₄ = (2m₄ r₄²/5) 𝐑₄ 𝐑₄ᵀ", "𝓘₄ = (2m₄ r₄²/5) 𝐄",
+    ]  # fmt: skip
+
+
 def test_a_frame_that_does_not_turn_is_said_to_be_harmless() -> None:
     body = "{mass: m, link: 1, center: tip, inertia: {zz: I}, axes: {base: Rz(0)}}"
     text = f"dh: [{{theta: q1*, d: L}}]\nmasses: [{body}]\n"
