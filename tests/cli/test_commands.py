@@ -135,7 +135,7 @@ def test_from_and_to() -> None:
 @pytest.mark.slow
 def test_levels_of_detail_differ_in_length() -> None:
     brief, normal, full = (
-        len(dynsolve("solve", "planar-2r", "--detail", level).out) for level in ("brief", "normal", "full")
+        len(dynsolve("solve", "rp-vertical", "--detail", level).out) for level in ("brief", "normal", "full")
     )
     assert brief < normal / 2 < normal < full
 

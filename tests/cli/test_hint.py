@@ -70,7 +70,7 @@ def test_formulas_and_inputs_of_this_robot() -> None:
     assert "𝐫_c2 = ⎢L₂ s₁⎥" in energy  # what the stage before has given
     assert "θ̇₁²" not in energy
     torque = hint("in3140-rp", "torque")
-    assert "ℒ = ((m₂ L₂² + I_1zz) θ̇₁² + m₂ L̇₂²)/2 - m₁ g L₁/2 - m₂ g L₁" in torque and "θ̈₁" not in torque
+    assert "ℒ = ½ ((m₂ L₂² + I_1zz) θ̇₁² + m₂ L̇₂²) - m₁ g L₁/2 - m₂ g L₁" in torque and "θ̈₁" not in torque
     assert "What drives θ₁ is a torque; what drives L₂ a force." in torque
 
 
