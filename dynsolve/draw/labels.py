@@ -31,7 +31,7 @@ _STRUCK = 25.0
 _NEAR, _ROOM = 6.0, 2.5
 """What each cell costs that something is drawn on, and that comes nearer to a label than this room."""
 
-_CLOSE, _BARRED = 5.0, 3.0
+_CLOSE, _BARRED = 5.0, 8.0
 """What each cell costs that bars the way from a label to what it names."""
 
 _BESIDE, _ABOVE = 7.0, 2.0

@@ -3,22 +3,30 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from dynsolve.draw import paths
 from dynsolve.draw.annotate import Notes
-from dynsolve.draw.occupied import Taken
+from dynsolve.draw.labels import place
+from dynsolve.draw.occupied import Box, Taken
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.vectors import NEAR, Point, Vector, distance, moved, scaled
 from dynsolve.notation.tree import Negative, Node
 from dynsolve.robot.model import JointType, Robot
 
-_OFFSETS = (24.0, -24.0, 34.0, -34.0, 46.0, -46.0, 60.0, -60.0)
+_OFFSETS = tuple(side * away for away in (24.0, 36.0, 48.0, 62.0, 78.0) for side in (1.0, -1.0))
 """How far beside what it measures a line may run, in picture units; below 0 on the lower side."""
 
 _SHORT = 20.0
 """What is shorter has no room for two heads."""
+
+_LABEL = 60.0
+"""What it costs to run through the place of a label."""
+
+_UNDER, _HEAD = 4.0, 8.0
+"""What each cell costs that is taken under a line from an end, and under a head."""
 
 _CROWDED = 0.3
 """The part of its line from which a length that can be missed is left out."""
@@ -54,7 +62,18 @@ def unsigned(node: Node) -> Node:
     return node.argument if isinstance(node, Negative) else node
 
 
-def dimension(measured: Length, pose: Pose, notes: Notes) -> None:
+def dimensions(found: Sequence[Length], pose: Pose, notes: Notes) -> None:
+    """Draw lengths, the shortest nearest to what it measures, beside the places of the labels so far."""
+
+    def on_paper(measured: Length) -> float:
+        return round(math.dist(pose.view.point(measured.start), pose.view.point(measured.end)), 6)
+
+    reserved = [label.box for label in place(notes.wanted, notes.taken)]
+    for measured in sorted(found, key=on_paper):
+        dimension(measured, pose, notes, reserved)
+
+
+def dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[Box] = ()) -> None:
     """Draw a length where least is in its way, and ask for its label."""
     a, b = pose.view.point(measured.start), pose.view.point(measured.end)
     reach = math.dist(a, b)
@@ -68,7 +87,7 @@ def dimension(measured: Length, pose: Pose, notes: Notes) -> None:
     across = (
         (along[1], -along[0]) if along[0] > 0 or (along[0] == 0 and along[1] > 0) else (-along[1], along[0])
     )
-    offset, crowded = _offset(a, b, along, across, notes.taken)
+    offset, crowded = _offset(a, b, along, across, notes.taken, reserved)
     if measured.optional and crowded > _CROWDED:
         return
     p, q = moved(a, across, offset), moved(b, across, offset)
@@ -92,7 +111,9 @@ def dimension(measured: Length, pose: Pose, notes: Notes) -> None:
     notes.label(measured.node, anchors, scaled(across, side), colour, kind)
 
 
-def _offset(a: Point, b: Point, along: Point, across: Point, taken: Taken) -> tuple[float, float]:
+def _offset(
+    a: Point, b: Point, along: Point, across: Point, taken: Taken, reserved: Sequence[Box]
+) -> tuple[float, float]:
     """How far beside a length its line runs best, and how much of it then runs over other things."""
 
     def crowded(offset: float) -> float:
@@ -100,7 +121,14 @@ def _offset(a: Point, b: Point, along: Point, across: Point, taken: Taken) -> tu
         return taken.on_line(moved(p, along, 3.0), moved(q, along, -3.0))
 
     def cost(offset: float) -> tuple[float, float]:
-        return round(crowded(offset) * 250.0 + abs(offset) * 0.35 + (offset < 0) * 2.0, 6), offset
+        p, q = moved(a, across, offset), moved(b, across, offset)
+        side = math.copysign(1.0, offset)
+        from_ends = [(moved(at, across, side * 8.0), moved(at, across, offset + side * 4.0)) for at in (a, b)]
+        in_labels = sum(box.meets(*line) for box in reserved for line in ((p, q), *from_ends))
+        under = sum(taken.cells_on(*line) for line in from_ends)
+        heads = sum(taken.inside(Box.around(at, 6.0, 6.0)) for at in (p, q))
+        total = 250.0 * crowded(offset) + 0.35 * abs(offset) + 2.0 * (offset < 0)
+        return round(total + _LABEL * in_labels + _UNDER * under + _HEAD * heads, 6), offset
 
     best = min(_OFFSETS, key=cost)
     return best, crowded(best)

@@ -6,6 +6,7 @@ it is put where it meets no other part.  Sizes are in picture units.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -24,11 +25,16 @@ TUBE = 4.5
 _CLEAR = 36.0
 """The least distance between the centres of two parts."""
 
+_BASE_END = 24.0
+"""How far from its foot the part of a joint stands that turns a long link: at the base end of that link."""
+
 _PEDESTAL = 46.0
 _ROOM = 44.0
 """The length of a leg that has room for its joint in the middle."""
 
 _PARALLEL = 0.99
+_LEVEL = 0.5
+"""The least part of an axis of the base that lies along the ground, so that an edge runs that way."""
 
 
 NO_SLEEVES: Mapping[int, float] = MappingProxyType({})
@@ -46,12 +52,15 @@ class JointBody:
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """All parts, and the links between them, the first from the ground; `ground` is where the base stands."""
+    """All parts, and the links between them, the first from the ground; `ground` is where the base stands,
+    `ground_side` the direction of an edge of its plate, that of x_0 where this lies in it.
+    """
 
     joints: tuple[JointBody, ...]
     links: tuple[tuple[Vector, ...], ...]
     ground: Vector
     ground_normal: Vector
+    ground_side: Vector
 
 
 def arrange(pose: Skeleton, view: View, up: Vector, sleeves: Mapping[int, float] = NO_SLEEVES) -> Parts:
@@ -68,7 +77,12 @@ def arrange(pose: Skeleton, view: View, up: Vector, sleeves: Mapping[int, float]
         center = next((p for p in places if _is_clear(p, joints, view)), places[0])
         joints.append(JointBody(row, leg.type, center, leg.axis))
     ground, normal = _ground(pose, joints, view, up)
-    return Parts(tuple(joints), _links(pose, joints, ground), ground, normal)
+    side = next(
+        unit(level)
+        for axis in pose.frames[0].axes
+        if length(level := subtract(axis, scale(normal, dot(axis, normal)))) > _LEVEL
+    )
+    return Parts(tuple(joints), _links(pose, joints, ground), ground, normal, side)
 
 
 def _is_clear(place: Vector, joints: Sequence[JointBody], view: View) -> bool:
@@ -84,7 +98,9 @@ def _places(pose: Skeleton, row: int, leg: Leg, view: View, up: Vector, first: b
     if leg.type is JointType.PRISMATIC:
         return ahead
     if abs(span) * view.size > _ROOM:
-        return [along(leg.foot, leg.axis, span * part) for part in (0.5, 0.3, 0.7)] + ahead
+        near_the_foot = [math.copysign(view.space(away), span) for away in (_BASE_END, _CLEAR)]
+        middle = [span * part for part in (0.5, 0.3, 0.7)]
+        return [along(leg.foot, leg.axis, away) for away in (*near_the_foot, *middle)] + ahead
     upright = dot(leg.axis, up)
     if first and not view.flat and abs(upright) > 0.5 and abs(span) < NEAR:
         down = -1.0 if upright > 0 else 1.0

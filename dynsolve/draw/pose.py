@@ -18,6 +18,7 @@ from dynsolve.draw.skeleton import Leg, Skeleton
 from dynsolve.draw.vectors import (
     NEAR,
     Point,
+    Vector,
     along,
     cross,
     distance,
@@ -53,7 +54,7 @@ Choice = tuple[float, ...]
 def cost_of(pose: Pose, orientation: Orientation) -> float:
     """How far a pose is from good, 0 at best."""
     view = pose.view
-    path = [view.point(point) for point in pose.skeleton.path]
+    path = [view.point(point) for point in _with_hand(pose)]
     centers = [view.point(part.center) for part in pose.parts.joints]
     tips = _tips(pose)
     return (
@@ -66,6 +67,19 @@ def cost_of(pose: Pose, orientation: Orientation) -> float:
         + _foreshortening(pose)
         + _lowness(pose.skeleton, orientation)
     )
+
+
+def _with_hand(pose: Pose) -> tuple[Vector, ...]:
+    """The points of the chain, with the last joint where that stands beyond all of them."""
+    path, joints = pose.skeleton.path, pose.parts.joints
+    if not joints or len(path) < 2:
+        return path
+    last = joints[-1].center
+    ways = pairwise(path)
+    on_path = any(
+        distance(a, last) + distance(last, b) < distance(a, b) + NEAR for a, b in ways
+    )
+    return path if on_path else (*path, last)
 
 
 def _shortfall(value: float, wanted: float) -> float:
@@ -96,7 +110,7 @@ def _tips_on_links(path: Sequence[Point], tips: Sequence[tuple[Point, Point]]) -
 def _crossings(pose: Pose, wanted: float) -> float:
     """How near links come to each other that do not meet."""
     view = pose.view
-    path = [view.point(point) for point in pose.skeleton.path]
+    path = [view.point(point) for point in _with_hand(pose)]
     segments = list(pairwise(path))
     total = 0.0
     for (i, first), (j, second) in combinations(enumerate(segments), 2):
@@ -144,7 +158,7 @@ def taste(robot: Robot, pose: Pose, choice: Choice) -> float:
         if q.type is JointType.PRISMATIC:
             total += 1.5 * abs(value - 0.9)
         else:
-            total += 0.3 * abs(value)
+            total += 0.3 * abs(value) + 1.5 * max(0.0, 0.3 - value)  # 90° more than 30° is seen to be obtuse
     if pose.view.flat:
         for leg in pose.skeleton.legs:
             if leg.type is JointType.REVOLUTE:
@@ -170,4 +184,4 @@ def _hidden_angle(leg: Leg, view: View) -> float:
         for t in (0.0, angle / 2, angle)
     )
     flat = _shortfall(abs(dot(leg.axis, view.toward)), 0.6)  # an arc that is seen from its edge
-    return 12.0 * _shortfall(angle, 0.7) + 0.8 * abs(angle - 1.1) + 2.0 * behind + 12.0 * flat
+    return 12.0 * _shortfall(angle, 0.7) + 0.8 * abs(angle - 1.1) + 6.0 * max(0.0, angle - 2.8) + 2.0 * behind + 12.0 * flat

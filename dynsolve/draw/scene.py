@@ -11,7 +11,7 @@ from dynsolve.draw import annotate, paths
 from dynsolve.draw.drawn_lengths import RobotNumbers, numbers
 from dynsolve.draw.joint_angles import has_parallels, joint_angles
 from dynsolve.draw.labels import Label, place
-from dynsolve.draw.lengths import Length, dimension, row_lengths
+from dynsolve.draw.lengths import Length, dimensions, row_lengths
 from dynsolve.draw.occupied import Box, Taken, bounds
 from dynsolve.draw.orientation import Orientation, orientation
 from dynsolve.draw.paths import Path
@@ -63,8 +63,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     annotate.frames(pose, notes)
     joint_angles(pose, [joint.written[0] for joint in robot.joints], notes)
     annotate.masses(pose, notes)
-    for length in (*row_lengths(robot, pose), *_center_lengths(pose)):
-        dimension(length, pose, notes)
+    dimensions([*row_lengths(robot, pose), *_center_lengths(pose)], pose, notes)
     _gravity(world, pose, body, notes)
     labels = place(notes.wanted, notes.taken)
     paths = (*notes.behind, *body, *notes.paths, *leads(labels))

@@ -79,11 +79,11 @@ def ground(parts: Parts, view: View) -> tuple[Path, ...]:
     normal, place = parts.ground_normal, parts.ground
     if view.flat:
         return _hatched_line(place, cross(normal, view.toward), normal, view, _GROUND)
-    first = _level(normal, view)
+    first = parts.ground_side
     second = cross(normal, first)
     half = view.space(_GROUND)
     corners = [
-        along(along(place, first, s * half), second, t * half * 0.8)
+        along(along(place, first, s * half), second, t * half)
         for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))
     ]
     plate = Path(paths.polygon([view.point(corner) for corner in corners]), fill="#f4f1ea")
@@ -96,12 +96,6 @@ def ground(parts: Parts, view: View) -> tuple[Path, ...]:
         a, b = corners[k], corners[(k + 1) % 4]
         hatches += _hatches(view.point(a), view.point(b), view.direction(scale(normal, -1.0)))
     return (*hatches, plate)
-
-
-def _level(normal: Vector, view: View) -> Vector:
-    """A direction in a plane that runs sideways on paper."""
-    level = subtract(view.right, scale(normal, dot(view.right, normal)))
-    return unit(level) if length(level) > 0.05 else any_normal(normal)
 
 
 def _hatched_line(

@@ -26,7 +26,7 @@ def to_svg(scene: Scene) -> str:
         f' font-family="{FACES}" font-size="{number(SIZE)}">',
         f"<title>{text(scene.title)}</title>",
         f"<desc>{text(scene.description)}</desc>",
-        f'<rect x="{number(box.left)}" y="{number(box.top)}" width="{width}" height="{height}"'
+        f'<rect class="paper" x="{number(box.left)}" y="{number(box.top)}" width="{width}" height="{height}"'
         f' fill="{WHITE}"/>',
         '<g stroke-linecap="round" stroke-linejoin="round">',
         *map(_path, scene.paths),
@@ -54,6 +54,8 @@ def number(value: float) -> str:
 
 def _path(path: Path) -> str:
     attributes = [f'd="{_commands(path.commands)}"', f'fill="{path.fill or "none"}"']
+    if path.stroke == WHITE:
+        attributes.append('class="halo"')
     if path.stroke:
         attributes += [f'stroke="{path.stroke}"', f'stroke-width="{number(path.width)}"']
     if path.dashed:
