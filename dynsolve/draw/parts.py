@@ -52,8 +52,9 @@ class JointBody:
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """All parts, and the links between them, the first from the ground; `ground` is where the base stands,
-    `ground_side` the direction of an edge of its plate, that of x_0 where this lies in it.
+    """All parts, and the links between them, the first from the ground.
+
+    `ground` is where the base stands, `ground_side` the direction of an edge of its plate, that of x_0 where this lies in it.
     """
 
     joints: tuple[JointBody, ...]

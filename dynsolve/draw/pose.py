@@ -76,9 +76,7 @@ def _with_hand(pose: Pose) -> tuple[Vector, ...]:
         return path
     last = joints[-1].center
     ways = pairwise(path)
-    on_path = any(
-        distance(a, last) + distance(last, b) < distance(a, b) + NEAR for a, b in ways
-    )
+    on_path = any(distance(a, last) + distance(last, b) < distance(a, b) + NEAR for a, b in ways)
     return path if on_path else (*path, last)
 
 
@@ -184,4 +182,10 @@ def _hidden_angle(leg: Leg, view: View) -> float:
         for t in (0.0, angle / 2, angle)
     )
     flat = _shortfall(abs(dot(leg.axis, view.toward)), 0.6)  # an arc that is seen from its edge
-    return 12.0 * _shortfall(angle, 0.7) + 0.8 * abs(angle - 1.1) + 6.0 * max(0.0, angle - 2.8) + 2.0 * behind + 12.0 * flat
+    return (
+        12.0 * _shortfall(angle, 0.7)
+        + 0.8 * abs(angle - 1.1)
+        + 6.0 * max(0.0, angle - 2.8)
+        + 2.0 * behind
+        + 12.0 * flat
+    )
