@@ -54,7 +54,8 @@ class JointBody:
 class Parts:
     """All parts, and the links between them, the first from the ground.
 
-    `ground` is where the base stands, `ground_side` the direction of an edge of its plate, that of x_0 where this lies in it.
+    `ground` is where the base stands, `ground_side` the direction of an edge of its plate: that of
+    x_0 where this lies in the plate.
     """
 
     joints: tuple[JointBody, ...]
