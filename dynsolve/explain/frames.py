@@ -203,7 +203,7 @@ class _Explained:
         done = 0
         for found in _LETTER.finditer(text):
             written = found[2].strip("{}")
-            index = tree.Number(int(written)) if written.isdecimal() else tree.Words(written)
+            index = tree.Number(int(written)) if written.isdecimal() else _COUNTS[written]
             pieces += [text[done : found.start()], self._letter(found[1], index)]
             done = found.end()
         return tuple(piece for piece in (*pieces, text[done:]) if piece)
@@ -214,6 +214,7 @@ class _Explained:
         return letters.bold(base, index)
 
 
+_COUNTS = {"i": letters.COUNT, "i-1": letters.BEFORE}
 _COLUMNS = "θdaα"
 _LETTER = re.compile(r"(?<![A-Za-z])([oxzda]|θ|α)_(\{[^}]*\}|[0-9i])")
 

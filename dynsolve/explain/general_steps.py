@@ -102,8 +102,8 @@ def _rows(context: Context) -> Step:
 def _columns(context: Context) -> Step:
     """J_i = [z × (o_n - o); z] of a revolute joint, [z; 0] of a prismatic one."""
     robot = context.robot
-    which = "i-1" if context.standard else "i"
-    z, o = (Letter(letter, Words(which), style="bold") for letter in "zo")
+    which = letters.BEFORE if context.standard else _I
+    z, o = (letters.bold(letter, which) for letter in "zo")
     arm = Parenthesized(Sum((letters.o(len(robot.joints)), Negative(o))))
     kinds = {
         JointType.REVOLUTE: ("revolute", column(Cross(z, arm), z)),

@@ -137,7 +137,9 @@ def inertia_step(context: Context, given: GivenModel) -> Step:
         why=(
             "Without the Lagrangian: ",
             equation(letters.K, _QUADRATIC),
-            ", so that entry (i, j) is the second derivative of the kinetic energy by two rates.",
+            ", so that ",
+            Letter("d", Row((i, j))),
+            " is the second derivative of the kinetic energy by two rates.",
             *ends,
         ),
         formula=equation(Letter("d", Row((i, j))), second),

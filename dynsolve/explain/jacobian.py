@@ -30,7 +30,6 @@ from dynsolve.notation.tree import (
     Number,
     Product,
     Symbol,
-    Words,
     column,
     equation,
     number,
@@ -71,7 +70,7 @@ def _axes(context: Context) -> Step:
             " (its first three entries), ",
             Letter("o", style="bold"),
             f" the fourth. In the {robot.convention.value} convention joint i {_motions(robot)} ",
-            Letter("z", Words("i-1" if context.standard else "i"), style="bold"),
+            letters.bold("z", letters.BEFORE if context.standard else letters.COUNT),
             *_whose(context),
             *_wrist(context),
         ),
@@ -119,13 +118,13 @@ def _whose(context: Context) -> Prose:
         return (", the axis of the frame before it.",)
     return (
         ", the axis of its own frame: where Spong, in the standard convention, has ",
-        Letter("z", Words("i-1"), style="bold"),
+        letters.bold("z", letters.BEFORE),
         " and ",
-        Letter("o", Words("i-1"), style="bold"),
+        letters.bold("o", letters.BEFORE),
         ", here stand ",
-        Letter("z", Words("i"), style="bold"),
+        letters.bold("z", letters.COUNT),
         " and ",
-        Letter("o", Words("i"), style="bold"),
+        letters.bold("o", letters.COUNT),
         ".",
     )
 

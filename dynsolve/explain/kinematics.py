@@ -64,13 +64,13 @@ def _table(context: Context) -> Step:
             "Each row takes frame i-1 to frame i by four motions: a rotation by ",
             theta,
             " about ",
-            _axis("z", "i-1"),
+            letters.bold("z", letters.BEFORE),
             ", a translation by ",
             d,
             " along it, a translation by ",
             a,
             " along ",
-            _axis("x", "i"),
+            letters.bold("x", _I),
             " and a rotation by ",
             alpha,
             " about that. ",
@@ -80,20 +80,22 @@ def _table(context: Context) -> Step:
             "Each row takes frame i-1 to frame i by four motions: a rotation by ",
             alpha,
             " about ",
-            _axis("x", "i-1"),
+            letters.bold("x", letters.BEFORE),
             ", a translation by ",
             a,
             " along it, a rotation by ",
             theta,
             " about ",
-            _axis("z", "i"),
+            letters.bold("z", _I),
             " and a translation by ",
             d,
             " along that. Craig numbers ",
             a,
             " and ",
             alpha,
-            " of row i by i-1. ",
+            " of row i by ",
+            letters.BEFORE,
+            ". ",
         )
     if any(joint.type for joint in robot.joints):
         why += ("The star only marks a joint variable, and may be left out: ", *_kinds(context))
@@ -109,10 +111,6 @@ def _table(context: Context) -> Step:
         detail=Detail.BRIEF,
         is_task=False,
     )
-
-
-def _axis(letter: str, index: str) -> Letter:
-    return Letter(letter, Words(index), style="bold")
 
 
 def _kinds(context: Context) -> Prose:

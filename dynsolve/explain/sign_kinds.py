@@ -54,7 +54,7 @@ def index_shape(node: Node | None) -> str:
             return base + index_shape(sub)
         case Words(text):
             text = text.strip()
-            return "" if text == "," else "#" if text == "i" or text.startswith("i-") else text
+            return "" if text == "," else text
         case Symbol(name) if name in GREEK or name == "r":  # r is the task, in J_r
             return name
     return "#"

@@ -208,7 +208,7 @@ def _own_tensors(robot: Robot) -> list[Node]:
 
 def _recursions(robot: Robot) -> Iterator[Line]:
     """What the Newton-Euler recursions carry from link to link."""
-    before, own = Words("i-1"), Row((Words("c"), _I))
+    before, own = letters.BEFORE, Row((Words("c"), _I))
     first = before if robot.convention is Convention.STANDARD else _I
     yield _line(letters.bold("z", first, _I), "axis of joint i, in frame i")
     levers = [

@@ -6,12 +6,14 @@ from dynsolve.notation.names import split
 from dynsolve.notation.tree import (
     Derivative,
     Letter,
+    Negative,
     Node,
     Number,
     Parenthesized,
     Product,
     Quotient,
     Row,
+    Sum,
     Symbol,
     Transpose,
     Words,
@@ -20,6 +22,14 @@ from dynsolve.robot.model import Body, Coordinate, JointType, Robot
 
 HALF = Quotient(Number(1), Number(2))
 """½ of a general formula, a fraction also where the numbers of a robot are decimals."""
+
+
+COUNT = Symbol("i")
+"""What counts: in italics, in sentences as in formulas."""
+BEFORE = Sum((COUNT, Negative(Number(1))))
+"""i - 1"""
+AFTER = Sum((COUNT, Number(1)))
+"""i + 1"""
 
 
 def bold(base: str, sub: Node | None = None, sup: Node | None = None, dots: int = 0) -> Letter:
@@ -81,7 +91,7 @@ def o(i: int) -> Letter:
 
 
 J = bold("J")
-JV = bold("J", Words("v"))
+JV = bold("J", Letter("v"))
 JW = bold("J", Symbol("omega"))
 Q = bold("q")
 QD = bold("q", dots=1)

@@ -11,7 +11,8 @@ from dynsolve.explain.recursions.links import source_of
 from dynsolve.explain.recursions.names import BodyNames, LinkNames
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import sum_of
-from dynsolve.notation.tree import Letter, Node, Symbol, Words, equation
+from dynsolve.notation.tree import Letter, Node, Symbol, equation
+from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import JointType
 
@@ -54,7 +55,7 @@ def _outwards(context: Context, kind: JointType, name: str) -> Step:
 
 def _inwards(context: Context) -> Step:
     link = LinkNames.general(context.standard)
-    after = LinkNames(Words("i+1"), _I, context.standard)
+    after = LinkNames(letters.AFTER, _I, context.standard)
     body = BodyNames(_I, link)
     inertial = formulas.inertial_force(body, Letter("m", _I), is_heavy(context))
     force = [formulas.passed_on(after, "f"), inertial]

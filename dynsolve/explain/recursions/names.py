@@ -29,7 +29,7 @@ class LinkNames:
     @staticmethod
     def general(standard: bool) -> LinkNames:
         """Those of link i."""
-        return LinkNames(Symbol("i"), Words("i-1"), standard)
+        return LinkNames(Symbol("i"), letters.BEFORE, standard)
 
     @property
     def R(self) -> Letter:
