@@ -49,6 +49,8 @@ from dynsolve.notation.tree import (
 )
 
 _RUN = re.compile(r"[A-Za-z]+|[^A-Za-z]+")
+_ITALIC = frozenset("ijknrvxyz")
+"""What is italic in an index, as elsewhere: what counts, the axes, and quantities (v in J_v, r in J_r)."""
 _INVERSES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan"}
 _SUMS = frozenset({Sum, Cross, Relation})
 
@@ -106,7 +108,7 @@ class FormulaPrinter(Printer):
         raise NotImplementedError
 
     def _run(self, text: str) -> str:
-        """A run of letters or of digits within an index that is no word."""
+        """A run of digits, or of letters that are italic, within an index."""
         return text
 
     def _scripted(self, base: str, sub: str, sup: str) -> str:
@@ -159,11 +161,15 @@ class FormulaPrinter(Printer):
         return sign + self._fraction(self._digits(str(abs(node.p))), self._digits(str(node.q)))
 
     def _group(self, index: str) -> str:
-        """A group of indices: `c1` is c and 1, `omega1` ω and 1, `max` a word, `xy` x and y."""
-        return self._side_by_side([
-            self._base(run) if run in GREEK or (run.isalpha() and len(run) > 2) else self._run(run)
-            for run in _RUN.findall(index)
-        ])  # fmt: skip
+        """A group of indices: `c1` is an upright c and 1, `omega1` ω and 1, `max` a word, `xy` x and y."""
+        return self._side_by_side([self._part_of_index(run) for run in _RUN.findall(index)])
+
+    def _part_of_index(self, run: str) -> str:
+        """Greek letters, what counts and axes as they are elsewhere; what describes, a word or c, upright."""
+        if run in GREEK or (run.isalpha() and len(run) > 2):
+            return self._base(run)
+        is_label = run.isalpha() and not _ITALIC.issuperset(run)
+        return self._styled(run, "upright") if is_label else self._run(run)
 
     def _symbol(self, node: Symbol) -> str:
         if self.style.starred(node):
@@ -190,7 +196,18 @@ class FormulaPrinter(Printer):
 
     def _index(self, node: Node) -> str:
         """A tree as a subscript or superscript."""
-        return self._one(self.text(node))
+        if isinstance(node, Row):
+            return self._one(self._joined([self._part(part) for part in node.parts]))
+        return self._one(self._part(node))
+
+    def _part(self, node: Node) -> str:
+        """A part of an index: a letter, of a body or of an axis, as in the names of the problem."""
+        match node:
+            case Symbol(name, 0) if len(name) == 1 and not self.style.starred(node):
+                return self._part_of_index(name)
+            case Words(text) if text and _ITALIC.issuperset(text):
+                return self._part_of_index(text)
+        return self.text(node)
 
     def _reference(self, node: Reference) -> str:
         return self.text(Words(str(node)))
@@ -265,7 +282,11 @@ class FormulaPrinter(Printer):
         return self._scripted(self._one(self.parenthesized(self.text(node.of))), self._index(node.index), "")
 
     def _row(self, node: Row) -> str:
-        return self.between.join(map(self.text, node.parts))
+        return self._joined(list(map(self.text, node.parts)))
+
+    def _joined(self, texts: Sequence[str]) -> str:
+        """Parts side by side."""
+        return self.between.join(texts)
 
     def _transpose(self, node: Transpose) -> str:
         bare = isinstance(node.argument, Symbol | Parenthesized | Matrix)

@@ -89,7 +89,7 @@ class LatexPrinter(FormulaPrinter):
 
     def _side_by_side(self, pieces: Sequence[str]) -> str:
         """The runs of an index: a command ends at a blank."""
-        return " ".join(pieces) if len(pieces) > 1 and pieces[0].startswith("\\") else "".join(pieces)
+        return " ".join(pieces) if pieces[0].startswith("\\") and pieces[0][-1].isalpha() else "".join(pieces)
 
     def _scripted(self, base: str, sub: str, sup: str) -> str:
         if sub:

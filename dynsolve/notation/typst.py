@@ -14,7 +14,6 @@ from dynsolve.notation.tree import (
     Integral,
     Node,
     Parenthesized,
-    Row,
     Words,
 )
 
@@ -110,10 +109,10 @@ class TypstPrinter(FormulaPrinter):
             return r"\, quad" if node.text.endswith(" ") else r"\,"
         return quoted(node.text)
 
-    def _row(self, node: Row) -> str:
+    def _joined(self, texts: Sequence[str]) -> str:
         """Parts side by side; beside a string a space would be seen."""
         text = ""
-        for part in map(self.text, node.parts):
+        for part in texts:
             text += part if not text or '"' in (text[-1], part[0]) else " " + part
         return text
 

@@ -39,7 +39,7 @@ TEXTS = [
     ("theta1_ddot^2", r"\ddot{\theta}_{1}^{2}"),
     ("Omega", r"\Omega"),
     ("I1zz", "I_{1,zz}"),
-    ("lc1", "l_{c1}"),
+    ("lc1", r"l_{\mathrm{c}1}"),
     ("m_load", r"m_{\mathrm{load}}"),
     ("load1_dot", r"\dot{\mathrm{load}}_{1}"),
     ("J_omega1", r"J_{\omega 1}"),
