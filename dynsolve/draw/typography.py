@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from dynsolve.notation.characters import GREEK
-from dynsolve.notation.names import split
+from dynsolve.notation.names import describes, runs, split
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Letter, Node, Number, Symbol, Words
 from dynsolve.notation.unicode import UnicodePrinter
@@ -89,7 +89,10 @@ def _leaf(node: Node) -> str:
 
 
 def _index(group: str) -> str:
-    return GREEK.get(group, group)
+    """A group of indices, what only describes upright: the c of l_c1."""
+    return "".join(
+        _UPRIGHT + run + _SLANTED if describes(run) else GREEK.get(run, run) for run in runs(group)
+    )
 
 
 def typeset(node: Node, style: Style) -> LabelLine:

@@ -17,9 +17,9 @@ from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, 
 from dynsolve.explain.signs import shorthands
 from dynsolve.explain.textbook_letters import BY_ENTRY, SHAPES, Line, of_entries, textbook
 from dynsolve.explain.writing import listed, side_by_side
+from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Words, equation
-from dynsolve.notation.unicode import to_unicode
 from dynsolve.robot.model import JointType, Robot
 from dynsolve.robot.shapes import MASS
 from dynsolve.robot.units import node as unit_node
@@ -164,7 +164,8 @@ def _told(line: Line, style: Style) -> Line:
         return replace(line, meaning=_meaning_of_shorthands(sines))
     changed = [sign for sign in line.signs if isinstance(sign, Letter) and style.base(sign) != sign.base]
     if changed:
-        return replace(line, meaning=f"{line.meaning}; Spong writes {to_unicode(changed[0])}")
+        spong, here = (GREEK.get(base, base) for base in (changed[0].base, style.base(changed[0])))
+        return replace(line, meaning=f"{line.meaning}; Spong writes {spong} for {here}")
     return line
 
 

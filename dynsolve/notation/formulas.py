@@ -9,12 +9,11 @@ parentheses.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from typing import ClassVar
 
 from dynsolve.notation.characters import GREEK
-from dynsolve.notation.names import split
+from dynsolve.notation.names import describes, runs, split
 from dynsolve.notation.printing import (
     PLAIN,
     Printer,
@@ -48,9 +47,6 @@ from dynsolve.notation.tree import (
     Words,
 )
 
-_RUN = re.compile(r"[A-Za-z]+|[^A-Za-z]+")
-_ITALIC = frozenset("ijknrvxyz")
-"""What is italic in an index, as elsewhere: what counts, the axes, and quantities (v in J_v, r in J_r)."""
 _INVERSES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan"}
 _SUMS = frozenset({Sum, Cross, Relation})
 
@@ -162,14 +158,13 @@ class FormulaPrinter(Printer):
 
     def _group(self, index: str) -> str:
         """A group of indices: `c1` is an upright c and 1, `omega1` ω and 1, `max` a word, `xy` x and y."""
-        return self._side_by_side([self._part_of_index(run) for run in _RUN.findall(index)])
+        return self._side_by_side([self._part_of_index(run) for run in runs(index)])
 
     def _part_of_index(self, run: str) -> str:
         """Greek letters, what counts and axes as they are elsewhere; what describes, a word or c, upright."""
         if run in GREEK or (run.isalpha() and len(run) > 2):
             return self._base(run)
-        is_label = run.isalpha() and not _ITALIC.issuperset(run)
-        return self._styled(run, "upright") if is_label else self._run(run)
+        return self._styled(run, "upright") if describes(run) else self._run(run)
 
     def _symbol(self, node: Symbol) -> str:
         if self.style.starred(node):
@@ -205,7 +200,7 @@ class FormulaPrinter(Printer):
         match node:
             case Symbol(name, 0) if len(name) == 1 and not self.style.starred(node):
                 return self._part_of_index(name)
-            case Words(text) if text and _ITALIC.issuperset(text):
+            case Words(text) if text.isalpha() and not describes(text):
                 return self._part_of_index(text)
         return self.text(node)
 

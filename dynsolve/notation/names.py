@@ -73,6 +73,29 @@ def split(name: str) -> tuple[str, tuple[str, ...]]:
     return base, tuple(group for piece in pieces for group in _GROUP.findall(piece))
 
 
+_RUN = re.compile(r"[A-Za-z]+|[^A-Za-z]+")
+_ITALIC = frozenset("ijknrvxyz")
+"""What is italic in an index, as elsewhere: what counts, the axes, and quantities (v in J_v, r in J_r)."""
+
+
+def runs(index: str) -> list[str]:
+    """The runs of letters and of others in a group of indices.
+
+    >>> runs("c1")
+    ['c', '1']
+    """
+    return _RUN.findall(index)
+
+
+def describes(run: str) -> bool:
+    """Whether a run of an index only describes, as the c of l_c1, so that it is set upright.
+
+    >>> [run for run in ("c", "zz", "i", "max", "omega", "1") if describes(run)]
+    ['c', 'max']
+    """
+    return run.isalpha() and run not in GREEK and not _ITALIC.issuperset(run)
+
+
 def _base(name: str) -> str:
     for greek in _LONGEST_FIRST:
         if name.startswith(greek) and _indices_may_follow(greek, name[len(greek) :]):

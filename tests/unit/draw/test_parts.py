@@ -107,7 +107,7 @@ def test_formulas_are_set_in_runs() -> None:
     node = Sum((Symbol("theta1", star=True), Quotient(Symbol("lc1"), Number(2)), Degrees(90)))
     runs = typeset(node, Style(star=True)).runs
     assert [run.text for run in runs] == ["θ", "1", "∗", "+", "l", "c", "1", "/2\xa0+\xa090°"]
-    assert [run.italic for run in runs[:6]] == [True, False, False, False, True, True]
+    assert [run.italic for run in runs[:6]] == [True, False, False, False, True, False]  # the c describes
     assert runs[1].shift > 0 > runs[2].shift and runs[3].gap > 0
 
 

@@ -193,7 +193,7 @@ MEANINGS = [
     ("elbow-3r", "s₁, c₁, …, c₂₃", "s₁ = sin θ₁, c₁ = cos θ₁, s₂₃ = sin(θ₂ + θ₃)", ""),
     ("cartesian-pp", "𝐂, cₖⱼ", "matrix of the Coriolis and centrifugal terms, its entries", "kg/s"),
     ("elbow-3r", "𝐂, Cₖⱼ",
-     "matrix of the Coriolis and centrifugal terms, its entries; Spong writes cₖⱼ", "kg m²/s"),
+     "matrix of the Coriolis and centrifugal terms, its entries; Spong writes c for C", "kg m²/s"),
     ("elbow-3r", "𝐠, gₖ", "column of the gravity terms, its entries", "N m"),
     ("planar-2r-remote", "s₁, c₁, …, c₂", "s₁ = sin p₁, c₁ = cos p₁", ""),
     ("box-cylinder-rod-sphere", "r₁, r₄", "radius of body i", "m"),
