@@ -73,25 +73,31 @@ _INDEXED = re.compile(r"\b([oxz])\{(\w+)\}")
 
 def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
     """The role, the SI unit and the meaning of every parameter, in their order."""
-    found: dict[str, tuple[Role, Meaning]] = {}
+    found: dict[tuple[Role, str], dict[Meaning, None]] = {}
     for role, name, meaning in (*_of_table(robot), *_of_bodies(robot)):
-        before = found.get(name)
-        if before is None:
-            found[name] = role, meaning
-        elif before[0] is role and before[1] != meaning:
-            found[name] = role, _both(before[1], meaning)
-    known = roles(robot)
+        found.setdefault((role, name), {})[meaning] = None
     return {
-        name: (role, unit, found[name][1] if name in found and found[name][0] is role else Meaning(""))
-        for name, (role, unit) in known.items()
+        name: (role, unit, _as_one(role, tuple(found.get((role, name), (Meaning(""),)))))
+        for name, (role, unit) in roles(robot).items()
     }
 
 
-def _both(first: Meaning, second: Meaning) -> Meaning:
-    """What stands in two places: of one body about two axes; of others there is no one meaning."""
-    axes = (*first.axes, *(axis for axis in second.axes if axis not in first.axes))
-    merged = replace(first, axes=axes)
-    return merged if replace(second, axes=axes) == merged else Meaning("")
+def _as_one(role: Role, places: Sequence[Meaning]) -> Meaning:
+    """What a parameter is that may stand in several places: in two rows, of two bodies, about two axes."""
+    first, *others = places
+    if not others:
+        return first
+    axes = tuple(dict.fromkeys(axis for place in places for axis in place.axes))
+    if all(replace(place, axes=first.axes) == first for place in others):
+        return replace(first, axes=axes)
+    if role is Role.LENGTH:
+        rows = sorted({place.link for place in places})
+        return Meaning(f"length in rows {and_joined([str(row) for row in rows])} of the table")
+    alike = all(place.words == first.words and place.axes == first.axes for place in others)
+    if alike and not first.link:
+        bodies = and_joined([place.body for place in places])
+        return Meaning(first.words.replace("body {body}", f"bodies {bodies}"), axes=axes)
+    return Meaning("")
 
 
 # -- the table -------------------------------------------------------------------------------------

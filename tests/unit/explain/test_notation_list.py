@@ -110,7 +110,7 @@ def test_nothing_is_listed_that_is_not_printed(problem: str, detail: Detail) -> 
     assert {text for kind, text in listed.items() if kind not in kinds} == set()
 
 
-_NO_LETTERS = re.compile(r"\\(?:text|begin|end|href|label|ref|tag|operatorname)\{[^{}]*\}")
+_NO_LETTERS = re.compile(r"\\(?:text|begin|end|href|label|ref|tag|operatorname|mathrm)\{[^{}]*\}")
 _INDEX = re.compile(r"_\{[^{}]*\}")
 _SIGN = re.compile(
     r"\\math(?:bf|cal)\{\w\}|\\boldsymbol\{\\\w+\}|\\(?:theta|tau|omega|alpha|kappa|sigma)\b"

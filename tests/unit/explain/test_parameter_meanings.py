@@ -25,6 +25,7 @@ LENGTHS = [
     ("[{theta: q1*, a: l1, d: h}, {theta: q2*}]", "l1", "distance from 𝐳₀ to 𝐳₁, along 𝐱₁"),
     ("[{theta: q1*, d: h}, {theta: q2*}]", "h", "distance from 𝐨₀ to 𝐨₁, along 𝐳₀"),
     ("[{theta: q1*}, {d: q2* + h}]", "h", "constant part of d in row 2 of the table"),
+    ("[{theta: q1*, a: l}, {theta: q2*, a: l}]", "l", "length in rows 1 and 2 of the table"),
     ("[{theta: q1*, a: l + b}, {theta: q2*}]", "b", "length in row 1 of the table"),
 ]
 
@@ -59,6 +60,7 @@ BODIES = [
     ("{mass: m, link: 1, center: tip, inertia: {zz: J}, about: joint}", "J",
      "moment of inertia of body 1 about its axis z through its joint"),
     ("{mass: m, link: 1, center: tip, shape: {disk: {radius: r}}}", "r", "radius of body 1"),
+    ("{mass: m, link: 1}, {mass: m, link: 1}", "m", "mass of bodies 1 and 2"),
     ("{mass: M + m, link: 1}", "M m", "part of the mass of body 1"),
 ]  # fmt: skip
 
