@@ -20,7 +20,6 @@ from dynsolve.notation.tree import (
     Number,
     Product,
     Symbol,
-    Words,
     column,
     equation,
     number,
