@@ -67,11 +67,13 @@ class Formula:
 class Equations:
     """Short equations in one display, one under another and level at their equals signs.
 
-    Many that do not follow from each other are set `in_columns` where there is room.
+    Many that do not follow from each other are set `in_columns` where there is room.  A `label`
+    names them all, so that they may be referred to by one number.
     """
 
     nodes: tuple[Node, ...]
     in_columns: bool = False
+    label: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,6 +42,9 @@ LONG = 1500
 
 CONSTANT, RECURRING, SINGLE = "kappa", "sigma", "h"
 
+CONSTANTS_LIST, SUMS_LIST = "constants", "recurring"
+"""What the two lists of names are called where others refer to them."""
+
 Index = tuple[int, int, int]
 
 
@@ -83,6 +86,13 @@ class Abbreviated:
     def definitions(self) -> tuple[Definition, ...]:
         """All definitions in order."""
         return (*self.constants, *self.sums)
+
+    @property
+    def lists(self) -> tuple[str, ...]:
+        """The lists that there are of them."""
+        return tuple(
+            label for label, names in ((CONSTANTS_LIST, self.constants), (SUMS_LIST, self.sums)) if names
+        )
 
     @property
     def cost(self) -> int:

@@ -257,9 +257,8 @@ class LongModel:
             why=self._on_what_it_depends() if given else (*_of_the_bodies(), *self._on_what_it_depends()),
             formula=self.direct.formula,
             source=self.direct.source,
-            concluding=("Multiplied out:",),
             result=result,
-            uses=self.direct.uses,
+            uses=self.short.lists,
         )
 
     def _on_what_it_depends(self) -> Prose:

@@ -160,7 +160,10 @@ class _Page(MarkupPage):
     def equations(self, equations: Equations) -> Iterator[str]:
         lines = "".join(map(self.broken, equations.nodes))
         columns = " columns" if equations.in_columns else ""
-        yield f'<div class="formula work"><div class="box{columns}">{lines}</div></div>\n'
+        label = equations.label
+        kind, anchor = ("result", f' id="eq-{label}"') if label else ("work", "")
+        number = self.number(label) if label else ""
+        yield f'<div class="formula {kind}"{anchor}><div class="box{columns}">{lines}</div>{number}</div>\n'
 
     def reference(self, label: str, number: int) -> str:
         return f'<a href="#eq-{label}">{super().reference(label, number)}</a>'

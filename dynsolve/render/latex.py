@@ -244,18 +244,19 @@ class _Page(TypesetPage):
                 yield from aligned(lines, label, last)
         yield from gathered(rows)
 
-    def label(self, formula: Formula) -> str:
-        """What stands beside a formula: its number, or its source."""
-        if formula.label in self.labels:
-            return f"\\label{{{self.prefix}:{formula.label}}}"
-        return f"\\tag*{{\\formulasource{{{self.words(formula.source)}}}}}" if formula.source else ""
+    def label(self, display: Formula | Equations) -> str:
+        """What stands beside a display: its number, or its source."""
+        if display.label in self.labels:
+            return f"\\label{{{self.prefix}:{display.label}}}"
+        source = display.source if isinstance(display, Formula) else ""
+        return f"\\tag*{{\\formulasource{{{self.words(source)}}}}}" if source else ""
 
     def equations(self, equations: Equations) -> Iterator[str]:
         columns = self.equation_columns(equations)
         if columns is not None:
-            yield from in_columns(columns, last=self.kept(equations))
+            yield from in_columns(columns, self.label(equations), self.kept(equations))
         else:
-            yield from aligned(self.unnumbered.equations(equations.nodes), last=self.kept(equations))
+            yield from aligned(self.lines_of(equations), self.label(equations), self.kept(equations))
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence; a short one is not broken."""

@@ -72,11 +72,15 @@ class _Page(TypesetPage):
         yield _begun(self.prose(text.parts)) + source + "\n"
 
     def formula(self, formula: Formula) -> Iterator[str]:
-        number = self.labels.get(formula.label)
-        yield from _display(self.typesetter(formula).set(formula), rf" \tag{{{number}}}" if number else "")
+        yield from _display(self.typesetter(formula).set(formula), self.tag(formula.label))
 
     def equations(self, equations: Equations) -> Iterator[str]:
-        yield from _display(self.unnumbered.equations(equations.nodes))
+        yield from _display(self.lines_of(equations), self.tag(equations.label))
+
+    def tag(self, label: str) -> str:
+        """The number beside a display that has one."""
+        number = self.labels.get(label)
+        return rf" \tag{{{number}}}" if number else ""
 
     def beside(self, formula: Formula) -> float:
         """A source stands in the text, not beside its formula."""

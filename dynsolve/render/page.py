@@ -250,6 +250,11 @@ class TypesetPage(MarkupPage):
         room = self.width - self.number
         return in_columns(Typesetter(self.notation, self.ruler, room).each(equations.nodes), room)
 
+    def lines_of(self, equations: Equations) -> list[Line]:
+        """The lines of equations that do not stand in columns; a number beside them takes its room."""
+        room = self.width - (self.number if equations.label in self.labels else 0.0)
+        return Typesetter(self.notation, self.ruler, room).equations(equations.nodes)
+
     def rows(self, block: Block) -> int:
         """How many rows a block has on a page, at least."""
         match block:
@@ -260,7 +265,7 @@ class TypesetPage(MarkupPage):
                 return max(len(self.typesetter(block).set(block)), height(block.node))
             case Equations():
                 columns = self.equation_columns(block)
-                return len(columns.rows) if columns else len(self.unnumbered.equations(block.nodes))
+                return len(columns.rows) if columns else len(self.lines_of(block))
             case Table():
                 return len(block.rows) + 1
             case List():

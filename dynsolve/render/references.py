@@ -12,8 +12,9 @@ from dynsolve.document import Block, Document, Equations, Fold, Formula, Heading
 
 
 def numbered(document: Document, level: int | None = None) -> dict[str, int]:
-    """The number of each labelled formula, from 1; of those alone that an account of `level` shows."""
-    labels = dict.fromkeys(f.label for f in formulas(document.blocks, level) if f.label)
+    """The number of each labelled display, from 1; of those alone that an account of `level` shows."""
+    displays = (b for b in unfolded(document.blocks, level) if isinstance(b, Formula | Equations))
+    labels = dict.fromkeys(display.label for display in displays if display.label)
     return {label: number for number, label in enumerate(labels, start=1)}
 
 

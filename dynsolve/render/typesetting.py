@@ -179,13 +179,16 @@ def _indent(line: Sequence[Piece], place: int) -> float:
 
 
 def _on_own_lines(members: Sequence[list[Piece]], room: float) -> list[list[Piece]]:
-    """The members of a chain, together where they fit one line; else apart, but after a name."""
+    """The members of a chain, together where they fit one line; else apart, but names together."""
     if _width(piece for member in members for piece in member) <= room:
         return [[piece for member in members for piece in member]] if members else []
     apart: list[list[Piece]] = []
     for member in members:
-        if apart and len(apart[-1]) == 1 and apart[-1][0].width <= _LONGEST_NAME:
-            apart[-1] = [*apart[-1], *member]
+        before = apart[-1] if apart else []
+        names = bool(before) and all(piece.width <= _LONGEST_NAME for piece in before)
+        together = len(member) == 1 and member[0].width <= _LONGEST_NAME
+        if names and (len(before) == 1 or (together and _width([*before, *member]) <= room)):
+            apart[-1] = [*before, *member]
         else:
             apart.append(member)
     return apart

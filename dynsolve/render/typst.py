@@ -37,6 +37,9 @@ PAGE = 45.0
 
 _NUMBER = 3.0
 _STICKY = ", sticky: true"
+_MOST_ROWS = 12
+"""The rows up to which a table stays on one page."""
+
 _LAST_KNOWN = 0x2C00
 _MATHEMATICAL = range(0x1D400, 0x1D800)
 
@@ -188,19 +191,21 @@ class _Page(TypesetPage):
             sides = [*[""] * (len(lines) - 1), self.side(formula)]
             yield _display(lines, sides, self.kept(formula), self.sticks)
 
-    def side(self, formula: Formula) -> str:
-        """What stands beside a formula: its number, which others refer to, or its source."""
-        if number := self.labels.get(formula.label):
-            return f"({number})#metadata(none) <eq-{formula.label}>"
-        return f"#source[{self.words(formula.source)}]" if formula.source else ""
+    def side(self, display: Formula | Equations) -> str:
+        """What stands beside a display: its number, which others refer to, or its source."""
+        if number := self.labels.get(display.label):
+            return f"({number})#metadata(none) <eq-{display.label}>"
+        source = display.source if isinstance(display, Formula) else ""
+        return f"#source[{self.words(source)}]" if source else ""
 
     def equations(self, equations: Equations) -> Iterator[str]:
         columns = self.equation_columns(equations)
         if columns is not None:
-            yield _in_columns(columns, "", self.kept(equations), self.sticks)
+            yield _in_columns(columns, self.side(equations), self.kept(equations), self.sticks)
         else:
-            lines = self.unnumbered.equations(equations.nodes)
-            yield _display(lines, [""] * len(lines), self.kept(equations), self.sticks)
+            lines = self.lines_of(equations)
+            sides = [*[""] * (len(lines) - 1), self.side(equations)]
+            yield _display(lines, sides, self.kept(equations), self.sticks)
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence; a short one is not broken."""
@@ -224,11 +229,13 @@ class _Page(TypesetPage):
         cells = [self.cell(cell) for row in (table.header, *table.rows) for cell in row]
         columns = len(table.header)
         side = "left" if prose_columns(table) else "center"
+        breakable = "true" if len(table.rows) > _MOST_ROWS else "false"
         yield (
-            f"#align(center, table(columns: {columns}, stroke: none, align: {side}, "
+            f"#block(breakable: {breakable}, width: 100%, "
+            f"align(center, table(columns: {columns}, stroke: none, align: {side}, "
             f"inset: (x: 0.8em, y: 0.35em), "
             f"table.header({', '.join(cells[:columns])}, table.hline(stroke: 0.5pt)), "
-            f"{', '.join(cells[columns:])}))"
+            f"{', '.join(cells[columns:])})))"
         )
 
     def cell(self, cell: Inline) -> str:

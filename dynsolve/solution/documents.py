@@ -22,7 +22,13 @@ from dynsolve.document import (
 )
 from dynsolve.document.figures import ArmFigure, Figure
 from dynsolve.explain import closing
-from dynsolve.explain.abbreviations import Abbreviate, Abbreviated, Definition
+from dynsolve.explain.abbreviations import (
+    CONSTANTS_LIST,
+    SUMS_LIST,
+    Abbreviate,
+    Abbreviated,
+    Definition,
+)
 from dynsolve.explain.citations import KHALIL_DOMBRE, cited
 from dynsolve.explain.notation_list import notation
 from dynsolve.explain.statement import statement
@@ -195,12 +201,12 @@ def _constant_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
         *own,
         ". The motions and forces of the joints determine their values, and no others.",
     ))  # fmt: skip
-    yield Equations(tuple(map(_defined, short.constants)), in_columns=True)
+    yield Equations(tuple(map(_defined, short.constants)), in_columns=True, label=CONSTANTS_LIST)
 
 
 def _recurring_blocks(short: Abbreviated) -> Iterator[Block]:
     yield Text(("Terms that occur several times below, each in terms of those before it.",))
-    yield Equations(tuple(map(_defined, short.sums)), in_columns=True)
+    yield Equations(tuple(map(_defined, short.sums)), in_columns=True, label=SUMS_LIST)
 
 
 def _defined(definition: Definition) -> Relation:
@@ -225,7 +231,7 @@ def step_blocks(
     elif step.formula is not None:
         yield Formula(step.formula, step.source)
     if step.listed:
-        yield Equations(step.result, in_columns=True)
+        yield Equations(step.result, in_columns=True, label=step.id)
     for result, label in labelled_results(step):
         yield Formula(result, entries=step.entries, optional=step.optional, label=label)
     if detail > Detail.BRIEF:

@@ -37,7 +37,8 @@ class EarlierResults:
 
     def add(self, step: Step) -> None:
         """Remember a step."""
-        self._results[step.id] = list(labelled_results(step))
+        listed = [(result, step.id) for result in step.result] if step.listed else []
+        self._results[step.id] = listed or list(labelled_results(step))
 
     def used(self, step: Step, names: Iterable[str]) -> tuple[str, ...]:
         """The labels of the equations of the steps `names` that a step uses; `x#2` is the second of x."""

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import pytest
 
-from dynsolve.document import Block, Fold, Formula, Uses
+from dynsolve.document import Block, Equations, Fold, Formula, Uses
 from dynsolve.render import markdown
 from dynsolve.render.references import numbered
 from dynsolve.solution.documents import solution_document
@@ -84,7 +84,7 @@ def test_a_reference_is_to_an_equation_before_it(problem: str) -> None:
             if isinstance(block, Uses):
                 shown = [label for label in block.labels if label in numbers]
                 assert set(shown) <= seen, fold.title
-            elif isinstance(block, Formula) and block.label:
+            elif isinstance(block, Formula | Equations) and block.label:
                 seen.add(block.label)
     text = markdown.render(document)
     tags = {int(number) for number in re.findall(r"\\tag\{(\d+)\}", text)}
