@@ -161,3 +161,10 @@ def test_parentheses_on_different_lines_are_one_size_and_no_smaller_than_those_i
         else:
             assert float(size) == open_ones.pop()
     assert open_ones == []
+
+
+def test_names_of_a_chain_stand_together_on_as_few_lines_as_hold_them() -> None:
+    names = [Symbol(f"a{k}") for k in range(12)]
+    lines = [line.alone for line in setter(12.0).equations([equation(*names)])]
+    assert len(lines) <= 3
+    assert sum(line.count("=") for line in lines) == 11
