@@ -80,7 +80,10 @@ def split_sign(node: Node) -> tuple[int, Node]:
 
 
 def total(terms: Sequence[Node]) -> Node:
-    """The sum of terms, flattened; a positive term is put first where there is one."""
+    """The sum of terms, flattened; it starts with a plus where that leaves the rates in their order.
+
+    Terms with a minus at the front go behind the positive terms that follow: I_yy s² + I_xx c² - I_zz.
+    """
     flat: list[Node] = []
     for term in terms:
         sign, inner = split_sign(term)
@@ -92,10 +95,35 @@ def total(terms: Sequence[Node]) -> Node:
         return ZERO
     if len(flat) == 1:
         return flat[0]
-    if isinstance(flat[0], Negative):
-        first = next((i for i, t in enumerate(flat) if not isinstance(t, Negative)), 0)
-        flat.insert(0, flat.pop(first))
-    return Sum(tuple(flat))
+    return Sum(tuple(_plus_first(flat)))
+
+
+def _plus_first(terms: list[Node]) -> list[Node]:
+    """The terms with the first positive ones before the negative ones that they start with."""
+    first = next((i for i, t in enumerate(terms) if not isinstance(t, Negative)), 0)
+    if not first or _is_velocity(terms[0]):
+        return terms
+    last = next((i for i in range(first, len(terms)) if isinstance(terms[i], Negative)), len(terms))
+    return [*terms[first:last], *terms[:first], *terms[last:]]
+
+
+def _is_velocity(term: Node) -> bool:
+    """Whether a term has one velocity as a factor, or one sum of velocities, and no second rate."""
+    factors = inner.factors if isinstance(inner := split_sign(term)[1], Product) else (inner,)
+    moving = [factor for factor in factors if _dots(factor)]
+    return len(moving) == 1 and _dots(moving[0]) == 1 and not isinstance(moving[0], Power)
+
+
+def _dots(node: Node) -> int:
+    """The highest derivative with respect to time in a factor."""
+    match node:
+        case Symbol():
+            return node.dots
+        case Sum(terms) | Product(terms):
+            return max(map(_dots, terms))
+        case Negative(inner) | Power(inner) | Quotient(inner):
+            return _dots(inner)
+    return 0
 
 
 def negated(node: Node) -> Node:

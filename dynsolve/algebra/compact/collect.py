@@ -124,6 +124,24 @@ class Collector:
             return 1, node
         return -1, total([self.product(-f, m, ()) for m, f in self.ordered(terms)])
 
+    def with_plus(self, node: Node) -> Node:
+        """-(a - b) x as (b - a) x, where the difference is one of masses, moments and lengths."""
+        if not isinstance(node, Negative):
+            return node
+        factor, mono = self.decompose(node.argument)
+        for atom, exponent in mono:
+            match self.atoms.nodes[atom]:
+                case Sum((first, Negative(second))) if exponent == 1 and not self._moves(first, second):
+                    turned = self.atoms.number(Sum((second, Negative(first))))
+                    rest = tuple(sorted((turned if a == atom else a, e) for a, e in mono))
+                    return self.product(factor, rest, ())
+        return node
+
+    def _moves(self, *nodes: Node) -> bool:
+        """Whether a coordinate, an angle or a rate stands in one of some terms."""
+        atoms = (atom for node in nodes for atom, _ in self.decompose(node)[1])
+        return any(self.atoms.ranks[atom][0] not in (Rank.LEADING, Rank.PARAMETER) for atom in atoms)
+
     def apart(self, products: Iterable[tuple[Rational, Monomial, Node]]) -> Node:
         """Σ factor · monomial · tree of different rates: a few stand apart where sums multiply them.
 

@@ -98,7 +98,7 @@ class Compactor:
         found = self._forms.get(key)
         if found is None:
             layout, terms = read_terms(expr, [group.places for group in self._groups], self._atoms.kinds)
-            found = self._forms[key] = self._by_rates(layout, terms)
+            found = self._forms[key] = self.collector.with_plus(self._by_rates(layout, terms))
         return found
 
     def matrix(self, matrix: Matrix) -> tree.Matrix:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dynsolve.algebra.compact.atoms import Rank
 from dynsolve.algebra.compact.collect import Collector
 from dynsolve.algebra.compact.monomials import common, divide, whole_content
 from dynsolve.algebra.compact.terms import exact
@@ -13,14 +14,20 @@ from dynsolve.notation.walk import walk
 def matrix_factor(collector: Collector, matrix: Matrix) -> tuple[Node, Matrix] | None:
     """(factor, rest) with matrix = factor · rest; None unless that takes fractions out of several entries.
 
-    A length alone stays where it is: no fraction is read more easily without it.
+    Masses and lengths go with the fraction, angles and rates stay; a length alone stays too: no entry
+    is read more easily without it.
     """
     entries = {entry: collector.decompose(entry) for row in matrix.rows for entry in row if entry != ZERO}
     filled = sum(entry != ZERO for row in matrix.rows for entry in row)
     if filled < 2 or not any(isinstance(split_sign(entry)[1], Quotient) for entry in entries):
         return None
     number = whole_content([factor for factor, _ in entries.values()])
-    shared = common([mono for _, mono in entries.values()])
+    ranks = collector.atoms.ranks
+    shared = tuple(
+        (atom, exponent)
+        for atom, exponent in common([mono for _, mono in entries.values()])
+        if ranks[atom][0] <= Rank.SUM
+    )
     if number.denominator == 1 or not shared:
         return None
     rest: dict[Node, Node] = {

@@ -5,7 +5,6 @@ A monomial is a sorted tuple of (number of an atom, exponent); see `atoms`.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable
 from fractions import Fraction
 from math import gcd, lcm
@@ -48,19 +47,17 @@ def common(monos: Iterable[Monomial]) -> Monomial:
 
 
 def content(factors: Iterable[Rational]) -> Rational:
-    """The factor worth drawing out: the common divisor, and a denominator if most share it or all have one.
+    """The factor worth drawing out: the common divisor, and a denominator if all have one.
 
-    The denominator must be a multiple of the others: (m₁ + 2 m₂)/4, but a/2 + b/3.
+    The denominator must be a multiple of the others: (m₁ + 2 m₂)/4, but a/2 + b/3 and h + d/2 + l/2.
     """
     factors = list(factors)
     shared = gcd(*(f.numerator for f in factors))
     if set(map(type, factors)) <= {int}:
         return shared
-    denominators = Counter(f.denominator for f in factors)
+    denominators = {f.denominator for f in factors}
     largest = max(denominators)
-    if any(largest % d for d in denominators) or (
-        1 in denominators and 2 * denominators[largest] <= len(factors)
-    ):
+    if 1 in denominators or any(largest % d for d in denominators):
         return shared
     return Fraction(shared, largest)
 

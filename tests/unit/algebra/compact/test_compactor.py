@@ -111,6 +111,22 @@ def test_products_of_rates_stand_apart(written: str, printed: str) -> None:
     assert compact(written) == printed
 
 
+@pytest.mark.parametrize(
+    ("written", "printed"),
+    [
+        ("(I2 - I1)*sin(q1)*cos(q1)", "(I2 - I1)*sin(q1)*cos(q1)"),  # no -(I1 - I2)
+        ("-(d - l/2)*cos(q1)", "-(d - l/2)*cos(q1)"),  # a distance keeps its orientation
+        ("-I1 + m1*l^2*sin(q1)^2 + m2*a^2*cos(q1)^2", "m1*l**2*sin(q1)**2 + m2*a**2*cos(q1)**2 - I1"),
+        ("-d*sin(q1)*q1_dot + cos(q1)*d_dot", "-d*sin(q1)*q1_dot + cos(q1)*d_dot"),  # in the order of the q's
+        ("cos(q1)*d_dot - a*sin(q1)*d_dot", "(cos(q1) - a*sin(q1))*d_dot"),
+        ("l + d/2 + a/2", "l + a/2 + d/2"),  # no (2*l + a + d)/2
+        ("d/4 + a/2", "(2*a + d)/4"),
+    ],
+)
+def test_a_minus_stands_where_a_textbook_has_it(written: str, printed: str) -> None:
+    assert compact(written) == printed
+
+
 QUANTITIES = ["D", "C", "g", "tau", "K", "P", "L", "ddt1", "dLdq1", "H1"]
 
 
