@@ -19,7 +19,7 @@ from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.entry_formulas import EntryFormulas, coriolis_matrix
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, number_in_front, times, total
-from dynsolve.notation.tree import ZERO, Node
+from dynsolve.notation.tree import ZERO, Node, Symbol
 from dynsolve.quantities import families
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
@@ -117,6 +117,9 @@ class Forms:
             made = self._from_parts(name)
             if made is not None:
                 return made
+        quantity = quantities(self.robot).of_rule(name)
+        if quantity is not None and quantity.family is families.DLDQD and is_numeric(self.robot):
+            return self._momentum_in_decimals(value)
         if name == "tau":
             return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
         if name == "L":
@@ -132,6 +135,14 @@ class Forms:
         springs = ["Ps"] if self.robot.actions.springs else []
         added = total([self(name) for name in (*(f"P{body.name}" for body in self.robot.bodies), *springs)])
         return added if cost(added) <= 1.5 * cost(compact) else compact
+
+    def _momentum_in_decimals(self, momentum: Expr) -> Node:
+        """Σ d_kj q̇_j, by the rates: decimals that two of them share are no reason to draw them together."""
+        ring = momentum.ring
+        rates = [Symbol(q.name, 1) for q in self.robot.coordinates]
+        slopes = [Expr(ring, momentum.poly.derivative(ring.symbol_indices[(q.name, 1)])) for q in rates]
+        terms = zip(map(self.of, slopes), rates, strict=True)
+        return total([times(1, [(slope, 1), (rate, 1)], decimal=True) for slope, rate in terms])
 
     # -- long values from their parts --------------------------------------------------------------
 

@@ -40,6 +40,11 @@ def test_every_quantity_of_the_course_has_its_step(problem: str) -> None:
     assert wanted <= {step.id for step in solved(problem).steps}
 
 
+def test_a_momentum_in_decimals_is_collected_by_rates() -> None:
+    """The factors of the rates are the row of D; 0.167 stands at both, and is not drawn together."""
+    assert shown("numeric-2r", "dLdqd2") == ["∂ℒ/∂q̇₂ = (0.167 + 0.24 c₂) q̇₁ + 0.167 q̇₂"]
+
+
 def test_the_course_s_manipulator_comes_out_right_where_its_document_slips() -> None:
     """IN3140 dynamics overview: (22) has cos 2θ_1 for 1, (37) and (41) drop I_1zz and m_2."""
     assert shown("in3140-rp", "Kv2") == ["K_v2 = ½ m₂ (L₂² θ̇₁² + L̇₂²)"]
