@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Iterable
 from fractions import Fraction
 
-from dynsolve.algebra.compact.atoms import AtomTable, Rank
+from dynsolve.algebra.compact.atoms import AtomPlace, AtomTable, Rank
 from dynsolve.algebra.compact.monomials import (
     Monomial,
     Polynomial,
@@ -28,7 +28,19 @@ from dynsolve.algebra.compact.monomials import (
 )
 from dynsolve.algebra.compact.terms import Rational, add_term, exact
 from dynsolve.notation.build import cost, split_sign, times, total
-from dynsolve.notation.tree import ZERO, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
+from dynsolve.notation.tree import (
+    ZERO,
+    Function,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    Symbol,
+)
+from dynsolve.notation.walk import walk
 
 SEARCHED = 14
 """Up to this number of terms every promising split is tried; above it the likeliest alone."""
@@ -307,12 +319,21 @@ class Collector:
     def order(self, mono: Monomial) -> tuple[object, ...]:
         """The place of a term in a sum: by its velocities, its angles, its symbols; squares first.
 
-        The square of a distance, (d - l/2)², stands before all other terms without angles.
+        The square of a distance without angles, (d - l/2)², stands before all other terms without angles.
         """
         ranks = sorted((self.atoms.ranks[atom], -exponent) for atom, exponent in mono)
         rates = [rank for rank in ranks if rank[0][0] >= Rank.RATE]
-        trig = [rank for rank in ranks if rank[0][0] is Rank.TRIG]
+        trig = [rank for rank in ranks if rank[0][0] is Rank.TRIG] or self._last_angle(mono)
         return not rates, rates, trig, not self._is_distance(mono), ranks
+
+    def _last_angle(self, mono: Monomial) -> list[tuple[AtomPlace, int]]:
+        """Where a squared sum of angles stands, (a c₂ + b c₂₃)²: before the terms of its last angle."""
+        for atom, exponent in mono:
+            if self.atoms.ranks[atom][0] is Rank.TRIG_SUM and exponent == 2:
+                angles = {node for node in walk(self.atoms.nodes[atom]) if isinstance(node, Function)}
+                rank, order = max(self.atoms.ranks[self.atoms.number(angle)] for angle in angles)
+                return [((rank, order[:2]), -exponent)]
+        return []
 
     def _is_distance(self, mono: Monomial) -> bool:
         """Whether a term is the square of a sum in which a coordinate stands."""

@@ -16,6 +16,7 @@ from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import walk
 from dynsolve.solution.documents import solution_document
 from tests.support import solved
+from tests.unit.explain.test_abbreviated_steps import displayed
 
 NAMED = ("elbow-3r", "box-cylinder-rod-sphere", "spherical-rrp")
 
@@ -93,8 +94,6 @@ def relations(table: Table | None) -> list[Any]:
 
 @pytest.mark.parametrize("detail", list(Detail))
 def test_names_are_defined_before_they_are_used(detail: Detail) -> None:
-    from tests.unit.explain.test_abbreviations import displayed
-
     name = named("elbow-3r").definitions[0].name
     shown = list(displayed(solution_document(solved("elbow-3r"), detail).blocks))
     uses = [node for node in shown if name in set(walk(node))]
