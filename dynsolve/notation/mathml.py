@@ -19,6 +19,7 @@ MINUS = '<mo form="prefix">\u2212</mo>'
 
 _DOTS = ("", "\u02d9", "\u00a8", "\u20db")
 _APPLY = "<mo>\u2061</mo>"
+_CAPITAL = re.compile("<mi>[A-Z]</mi>")
 _TALL = ("<mfrac>", "<mtable>", "<munderover>")
 
 
@@ -93,6 +94,8 @@ class MathMLPrinter(FormulaPrinter):
         return f"<mn>{escape(text)}</mn>"
 
     def _scripted(self, base: str, sub: str, sup: str) -> str:
+        if sup and _CAPITAL.fullmatch(base):  # it leans to the right, and browsers leave no room for that
+            base = base.replace("<mi>", '<mi class="slanted">')
         if sub and sup:
             return f"<msubsup>{base}{sub}{sup}</msubsup>"
         if sub:

@@ -56,7 +56,7 @@ def render(document: Document, style: Style = PLAIN, level: str = "normal") -> s
     """A page that is complete in itself; `level` is the level of detail that it opens with."""
     page = _Page(style, document)
     title = next((visible(b.text) for b in document.blocks if isinstance(b, Heading)), "")
-    body = "".join(page.document(document.blocks))
+    opening, mark, sections = "".join(page.document(document.blocks)).partition("<section ")
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
@@ -64,8 +64,8 @@ def render(document: Document, style: Style = PLAIN, level: str = "normal") -> s
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n<link rel="icon" href="data:,">\n'
         f"<title>{escape(title)}</title>\n<style>\n{stylesheet()}</style>\n</head>\n<body>\n"
-        f"{_switch(level) if len(page.levels) > 1 else ''}{page.contents()}"
-        f"<main>\n{body}</main>\n</body>\n</html>\n"
+        f"{_switch(level) if len(page.levels) > 1 else ''}"
+        f"<main>\n{opening}{page.contents()}{mark}{sections}</main>\n</body>\n</html>\n"
     )
 
 

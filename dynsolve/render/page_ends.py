@@ -1,9 +1,9 @@
 """Where a page may end, in what is set on pages: not at a few lines of a display, or of a document.
 
-Paragraphs stay with the display that they introduce, a formula without a number with the one that it
-leads to, the last of several results with the one before.  The rows of an equation stay together, of a
-long one the first two and the last ones, as do those of a display.  So many rows at the end of a document
-are on one page that none is nearly empty.
+Paragraphs stay with the display that they introduce, a formula of the textbook and a short one with
+what they lead to, the last of several results with the one before.  The rows of an equation stay
+together, of a long one the first two and the last ones, as do those of a display.  So many rows at the
+end of a document are on one page that none is nearly empty.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import accumulate
 
 from dynsolve.document import Block, Equations, Formula, Prose, Table, Text, Uses
+from dynsolve.render.matrices import holds_matrix
 
 LAST_OF_DISPLAY = 3
 LAST_OF_DOCUMENT = 8
@@ -34,7 +35,7 @@ def runs_of_equations(begins: Sequence[bool], last: int = LAST_OF_DISPLAY) -> tu
     """The same for a display of several equations; `begins` says with which rows one begins.
 
     >>> runs_of_equations([True] * 3 + [False] + [True] * 4)
-    (2, 2, 1, 3)
+    (2, 2, 1, 1, 2)
     >>> runs_of_equations([True] + [False] * 6)
     (2, 1, 1, 3)
     """
@@ -43,7 +44,8 @@ def runs_of_equations(begins: Sequence[bool], last: int = LAST_OF_DISPLAY) -> tu
     runs = [run for size in sizes for run in runs_of_rows(size, last)]
     while len(runs) > 1 and runs[0] < _FIRST:
         runs[:2] = [runs[0] + runs[1]]
-    while len(runs) > 1 and runs[-1] < last:
+    fewest = last if last > LAST_OF_DISPLAY else _FIRST
+    while len(runs) > 1 and runs[-1] < fewest:
         runs[-2:] = [runs[-2] + runs[-1]]
     return tuple(runs)
 
@@ -66,8 +68,9 @@ def introduces(block: Block, following: Block | None, closes: bool = False) -> b
     if isinstance(block, Formula):
         if block.label:
             return closes and isinstance(following, Formula)
-        leads = isinstance(following, Formula | Equations | Uses)
-        return leads or (bool(block.source) and isinstance(following, Text))
+        if block.source:
+            return isinstance(following, Formula | Equations | Text | Uses)
+        return not holds_matrix(block.node) and isinstance(following, Formula | Equations | Uses)
     return isinstance(block, Uses)
 
 

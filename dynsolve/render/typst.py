@@ -228,7 +228,7 @@ class _Page(TypesetPage):
     def table(self, table: Table) -> Iterator[str]:
         cells = [self.cell(cell) for row in (table.header, *table.rows) for cell in row]
         columns = len(table.header)
-        side = "left" if prose_columns(table) else "center"
+        side = "left" if prose_columns(table) else "center + horizon"
         breakable = "true" if len(table.rows) > _MOST_ROWS else "false"
         yield (
             f"#block(breakable: {breakable}, width: 100%, "
