@@ -96,7 +96,9 @@ def html_notation(printer: MathMLPrinter) -> Notation:
 
     def closed(height: float, exponent: Node | None) -> str:
         sign = fence(")", height)
-        return sign if exponent is None else f"<msup>{sign}{row(printer.text(exponent))}</msup>"
+        if exponent is None:
+            return sign
+        return f"<msup>{row(sign)}{row(printer.text(exponent))}</msup>"  # alone in a row it is stretched
 
     return Notation(
         text=printer.text,

@@ -198,3 +198,34 @@ def test_a_hostile_title_is_text(page: Page, tmp_path: Path) -> None:
     assert "<img src=x" in page.ask("document.body.textContent")
     assert len(page.requests) == 1
     assert page.ask(OVERFLOWING) == []
+
+
+def test_the_title_is_above_the_contents_and_these_above_the_sections(page: Page, tmp_path: Path) -> None:
+    page.open(saved(next(p for p in LIBRARY if p.stem == "in3140-rp"), tmp_path), 1000)
+    tops = page.ask("['h1', 'figure', 'nav', 'section'].map(s => document.querySelector(s).offsetTop)")
+    assert tops == sorted(tops)
+    assert len(set(tops)) == 4
+
+
+def test_parentheses_fractions_in_matrices_and_squares_are_readable(page: Page, tmp_path: Path) -> None:
+    page.open(saved(next(p for p in LIBRARY if p.stem == "box-cylinder-rod-sphere"), tmp_path), 1000)
+    low, *tall = page.ask(
+        "[document.querySelector('.line mo[stretchy=false]'),"
+        " ...document.querySelectorAll('.line mo[minsize]')]"
+        ".filter(e => e.checkVisibility()).map(e => e.getBoundingClientRect().height)"
+    )
+    assert len(tall) > 10
+    assert min(tall) > 1.7 * low
+    sizes = page.ask(
+        "[...document.querySelectorAll('mtd > mfrac mi')].filter(e => !e.closest('msub, msup, msubsup'))"
+        ".map(e => [parseFloat(getComputedStyle(e).fontSize),"
+        " parseFloat(getComputedStyle(e.closest('mtd')).fontSize)])"
+    )
+    assert sizes
+    assert all(inner == outer for inner, outer in sizes)
+    leaning = page.ask(
+        "[...document.querySelectorAll('.slanted')].filter(e => e.checkVisibility())"
+        ".map(e => parseFloat(getComputedStyle(e).paddingRight))"
+    )
+    assert leaning
+    assert min(leaning) > 1
