@@ -104,7 +104,15 @@ def _as_one(role: Role, places: Sequence[Meaning]) -> Meaning:
 
 
 def _of_table(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
-    """The lengths of the table."""
+    """The lengths of the table, and where frame 0 is in the world."""
+    for axis, entry in zip(AXES, robot.base_position.entries, strict=True):
+        for name in names_in(entry):
+            if _is(entry, name):
+                yield (
+                    Role.BASE,
+                    name,
+                    Meaning("{coordinates} of o{before} in the world", before=0, axes=(axis,)),
+                )
     for joint in robot.joints:
         for name in names_in(joint.a):
             yield Role.LENGTH, name, _along_x(robot, joint) if _is(joint.a, name) else _in_row(joint)

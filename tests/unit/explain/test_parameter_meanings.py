@@ -45,6 +45,13 @@ def test_a_length_along_the_vertical_is_a_height() -> None:
     )
 
 
+def test_where_the_base_is() -> None:
+    moved = "base: {rotate: Rx(30deg), move: [0, 0, h0]}"
+    assert told(f"{moved}\ndh: [{{theta: q1*, a: l}}, {{theta: q2*}}]\n{MASS}")["h0"] == (
+        "coordinate z of 𝐨₀ in the world"
+    )
+
+
 # the one body, and what is told of its parameters
 BODIES = [
     ("{mass: m, link: 1, center: {near: [c, 0, 0]}}", "c", "distance from 𝐨₀ to the mass centre of body 1"),
