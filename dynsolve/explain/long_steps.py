@@ -147,6 +147,7 @@ class LongModel:
             "P": self.potential,
             "K": self.kinetic,
             "L": self.lagrangian,
+            "Cqd": self.rest,
             "D": self.inertia,
             "christoffel": self.christoffel,
             "C": self.coriolis,
@@ -245,6 +246,12 @@ class LongModel:
         why = " Collected by the accelerations and the rates."
         return _with(step, result, why)
 
+    def rest(self, step: Step) -> Step:
+        """g, where it is read off from the recursions; C q̇ is that of the Christoffel symbols."""
+        Cqd = Product((letters.C, letters.QD))
+        why: Prose = (*step.why, " ", Cqd, " is not written out: the Christoffel symbols below give it.")
+        return replace(step, why=why, result=(equation(letters.G, self.short.g),), also=())
+
     def inertia(self, step: Step) -> Step:
         """D from the energies: the forces above are written in its entries, and give nothing new."""
         result = (equation(letters.D, self.short.D),)
@@ -305,7 +312,7 @@ class LongModel:
         why: Prose = (
             "Row k, column j. ",
             Product((letters.C, letters.QD)),
-            " is the sum in the forces above: ",
+            " holds the terms with rates: ",
         )
         why += ("centrifugal terms (a rate squared) and Coriolis terms (a product of two rates). ",)
         why += ("One entry, written out, shows how each is made.",) if full else ("There are none here.",)

@@ -6,6 +6,7 @@ from unicodedata import normalize
 
 import pytest
 
+import dynsolve
 from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Matrix, Relation, Symbol
 from dynsolve.notation.unicode import to_unicode
@@ -101,3 +102,10 @@ def test_an_entry_of_C_stands_for_all(problem: str) -> None:
     entries = [entry for row in full.parts[-1].rows for entry in row]
     assert isinstance(first, Relation) and first.parts[-1] in entries
     assert len(zero[0].parts) - 1 == sum(to_unicode(entry) == "0" for entry in entries)
+
+
+def test_of_what_is_read_off_from_the_recursions_g_alone_is_written() -> None:
+    solution = dynsolve.solve("stanford-6", method="newton-euler")
+    (step,) = (s for s in solution.explain(short=solution.abbreviated()) if s.id == "Cqd")
+    (result,) = step.result
+    assert to_unicode(result).startswith("𝐠 = ")
