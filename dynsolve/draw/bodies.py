@@ -60,6 +60,9 @@ _USUAL = {"rod": (6.0, 12.0), "disk": (13.0, 3.0), "sphere": (12.0, 12.0), "shel
 
 _SOLID = (9.0, 12.0)
 
+_OUT = 0.9
+"""How far out slides are where it is seen what a body without a shape reaches to."""
+
 
 def drawn_bodies(robot: Robot, numbers: RobotNumbers, pose: Skeleton) -> tuple[DrawnBody, ...]:
     """The bodies that have a shape, of a pose with its mass centres."""
@@ -87,27 +90,38 @@ def drawn_bodies(robot: Robot, numbers: RobotNumbers, pose: Skeleton) -> tuple[D
 
 
 def sleeves(robot: Robot, numbers: RobotNumbers) -> dict[int, float]:
-    """How far from the foot of a sliding row the body ends that it slides in, by the row."""
-    pose = skeleton(robot, numbers, [0.0] * robot.n)
-    bodies = drawn_bodies(robot, numbers, with_masses(robot, numbers, pose))
+    """How far from the foot of a sliding row the body reaches that it slides in, by the row.
+
+    A body without a shape reaches to its mass centre, which then does not seem to be on what slides.
+    """
+    out = [_OUT if q.type is JointType.PRISMATIC else 0.0 for q in robot.coordinates]
+    pose = with_masses(robot, numbers, skeleton(robot, numbers, out))
+    bodies = drawn_bodies(robot, numbers, pose)
     found = {}
     for row, (joint, leg) in enumerate(zip(robot.joints, pose.legs, strict=True), 1):
         if joint.type is not JointType.PRISMATIC:
             continue
         ends = [_end(body, leg) for body in bodies if body.link == joint.parent]
+        ends += [_height_on(leg, mass.center) for mass in pose.masses if mass.link == joint.parent]
         if reach := max((end for end in ends if end is not None), default=0.0):
             found[row] = reach
     return found
 
 
+def _height_on(leg: Leg, point: Vector) -> float | None:
+    """How far a point of the axis of a leg is from its foot, onward; None of a point beside it or behind."""
+    offset = subtract(point, leg.foot)
+    height = dot(offset, leg.axis)
+    is_on_axis = length(subtract(offset, scale(leg.axis, height))) < NEAR
+    return height if is_on_axis and height > NEAR else None
+
+
 def _end(body: DrawnBody, leg: Leg) -> float | None:
     """How far a body reaches from the foot of a leg, whose axis runs through it lengthwise; else None."""
-    offset = subtract(body.center, leg.foot)
-    height = dot(offset, leg.axis)
+    height = _height_on(leg, body.center)
     for axis, half in zip(body.axes, body.halves, strict=True):
         if half is not None and abs(dot(axis, leg.axis)) > 1 - NEAR:
-            on_axis = length(subtract(offset, scale(leg.axis, height))) < NEAR
-            return height + half if on_axis and height + half > NEAR else None
+            return None if height is None else height + half
     return None
 
 

@@ -7,11 +7,14 @@ import pytest
 from dynsolve.draw.bodies import DrawnBody, Form, drawn_bodies, sleeves
 from dynsolve.draw.drawn_lengths import numbers
 from dynsolve.draw.mass_centers import with_masses
+from dynsolve.draw.orientation import orientation
+from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.primitives import BODY
 from dynsolve.draw.skeleton import skeleton
 from dynsolve.draw.vectors import dot
 from dynsolve.problem import load, read_problem
 from dynsolve.problem.model import Problem
+from dynsolve.robot.model import JointType
 from tests.support import LIBRARY
 from tests.unit.draw.pictures import drawn
 
@@ -66,6 +69,16 @@ def test_a_slide_stands_at_the_end_of_the_body_that_it_slides_in() -> None:
     box = bodies(problem)[1]
     assert (row, others) == (3, [])
     assert reach == pytest.approx(2 * (box.halves[2] or 0.0))
+
+
+def test_a_guide_stands_at_the_mass_centre_of_the_body_that_it_is_part_of() -> None:
+    """Craig, figure 6.7: the first mass is that of the guide, and not on the rod that slides in it."""
+    problem = load("rp-vertical")
+    robot, values = problem.robot, numbers(problem)
+    pose = best_pose(robot, values, orientation(robot, values), None)
+    guide = pose.parts.joints[1]
+    assert guide.type is JointType.PRISMATIC
+    assert guide.center == pytest.approx(pose.skeleton.masses[0].center, abs=0.05)
 
 
 def test_point_masses_have_no_body() -> None:
