@@ -73,7 +73,7 @@ def test_a_slide_stands_at_the_end_of_the_body_that_it_slides_in() -> None:
 
 def test_a_guide_stands_at_the_mass_centre_of_the_body_that_it_is_part_of() -> None:
     """Craig, figure 6.7: the first mass is that of the guide, and not on the rod that slides in it."""
-    problem = load("rp-vertical")
+    problem = load(next(path for path in LIBRARY if path.stem == "rp-vertical"))
     robot, values = problem.robot, numbers(problem)
     pose = best_pose(robot, values, orientation(robot, values), None)
     guide = pose.parts.joints[1]
