@@ -30,7 +30,6 @@ ELBOW = [
     ("Potential energy of body 2", "As for body 1."),
     ("Potential energy of body 3", "As for body 1."),
     ("Column 2 of the Jacobian", "As for column 1."),  # about z₁ and o₁ in place of z₀ and o₀
-    ("Inertia tensor of body 3 in base coordinates", "As for body 1."),
     ("Linear kinetic energy of body 2", "Half the mass"),  # the mass centre of body 1 does not move
     ("Linear kinetic energy of body 3", "As for body 2."),
     ("Coordinate 3: generalized momentum", "As for coordinate 1."),
