@@ -51,7 +51,7 @@ from dynsolve.robot.model import Body
 STAGE = Stage.ENERGY
 
 _BESIDE = 2
-"""Up to this number of columns J_v and J_ω in letters stand on one line."""
+"""Up to this number of columns J_v and J_ω, and v and ω, stand on one line."""
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -153,6 +153,7 @@ def _jacobians(context: Context, body: Body) -> Step:
             equation(letters.jv(body), context.form(f"Jv{b}")),
             *((equation(letters.jw(body), context.form(f"Jw{b}")),) if turning else ()),
         ),
+        together=robot.n <= _BESIDE and not body.is_point,
         also=(f"Jw{b}",),
         uses=("axes", f"rc{b}"),
     )
@@ -211,6 +212,7 @@ def _velocities(context: Context, body: Body) -> Step:
         source=spong("7.2.2"),
         working=working,
         result=tuple(results),
+        together=context.robot.n <= _BESIDE,
         also=(f"w{b}",),
     )
 

@@ -9,6 +9,7 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Prose
+from dynsolve.explain.closing import WIDEST, matrix_width
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import (
     ZERO,
@@ -30,6 +31,7 @@ from dynsolve.notation.tree import (
     Number,
     Product,
     Symbol,
+    Transpose,
     column,
     equation,
     number,
@@ -156,9 +158,15 @@ def _column(context: Context, q: Coordinate) -> Step:
             context, joints_moved(context, k, last), end_of(context), in_letters[0], None if named else linear
         ),
         concluding=named,
-        result=(equation(name, Matrix(linear.rows + angular.rows)),),
+        result=(equation(name, _on_one_line(context, linear.rows + angular.rows)),),
         uses=("axes",),
     )
+
+
+def _on_one_line(context: Context, rows: tuple[tuple[Node, ...], ...]) -> Node:
+    """A column, written as a transposed row where that fits."""
+    row = Matrix((tuple(entry for (entry,) in rows),))
+    return Transpose(row) if matrix_width(context, row) <= WIDEST else Matrix(rows)
 
 
 def _still_column(context: Context, q: Coordinate) -> Step:

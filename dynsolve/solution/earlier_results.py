@@ -37,8 +37,12 @@ class EarlierResults:
 
     def add(self, step: Step) -> None:
         """Remember a step."""
-        listed = [(result, step.id) for result in step.result] if step.listed else []
-        self._results[step.id] = listed or list(labelled_results(step))
+        if not (step.listed or step.together):
+            self._results[step.id] = list(labelled_results(step))
+            return
+        in_one_display = [(result, step.id) for result in step.result]
+        for name in (step.id, *step.also):
+            self._results[name] = in_one_display
 
     def used(self, step: Step, names: Iterable[str]) -> tuple[str, ...]:
         """The labels of the equations of the steps `names` that a step uses; `x#2` is the second of x."""
