@@ -9,7 +9,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
-from dynsolve.explain.jacobian_columns import ZERO, coordinate_column, crosses, end_of
+from dynsolve.explain.jacobian_columns import BESIDE, ZERO, coordinate_column, crosses, end_of
 from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.potential import potential_steps
 from dynsolve.explain.rotational_energy import rotational_step
@@ -49,9 +49,6 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
 
 STAGE = Stage.ENERGY
-
-_BESIDE = 2
-"""Up to this number of columns J_v and J_ω, and v and ω, stand on one line."""
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -134,7 +131,7 @@ def _jacobians(context: Context, body: Body) -> Step:
     late = [Symbol(q.name) for q, both in zip(robot.coordinates, columns, strict=True) if both[0] == ZERO]
     linear = equation(letters.jv(body), Matrix((tuple(v for v, _ in columns),)))
     angular = equation(letters.jw(body), Matrix((tuple(w for _, w in columns),)))
-    beside = robot.n <= _BESIDE and not any(isinstance(v, Sum) for v, _ in columns)
+    beside = robot.n <= BESIDE and not any(isinstance(v, Sum) for v, _ in columns)
     working, named = crosses(
         context, body.link, letters.rc(body), context.values[f"rc{b}"], context.matrix(f"Jv{b}")
     )
@@ -153,7 +150,7 @@ def _jacobians(context: Context, body: Body) -> Step:
             equation(letters.jv(body), context.form(f"Jv{b}")),
             *((equation(letters.jw(body), context.form(f"Jw{b}")),) if turning else ()),
         ),
-        together=robot.n <= _BESIDE and not body.is_point,
+        together=robot.n <= BESIDE and not body.is_point,
         also=(f"Jw{b}",),
         uses=("axes", f"rc{b}"),
     )
@@ -212,7 +209,7 @@ def _velocities(context: Context, body: Body) -> Step:
         source=spong("7.2.2"),
         working=working,
         result=tuple(results),
-        together=context.robot.n <= _BESIDE,
+        together=context.robot.n <= BESIDE,
         also=(f"w{b}",),
     )
 

@@ -12,6 +12,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.closing import WIDEST, matrix_width
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import (
+    BESIDE,
     ZERO,
     column_shown,
     coordinate_column,
@@ -247,6 +248,7 @@ def _whole(context: Context) -> Step:
         formula=equation(*in_letters),
         source=spong("4.6.3"),
         result=(equation(letters.JV, Jv), equation(letters.JW, Jw)),
+        together=context.robot.n <= BESIDE,
         also=("Jw",),
         uses=tuple(f"J{q.index}" for q in context.robot.coordinates),
         notes=tuple(_notes(context)),

@@ -34,6 +34,10 @@ ZERO = Letter("0", style="bold")
 """The zero vector."""
 
 
+BESIDE = 2
+"""Up to this number of columns J_v and J_ω, and v and ω, stand on one line."""
+
+
 def frame_parts(context: Context, i: int) -> tuple[Matrix, Matrix]:
     """(z_i, o_i) as trees."""
     H = context.matrix(f"H{i}")
