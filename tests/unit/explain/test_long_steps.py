@@ -108,4 +108,4 @@ def test_of_what_is_read_off_from_the_recursions_g_alone_is_written() -> None:
     solution = dynsolve.solve("stanford-6", method="newton-euler")
     (step,) = (s for s in solution.explain(short=solution.abbreviated()) if s.id == "Cqd")
     (result,) = step.result
-    assert to_unicode(result).startswith("𝐠 = ")
+    assert to_unicode(result).startswith("g = [[0], [-g (")
