@@ -54,8 +54,8 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\textwidth}{469pt}
 \setlength{\oddsidemargin}{-8pt}
 \setlength{\evensidemargin}{-8pt}
-\setlength{\topmargin}{-52pt}
-\setlength{\textheight}{730pt}
+\setlength{\topmargin}{-60pt}
+\setlength{\textheight}{750pt}
 \setlength{\parindent}{0pt}
 \setlength{\parskip}{3pt plus 1pt}
 \setlength{\emergencystretch}{4em}
@@ -63,7 +63,7 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \setcounter{MaxMatrixCols}{30}
 \renewcommand{\arraystretch}{1.12}
 \clubpenalty=9000 \widowpenalty=9000
-\AtBeginDocument{\setlength{\abovedisplayskip}{5pt plus 2pt}\setlength{\belowdisplayskip}{5pt plus 2pt}}
+\AtBeginDocument{\setlength{\abovedisplayskip}{4pt plus 2pt}\setlength{\belowdisplayskip}{4pt plus 2pt}}
 \makeatletter
 \renewcommand\section{\@startsection{section}{1}{0pt}{-14pt plus -4pt}{5pt}{\Large\bfseries}}
 \renewcommand\subsection{\@startsection{subsection}{2}{0pt}{-9pt plus -3pt}{2pt}{\normalsize\bfseries}}
@@ -260,9 +260,12 @@ class _Page(TypesetPage):
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence; a short one is not broken."""
-        if self.ruler.width(node) > SHORT:
-            return super().inline(node)
-        return f"${{{self.printer.text(node)}}}$"
+        return ", ".join(
+            f"${{{self.printer.text(one)}}}$"
+            if self.ruler.width(one) <= SHORT
+            else f"${self.printer.text(one)}$"
+            for one in self.side_by_side(node)
+        )
 
     def reference(self, label: str, number: int) -> str:
         return f"\\eqref{{{self.prefix}:{label}}}"

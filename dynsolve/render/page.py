@@ -31,14 +31,14 @@ from dynsolve.document import (
 )
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.formulas import FormulaPrinter
-from dynsolve.notation.tree import Node, Relation
+from dynsolve.notation.tree import Node, Relation, Row, Words
 from dynsolve.render.columns import FEWEST, Columns, in_columns
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.matrices import height, holds_matrix
 from dynsolve.render.page_ends import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, closing
 from dynsolve.render.prose import ProseWriter
 from dynsolve.render.references import after_references, runs, unfolded, with_results
-from dynsolve.render.typesetting import Line, Typesetter
+from dynsolve.render.typesetting import Line, Typesetter, listed
 
 _Piece = TypeVar("_Piece")
 
@@ -287,6 +287,10 @@ class TypesetPage(MarkupPage):
     def inline(self, node: Node) -> str:
         """A formula in a sentence."""
         return f"${self.printer.text(node)}$"
+
+    def side_by_side(self, node: Node) -> list[Node]:
+        """The formulas of a list in a sentence, between which a line may end; else the formula alone."""
+        return list(listed(node)) if isinstance(node, Row) and Words(", ") in node.parts else [node]
 
     def fold(self, fold: Fold) -> Iterator[str]:
         """The blocks of a fold under its title, which cannot be folded away on paper."""

@@ -209,8 +209,12 @@ class _Page(TypesetPage):
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence; a short one is not broken."""
-        formula = super().inline(node)
-        return f"#box({formula})" if self.ruler.width(node) <= SHORT else formula
+        return ", ".join(
+            f"#box(${self.printer.text(one)}$)"
+            if self.ruler.width(one) <= SHORT
+            else f"${self.printer.text(one)}$"
+            for one in self.side_by_side(node)
+        )
 
     def reference(self, label: str, number: int) -> str:
         return f"#link(<eq-{label}>)[{super().reference(label, number)}]"
