@@ -108,10 +108,12 @@ def _plus_first(terms: list[Node]) -> list[Node]:
 
 
 def _is_velocity(term: Node) -> bool:
-    """Whether a term has one velocity as a factor, or one sum of velocities, and no second rate."""
-    factors = inner.factors if isinstance(inner := split_sign(term)[1], Product) else (inner,)
+    """Whether a term is a velocity times lengths or angles: its factors have one rate, or one sum of rates."""
+    inner = split_sign(term)[1]
+    factors = inner.factors if isinstance(inner, Product) else (inner,)
     moving = [factor for factor in factors if _dots(factor)]
-    return len(moving) == 1 and _dots(moving[0]) == 1 and not isinstance(moving[0], Power)
+    others = [factor for factor in factors if not (_dots(factor) or isinstance(factor, Number))]
+    return bool(others) and len(moving) == 1 and _dots(moving[0]) == 1 and not isinstance(moving[0], Power)
 
 
 def _dots(node: Node) -> int:
