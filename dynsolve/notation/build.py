@@ -108,7 +108,7 @@ def _plus_first(terms: list[Node]) -> list[Node]:
 
 
 def _is_velocity(term: Node) -> bool:
-    """Whether a term is a velocity times lengths or angles: its factors have one rate, or one sum of rates."""
+    """Whether a term is a velocity, or a sum of velocities, times lengths or angles."""
     inner = split_sign(term)[1]
     factors = inner.factors if isinstance(inner, Product) else (inner,)
     moving = [factor for factor in factors if _dots(factor)]

@@ -6,15 +6,17 @@ import pytest
 from hypothesis import given, settings
 
 import dynsolve
-from dynsolve.document import Formula, Heading
+from dynsolve.document import Heading
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail
 from dynsolve.explain.terms import terms_of, value_of_term
+from dynsolve.notation.tree import equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
 from dynsolve.solution.summary import TITLE
 from tests.robots import robots
 from tests.support import STEMS, solved
+from tests.unit.explain.test_abbreviated_steps import displayed
 
 
 def table(problem: str) -> list[list[str]]:
@@ -68,11 +70,14 @@ CLOSED = [
 
 @pytest.mark.parametrize(("problem", "detail"), CLOSED)
 def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> None:
+    short = solved(problem).abbreviated("auto")
     blocks = solution_document(solved(problem), detail).blocks
     *_, last, verification = (place for place, block in enumerate(blocks) if isinstance(block, Heading))
     assert blocks[last] == Heading(TITLE) and blocks[verification] == Heading("Verification")
-    shown = [block.node for block in blocks[last:] if isinstance(block, Formula)]
-    short = solved(problem).abbreviated("auto")
+    definitions = (
+        [equation(one.name, one.meaning) for one in short.sums] if short and short.at_symbols else []
+    )
+    shown = [node for node in displayed(blocks[last:]) if node not in definitions]
     by_id = {step.id: step for step in solved(problem).explain(short=short)}
     forces = [by_id[f"tau{q.index}"].result[0] for q in solved(problem).robot.coordinates]
     matrices = by_id["model"].result or tuple(by_id[name].result[0] for name in "DCg")
