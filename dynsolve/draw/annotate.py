@@ -35,6 +35,9 @@ _SAME = 5.0
 _MARK = 6.0
 """The radius of the mark of a mass centre."""
 
+_AROUND = 11.0
+"""Its radius around an axis that is seen end on."""
+
 
 @dataclass
 class Notes:
@@ -104,9 +107,8 @@ def _axis(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     """Draw an axis, and give its tip."""
     view = pose.view
     x, y = view.direction(axis)
-    if math.hypot(x, y) < _END_ON:
-        has_mass = any(math.dist(origin, view.point(mass.center)) < _MARK for mass in pose.skeleton.masses)
-        _end_on(origin, dot(axis, view.toward) > 0, _MARK + 3.5 if has_mass else _MARK, notes)
+    if _is_end_on(axis, pose):
+        notes.taken.add([Path(paths.circle(origin, _MARK))])  # drawn last, by `axes_end_on`
         return origin
     tip = (origin[0] + x * AXIS, origin[1] + y * AXIS)
     back = (tip[0] - x / math.hypot(x, y) * 6.0, tip[1] - y / math.hypot(x, y) * 6.0)
@@ -118,8 +120,21 @@ def _axis(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     return tip
 
 
-def _end_on(origin: Point, toward: bool, radius: float, notes: Notes) -> None:
+def axes_end_on(pose: Pose, notes: Notes) -> None:
+    """The axes that are seen end on, over the masses at their origins."""
+    for frame in pose.skeleton.frames:
+        for axis in (frame.x, frame.z):
+            if _is_end_on(axis, pose):
+                _end_on(pose.view.point(frame.origin), dot(axis, pose.view.toward) > 0, notes)
+
+
+def _is_end_on(axis: Vector, pose: Pose) -> bool:
+    return math.hypot(*pose.view.direction(axis)) < _END_ON
+
+
+def _end_on(origin: Point, toward: bool, notes: Notes) -> None:
     """An axis seen end on: a point for the tip of the arrow, a cross for its feathers."""
+    radius = _MARK
     notes.draw(Path(paths.circle(origin, radius), paths.FRAME, 1.4, paths.WHITE))
     if toward:
         notes.draw(Path(paths.circle(origin, 2.0), None, fill=paths.FRAME))
@@ -139,9 +154,19 @@ def masses(pose: Pose, notes: Notes) -> None:
         if not _is_on_link(center, pose):
             origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
             notes.draw(Path(paths.line(origin, center), paths.BLACK, 0.9, dashed=True))
-        notes.draw(*(_ball(center) if mass.is_point else _quartered(center)))
+        radius = _AROUND if _is_under_axis(center, pose) else _MARK
+        notes.draw(*(_ball(center, radius) if mass.is_point else _quartered(center, radius)))
         name = letters.bold("r", Row((Words("c"), letters.index_of(mass.name))))
-        notes.label(name, [center], (0.0, 0.0), paths.BLACK, "mass", _MARK)
+        notes.label(name, [center], (0.0, 0.0), paths.BLACK, "mass", radius)
+
+
+def _is_under_axis(center: Point, pose: Pose) -> bool:
+    """Whether an axis that is seen end on stands where a mass centre is."""
+    return any(
+        math.dist(center, pose.view.point(frame.origin)) < _MARK
+        and any(_is_end_on(axis, pose) for axis in (frame.x, frame.z))
+        for frame in pose.skeleton.frames
+    )
 
 
 def _is_on_link(center: Point, pose: Pose) -> bool:
@@ -151,17 +176,16 @@ def _is_on_link(center: Point, pose: Pose) -> bool:
     return any(point_to_segment(center, a, b) < 2 * TUBE for a, b in lines)
 
 
-def _ball(center: Point) -> tuple[Path, ...]:
-    return (Path(paths.circle(center, _MARK), paths.WHITE, 1.2, paths.BLACK),)
+def _ball(center: Point, radius: float) -> tuple[Path, ...]:
+    return (Path(paths.circle(center, radius), paths.WHITE, 1.2, paths.BLACK),)
 
 
-def _quartered(center: Point) -> tuple[Path, ...]:
-    r = _MARK
+def _quartered(center: Point, radius: float) -> tuple[Path, ...]:
     quarters = tuple(
         Path(
             (
                 ("M", (center,)),
-                *paths.arc(center, (r, 0.0), (0.0, r), start, start + math.pi / 2, move=False),
+                *paths.arc(center, (radius, 0.0), (0.0, radius), start, start + math.pi / 2, move=False),
                 ("Z", ()),
             ),
             None,
@@ -169,7 +193,7 @@ def _quartered(center: Point) -> tuple[Path, ...]:
         )
         for start in (0.0, math.pi)
     )
-    return (Path(paths.circle(center, r), paths.BLACK, 1.2, paths.WHITE), *quarters)
+    return (Path(paths.circle(center, radius), paths.BLACK, 1.2, paths.WHITE), *quarters)
 
 
 def gravity(place: Point, direction: Point | None, notes: Notes) -> None:

@@ -37,6 +37,9 @@ from dynsolve.robot.model import JointType
 
 _RING = 1.75 * RADIUS
 _ARC = 31.0
+_WIDER = 14.0
+"""How much wider the arc of a further angle about the same point is."""
+
 _WIDE = 34.0
 """The radius of an arc in space, which its joint's body is not to hide."""
 
@@ -101,10 +104,11 @@ def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes)
     if dot(leg.axis, view.toward) < 0:
         angle = -angle
     second = (first[1], -first[0])
-    for line in _drawn_lines(leg, part, flat=True):
+    lines = _drawn_lines(leg, part, flat=True) if math.dist(view.point(leg.start), center) > NEAR else ()
+    for line in lines:
         end = moved(center, view.direction(line), _ARC + _BEYOND)
         notes.draw(Path(paths.line(center, end), paths.GREY, 0.9, dashed=True))
-    radius = _ARC if abs(angle) > 0.5 else _ARC + 16.0
+    radius = (_ARC if abs(angle) > 0.5 else _ARC + 16.0) + _WIDER * _before_here(pose, part)
     p, q = scaled(first, radius), scaled(second, radius)
     short = angle - math.copysign(min(6.0 / radius, abs(angle) / 2), angle)
     notes.draw(
@@ -112,6 +116,13 @@ def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes)
     )
     middle = [paths.on_ellipse(center, p, q, angle * part_of) for part_of in _PARTS[:3]]
     notes.label(node, middle, _from_to(center, middle[0]), paths.VARIABLE, "variable")
+
+
+def _before_here(pose: Pose, part: JointBody) -> int:
+    """How many joints before this one turn about the same point of the paper."""
+    at = pose.view.point(part.center)
+    others = (other for other in pose.parts.joints if other.row < part.row)
+    return sum(math.dist(pose.view.point(other.center), at) < NEAR for other in others)
 
 
 def _head(center: Point, p: Point, q: Point, end: float, short: float) -> Path:

@@ -26,7 +26,7 @@ _LABEL = 60.0
 """What it costs to run through the place of a label."""
 
 _UNDER, _HEAD = 4.0, 8.0
-"""What each cell costs that is taken under a line from an end, and under a head."""
+"""What each cell costs that is taken under a line, and under a head."""
 
 _CROWDED = 0.3
 """The part of its line from which a length that can be missed is left out."""
@@ -63,12 +63,16 @@ def unsigned(node: Node) -> Node:
 
 
 def dimensions(found: Sequence[Length], pose: Pose, notes: Notes) -> None:
-    """Draw lengths, the shortest nearest to what it measures, beside the places of the labels so far."""
+    """Draw lengths, the shortest nearest to what it measures, beside the places of the labels so far.
+
+    The labels of mass centres may stand on any side, so they make way.
+    """
 
     def on_paper(measured: Length) -> float:
         return round(math.dist(pose.view.point(measured.start), pose.view.point(measured.end)), 6)
 
-    reserved = [label.box for label in place(notes.wanted, notes.taken)]
+    placed = place([wanted for wanted in notes.wanted if wanted.kind != "mass"], notes.taken)
+    reserved = [label.box for label in placed]
     for measured in sorted(found, key=on_paper):
         dimension(measured, pose, notes, reserved)
 
@@ -125,7 +129,7 @@ def _offset(
         side = math.copysign(1.0, offset)
         from_ends = [(moved(at, across, side * 8.0), moved(at, across, offset + side * 4.0)) for at in (a, b)]
         in_labels = sum(box.meets(*line) for box in reserved for line in ((p, q), *from_ends))
-        under = sum(taken.cells_on(*line) for line in from_ends)
+        under = sum(taken.cells_on(*line) for line in ((p, q), *from_ends))
         heads = sum(taken.inside(Box.around(at, 6.0, 6.0)) for at in (p, q))
         total = 250.0 * crowded(offset) + 0.35 * abs(offset) + 2.0 * (offset < 0)
         return round(total + _LABEL * in_labels + _UNDER * under + _HEAD * heads, 6), offset

@@ -185,7 +185,7 @@ def _hidden_angle(leg: Leg, view: View) -> float:
     return (
         12.0 * _shortfall(angle, 0.7)
         + 0.8 * abs(angle - 1.1)
-        + 6.0 * max(0.0, angle - 2.8)
+        + 1.5 * max(0.0, angle - 2.8)
         + 2.0 * behind
         + 12.0 * flat
     )

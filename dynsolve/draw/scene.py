@@ -63,6 +63,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     annotate.frames(pose, notes)
     joint_angles(pose, [joint.written[0] for joint in robot.joints], notes)
     annotate.masses(pose, notes)
+    annotate.axes_end_on(pose, notes)
     dimensions([*row_lengths(robot, pose), *_center_lengths(pose)], pose, notes)
     _gravity(world, pose, body, notes)
     labels = place(notes.wanted, notes.taken)

@@ -12,15 +12,17 @@ import pytest
 
 from dynsolve.draw.drawn_lengths import numbers
 from dynsolve.draw.latex import font_size
+from dynsolve.draw.occupied import bounds
 from dynsolve.draw.orientation import orientation
-from dynsolve.draw.paths import VARIABLE, flattened, line
+from dynsolve.draw.parts import HALF_HEIGHT
+from dynsolve.draw.paths import FRAME, VARIABLE, flattened, line
 from dynsolve.draw.paths import Path as Drawn
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.scene import scene
 from dynsolve.draw.svg import to_svg
 from dynsolve.draw.typography import SIZE
-from dynsolve.draw.vectors import dot
-from dynsolve.problem import load
+from dynsolve.draw.vectors import Point, distance, dot
+from dynsolve.problem import load, read_problem
 from dynsolve.robot.model import JointType
 from tests.support import LIBRARY, TEXTBOOKS
 from tests.unit.draw.pictures import drawn, drawn_text, names, overlapping, struck_through, touched
@@ -188,3 +190,67 @@ def test_labels_are_text_with_indices() -> None:
     plain = {re.sub("<[^>]*>", "", label) for label in labels}
     assert {"θ1∗+\xa090°", "L2∗", "L1", "rc1", "rc2", "z0", "x2", "g"} <= plain
     assert '<tspan font-style="italic">θ</tspan><tspan font-size="11.9" dy="4.08">1</tspan>' in svg
+
+
+@pytest.mark.parametrize("name", ["in3140-rp", "elbow-3r", "crustcrawler-2r"])
+def test_a_joint_stands_at_the_base_end_of_its_link(name: str) -> None:
+    """Not where the mass centre of the link is that it turns."""
+    problem = load(next(path for path in LIBRARY if path.stem == name))
+    values = numbers(problem)
+    pose = best_pose(problem.robot, values, orientation(problem.robot, values))
+    part, leg = pose.parts.joints[0], pose.skeleton.legs[0]
+    assert distance(part.center, leg.foot) < 0.35 * distance(leg.head, leg.foot)
+    assert distance(part.center, pose.skeleton.masses[0].center) * pose.view.size > HALF_HEIGHT
+
+
+@pytest.mark.parametrize("name", ["in3140-rp", "crustcrawler-2r"])
+def test_a_turn_is_positive_in_the_pose_that_is_drawn(name: str) -> None:
+    """90° more than a positive angle is drawn as an obtuse one."""
+    problem = load(next(path for path in LIBRARY if path.stem == name))
+    values = numbers(problem)
+    leg = best_pose(problem.robot, values, orientation(problem.robot, values)).skeleton.legs[0]
+    assert leg.angle - values.rows[0].theta > 0.0
+
+
+def test_angles_about_one_point_have_arcs_of_their_own() -> None:
+    """Two links of the five-bar linkage turn about the same point."""
+    picture = drawn(next(path for path in LIBRARY if path.stem == "five-bar"))
+    arcs = [path.commands for path in picture.paths if path.stroke == VARIABLE and not path.fill]
+    starts = [commands[0][1][0] for commands in arcs]
+    assert len(set(starts)) == len(starts) == 4
+
+
+@pytest.mark.parametrize("name", ["numeric-2r", "cartesian-pp"])
+def test_an_axis_that_is_seen_end_on_shows_its_sense_on_a_mass_centre(name: str) -> None:
+    """Its point is the last thing drawn there."""
+    path = next(path for path in LIBRARY if path.stem == name)
+    problem = load(path)
+    values = numbers(problem)
+    pose = best_pose(problem.robot, values, orientation(problem.robot, values))
+    at = pose.view.point(pose.skeleton.masses[-1].center)
+    there = [p for p in drawn(path).paths if p.fill and _is_around(p, at)]
+    assert there[-1].fill == FRAME
+
+
+def _is_around(path: Drawn, at: Point) -> bool:
+    box = bounds([path])
+    return math.dist(box.center, at) < 0.5
+
+
+def test_what_is_blank_takes_the_page_s_background() -> None:
+    """The style of a page of HTML finds the background and the room around lines by these classes."""
+    svg = to_svg(drawn(next(path for path in LIBRARY if path.stem == "planar-2r")))
+    assert svg.count('class="paper"') == 1
+    assert svg.count('class="halo"') == svg.count('stroke="#ffffff"') > 0
+
+
+def test_a_plate_stands_across_a_tilted_axis() -> None:
+    """The base leans by 30°, and so does the ground that it stands on; gravity does not."""
+    text = "base: Rx(30deg)\ndh: [{theta: q1*, d: d1, alpha: 90deg}, {theta: q2*, a: l2}]\n"
+    problem = read_problem(text, "tilted.yaml")
+    values = numbers(problem)
+    world = orientation(problem.robot, values)
+    pose = best_pose(problem.robot, values, world)
+    assert dot(pose.parts.ground_normal, pose.skeleton.frames[0].z) == pytest.approx(1.0)
+    assert dot(pose.parts.ground_normal, world.up) == pytest.approx(math.cos(math.pi / 6))
+    assert dot(pose.parts.ground_side, pose.skeleton.frames[0].x) == pytest.approx(1.0)
