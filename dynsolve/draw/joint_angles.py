@@ -37,7 +37,7 @@ from dynsolve.robot.model import JointType
 
 _RING = 1.75 * RADIUS
 _ARC = 31.0
-_WIDER = 14.0
+_WIDER = 10.0
 """How much wider the arc of a further angle about the same point is."""
 
 _WIDE = 34.0

@@ -25,7 +25,7 @@ _DISTANCES = (4.0, 8.0, 13.0, 19.0, 27.0, 36.0, 46.0, 60.0, 76.0, 95.0)
 _FAR = 22.0
 """The distance from which a thin line leads from a label to what it names."""
 
-_STRUCK = 25.0
+_STRUCK = 80.0
 """What each cell under a label costs that something is drawn on."""
 
 _NEAR, _ROOM = 6.0, 2.5
@@ -33,6 +33,9 @@ _NEAR, _ROOM = 6.0, 2.5
 
 _CLOSE, _BARRED = 5.0, 8.0
 """What each cell costs that bars the way from a label to what it names."""
+
+_CLASH = 5000.0
+"""What it costs that two labels, or a label and the line of another, do not keep off each other."""
 
 _BESIDE, _ABOVE = 7.0, 2.0
 """The least room between two labels."""
@@ -112,7 +115,7 @@ def _placed(options: Sequence[Sequence[_Place]], order: Sequence[int]) -> list[_
 
 def _total(chosen: Sequence[_Place]) -> float:
     clashes = sum(not a.is_clear_of(b) for a, b in combinations(chosen, 2))
-    return round(sum(place.cost for place in chosen) + 200.0 * clashes, 6)
+    return round(sum(place.cost for place in chosen) + _CLASH * clashes, 6)
 
 
 def _best(places: Sequence[_Place], others: Sequence[_Place]) -> _Place:
