@@ -160,6 +160,11 @@ def masses(pose: Pose, notes: Notes) -> None:
         notes.label(name, [center], (0.0, 0.0), paths.BLACK, "mass", radius)
 
 
+def has_masses_off_links(pose: Pose) -> bool:
+    """Whether a dashed line leads to some mass centre."""
+    return not all(_is_on_link(pose.view.point(mass.center), pose) for mass in pose.skeleton.masses)
+
+
 def _is_under_axis(center: Point, pose: Pose) -> bool:
     """Whether an axis that is seen end on stands where a mass centre is."""
     return any(

@@ -30,6 +30,7 @@ SLIDE = 0.9
 
 CAPTION = "The manipulator with its frames; not to scale."
 PARALLELS = "Dashed lines at a joint are parallel to the x axes between which its angle is measured."
+OFF_LINKS = "A black dashed line leads from an origin to the mass centre of its link."
 
 _STAR = Style(star=True, decimal=True)
 _PLAIN = Style(decimal=True)
@@ -70,13 +71,19 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     paths = (*notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
-        f"{CAPTION} {PARALLELS}" if has_parallels(pose) else CAPTION,
+        _caption(pose),
         _description(problem),
         paths,
         labels,
         framed(paths, labels),
         notes.style,
     )
+
+
+def _caption(pose: Pose) -> str:
+    """What stands under the picture, with what its dashed lines are."""
+    parallels = [PARALLELS] if has_parallels(pose) else []
+    return " ".join([CAPTION, *parallels, *([OFF_LINKS] if annotate.has_masses_off_links(pose) else [])])
 
 
 def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:

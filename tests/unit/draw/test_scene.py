@@ -18,7 +18,7 @@ from dynsolve.draw.parts import HALF_HEIGHT
 from dynsolve.draw.paths import FRAME, VARIABLE, flattened, line
 from dynsolve.draw.paths import Path as Drawn
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.scene import scene
+from dynsolve.draw.scene import OFF_LINKS, scene
 from dynsolve.draw.svg import to_svg
 from dynsolve.draw.typography import SIZE
 from dynsolve.draw.vectors import Point, distance, dot
@@ -254,3 +254,9 @@ def test_a_plate_stands_across_a_tilted_axis() -> None:
     assert dot(pose.parts.ground_normal, pose.skeleton.frames[0].z) == pytest.approx(1.0)
     assert dot(pose.parts.ground_normal, world.up) == pytest.approx(math.cos(math.pi / 6))
     assert dot(pose.parts.ground_side, pose.skeleton.frames[0].x) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("name", "said"), [("puma560-first3", True), ("planar-2r", False)])
+def test_the_caption_says_what_dashed_lines_to_mass_centres_are(name: str, said: bool) -> None:
+    caption = drawn(next(path for path in LIBRARY if path.stem == name)).caption
+    assert (OFF_LINKS in caption) is said
