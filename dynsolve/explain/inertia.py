@@ -295,9 +295,14 @@ def _base_tensor(context: Context, body: Body) -> Step:
         letters.tensor(context.robot, body),
     )
     base, factor = context.form(f"I{b}"), _factor_of_identity(context.values[f"I_body{b}"])
-    working = tuple(_turned(context, body)) if factor is None else ()
+    axis = _axis_of_symmetry(context, body)
     notes: tuple[Prose, ...] = ()
     why: Prose = ()
+    working: tuple[Node, ...] = ()
+    if factor is None and axis is None:
+        working = tuple(_turned(context, body))
+        if base == context.form(f"I_body{b}"):
+            notes = (("This rotation does not change the tensor.",),)
     if factor is not None:
         shown, turned = context.show(factor), Product((R, Transpose(R)))
         working = (Product((shown, *turned.factors)), Product((shown, letters.bold("E"))))
@@ -306,8 +311,9 @@ def _base_tensor(context: Context, body: Body) -> Step:
             equation(turned, letters.bold("E")),
             ".",
         )
-    elif base == context.form(f"I_body{b}"):
-        notes = (("This rotation does not change the tensor.",),)
+    elif axis is not None:
+        working = (tensor,)
+        why = (f" Here it turns about {axis}, and the tensor is the same about all axes across {axis}.",)
     return Step(
         id=f"I{b}",
         stage=STAGE,
@@ -322,7 +328,7 @@ def _base_tensor(context: Context, body: Body) -> Step:
         formula=equation(inertia_, Product((R, tensor, Transpose(R)))),
         source=spong("7.2.1"),
         working=tuple(equation(inertia_, line) for line in working),
-        concluding=_turned_named(context, body) if working and factor is None else (),
+        concluding=_turned_named(context, body) if working and factor is None and axis is None else (),
         result=(equation(inertia_, base),),
         notes=notes,
         detail=_detail(context, body, base),
@@ -333,6 +339,15 @@ def _factor_of_identity(tensor: algebra.Matrix) -> Expr | None:
     """a where a tensor is a E, the same about every axis; None for others."""
     a = tensor[0, 0]
     return a if tensor == algebra.Matrix.identity(a.ring, 3).scale(a) else None
+
+
+def _axis_of_symmetry(context: Context, body: Body) -> str | None:
+    """The axis of the body that R turns about, where the tensor is the same about all axes across it."""
+    R, tensor = context.values[f"R{body.name}"], context.values[f"I_body{body.name}"]
+    one, unturned = R[0, 0].ring.one, algebra.Matrix.identity(R[0, 0].ring, 3)
+    if R @ tensor @ R.T != tensor or unturned == R:
+        return None
+    return next((name for k, name in enumerate("xyz") if R[k, k] == one), None)
 
 
 def _detail(context: Context, body: Body, base: Node) -> Detail:
