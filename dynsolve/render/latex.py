@@ -58,7 +58,7 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\textheight}{750pt}
 \setlength{\parindent}{0pt}
 \setlength{\parskip}{3pt plus 1pt}
-\setlength{\emergencystretch}{4em}
+\setlength{\emergencystretch}{6em}
 \setlength{\jot}{2pt}
 \setcounter{MaxMatrixCols}{30}
 \renewcommand{\arraystretch}{1.12}
@@ -102,7 +102,7 @@ def render_fragment(document: Document, style: Style = PLAIN) -> str:
     r"""A fragment for \input into another document; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
     body = "\n".join(page.blocks(document.blocks))
-    begin = "\\begingroup\\emergencystretch=4em\\renewcommand{\\arraystretch}{1.12}"
+    begin = "\\begingroup\\emergencystretch=6em\\renewcommand{\\arraystretch}{1.12}"
     return f"{_NEEDS}{_MACROS}{begin}\n{body}\n\\par\\endgroup\n"
 
 
@@ -260,9 +260,10 @@ class _Page(TypesetPage):
 
     def inline(self, node: Node) -> str:
         """A formula in a sentence; a short one is not broken."""
+        short = min(SHORT, self.width / 4)
         return ", ".join(
             f"${{{self.printer.text(one)}}}$"
-            if self.ruler.width(one) <= SHORT
+            if self.ruler.width(one) <= short
             else f"${self.printer.text(one)}$"
             for one in self.side_by_side(node)
         )
