@@ -48,7 +48,7 @@ def _of_short_model(steps: Iterable[Step], context: Context, short: Abbreviated)
 
 
 def _rates_in_letters(step: Step) -> Step:
-    """The step of Ḋ, its entries by the derivatives of D alone."""
+    """A step whose lines end in values: Ḋ by the derivatives of D alone, C q̇ by the symbols alone."""
     lines = (replace(line, formulas=tuple(map(_without_value, line.formulas))) for line in step.lines)
     return replace(step, lines=tuple(lines))
 
@@ -64,7 +64,11 @@ def _terms_in_letters(step: Step) -> Step:
     return replace(step, table=replace(step.table, rows=rows))
 
 
-_IN_LETTERS: Mapping[str, Callable[[Step], Step]] = {"skew": _rates_in_letters, "terms": _terms_in_letters}
+_IN_LETTERS: Mapping[str, Callable[[Step], Step]] = {
+    "agreement": _rates_in_letters,
+    "skew": _rates_in_letters,
+    "terms": _terms_in_letters,
+}
 """The steps whose values would not be in names, by their ids."""
 
 
