@@ -55,7 +55,7 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\oddsidemargin}{-8pt}
 \setlength{\evensidemargin}{-8pt}
 \setlength{\topmargin}{-60pt}
-\setlength{\textheight}{750pt}
+\setlength{\textheight}{757pt}
 \setlength{\parindent}{0pt}
 \setlength{\parskip}{3pt plus 1pt}
 \setlength{\emergencystretch}{6em}
