@@ -9,7 +9,7 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Prose
-from dynsolve.explain.closing import WIDEST, matrix_width
+from dynsolve.explain.closing import matrix_width
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import (
     BESIDE,
@@ -164,10 +164,14 @@ def _column(context: Context, q: Coordinate) -> Step:
     )
 
 
+_WIDEST_ROW = 66
+"""The characters up to which a column is written as one row, which fits the lines of an article."""
+
+
 def _on_one_line(context: Context, rows: tuple[tuple[Node, ...], ...]) -> Node:
     """A column, written as a transposed row where that fits."""
     row = Matrix((tuple(entry for (entry,) in rows),))
-    return Transpose(row) if matrix_width(context, row) <= WIDEST else Matrix(rows)
+    return Transpose(row) if matrix_width(context, row) <= _WIDEST_ROW else Matrix(rows)
 
 
 def _still_column(context: Context, q: Coordinate) -> Step:
