@@ -53,7 +53,8 @@ def name_recurring(
     >>> from dynsolve.notation.python import to_python
     >>> m, l, r, q, I = map(Symbol, ("m", "l", "r", "q", "I"))
     >>> product = Product((m, l, r, Function("sin", q)))
-    >>> definitions, used = name_recurring([Negative(product), Sum((I, product))], iter([Symbol("h")]))
+    >>> entries = [Negative(product), Sum((I, product))]
+    >>> definitions, used = name_recurring(entries, iter([Symbol("h")]), whole=False)
     >>> to_python(definitions[0].meaning)
     'm*l*r*sin(q)'
     >>> list(map(to_python, used))

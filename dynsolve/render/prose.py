@@ -71,7 +71,7 @@ def typographic(text: str) -> str:
     r"""The text with the apostrophe of printed text in words.
 
     >>> typographic("the body's frame, the bodies' masses, 'quoted'")
-    'the body’s frame, the bodies’ masses, \'quoted\''
+    "the body’s frame, the bodies’ masses, 'quoted'"
     """
     return _APOSTROPHE.sub("’", text) if "'" in text else text
 

@@ -11,6 +11,7 @@ from dynsolve.errors import ProblemError
 from dynsolve.explain.step import Step
 from dynsolve.problem.model import Problem
 from dynsolve.quantities.index import Quantities, quantities
+from dynsolve.quantities.robot_stages import stages_of
 
 
 def with_remarks(steps: Iterable[Step], problem: Problem, *, whole: bool) -> Iterator[Step]:
@@ -18,20 +19,19 @@ def with_remarks(steps: Iterable[Step], problem: Problem, *, whole: bool) -> Ite
 
     A remark on an entry (d12, c121) stands at the step of the whole, one on what has no step of
     its own (tau) at the last of its parts.  Raises ProblemError where the steps are the `whole`
-    derivation, and none of them is what a remark speaks of.
+    derivation, and none of them is what a remark speaks of, though its stage is there: the way from
+    link to link has none of the energies.
     """
-    steps = tuple(steps)
-    known, owner = (
-        quantities(problem.robot),
-        {name: step.id for step in steps for name in (step.id, *step.also)},
-    )
+    steps, known = tuple(steps), quantities(problem.robot)
+    owner = {name: step.id for step in steps for name in (step.id, *step.also)}
+    stages = stages_of(problem.robot)
     notes: dict[str, list[Prose]] = defaultdict(list)
     lost = []
     for remark in problem.remarks:
         places = [owner[name] for name in _looked_up(known, remark.name) if name in owner]
         if places:
             notes[places[0]] += [(text,) for text in remark.texts]
-        elif whole:
+        elif whole and known.stage(remark.name) in stages:
             message = f"the solution has no step of {remark.name}"
             lost.append(problem.finding(("remarks", remark.key), message, "remark on another result"))
     if lost:
