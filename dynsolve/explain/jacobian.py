@@ -169,9 +169,14 @@ _WIDEST_ROW = 66
 
 
 def _on_one_line(context: Context, rows: tuple[tuple[Node, ...], ...]) -> Node:
-    """A column, written as a transposed row where that fits."""
+    """A column, written as a transposed row where those of all coordinates fit."""
+    linear, angular = context.matrix("Jv"), context.matrix("Jw")
+    columns = zip(*linear.rows, strict=True), zip(*angular.rows, strict=True)
+    fits = all(
+        matrix_width(context, Matrix(((*v, *w),))) <= _WIDEST_ROW for v, w in zip(*columns, strict=True)
+    )
     row = Matrix((tuple(entry for (entry,) in rows),))
-    return Transpose(row) if matrix_width(context, row) <= _WIDEST_ROW else Matrix(rows)
+    return Transpose(row) if fits else Matrix(rows)
 
 
 def _still_column(context: Context, q: Coordinate) -> Step:
