@@ -13,8 +13,10 @@ from dynsolve.robot.model import AxisTurns
 
 
 def motion(axis: str, amount: Node, turns: bool) -> Node:
-    """Rot_{z,θ} or Trans_{z,d}"""
-    return Letter("Rot" if turns else "Trans", Row((Words(axis), Words(","), amount)), style="upright")
+    """Rot_{z,θ} or Trans_{z,d}: how far is a value, and set as values are, not as what names an index."""
+    return Letter(
+        "Rot" if turns else "Trans", Row((Words(axis), Words(","), Row((amount,)))), style="upright"
+    )
 
 
 def rotations(turns: AxisTurns) -> tuple[Node, ...]:

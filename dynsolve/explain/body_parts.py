@@ -163,10 +163,9 @@ def _angular(context: Context, body: Body) -> _Product:
         letters.tensor(context.robot, body),
         ", and ",
         letters.jw(body),
-        " becomes ",
-        own.name,
+        *((" stays the same: the rotation is about its axis.",) if own.is_same else (" becomes ", own.name)),
         *own.why,
-        ".",
+        *(() if own.is_same else (".",)),
     )
     lines = (own.working, _rotational(context, body, own.value, given))
     return _Product(lines, _used(context, own.value, given), (f"Jv{b}", f"R{b}", f"I_body{b}"), why)

@@ -276,9 +276,7 @@ def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
         if len(holding) > 1 and all(both):
             angle = Symbol(atom[0][0])
             yield (
-                "The squares add up by ",
-                _pythagoras(angle),
-                ", so that the speed does not depend on ",
+                "The speed does not depend on ",
                 angle,
                 ".",
             )

@@ -97,7 +97,7 @@ def _table(context: Context) -> Step:
             ". ",
         )
     if any(joint.type for joint in robot.joints):
-        why += ("The star only marks a joint variable, and may be left out: ", *_kinds(context))
+        why += ("The star only marks a joint variable, and may be left out. Here ", *_kinds(context))
     return Step(
         id="dh",
         stage=STAGE,

@@ -18,7 +18,6 @@ from dynsolve.notation.tree import (
     Product,
     Symbol,
     Transpose,
-    Words,
     equation,
 )
 from dynsolve.quantities import letters
@@ -69,7 +68,7 @@ def _weight(context: Context, body: Body, general: Node) -> tuple[Prose, Node, t
     vectors = equation(P, Negative(Product((context.show(body.mass), _gravity(context).argument, center))))
     working: tuple[Node, ...] = (vectors,) if is_small(center) else ()
     product: Prose = (
-        Product((Transpose(letters.GRAVITY), letters.bold("r", Words("c")))),
+        Product((Transpose(letters.GRAVITY), letters.rc(body))),
         ", ",
         letters.GRAVITY,
         " being the acceleration of gravity, which points down (",

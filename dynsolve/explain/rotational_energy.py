@@ -56,8 +56,9 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
         own.name,
         ".",
     )
+    along: Prose = ("Along the body's own axes", *own.why, ":")
     lines = (
-        Line(("Along the body's own axes", *own.why, ":"), (own.working,)),
+        Line((R, " turns about the axis of ", w, ":") if own.is_same else along, (own.working,)),
         Line(("With the tensor along the same axes:",), step.working),
     )
     return replace(

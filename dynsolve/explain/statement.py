@@ -15,6 +15,8 @@ from dynsolve.robot.model import Body
 MOST_BODIES = 4
 """Up to this number of bodies each is named."""
 
+_COUNTS = {2: "two", 3: "three", 4: "four"}
+
 _CALLED = {
     "K": "the kinetic energy",
     "P": "the potential energy",
@@ -64,7 +66,7 @@ def _given(forms: Forms) -> Prose:
     if len(bodies) > MOST_BODIES:
         return (f"the table of the {what} (1.1), and mass, mass centre and tensor of {len(bodies)} bodies",)
     told = [_body(forms, body) for body in bodies]
-    count = "one body" if len(told) == 1 else f"{len(told)} bodies"
+    count = "one body" if len(told) == 1 else f"{_COUNTS[len(told)]} bodies"
     parts: Prose = told[0]
     for each in told[1:]:
         parts += ("; ", *each)

@@ -155,7 +155,7 @@ def _twice() -> Prose:
     i, j, k = map(Symbol, "ijk")
     one, other = (Letter("c", Row(indices)) for indices in ((i, j, k), (j, i, k)))
     both = equation(Sum((one, other)), Product((Number(2), one)))
-    return (" Its 2 comes from the two equal symbols: ", both, ".")
+    return (" The 2 of a Coriolis term comes from two equal symbols: ", both, ".")
 
 
 def _rows(

@@ -9,7 +9,7 @@ and if all of these vanish, the rates vanish one by one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -68,12 +68,18 @@ def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
             used |= dict.fromkeys(_identities(context, block))
     why = _diagonal(context, firsts)
     if not determinants:
-        return (*why, " All other entries are zero."), ()
+        return (*why, " All other entries are zero, so ", letters.D, " is positive definite."), ()
     if len(firsts) > 1:
-        why += (" Entries between coordinates that are not coupled are zero.",)
+        why += (" Coordinates that are not coupled have no entry in common, so each block counts by itself.",)
     why += (f" The determinant{'s' * (len(determinants) > 1)} below ",)
-    why += ("are" if len(determinants) > 1 else "is", " positive, too (Sylvester's criterion)")
-    why += (", multiplied out with ", *said(list(used)), ":") if used else (":",)
+    why += (
+        "are" if len(determinants) > 1 else "is",
+        " positive, too, so ",
+        letters.D,
+        " is positive definite ",
+    )
+    why += ("(Sylvester's criterion); multiplied out",)
+    why += (" with ", *said(list(used)), ":") if used else (":",)
     return why, tuple(determinants)
 
 
@@ -170,8 +176,19 @@ def _minors(context: Context, block: Sequence[int]) -> list[Node] | None:
         form = context.show(determinant([[D[i, j] for j in places] for i in places]))
         if cost(form) > LONGEST or not _is_positive(context, form):
             return None
-        found.append(equation(_written(places), form))
+        found.append(equation(_written(places), *_entries_put_in(context, places), form))
     return found
+
+
+def _entries_put_in(context: Context, places: Sequence[int]) -> Iterator[Node]:
+    """d_aa d_bb - d_ab² with the entries, of two coordinates; nothing of more, or where that is long."""
+    if len(places) != 2:
+        return
+    (a, b), D = places, context.values["D"]
+    product = Product((context.show(D[a, a]), context.show(D[b, b])))
+    before = Sum((product, Negative(Power(context.show(D[a, b]), Number(2)))))
+    if cost(before) <= LONGEST:
+        yield before
 
 
 def _identities(context: Context, block: Sequence[int]) -> tuple[Identity, ...]:

@@ -164,12 +164,14 @@ def _turn(context: Context, found: squares.Turned) -> Prose:
     if any(part.is_zero for part in found.parts):
         return "By ", equation(Sum((Power(s, Number(2)), Power(c, Number(2)))), Number(1)), ":"
     U, V = Symbol("U"), Symbol("V")
-    both = Sum((Product((U, s)), Product((V, c)))), Sum((Product((U, c)), Negative(Product((V, s)))))
+    shown = [context.show(part) for part in found.parts]
+    first, second = map(without_signs, shown)
+    Us, Uc, Vs, Vc = (Product(pair) for pair in ((U, s), (U, c), (V, s), (V, c)))
+    both = Sum((Us, Vc)), Sum((Uc, Negative(Vs)))
+    if (first == shown[0]) != (second == shown[1]):  # one of them without its minus
+        both = Sum((Vc, Negative(Us))), Sum((Uc, Vs))
     left = Sum(tuple(Power(Parenthesized(x), Number(2)) for x in both))
     identity = equation(left, Sum((Power(U, Number(2)), Power(V, Number(2)))))
-    first, second = (context.show(part) for part in found.parts)
-    if split_sign(first)[0] < 0:  # both signs may be changed
-        first, second = (context.show(-part) for part in found.parts)
     return "By ", identity, " with ", equation(U, first), " and ", equation(V, second), ":"
 
 

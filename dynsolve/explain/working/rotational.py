@@ -52,12 +52,16 @@ def _is_constant(context: Context, tensor: Matrix) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Turned:
-    """ω, or the columns of J_ω, along a body's own axes: the value, its name Rᵀ ω, and how it comes about."""
+    """ω, or the columns of J_ω, along a body's own axes: the value, its name Rᵀ ω, and how it comes about.
+
+    It `is_same` where the rotation is about its axis.
+    """
 
     value: Matrix
     name: Node
     working: Node
     why: Prose
+    is_same: bool = False
 
 
 def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turned:
@@ -68,11 +72,10 @@ def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turne
     rotation = letters.of_body("R", body, "bold")
     name = Product((Transpose(rotation), letter))
     if own == base:
-        why: Prose = (", the same, since ", rotation, " turns about the axis of ", letter)
-        return Turned(own, name, equation(name, letter), why)
+        return Turned(own, name, equation(name, letter), (), is_same=True)
     product = Product((Transpose(context.form(f"R{b}")), context.form(f"{quantity}{b}")))
     used = used_in_product(context, R.T, base, own)
-    why = (", with ", *said(used)) if used else ()
+    why: Prose = (", with ", *said(used)) if used else ()
     return Turned(own, name, equation(name, product, context.show(own)), why)
 
 

@@ -15,7 +15,7 @@ from tests.support import solved
 CASES = [
     (
         "in3140-rp",
-        "Given: the table of the arm (1.1) and 2 bodies: body 1 in link 1, of mass m₁; "
+        "Given: the table of the arm (1.1) and two bodies: body 1 in link 1, of mass m₁; "
         "body 2 in link 2, a point of mass m₂.",
         "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and centrifugal "
         "terms 𝐂 and the gravity terms 𝐠.",

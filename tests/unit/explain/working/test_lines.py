@@ -83,7 +83,7 @@ def test_a_velocity_turned_with_the_waist_has_the_square_of_the_velocity() -> No
 
 def test_where_one_identity_does_all_it_is_named_and_no_line_is_spent() -> None:
     assert lines("planar-2r", "Kv1") == ["By s₁² + c₁² = 1:"]
-    turned = "By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with U = L₂ θ̇₁ and V = -L̇₂:"
+    turned = "By (V c₁ - U s₁)² + (U c₁ + V s₁)² = U² + V² with U = L₂ θ̇₁ and V = L̇₂:"
     assert lines("in3140-rp", "Kv2") == [turned]
 
 
@@ -221,4 +221,4 @@ def test_a_square_of_rates_is_opened_after_it_is_added() -> None:
 
 def test_the_identity_of_a_determinant_is_named() -> None:
     (found,) = (each for each in solved("planar-2r").steps if each.id == "definite")
-    assert said(found.why, "planar-2r").endswith(", multiplied out with s₂² + c₂² = 1:")
+    assert said(found.why, "planar-2r").endswith("; multiplied out with s₂² + c₂² = 1:")
