@@ -137,7 +137,7 @@ def test_the_determinant_of_the_planar_arm() -> None:
     assert "d₁₁ is positive: body 1 adds m₁ l_c1² + I₁ to d₁₁." in said("planar-2r", "definite")
     assert said("in3140-rp", "definite") == (
         "Let all parameters be positive. d₁₁ and d₂₂ are positive: no term of them can be negative, and not "
-        "all are zero. All other entries are zero, so 𝐃 is positive definite."
+        "all are zero. All other entries are zero, so D is positive definite."
     )
 
 
