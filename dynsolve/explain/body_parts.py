@@ -16,7 +16,7 @@ from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.working.rotational import along_own_axes, turned
 from dynsolve.explain.writing import spong, sum_of
-from dynsolve.notation.tree import ZERO, Node, Product, equation
+from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
@@ -167,7 +167,9 @@ def _angular(context: Context, body: Body) -> _Product:
         *own.why,
         *(() if own.is_same else (".",)),
     )
-    lines = (own.working, _rotational(context, body, own.value, given))
+    in_letters = letters.transposed_product(Parenthesized(own.name), letters.tensor(context.robot, body))
+    product = letters.transposed_product(context.show(own.value), context.show(given))
+    lines = (own.working, equation(angular_name(body), in_letters, product))
     return _Product(lines, _used(context, own.value, given), (f"Jv{b}", f"R{b}", f"I_body{b}"), why)
 
 

@@ -275,8 +275,8 @@ def _rates_of_entries() -> Line:
     by: Prose = (
         "The chain rule gives the rates of ",
         _d(_K, _J),
-        ". Each product of two rates then occurs twice in the sum, with i and j exchanged, so half the sum "
-        "of both slopes may stand with each:",
+        ". Each product of two rates then occurs twice in the sum, with i and j exchanged, so each "
+        "derivative may be replaced by half the sum of the two:",
     )
     both = Product((letters.HALF, _over_rates(Parenthesized(Sum(tuple(slopes))))))
     return Line(by, (equation(moving, _over_rates(slopes[0]), both),))

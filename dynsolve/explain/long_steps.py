@@ -315,7 +315,12 @@ class LongModel:
             " holds the terms with rates: ",
         )
         why += ("centrifugal terms (a rate squared) and Coriolis terms (a product of two rates). ",)
-        why += ("One entry, written out, shows how each is made.",) if full else ("There are none here.",)
+        told = "One entry, written out, shows how each is made"
+        why += (
+            (f"{told}; those that are zero follow it." if zero else f"{told}.",)
+            if full
+            else ("There are none.",)
+        )
         return replace(step, why=why, result=tuple(shown), entries=())
 
     def coriolis_entries(self, step: Step) -> Step:
@@ -355,7 +360,7 @@ class LongModel:
         if not rows:
             return replace(step, result=())
         zero = any(value == ZERO for value in symbols.values())
-        note: Prose = ("They are listed with i ≤ j", "; all the others are zero." if zero else ".")
+        note: Prose = ("They are listed with i ≤ j", "; of these, all others are zero." if zero else ".")
         return replace(step, why=self._on_symbols(), result=rows, listed=True, notes=(note,))
 
     def _on_symbols(self) -> Prose:

@@ -199,7 +199,7 @@ def _constant_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
         KHALIL_DOMBRE.section("9.4"),
         "). They are the constants below",
         *own,
-        ". The motions and forces of the joints determine their values, and no others.",
+        ". Only these can be determined from the motions and forces of the joints.",
     ))  # fmt: skip
     yield Equations(tuple(map(_defined, short.constants)), in_columns=True, label=CONSTANTS_LIST)
 

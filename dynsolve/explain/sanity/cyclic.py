@@ -6,14 +6,25 @@ from dynsolve.document import Prose
 from dynsolve.explain.closing import driving_row
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import listed, spong
+from dynsolve.explain.writing import listed, spong, sum_of
 from dynsolve.notation.build import cost
-from dynsolve.notation.tree import Number, Symbol, equation
+from dynsolve.notation.tree import Node, Number, Product, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Coordinate
 
 LONGEST = 30
 """The operations up to which a momentum is written again."""
+
+
+def _written(context: Context, q: Coordinate) -> Node:
+    """A momentum: its formula, or the entries of D times the rates where that is long."""
+    form = context.form(f"dLdqd{q.index}")
+    if cost(form) <= LONGEST:
+        return form
+    row, k = context.values["D"].rows[q.index - 1], q.index
+    coupled = [other for other in context.robot.coordinates if not row[other.index - 1].is_zero]
+    return sum_of([Product((letters.entry("d", k, j.index), letters.velocity(j))) for j in coupled])
 
 
 def cyclic_step(context: Context) -> Step | None:
@@ -38,8 +49,7 @@ def cyclic_step(context: Context) -> Step | None:
     why += (" says" if one else "s say",)
     why += (f" that the {'momentum' if one else 'momenta'} ", *listed(momenta))
     why += (" is conserved." if one else " are conserved.",)
-    forms = [context.form(f"dLdqd{q.index}") for q in free]
-    shown = (equation(p, form) for p, form in zip(momenta, forms, strict=True) if cost(form) <= LONGEST)
+    shown = (equation(p, _written(context, q)) for p, q in zip(momenta, free, strict=True))
     return Step(
         id="cyclic",
         stage=Stage.VECTORIZED,

@@ -13,6 +13,7 @@ and these are made of:
     proved           a chain of lines, shown only where each is proved equal to its value
     squares          how the squares of a velocity's components become the square of the speed
     differentiation  derivatives term by term, by product and chain rule
+    expansion        products of sums, multiplied out
     identities       which identities of sine and cosine lead from one line to the next
     unreduced        the value of a line before s² + c² = 1 is used
 

@@ -14,6 +14,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import Rule, by_symbol, by_time, differentiated
+from dynsolve.explain.working.expansion import multiplied_out
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain, equals
 from dynsolve.explain.writing import listed, sum_of
@@ -45,7 +46,11 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: s
     used = identities(value.ring, found.tree, form)
     if are_alike(found.tree, form):
         return SILENT
-    return chain(value, [((by,), found.tree)], lambda tree: equation(left, tree), _collected(used or ()))
+    lines: list[tuple[Prose, Node]] = [((by,), found.tree)]
+    expanded = multiplied_out(found.tree, decimal=is_numeric(context.robot))
+    if expanded != found.tree:
+        lines.append((("Multiplied out:",), expanded))
+    return chain(value, lines, lambda tree: equation(left, tree), _collected(used or ()))
 
 
 def cancelling(context: Context, q: Coordinate) -> Prose:
@@ -89,7 +94,7 @@ def _ordered(node: Node) -> Node:
 
 
 def _collected(used: Sequence[Identity]) -> Prose:
-    return ("Multiplied out, with ", *said(used), ", and collected:") if used else ("Collected:",)
+    return ("Collected, with ", *said(used), ":") if used else ("Collected:",)
 
 
 # -- the derivatives of D --------------------------------------------------------------------------
@@ -108,7 +113,9 @@ def slopes(context: Context) -> Way:
         found = differentiated(entry, by_symbol(Symbol(q.name)), decimal=is_numeric(context.robot))
         named = identities(value.ring, found.tree, form)
         if (found.by_product_rule or named) and not are_alike(found.tree, form) and equals(found.tree, value):
-            shown.append(equation(_slope(i, j, q), found.tree, form))
+            expanded = multiplied_out(found.tree, decimal=is_numeric(context.robot))
+            members = dict.fromkeys((_slope(i, j, q), found.tree, expanded, form))
+            shown.append(equation(*members))
             used |= dict.fromkeys(named or ())
     if not shown:
         return SILENT

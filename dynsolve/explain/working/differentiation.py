@@ -113,13 +113,17 @@ class _Worker:
         ])  # fmt: skip
 
     def _times(self, coefficient: int, *factors: tuple[Node, int]) -> Node:
-        """The product of factors with exponents; powers of one base are put together."""
-        merged: dict[Node, int] = {}
-        for node, exponent in factors:
-            for base, power in _flattened(node, exponent):
-                merged[base] = merged.get(base, 0) + power
-        kept = [(node, exponent) for node, exponent in merged.items() if exponent]
-        return times(coefficient, _sines_first(sorted(kept, key=_place)), decimal=self.decimal)
+        return product_of(coefficient, factors, decimal=self.decimal)
+
+
+def product_of(coefficient: int, factors: Sequence[tuple[Node, int]], *, decimal: bool = False) -> Node:
+    """The product of factors with exponents; powers of one base are put together."""
+    merged: dict[Node, int] = {}
+    for node, exponent in factors:
+        for base, power in _flattened(node, exponent):
+            merged[base] = merged.get(base, 0) + power
+    kept = [(node, exponent) for node, exponent in merged.items() if exponent]
+    return times(coefficient, _sines_first(sorted(kept, key=_place)), decimal=decimal)
 
 
 def _one_over(node: Node) -> Node | None:
