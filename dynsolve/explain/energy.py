@@ -28,7 +28,6 @@ from dynsolve.explain.writing import (
 )
 from dynsolve.notation.tree import (
     BigSum,
-    Function,
     Letter,
     Matrix,
     Negative,
@@ -275,17 +274,8 @@ def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
         both = (any(d[k] > 0 for d in holding) for k in (pair.sine, pair.cosine))
         if len(holding) > 1 and all(both):
             angle = Symbol(atom[0][0])
-            yield (
-                "The speed does not depend on ",
-                angle,
-                ".",
-            )
+            yield ("The speed does not depend on ", angle, ".")
             return
-
-
-def _pythagoras(angle: Symbol) -> Node:
-    squares = tuple(Power(Function(name, angle), Number(2)) for name in ("sin", "cos"))
-    return equation(Sum(squares), Number(1))
 
 
 def _kinetic(context: Context, body: Body) -> Step:

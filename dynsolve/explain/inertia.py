@@ -6,6 +6,7 @@ The first step of a body, its mass centre, is in `mass_centers`.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.algebra.expr import Expr
@@ -288,34 +289,10 @@ def _right_frame(context: Context, link: int) -> Iterator[Prose]:
 
 
 def _base_tensor(context: Context, body: Body) -> Step:
-    b = body.name
-    inertia_, R, tensor = (
-        letters.base_tensor(letters.index_of(body.name)),
-        letters.of_body("R", body, "bold"),
-        letters.tensor(context.robot, body),
-    )
-    base, factor = context.form(f"I{b}"), _factor_of_identity(context.values[f"I_body{b}"])
-    axis = _axis_of_symmetry(context, body)
-    notes: tuple[Prose, ...] = ()
-    why: Prose = ()
-    working: tuple[Node, ...] = ()
-    if factor is None and axis is None:
-        working = tuple(_turned(context, body))
-        if base == context.form(f"I_body{b}"):
-            notes = (("This rotation does not change the tensor.",),)
-    if factor is not None:
-        shown, turned = context.show(factor), Product((R, Transpose(R)))
-        working = (Product((shown, *turned.factors)), Product((shown, letters.bold("E"))))
-        why = (
-            " The tensor is a multiple of the identity matrix, and ",
-            equation(turned, letters.bold("E")),
-            ".",
-        )
-    elif axis is not None:
-        working = (tensor,)
-        why = (f" Here it turns about {axis}, and the tensor is the same about all axes across {axis}.",)
+    name, R = letters.base_tensor(letters.index_of(body.name)), letters.of_body("R", body, "bold")
+    turning, base = _turning(context, body, R), context.form(f"I{body.name}")
     return Step(
-        id=f"I{b}",
+        id=f"I{body.name}",
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
         why=(
@@ -323,16 +300,42 @@ def _base_tensor(context: Context, body: Body) -> Step:
             f" is written in {context.ground} coordinates, so the tensor must be too: ",
             R,
             f" leads from the body's axes to those of the {context.ground}.",
-            *why,
+            *turning.why,
         ),
-        formula=equation(inertia_, Product((R, tensor, Transpose(R)))),
+        formula=equation(name, Product((R, letters.tensor(context.robot, body), Transpose(R)))),
         source=spong("7.2.1"),
-        working=tuple(equation(inertia_, line) for line in working),
-        concluding=_turned_named(context, body) if working and factor is None and axis is None else (),
-        result=(equation(inertia_, base),),
-        notes=notes,
+        working=tuple(equation(name, line) for line in turning.lines),
+        concluding=turning.concluding,
+        result=(equation(name, base),),
+        notes=turning.notes,
         detail=_detail(context, body, base),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Turning:
+    """How R I Rᵀ comes about: what is said of it, its lines, and the identities that lead to the result."""
+
+    lines: tuple[Node, ...]
+    why: Prose = ()
+    concluding: Prose = ()
+    notes: tuple[Prose, ...] = ()
+
+
+def _turning(context: Context, body: Body, R: Letter) -> _Turning:
+    """By the factor of the identity, by an axis of symmetry, or by two products of matrices."""
+    factor, axis = _factor_of_identity(context.values[f"I_body{body.name}"]), _axis_of_symmetry(context, body)
+    if factor is not None:
+        shown, turned, one = context.show(factor), Product((R, Transpose(R))), letters.bold("E")
+        why: Prose = (" The tensor is a multiple of the identity matrix, and ", equation(turned, one), ".")
+        return _Turning((Product((shown, *turned.factors)), Product((shown, one))), why)
+    if axis is not None:
+        why = (f" Here it turns about {axis}, and the tensor is the same about all axes across {axis}.",)
+        return _Turning((letters.tensor(context.robot, body),), why)
+    lines = tuple(_turned(context, body))
+    is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")
+    notes: tuple[Prose, ...] = (("This rotation does not change the tensor.",),) if is_kept else ()
+    return _Turning(lines, (), _turned_named(context, body) if lines else (), notes)
 
 
 def _factor_of_identity(tensor: algebra.Matrix) -> Expr | None:

@@ -56,10 +56,28 @@ def table_of(context: Context) -> Table:
 
 
 def _table(context: Context) -> Step:
-    robot = context.robot
-    theta, d, a, alpha = letters.columns(robot, _I)
+    robot, why = context.robot, _four_motions(context)
+    if any(joint.type for joint in robot.joints):
+        why += ("The star only marks a joint variable, and may be left out. Here ", *_kinds(context))
+    return Step(
+        id="dh",
+        stage=STAGE,
+        title="Denavit-Hartenberg table",
+        why=why,
+        source=spong("3.2") if context.standard else craig("3.4"),
+        result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
+        notes=tuple(_table_notes(context)),
+        table=table_of(context),
+        detail=Detail.BRIEF,
+        is_task=False,
+    )
+
+
+def _four_motions(context: Context) -> Prose:
+    """How a row leads from a frame to the next, in the order of its convention."""
+    theta, d, a, alpha = letters.columns(context.robot, _I)
     if context.standard:
-        why: Prose = (
+        return (
             "Each row takes frame i-1 to frame i by four motions: a rotation by ",
             theta,
             " about ",
@@ -74,41 +92,26 @@ def _table(context: Context) -> Step:
             alpha,
             " about that. ",
         )
-    else:
-        why = (
-            "Each row takes frame i-1 to frame i by four motions: a rotation by ",
-            alpha,
-            " about ",
-            letters.bold("x", letters.BEFORE),
-            ", a translation by ",
-            a,
-            " along it, a rotation by ",
-            theta,
-            " about ",
-            letters.bold("z", _I),
-            " and a translation by ",
-            d,
-            " along that. Craig numbers ",
-            a,
-            " and ",
-            alpha,
-            " of row i by ",
-            letters.BEFORE,
-            ". ",
-        )
-    if any(joint.type for joint in robot.joints):
-        why += ("The star only marks a joint variable, and may be left out. Here ", *_kinds(context))
-    return Step(
-        id="dh",
-        stage=STAGE,
-        title="Denavit-Hartenberg table",
-        why=why,
-        source=spong("3.2") if context.standard else craig("3.4"),
-        result=(equation(letters.Q, column(*(Symbol(q.name) for q in robot.coordinates))),),
-        notes=tuple(_table_notes(context)),
-        table=table_of(context),
-        detail=Detail.BRIEF,
-        is_task=False,
+    return (
+        "Each row takes frame i-1 to frame i by four motions: a rotation by ",
+        alpha,
+        " about ",
+        letters.bold("x", letters.BEFORE),
+        ", a translation by ",
+        a,
+        " along it, a rotation by ",
+        theta,
+        " about ",
+        letters.bold("z", _I),
+        " and a translation by ",
+        d,
+        " along that. Craig numbers ",
+        a,
+        " and ",
+        alpha,
+        " of row i by ",
+        letters.BEFORE,
+        ". ",
     )
 
 
