@@ -64,11 +64,12 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 #let formula(body, side, sticky: false) = displayed(breakable: false, sticky: sticky,
   grid(columns: (1fr, auto, 1fr), align: (left, center, right + horizon), [], body, side))
 #let held(rows) = grid.cell(rowspan: rows, breakable: false, [])
+#let strut = box(width: 0pt, hide($lr(|, size: #1.5em)$))
 #let formula-lines(sticky: false, ..cells) = displayed(sticky: sticky,
-  grid(columns: (1fr, auto, auto, 1fr), column-gutter: (0pt, 0.28em, 0pt), row-gutter: 0.6em,
+  grid(columns: (1fr, auto, auto, 1fr), column-gutter: (0pt, 0.28em, 0pt), row-gutter: 0.3em,
     align: (left, right + horizon, left + horizon, right + horizon), ..cells))
 #let columned(count, sticky: false, ..cells) = displayed(sticky: sticky,
-  grid(columns: (0pt,) + (1fr,) * count + (3em,), row-gutter: 0.65em,
+  grid(columns: (0pt,) + (1fr,) * count + (3em,), row-gutter: 0.3em,
     align: (x, y) => if x == count + 1 { right + horizon } else { left + horizon }, ..cells))
 #let note(body) = {
   block(inset: (left: 0.8em, y: 0.3em), stroke: (left: 1.5pt + luma(150)), text(9.3pt, body))
@@ -274,8 +275,13 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
     cells: list[str] = []
     held = _held([bool(line.left) for line in lines], last)
     for line, side, run in zip(lines, sides, held, strict=True):
-        cells += [*run, _math(line.left), _math(_right(line)), f"[{side}]"]
+        cells += [*run, _strutted(line.left), _strutted(_right(line)), f"[{side}]"]
     return f"#formula-lines({', '.join(cells)}{_STICKY * sticks})"
+
+
+def _strutted(text: str) -> str:
+    """A formula as high about the axis as its neighbour, so that both stand on one line of writing."""
+    return f"strut + {_math(text)}" if text else "none"
 
 
 def _held(begins: Sequence[bool], last: int) -> Iterator[list[str]]:
@@ -292,7 +298,8 @@ def _in_columns(columns: Columns, side: str, last: int, sticks: bool) -> str:
         cells += run
         for cell in row:
             name = f"box(width: {columns.name:.2f}em, align(right, {_math(cell.line.left)}))"
-            cells.append(f"grid.cell(colspan: {cell.span}, {name} + h(0.28em) + {_math(_right(cell.line))})")
+            whole = f"strut + {name} + h(0.28em) + {_math(_right(cell.line))}"
+            cells.append(f"grid.cell(colspan: {cell.span}, {whole})")
         if rest := columns.count - sum(cell.span for cell in row):
             cells.append(f"grid.cell(colspan: {rest}, [])")
         cells.append("[]")

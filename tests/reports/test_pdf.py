@@ -12,7 +12,7 @@ import pytest
 
 from dynsolve.solution.reports import Format
 from tests.cli.running import dynsolve_afresh
-from tests.reports.tools import FEWEST_LINES, HOSTILE_PROBLEM, SEEN, lines_of, made, text_of
+from tests.reports.tools import FEWEST_LINES, HOSTILE_PROBLEM, SEEN, lines_of, made, text_of, words_of
 from tests.support import ALL_PROBLEMS, LIBRARY, ROOT
 
 pytestmark = pytest.mark.slow
@@ -40,6 +40,18 @@ def test_every_equation_has_its_number_once(name: str, tmp_path: Path) -> None:
     beside = [int(found[1]) for page in pages for line in page if (found := NUMBER.search(line))]
     assert beside == list(range(1, len(beside) + 1))
     assert len(beside) > 50
+
+
+def test_both_sides_of_an_equation_stand_on_one_line(tmp_path: Path) -> None:
+    """τ = ... row by row: the two sides are cells of a grid, which knows of no line of writing."""
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == "spherical-rrp"), Format.PDF))
+    words = words_of(pdf)
+    torques = [k for k, (word, _) in enumerate(words) if word == "𝜏"]
+    apart = [
+        abs(words[k][1] - top) for k in torques for word, top in words[k + 1 : k + 3] if word.startswith("=")
+    ]
+    assert len(apart) > 3 and max(apart) < 0.2
 
 
 def test_a_report_has_contents_and_page_numbers(tmp_path: Path) -> None:

@@ -106,5 +106,12 @@ def lines_of(pdf: Path) -> list[list[str]]:
     return [[line for line in page.splitlines() if line.strip()] for page in pages]
 
 
+def words_of(pdf: Path) -> list[tuple[str, float]]:
+    """Every word of a PDF in the order of the page, and how far from the top of its page it stands."""
+    done = subprocess.run([needed("pdftotext"), "-bbox", str(pdf), "-"], capture_output=True, check=True)
+    found = re.findall(r'<word [^>]*yMin="([\d.]+)"[^>]*>([^<]*)</word>', done.stdout.decode())
+    return [(word, float(top)) for top, word in found]
+
+
 FEWEST_LINES = 8
 """A page with fewer, the one above it with its title and number among them, is nearly empty."""
