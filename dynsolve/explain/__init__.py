@@ -85,8 +85,7 @@ Long models are written in names (`--abbreviate`):
     recurring            what stands in several places
     abbreviated_steps    the steps of a derivation in these names
     symbol_names         names for the Christoffel symbols of a short model, and its steps in these
-    long_steps           those of a long model, which stay in d_ij, c_ijk and g_k where they can
-    general_steps        what is said once for all links, bodies and coordinates
+    long_model           those of a long model, which stay in d_ij, c_ijk and g_k where they can
 
 And hints (`--hint`), made of the same steps:
 

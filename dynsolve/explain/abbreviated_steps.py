@@ -1,6 +1,6 @@
 """The steps of a derivation in the names of `explain.abbreviations`.
 
-Those of a long model are in `explain.long_steps`; of a short one D, the Christoffel symbols, C and g
+Those of a long model are in `explain.long_model`; of a short one D, the Christoffel symbols, C and g
 have names in them.
 """
 
@@ -13,7 +13,7 @@ from dynsolve.document import Inline
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import collected_coriolis_force
-from dynsolve.explain.long_steps import of_long_model
+from dynsolve.explain.long_model.steps import of_long_model
 from dynsolve.explain.step import Step
 from dynsolve.explain.symbol_names import steps_with_symbols_named
 from dynsolve.notation import tree

@@ -5,15 +5,18 @@ from __future__ import annotations
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.agreement import agreement
 from dynsolve.document import Prose
+from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
 from dynsolve.explain.writing import is_small, listed, spong
 from dynsolve.notation.tree import (
+    BigSum,
     Letter,
     Negative,
     Node,
     Number,
+    Parenthesized,
     Product,
     Row,
     Sum,
@@ -63,6 +66,36 @@ def _by_entries(n: int) -> Prose:
     return (", ", equation(Letter("n", Row((i, j))), Negative(Letter("n", Row((j, i))))))
 
 
+_I, _J, _K, _N = (Symbol(name) for name in "ijkn")
+
+
+def _in_general() -> Line:
+    """n_kj from the derivatives of D, of which half cancel: what is left changes its sign with k and j."""
+
+    def slope(row: Node, column: Node, by: Node) -> Node:
+        return letters.partial_derivative(Letter("d", Row((row, column))), Letter("q", by))
+
+    def over_rates(factor: Node) -> Node:
+        return BigSum(Product((factor, Letter("q", _I, dots=1))), _I, Number(1), _N)
+
+    place = Row((_K, _J))
+    spread = Sum((slope(_K, _J, _I), Negative(SLOPES)))
+    left = Sum((slope(_I, _J, _K), Negative(slope(_K, _I, _J))))
+    entry = Sum((Letter("d", place, dots=1), Negative(Product((Number(2), Letter("c", place))))))
+    by: Prose = ("Its entries, with ", Letter("d", place, dots=1), " by the chain rule and ")
+    by += (Letter("c", place), " by the derivatives of ", letters.D, ":")
+    sums = (over_rates(Parenthesized(spread)), over_rates(Parenthesized(left)))
+    return Line(by, (equation(Letter("n", place), entry, *sums),))
+
+
+def _exchanged() -> Prose:
+    """Why the general entry changes its sign."""
+    return (
+        *("With ", _K, " and ", _J, " exchanged, the two derivatives change places, for "),
+        *(letters.D, " is symmetric, and the sum changes its sign:"),
+    )
+
+
 def skew_step(context: Context) -> Step:
     """N = Ḋ - 2C, and N + Nᵀ = 0."""
     robot = context.robot
@@ -74,6 +107,7 @@ def skew_step(context: Context) -> Step:
         N: algebra.Matrix = D.map(ring.time_derivative) - C.scale(ring.constant(2))
         result = (equation(letters.bold("N"), context.show(N)),)
     name = letters.bold("N")
+    general = () if result or robot.n == 1 else (_in_general(),)
     return Step(
         id="skew",
         stage=STAGE,
@@ -90,11 +124,11 @@ def skew_step(context: Context) -> Step:
             " for all rates. Passivity follows from this.",
         ),
         formula=equation(name, SKEW),
-        lines=rate,
+        lines=rate or general,
+        concluding=_exchanged() if general else (),
         entries=letters.entries("n", robot.n, robot.n) if robot.n > 1 else (),
         source=spong("7.5.1"),
         result=(*result, equation(Sum((name, Transpose(name))), letters.bold("0"))),
-        notes=() if result else (("The sum was compared exactly.",),),
         hint=(
             "A check at the end: with ",
             letters.C,

@@ -49,6 +49,24 @@ def test_the_products_of_rates_are_collected_before_the_symbols_are_used() -> No
     assert "cᵢⱼₖ = ½ (∂dₖⱼ/∂qᵢ + ∂dₖᵢ/∂qⱼ - ∂dᵢⱼ/∂qₖ)" in before and "gₖ = ∂𝒫/∂qₖ" in before
 
 
+@pytest.mark.parametrize("problem", LONG)
+def test_why_the_matrix_is_skew_symmetric(problem: str) -> None:
+    """Spong, Hutchinson, Vidyasagar, section 7.5.1: half of the slopes in n_kj cancel."""
+    step = steps(problem)["skew"]
+    (line,) = step.lines
+    assert normalize("NFC", to_unicode(line.formulas[0], solved(problem).style)).endswith(
+        normalize("NFC", "= Σᵢ₌₁ⁿ (∂dᵢⱼ/∂qₖ - ∂dₖᵢ/∂qⱼ) q̇ᵢ")
+    )
+    solution = solved(problem)
+    ring, n, D, C = solution.robot.ring, solution.robot.n, solution.values["D"], solution.values["C"]
+    rates = [ring.symbol(q.name, dots=1) for q in solution.robot.coordinates]
+    for k, j in ((0, 1), (1, 4), (4, 5)):
+        ours = sum(
+            ((ring.diff(D[i, j], k) - ring.diff(D[k, i], j)) * rates[i] for i in range(n)), start=ring.zero
+        )
+        assert ours == ring.time_derivative(D[k, j]) - C[k, j] * 2
+
+
 @pytest.mark.slow
 def test_the_potential_energy_of_which_g_is_made() -> None:
     assert "𝒫 = g (m₁ y₁ + κ₂₄ s₂ + κ₅ c₂ + s₂₃ (κ₂₂ + σ₅) + c₂₃ (κ₂₁ + σ₆))" in said(

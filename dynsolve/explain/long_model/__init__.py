@@ -1,0 +1,14 @@
+"""The steps of a long model: what is alike is said once, and what would fill pages is given in names.
+
+D, the Christoffel symbols and g are in the names of `explain.abbreviations`, the energies,
+the momenta and the forces are formulas in d_ij, c_ijk and g_k; velocities and tensors of far
+links stay the products they are, which would fill pages written out.
+
+    steps       the steps of a derivation, each changed by one of the files below, in their order
+    model       what the changes are made from: the robot, its names, and d_ij, c_ijk and g_k by name
+    general     what is said once for all links, bodies and coordinates
+    frames      the last frame, and the axes of the others
+    energies    the energies, the Lagrangian and the forces
+    vectorized  D, the Christoffel symbols, C and g
+    sizes       which results would fill pages, and what stands in their place
+"""

@@ -1,0 +1,195 @@
+"""D, the Christoffel symbols, C and g of a long model, in names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from itertools import chain
+
+from dynsolve.document import Prose
+from dynsolve.explain.entry_formulas import coriolis_matrix
+from dynsolve.explain.long_model.model import QUADRATIC, Change, LongModel
+from dynsolve.explain.sanity.dependence import is_carried_along
+from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.writing import listed
+from dynsolve.notation import tree
+from dynsolve.notation.build import negated, split_sign
+from dynsolve.notation.tree import (
+    ZERO,
+    Letter,
+    Negative,
+    Node,
+    Product,
+    Relation,
+    Row,
+    Sum,
+    Symbol,
+    equation,
+)
+from dynsolve.quantities import letters
+
+
+def changes(model: LongModel) -> dict[str, Change]:
+    """The changes by the ids of their steps."""
+    return {
+        "Cqd": partial(rest, model),
+        "D": partial(inertia, model),
+        "christoffel": partial(christoffel, model),
+        "C": partial(coriolis, model),
+        "g": partial(gravity, model),
+    }
+
+
+def rest(model: LongModel, step: Step) -> Step:
+    """g, where it is read off from the recursions; C q̇ is that of the Christoffel symbols."""
+    Cqd = Product((letters.C, letters.QD))
+    why: Prose = (*step.why, " ", Cqd, " is not written out: the Christoffel symbols below give it.")
+    return replace(step, why=why, result=(equation(letters.G, model.short.g),), also=())
+
+
+def inertia(model: LongModel, step: Step) -> Step:
+    """D from the energies: the forces above are written in its entries, and give nothing new."""
+    result = (equation(letters.D, model.short.D),)
+    if model.direct is None:  # the forces come from the recursions, and no energy is there
+        return replace(step, result=result)
+    given = model.context.robot.given is not None
+    return replace(
+        step,
+        title=model.direct.title,
+        why=_on_what_it_depends(model) if given else (*_of_the_bodies(), *_on_what_it_depends(model)),
+        formula=model.direct.formula,
+        source=model.direct.source,
+        result=result,
+        uses=model.short.lists,
+    )
+
+
+def _on_what_it_depends(model: LongModel) -> Prose:
+    """The coordinates by which D changes, and that its derivatives by the others are zero."""
+    names = [q.name for q in model.context.robot.coordinates]
+    still = _still(model)
+    moving = [name for k, name in enumerate(names) if k not in still]
+    if not moving:
+        return (letters.D, " is symmetric and constant.")
+    alone = (" alone",) if still else ()
+    return (letters.D, " is symmetric, and depends on ", *listed(list(map(Symbol, moving))), *alone, ".")
+
+
+def _still(model: LongModel) -> list[int]:
+    """The coordinates, from 0, on which no entry of D depends."""
+    D, ring = model.context.values["D"], model.context.robot.ring
+    changing = {k for entry in set(D.entries) for k in range(model.n) if not ring.diff(entry, k).is_zero}
+    return [k for k in range(model.n) if k not in changing]
+
+
+def christoffel(model: LongModel, step: Step) -> Step:
+    """The distinct symbols; those that are equal, or each other's opposites, in one chain."""
+    groups: dict[frozenset[Node], tuple[Node, list[tuple[int, Letter]]]] = {}
+    symbols = model.short.christoffel
+    for i, j, k in sorted(symbols, key=lambda ijk: (ijk[2], ijk[0], ijk[1])):
+        value, name = symbols[i, j, k], letters.entry("c", i + 1, j + 1, k + 1)
+        if value == ZERO:
+            continue
+        terms = _terms(value)
+        opposite = frozenset(map(negated, terms))
+        if opposite in groups:
+            groups[opposite][1].append((-1, name))
+        else:
+            groups.setdefault(terms, (value, []))[1].append((1, name))
+    rows = tuple(_chain(named, value) for value, named in groups.values())
+    if not rows:
+        return replace(step, result=())
+    zero = any(value == ZERO for value in symbols.values())
+    note: Prose = ("They are listed with i ≤ j", "; of these, all others are zero." if zero else ".")
+    return replace(step, why=_on_symbols(model), result=rows, listed=True, notes=(note,))
+
+
+def _on_symbols(model: LongModel) -> Prose:
+    """What halves the symbols, and why many are each other's opposites."""
+    c = partial(_with_indices, "c")
+    why: Prose = (equation(c("ijk"), c("jik")), ", for ", letters.D, " is symmetric. ")
+    opposite = equation(c("ijk"), Negative(c("ikj")))
+    if is_carried_along(model.context):
+        entry, coordinate = _with_indices("d", "jk"), Letter("q", Symbol("i"))
+        why += ("Joint i moves the links from i on like one body, so ", entry, " does not depend on ")
+        why += (coordinate, " where i ≤ j and i ≤ k; there ", opposite, ". ")
+    return (*why, "Symbols that are equal, or each other's opposites, stand in one line.")
+
+
+def coriolis(model: LongModel, step: Step) -> Step:
+    """C by its Christoffel symbols: an entry that stands for all, and those that are zero."""
+    names = chain.from_iterable(letters.entries("c", model.n, model.n))
+    named = list(zip(names, chain.from_iterable(_in_symbols(model).rows), strict=True))
+    full = [equation(name, entry) for name, entry in named if entry != ZERO]
+    zero = [name for name, entry in named if entry == ZERO]
+    shown = [*full[:1], *([equation(*zero, ZERO)] if zero else [])]
+    why: Prose = (
+        "Row k, column j. ",
+        Product((letters.C, letters.QD)),
+        " holds the terms with rates: ",
+    )
+    why += ("centrifugal terms (a rate squared) and Coriolis terms (a product of two rates). ",)
+    told = "One entry, written out, shows how each is made"
+    why += (
+        (f"{told}; those that are zero follow it." if zero else f"{told}.",) if full else ("There are none.",)
+    )
+    return replace(step, why=why, result=tuple(shown), entries=())
+
+
+def coriolis_entries(model: LongModel, step: Step) -> Step:
+    """All entries of C, which say nothing new."""
+    return replace(
+        step,
+        id="C_entries",
+        title="The entries of the Coriolis matrix",
+        why=(),
+        formula=None,
+        result=(equation(letters.C, _in_symbols(model)),),
+        notes=(),
+        detail=Detail.FULL,
+        uses=("C",),
+    )
+
+
+def _in_symbols(model: LongModel) -> tree.Matrix:
+    """C in the names of the symbols."""
+    return coriolis_matrix(model.formulas.coordinates, model.c)
+
+
+def gravity(model: LongModel, step: Step) -> Step:
+    """g, before it the potential energy of which it is the derivatives."""
+    result = (equation(letters.G, model.short.g),)
+    if model.short.P is None or model.direct is None or model.context.values["g"].is_zero:
+        return replace(step, result=result)
+    potential = Line(("In the abbreviations:",), (equation(letters.P, model.short.P),))
+    why: Prose = ("The partial derivatives of the potential energy.",)
+    return replace(step, why=why, lines=(potential,), concluding=("Differentiated:",), result=result)
+
+
+def _with_indices(letter: str, indices: str) -> Letter:
+    """c_ijk"""
+    return Letter(letter, Row(tuple(map(Symbol, indices))))
+
+
+def _of_the_bodies() -> Prose:
+    """Why D is a sum over the bodies."""
+    return (
+        "In the kinetic energies the velocities are Jacobians times ",
+        letters.QD,
+        ", so ",
+        equation(letters.K, QUADRATIC),
+        " with a sum over the bodies. ",
+    )
+
+
+def _terms(value: Node) -> frozenset[Node]:
+    """The terms of a sum, whatever their order."""
+    sign, inner = split_sign(value)
+    terms = inner.terms if isinstance(inner, Sum) else (inner,)
+    return frozenset(terms if sign > 0 else map(negated, terms))
+
+
+def _chain(named: Sequence[tuple[int, Node]], value: Node) -> Relation:
+    """c_121 = -c_112 = ... = value, in the order of the names, of which the first has a plus"""
+    return equation(*(name if s > 0 else Negative(name) for s, name in named), value)
