@@ -59,7 +59,7 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
     along: Prose = ("Along the body's own axes", *own.why, ":")
     lines = (
         Line((R, " turns about the axis of ", w, ":") if own.is_same else along, (own.working,)),
-        Line(("With the tensor along the same axes:",), step.working),
+        Line(("The tensor along the same axes put in:",), step.working, (f"I_body{b}",)),
     )
     return replace(
         step,
@@ -67,5 +67,5 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
         formula=equation(*step.formula.parts, half),
         working=(),
         lines=(*lines, *step.lines) if step.working else (lines[0], *step.lines),
-        uses=(f"v{b}", f"R{b}", f"I_body{b}"),
+        uses=(f"v{b}", f"R{b}"),
     )

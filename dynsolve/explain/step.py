@@ -29,10 +29,12 @@ class Line:
     """A line between the formula and the result: the operation, in words, and the formulas it gives.
 
     Words that end in a colon lead on; where what goes in is put in without more, there are none.
+    `uses` names the earlier steps whose results go in here, and not before.
     """
 
     by: Prose
     formulas: tuple[Node, ...]
+    uses: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,7 +32,7 @@ from dynsolve.explain.abbreviations import (
 from dynsolve.explain.citations import KHALIL_DOMBRE, cited
 from dynsolve.explain.notation_list import notation
 from dynsolve.explain.statement import statement
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, machine
 from dynsolve.notation.tree import Number, Power, Relation, equation
 from dynsolve.quantities import letters
@@ -166,10 +166,15 @@ def _stages(
                 yield heading
                 heading = None
             uses = inputs.get(step.id, ()) if step.uses is None else step.uses
-            told = replace(step, why=said.why(step))
+            told = replace(step, why=said.why(step), lines=tuple(_referring(step, earlier)))
             blocks = tuple(step_blocks(told, detail, earlier.used(step, uses), drawn))
             yield Fold(f"{number} {step.title}", blocks, step.detail)
         earlier.add(step)
+
+
+def _referring(step: Step, earlier: EarlierResults) -> Iterator[Line]:
+    """The lines of a step, each with the labels of the equations that it uses."""
+    return (replace(line, uses=earlier.used(step, line.uses)) for line in step.lines)
 
 
 def _defined_first(short: Abbreviated, detail: Detail) -> bool:
@@ -218,7 +223,7 @@ def step_blocks(
 ) -> Iterator[Block]:
     """A step: in brief its result and the formula that it comes from, else with all that it has.
 
-    `inputs` names what its result is computed from.
+    `inputs` are the labels of what its result is computed from, as are the `uses` of its lines.
     """
     if detail > Detail.BRIEF and step.why:
         yield Text(step.why)
@@ -257,8 +262,8 @@ def _leading_on(step: Step) -> Iterator[Block]:
     for working in step.working:
         yield Formula(working, optional=True)
     for line in step.lines:
-        if line.by:
-            yield Text(line.by)
+        lead_in = (Text(line.by),) if line.by else ()
+        yield from _with_uses(lead_in, line.uses) if line.uses else lead_in
         yield (
             Formula(line.formulas[0], optional=True) if len(line.formulas) == 1 else Equations(line.formulas)
         )

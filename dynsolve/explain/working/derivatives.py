@@ -6,7 +6,7 @@ A line is spent where there is something to see: several factors vary, or an ide
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
@@ -101,27 +101,42 @@ def _collected(used: Sequence[Identity]) -> Prose:
 
 
 def slopes(context: Context) -> Way:
-    """The slopes ∂d_ij/∂q_k that ask for the product rule or for an identity, each in one equation."""
+    """The slopes ∂d_ij/∂q_k that are not zero, where one of them asks for more than a look."""
     if context.robot.n > MOST_JOINTS:
         return SILENT
-    shown: list[Node] = []
-    used: dict[Identity, None] = {}
-    for i, j, q in _varying(context):
-        value = context.robot.ring.diff(context.values["D"][i, j], q.index - 1)
-        form = context.show(value)
-        entry = context.matrix("D").rows[i][j]
-        found = differentiated(entry, by_symbol(Symbol(q.name)), decimal=is_numeric(context.robot))
-        named = identities(value.ring, found.tree, form)
-        if (found.by_product_rule or named) and not are_alike(found.tree, form) and equals(found.tree, value):
-            expanded = multiplied_out(found.tree, decimal=is_numeric(context.robot))
-            members = dict.fromkeys((_slope(i, j, q), found.tree, expanded, form))
-            shown.append(equation(*members))
-            used |= dict.fromkeys(named or ())
-    if not shown:
+    found = [_differentiated(context, *place) for place in _varying(context)]
+    if not any(each.asks_for_more for each in found):
         return SILENT
-    by: Prose = ("The derivatives that take the product rule",)
-    by += (", with ", *said(list(used)), ":") if used else (":",)
-    return Way((Line(by, tuple(shown)),), ("Put into the formula:",))
+    used = list(dict.fromkeys(identity for each in found for identity in each.used))
+    by: Prose = ("The derivatives of ", letters.D, " that are not zero, term by term")
+    by += (", multiplied out",) if any(each.is_multiplied_out for each in found) else ()
+    by += (", and collected",) if any(len(each.members) > 2 for each in found) else ()
+    by += (" with ", *said(used), ":") if used else (":",)
+    return Way((Line(by, tuple(equation(*each.members) for each in found)),), ("Put into the formula:",))
+
+
+@dataclass(frozen=True, slots=True)
+class _Slope:
+    """∂d_ij/∂q_k: its name, as it is differentiated, multiplied out, and collected; a line each."""
+
+    members: tuple[Node, ...]
+    used: tuple[Identity, ...] = ()
+    asks_for_more: bool = False
+    is_multiplied_out: bool = False
+
+
+def _differentiated(context: Context, i: int, j: int, q: Coordinate) -> _Slope:
+    """The lines of a derivative of an entry of D; its value alone where that is a look."""
+    value = context.robot.ring.diff(context.values["D"][i, j], q.index - 1)
+    form, decimal = context.show(value), is_numeric(context.robot)
+    found = differentiated(context.matrix("D").rows[i][j], by_symbol(Symbol(q.name)), decimal=decimal)
+    used = identities(value.ring, found.tree, form) or ()
+    if are_alike(found.tree, form) or not equals(found.tree, value):
+        return _Slope((_slope(i, j, q), form))
+    expanded = multiplied_out(found.tree, decimal=decimal)
+    members = dict.fromkeys((_slope(i, j, q), found.tree, expanded, form))
+    more = found.by_product_rule or bool(used)
+    return _Slope(tuple(members), used, more, expanded != found.tree)
 
 
 def _slope(i: int, j: int, q: Coordinate) -> Node:

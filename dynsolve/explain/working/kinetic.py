@@ -31,13 +31,24 @@ from dynsolve.notation.tree import (
     Transpose,
     equation,
 )
+from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Coordinate
 
 MOST_GROUPS = 8
 """Up to this number of groups of terms squares are multiplied out term by term."""
 
-COLLECTED: Prose = ("Collected by the products of the rates:",)
+
+def collected(before: Node, after: Node) -> Prose:
+    """What is done to a line that needs no identity: its sums of rates are multiplied out, if they go."""
+    opened = _sums_of_rates(before) - _sums_of_rates(after)
+    return ("The sums of rates multiplied out, and collected:",) if opened else ("Collected:",)
+
+
+def _sums_of_rates(node: Node) -> set[Node]:
+    """The sums q̇₁ + q̇₂ that stand in a tree."""
+    sums = (part for part in walk(node) if isinstance(part, Sum))
+    return {each for each in sums if all(part.dots for part in walk(each) if isinstance(part, Symbol))}
 
 
 def linear(context: Context, body: Body, squares_shown: bool) -> Way:
@@ -74,7 +85,9 @@ def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     sorted_out = total([bracket.product for bracket in brackets])
     if sorted_out != lines[0][1]:
         lines.append((("Multiplied out by the products of the rates:",), sorted_out))
-    named: Prose = ("With ", *said(by_name), ", and collected:") if used else COLLECTED
+    named: Prose = ("With ", *said(by_name), ", and collected:")
+    if not used:
+        named = collected(lines[-1][1], context.form(f"Kv{body.name}"))
     return _chain(context, body, lines, named)
 
 
@@ -129,7 +142,7 @@ def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | No
         lines.append((_turn(context, found), _sum_of_squares(context, components)))
     if any(squares.has_roots(x) for x in components):
         return None
-    concluding = COLLECTED
+    concluding: Prose = ()
     if all(len(x) == 1 for x in components):
         concluding = lines.pop()[0] if lines else ()
     else:
@@ -137,6 +150,8 @@ def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | No
         if multiplied is None:
             return None
         lines += multiplied
+        before = lines[-1][1] if lines else _sum_of_squares(context, components)
+        concluding = collected(before, context.form(f"Kv{body.name}"))
     return _chain(context, body, lines, concluding)
 
 
@@ -206,8 +221,14 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[tuple[Pros
     first = [_sum_of_squares(context, alone)] if alone else []
     multiplied = sum_of([*first, *(group.multiplied for group in found)])
     reduced = sum_of([*first, *(group.reduced for group in found)])
-    lines: list[tuple[Prose, Node]] = [(("The squares multiplied out, and sorted:",), multiplied)]
+    which = _which(len(together), alone == list(components[: len(alone)])) if alone else "The"
+    lines: list[tuple[Prose, Node]] = [((f"{which} squares multiplied out, and sorted:",), multiplied)]
     used = identities(ring, multiplied, reduced)
     if used:
         lines.append((("By ", *said(used), ":"), reduced))
     return lines
+
+
+def _which(count: int, come_last: bool) -> str:
+    """Which of the squares are multiplied out, where it is not all of them; of one alone, none would be."""
+    return f"The {'last' if come_last else 'other'} {({2: 'two', 3: 'three'}).get(count, '')}".rstrip()

@@ -16,7 +16,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.working.identities import identities, said
-from dynsolve.explain.working.kinetic import COLLECTED, without_signs
+from dynsolve.explain.working.kinetic import collected, without_signs
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
@@ -27,11 +27,23 @@ from dynsolve.robot.model import Body
 
 
 def along_own_axes(context: Context, body: Body) -> bool:
-    """Whether the energy of a body is worked out along its own axes, without 𝓘; not of long arms."""
+    """Whether the energy of a body is worked out along its own axes, without 𝓘; not of long arms.
+
+    All bodies of an arm are treated alike: along their own axes, if that is the shorter way for one.
+    """
+    if context.robot.n > MOST_JOINTS or not _turns(context, body):
+        return False
+    return any(_is_shorter(context, each) for each in context.robot.bodies if _turns(context, each))
+
+
+def _turns(context: Context, body: Body) -> bool:
+    return not (body.is_point or context.values[f"w{body.name}"].is_zero)
+
+
+def _is_shorter(context: Context, body: Body) -> bool:
+    """Whether the tensor along the axes of the base takes longer than the given one, or varies."""
     values, b = context.values, body.name
     tensor, w = values[f"I{b}"], values[f"w{b}"]
-    if context.robot.n > MOST_JOINTS or w.is_zero:
-        return False
     own = values[f"R{b}"].T @ w
     is_short = _terms_needed(w, tensor) <= _terms_needed(own, values[f"I_body{b}"])
     return not (is_short and _is_constant(context, tensor))
@@ -114,7 +126,7 @@ def _lines(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:
         value,
         [(("Multiplied out:",), form)],
         lambda tree: equation(name, tree),
-        ("By ", *said(used), ":") if used else COLLECTED,
+        ("By ", *said(used), ":") if used else collected(form, result),
     )
 
 

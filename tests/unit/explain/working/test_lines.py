@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from hypothesis import given, settings
 
@@ -10,6 +12,8 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.step import Step
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.render.formats import Format
+from dynsolve.solution.reports import report
 from tests.robots import robots
 from tests.support import STEMS, solved
 from tests.unit.explain.working.evaluated import members
@@ -68,7 +72,7 @@ def test_squares_of_absolute_angles_by_the_cosine_of_a_difference() -> None:
         "+ 2l₁ l_c2 (s₁ s₁₂ + c₁ c₁₂) q̇₁ (q̇₁ + q̇₂))",
         "By s₁² + c₁² = 1, s₁₂² + c₁₂² = 1 and the cosine of a difference, c₁ c₁₂ + s₁ s₁₂ = c₂:",
         "K_v2 = ½ m₂ (l₁² q̇₁² + l_c2² (q̇₁ + q̇₂)² + 2l₁ l_c2 c₂ q̇₁ (q̇₁ + q̇₂))",
-        "Collected by the products of the rates:",
+        "The sums of rates multiplied out, and collected:",
     ]
 
 
@@ -79,6 +83,30 @@ def test_a_velocity_turned_with_the_waist_has_the_square_of_the_velocity() -> No
         "K_v3 = ½ m₃ (((L₂ c₂ + l_c3 c₂₃) θ̇₁)² + (L₂ s₂ θ̇₂ + l_c3 s₂₃ (θ̇₂ + θ̇₃))² "
         "+ (L₂ c₂ θ̇₂ + l_c3 c₂₃ (θ̇₂ + θ̇₃))²)",
     ]
+
+
+def test_it_is_said_which_squares_are_multiplied_out() -> None:
+    found = lines("elbow-3r", "Kv3")
+    assert found[2] == "The last two squares multiplied out, and sorted:"
+    assert "½ m₃ (((L₂ c₂ + l_c3 c₂₃) θ̇₁)² + L₂² (s₂² + c₂²) θ̇₂²" in found[3], "the first stays"
+    assert found[-1] == "The sums of rates multiplied out, and collected:"
+
+
+def test_all_bodies_of_an_arm_are_worked_out_along_the_same_axes() -> None:
+    """Body 1 of numeric-2r is shorter along its own axes, so body 2 is brought to its own, too."""
+    for problem in ("numeric-2r", "spherical-rrp", "crustcrawler-2r"):
+        assert all("own axes it is" in said(step(problem, f"Kw{body}").why, problem) for body in "12")
+    assert lines("numeric-2r", "Kw2")[:2] == ["𝐑₂ turns about the axis of 𝛚₂:", "𝐑₂ᵀ 𝛚₂ = 𝛚₂"]
+    assert not any(lines("planar-2r", f"Kw{body}") for body in "12")
+
+
+def test_what_a_line_needs_is_referred_to_where_it_goes_in() -> None:
+    found = step("elbow-3r", "Kw2")
+    assert found.uses == ("v2", "R2") and [line.uses for line in found.lines[:2]] == [(), ("I_body2",)]
+    text = report(solved("elbow-3r"), Format.MARKDOWN).decode()
+    of_rotation = re.findall(r"With \(\d+\) and \(\d+\), along the body's own axes", text)
+    of_tensor = re.findall(r"With \(\d+\), the tensor along the same axes put in:", text)
+    assert len(of_rotation) == len(of_tensor) == 3, "ω and R first, the tensor a line later"
 
 
 def test_where_one_identity_does_all_it_is_named_and_no_line_is_spent() -> None:
@@ -94,8 +122,9 @@ def test_the_rotation_along_the_axes_of_the_body_where_that_is_shorter() -> None
     assert found[-3:] == [
         "Multiplied out:",
         "K_ω2 = ½ (I_2xx (s₂ θ̇₁)² + I_2yy (c₂ θ̇₁)² + I_2zz θ̇₂²)",
-        "Collected by the products of the rates:",
+        "Collected:",
     ]
+    assert lines("elbow-3r", "Kw3")[-1] == "Collected:", "(θ̇₂ + θ̇₃)² stays as it is"
     assert not lines("planar-2r", "Kw2")
 
 
@@ -129,7 +158,11 @@ def test_the_addition_theorem_of_a_derivative_is_named() -> None:
     sine = "the sine of a sum, s₂ c₂₃ + c₂ s₂₃ = sin(2θ₂ + θ₃)"
     assert lines("elbow-3r", "ddt1")[-1] == lines("elbow-3r", "dLdq2")[-1] == f"Collected, with {sine}:"
     assert lines("elbow-3r", "ddt1")[2] == "Multiplied out:"
-    assert lines("elbow-3r", "christoffel")[0] == f"The derivatives that take the product rule, with {sine}:"
+    derived, *slopes = lines("elbow-3r", "christoffel")[:5]
+    assert derived == (
+        f"The derivatives of 𝐃 that are not zero, term by term, multiplied out, and collected with {sine}:"
+    )
+    assert [text.split(" = ")[0] for text in slopes] == ["∂d₁₁/∂θ₂", "∂d₁₁/∂θ₃", "∂d₂₂/∂θ₃", "∂d₂₃/∂θ₃"]
 
 
 def test_the_sums_of_the_entries_of_c() -> None:
