@@ -15,7 +15,17 @@ from random import Random
 from typing import Any
 
 from dynsolve.derivation.arm_values import RobotValues, arm_at, draw
-from dynsolve.derivation.newton_euler import ZERO, Arm, MovingFrame, applied, cross, outwards, plus
+from dynsolve.derivation.newton_euler import (
+    ZERO,
+    Arm,
+    MovingFrame,
+    Vector,
+    applied,
+    cross,
+    outwards,
+    plus,
+    transposed,
+)
 from dynsolve.derivation.verification import SEED
 from dynsolve.errors import VerificationError
 from dynsolve.notation.tree import Node, Reference, Symbol, column
@@ -94,10 +104,16 @@ class _Motion:
         if f"p{p}" in ours:
             yield f"p{p}", _flat(ours[f"p{p}"]), plus(frame.o, arm)
         if f"v{p}" in ours:
-            yield f"v{p}", _flat(ours[f"v{p}"]), velocity
+            yield f"v{p}", _flat(ours[f"v{p}"]), self._along(point.axes, velocity)
         for name, rate in ((f"Jv{p}", velocity), (f"Jw{p}", frame.w)):
             if name in ours:
-                yield name, _times(ours[name], self.arm.qd), rate
+                yield name, _times(ours[name], self.arm.qd), self._along(point.axes, rate)
+
+    def _along(self, frame: int | None, vector: Vector) -> Vector:
+        """A vector of the world along the axes of a frame, None for those of the world."""
+        if frame is None:
+            return vector
+        return applied(transposed(self.frames[frame].R), vector)
 
     @cached_property
     def _numbers(self) -> RobotValues:

@@ -36,16 +36,21 @@ def kinematic_rules(robot: Robot) -> Iterator[Rule]:
 def _point(robot: Robot, point: NamedPoint) -> Iterator[Rule]:
     p, link = point.name, point.link
 
-    def linear(*values: Matrix) -> Matrix:
-        *frames, position = values
-        return jacobian.linear_jacobian(robot, frames, position, link)
+    frames = kinematics.frame_names(link)
+    axes = () if point.axes is None else (f"H{point.axes}",)
 
-    def angular(*frames: Matrix) -> Matrix:
-        return jacobian.angular_jacobian(robot, frames, link)
+    def linear(position: Matrix, *H: Matrix) -> Matrix:
+        return along(jacobian.linear_jacobian(robot, H, position, link), *H[len(frames) :])
+
+    def angular(*H: Matrix) -> Matrix:
+        return along(jacobian.angular_jacobian(robot, H, link), *H[len(frames) :])
+
+    def along(J: Matrix, *seen: Matrix) -> Matrix:
+        return kinematics.rotation(seen[0]).T @ J if seen else J
 
     yield Rule(f"p{p}", (f"H{link}",), lambda H: kinematics.point(H, point.position))
-    yield Rule(f"Jv{p}", (*kinematics.frame_names(link), f"p{p}"), linear)
-    yield Rule(f"Jw{p}", kinematics.frame_names(link), angular)
+    yield Rule(f"Jv{p}", (f"p{p}", *frames, *axes), linear)
+    yield Rule(f"Jw{p}", (*frames, *axes), angular)
     yield Rule(f"v{p}", (f"Jv{p}",), partial(energy.velocity, robot))
 
 

@@ -2,7 +2,7 @@
 
 A stage is a file of its name with a function `steps`, which yields its steps in order: `kinematics`,
 `jacobian`, `inertia` (with `mass_centers`), `energy`, `lagrangian`, `torque`, `vectorized` (with
-`christoffel` and `agreement`); `frames` of a drawing; `task`, `singular`, `inverse`, `rates`,
+`christoffel` and `agreement`); `frames` of a drawing; `points`, `task`, `singular`, `inverse`, `rates`,
 `newton_euler` (made in `recursions`), `parameters`, `equilibria`, `forward_dynamics`, `task_inertia`,
 `definite`, `statics` and `constraints` where something of them is asked.  To explain a further
 quantity, yield a `Step` in the file of its stage:

@@ -1,4 +1,4 @@
-"""Steps of what is asked of points and of the task: positions, velocities, Jacobians and their rates."""
+"""Steps of what is asked of the task, and of how Jacobians change."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
-from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
+from dynsolve.explain.points import point_steps
 from dynsolve.explain.rates import determinant_step
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.writing import is_small, listed, spong
+from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.tree import (
     BigSum,
     Derivative,
@@ -28,7 +28,7 @@ from dynsolve.notation.tree import (
 from dynsolve.notation.walk import mapped
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.questions import TIP, NamedPoint, Task, points_of
+from dynsolve.robot.questions import TIP, Task, points_of
 
 STAGE = Stage.TASK
 
@@ -39,7 +39,7 @@ def steps(context: Context) -> Iterator[Step]:
     """What is asked, and what that is derived from: the points, how the arm's Jacobian changes, the task."""
     wanted = context.wanted
     for point in context.robot.questions.points:
-        yield from _point(context, point, wanted)
+        yield from point_steps(context, point, wanted)
     for name, letter in (("Jv", letters.JV), ("Jw", letters.JW)):
         if f"{name}_dot" in wanted:
             yield _rate(context, name, letter)
@@ -48,102 +48,6 @@ def steps(context: Context) -> Iterator[Step]:
     task = context.robot.questions.task
     if task is not None:
         yield from _task(context, task, wanted)
-
-
-# -- points ----------------------------------------------------------------------------------------
-
-
-def _point(context: Context, point: NamedPoint, wanted: frozenset[str]) -> Iterator[Step]:
-    p = point.name
-    if f"p{p}" in wanted:
-        yield _position(context, point)
-    if f"Jv{p}" in wanted or f"Jw{p}" in wanted:
-        yield _jacobians(context, point, wanted)
-    if f"v{p}" in wanted:
-        yield _velocity(context, point)
-
-
-def _position(context: Context, point: NamedPoint) -> Step:
-    link, p = point.link, letters.of_point("p", point.name)
-    local = context.show(point.position)
-    if point.position.is_zero:
-        formula: Node = equation(p, letters.o(link))
-        why: Prose = (f"{point.name} is the origin of frame {link}.",)
-        working: tuple[Node, ...] = ()
-    else:
-        in_frame = Letter("p", Symbol(point.name), Number(link), "bold")
-        formula = equation(p, Sum((Product((letters.R(context.robot, link), in_frame)), letters.o(link))))
-        why = (
-            f"{point.name} is fixed in link {link}: its coordinates in frame {link} are constant, and it "
-            "moves with the frame.",
-        )
-        working = (equation(in_frame, local),)
-    return Step(
-        id=f"p{point.name}",
-        stage=STAGE,
-        title=f"The point {point.name}",
-        why=why,
-        formula=formula,
-        source=spong("2.6"),
-        working=working,
-        result=(equation(p, context.form(f"p{point.name}")),),
-        uses=(f"H{link}",),
-        detail=Detail.BRIEF,
-    )
-
-
-def _jacobians(context: Context, point: NamedPoint, wanted: frozenset[str]) -> Step:
-    p, robot = point.name, context.robot
-    columns = [
-        coordinate_column(context, k, point.link, letters.of_point("p", p)) or (ZERO, ZERO)
-        for k in range(robot.n)
-    ]
-    late = [Symbol(q.name) for q, both in zip(robot.coordinates, columns, strict=True) if both[0] == ZERO]
-    why: Prose = (f"Column by column, as for the end of the arm, but taken at {p}",)
-    if late:
-        what = " comes after its link and does not move it." if len(late) == 1 else (
-            " come after its link and do not move it."
-        )  # fmt: skip
-        why += ("; ", *listed(late), what)
-    else:
-        why += (".",)
-    names = [name for name in (f"Jv{p}", f"Jw{p}") if name in wanted]
-    parts = {f"Jv{p}": ("v", [v for v, _ in columns]), f"Jw{p}": ("omega", [w for _, w in columns])}
-    formulas = [
-        equation(letters.j_of_point(parts[name][0], p), Matrix((tuple(parts[name][1]),))) for name in names
-    ]
-    results = tuple(equation(letters.j_of_point(parts[name][0], p), context.form(name)) for name in names)
-    return Step(
-        id=names[0],
-        stage=STAGE,
-        title=f"The Jacobian of {p}",
-        why=why,
-        formula=formulas[0],
-        source=_POINTS,
-        working=tuple(formulas[1:]),
-        result=results,
-        also=tuple(names[1:]),
-        uses=("axes", *((f"p{p}",) if f"p{p}" in wanted else ())),
-        detail=Detail.BRIEF,
-    )
-
-
-def _velocity(context: Context, point: NamedPoint) -> Step:
-    p = point.name
-    v, J = letters.of_point("v", p), letters.j_of_point("v", p)
-    jacobian = context.form(f"Jv{p}")
-    rates = column(*(letters.velocity(q) for q in context.robot.coordinates))
-    return Step(
-        id=f"v{p}",
-        stage=STAGE,
-        title=f"The velocity of {p}",
-        why=("Each joint adds its column times its rate.",),
-        formula=equation(v, Product((J, letters.QD))),
-        source=_POINTS,
-        working=(equation(v, Product((jacobian, rates))),) if is_small(jacobian) else (),
-        result=(equation(v, context.form(f"v{p}")),),
-        detail=Detail.BRIEF,
-    )
 
 
 # -- the task --------------------------------------------------------------------------------------

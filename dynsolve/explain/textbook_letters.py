@@ -114,7 +114,7 @@ def _kinematics(columns: Sequence[Node], ground: str, above: Node | None) -> Ite
     yield _line([Symbol("U"), Symbol("V")], "expressions of an identity, given where they stand")
     yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
-    yield _each([(frame, "frame i"), (turned, "its orientation")], f", seen from {ground}")
+    yield _each([(frame, "frame i"), (turned, "orientation of frame i")], f", seen from {ground}")
     yield _each([(_numbered(axis), f"axis {axis}") for axis in "xyz"], " of frame i")
     yield _line(_numbered("o"), "origin of frame i", "m")
     yield _line(letters.bold("0"), "zero vector or matrix")
@@ -235,12 +235,7 @@ def _recursions(robot: Robot) -> Iterator[Line]:
 
 
 def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
-    jacobians = [(_sub("J", "v"), "linear part"), (_sub("J", "omega"), "angular part")]
-    yield _each(jacobians, " of the Jacobian of the mass centre of body i")
-    velocities = [
-        (_numbered("v"), "velocity of the mass centre"), (_numbered("omega"), "angular velocity"),
-    ]  # fmt: skip
-    yield _each(velocities, " of body i", "m/s, rad/s")
+    yield from _motions(robot)
     energies = [
         (_body("K"), "kinetic energy"), (_sub("K", "v"), "its part of translation"),
         (_sub("K", "omega"), "its part of rotation"), (_body("P"), "potential energy"),
@@ -261,6 +256,25 @@ def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     yield from _linear()
     skew = letters.bold("N"), "matrix that is skew-symmetric"
     yield _each([skew, (_entry("n", _I, _J), "its entries")], "", rate)
+
+
+def _motions(robot: Robot) -> Iterator[Line]:
+    """How mass centres and named points move; these have the same letters, with their names as indices."""
+    points = robot.questions.points
+    what = [
+        *(["the mass centre of body i"] if robot.bodies else []),
+        *(["a point"] if points else []),
+    ]
+    of = f" of the Jacobian of {' or '.join(what)}"
+    yield _each([(_sub("J", "v"), "linear part"), (_sub("J", "omega"), "angular part")], of)
+    if any(point.axes is not None for point in points):
+        turned = [_sub("J", "v", _K), _sub("J", "omega", _K), letters.bold("v", _I, _K)]
+        yield _line(turned, "of a point: the same along the axes of frame k")
+    if robot.bodies:
+        moving = [(_numbered("v"), "velocity of the mass centre"), (_numbered("omega"), "angular velocity")]
+        yield _each(moving, f" of body i{' or of a point' if points else ''}", "m/s, rad/s")
+    else:
+        yield _line(_numbered("v"), "velocity of a point", "m/s")
 
 
 def _forces(robot: Robot, style: Style) -> Iterator[Line]:
@@ -343,6 +357,6 @@ def _entry(base: str, *indices: Node) -> Letter:
     return Letter(base, Row(indices) if len(indices) > 1 else indices[0])
 
 
-def _sub(base: str, part: str) -> Letter:
-    """J_{v_i}, K_{v_i}"""
-    return Letter(base, Letter(part, _I), None, "bold" if base == "J" else "italic")
+def _sub(base: str, part: str, sup: Node | None = None) -> Letter:
+    """J_{v_i}, K_{v_i}; J_{v_i}^k"""
+    return Letter(base, Letter(part, _I), sup, "bold" if base == "J" else "italic")

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dynsolve.problem.kinds import Key, Keyed, ListOf, MapOf, OneOf, Shared, Word
-from dynsolve.problem.value_kinds import EXPRESSION, LINK, PLACE, ROTATION, VECTOR
+from dynsolve.problem.value_kinds import EXPRESSION, FRAME, LINK, PLACE, ROTATION, VECTOR
 
 MAX_POINTS = 20
 MAX_FORCES = 20
 MAX_TASK = 12
+
+IN_LINK = Word(("link",))
 
 POINT = Keyed(
     (
@@ -27,6 +29,15 @@ POINT = Keyed(
             "tip",
             remedy="write tip, origin, midpoint, {along: 1/2}, {near: [l, 0, 0]} or [x, y, z]",
         ),
+        Key(
+            "in",
+            OneOf((IN_LINK, FRAME)),
+            "The axes along which vP, JvP and JwP are written: `link`, those of its own frame, or the number "
+            "of a frame.",
+            "link",
+            "those of the world",
+            remedy="write in: link, or in: 0, the number of a frame",
+        ),
     )
 )
 
@@ -34,7 +45,6 @@ WHOLE = Word(("twist", "pose"))
 ALL = Word(("all",))
 REACHED = Word(("reach",))
 BY_INERTIA = Word(("D",))
-IN_LINK = Word(("link",))
 BY = Word(("world", "robot"))
 
 FORCE = Keyed(

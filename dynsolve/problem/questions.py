@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from dynsolve.problem.cells import Cell, forbid, read_expressions
 from dynsolve.problem.constraints import ParsedConstraint, read_constraints
 from dynsolve.problem.drawn_places import NOT_DRAWN, DrawnFrames
-from dynsolve.problem.fields import Fields, items, word
-from dynsolve.problem.kinematic_keys import ALL, MAX_POINTS, MAX_TASK, POINT, WHOLE
+from dynsolve.problem.fields import Fields, items, whole_number, word
+from dynsolve.problem.kinematic_keys import ALL, IN_LINK, MAX_POINTS, MAX_TASK, POINT, WHOLE
 from dynsolve.problem.loads import ParsedLoad, read_loads
 from dynsolve.problem.model_questions import (
     NO_MODEL_QUESTIONS,
@@ -38,6 +38,7 @@ class ParsedPoint:
     link: int | None
     place: ParsedPlace | None
     written: str
+    axes: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,10 +204,25 @@ def _read_point(faults: Faults, name: str, node: YamlNode, rows: int) -> ParsedP
     if fields.lacks("link"):
         faults.error(node.span, f"{what} has no `link`", f"add {POINT['link'].help}")
     link = read_link(faults, fields.get("link"), rows, "whose points do not move")
+    axes = _read_axes(faults, fields.get("in"), rows, link)
     if "at" not in fields:
-        return ParsedPoint(name, link, ParsedPlace("tip", node.span), "tip")
+        return ParsedPoint(name, link, ParsedPlace("tip", node.span), "tip", axes)
     place = read_place(faults, fields.get("at"), f"the place of {name}", POINT["at"].help)
-    return ParsedPoint(name, link, place, faults.source.text[slice(*fields.span_of("at"))])
+    return ParsedPoint(name, link, place, faults.source.text[slice(*fields.span_of("at"))], axes)
+
+
+def _read_axes(faults: Faults, node: YamlNode | None, rows: int, link: int | None) -> int | None:
+    """The frame along whose axes a point's velocity is written, None for the world's."""
+    if isinstance(node, ScalarNode) and node.text in IN_LINK.choices:
+        return link
+    help = POINT["in"].help
+    frame = whole_number(faults, node, "a frame", help)
+    if node is not None and frame is not None and frame > rows:
+        faults.error(
+            node.span, f"there is no frame {frame}: the table has {rows} row{'s' * (rows > 1)}", help
+        )
+        return None
+    return frame
 
 
 # -- the task --------------------------------------------------------------------------------------

@@ -19,6 +19,7 @@ from dynsolve.problem.reach import check_reach
 from dynsolve.problem.targets import TargetBuilder
 from dynsolve.problem.values import CellValues
 from dynsolve.problem.weights import ParsedWeights
+from dynsolve.quantities.letters import has_base
 from dynsolve.quantities.robot_stages import asked_stages
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.constraints import Constraint
@@ -35,7 +36,7 @@ def named_point(places: PlaceBuilder, parsed: ParsedPoint) -> NamedPoint | None:
     position = places.position(parsed.place, parsed.link, "at", parsed.written)
     if position is None or parsed.link is None:
         return None
-    return NamedPoint(parsed.name, parsed.link, position, parsed.written)
+    return NamedPoint(parsed.name, parsed.link, position, parsed.written, parsed.axes)
 
 
 def load(places: PlaceBuilder, parsed: ParsedLoad, points: Sequence[NamedPoint], last: int) -> Load | None:
@@ -52,7 +53,8 @@ def load(places: PlaceBuilder, parsed: ParsedLoad, points: Sequence[NamedPoint],
         axes = values.rotation(parsed.rotation, "the axes of a force")
     if position is None or force is None or moment is None:
         return None
-    called = [point.name for point in points if (point.link, point.position) == (parsed.link, position)]
+    place = parsed.link, position
+    called = [p.name for p in points if (p.link, p.position) == place and p.axes is None]
     if parsed.link == last and position.is_zero:
         called.append(TIP)
     point = called[0] if called else ""
@@ -73,7 +75,7 @@ def with_questions(
     state = parsed.state.values if parsed.state else {}
     constraints = tuple(_constraint(values, robot, one) for one in parsed.constraints)
     questions = Questions(
-        points=tuple(points),
+        points=tuple(_axes_named(robot, point) for point in points),
         task=_task(parsed.task),
         asked=asked | _brought(loads, constraints),
         constraints=constraints,
@@ -103,6 +105,11 @@ def with_questions(
             acceleration=_rates(values, parsed.acceleration, rows),
         )
     return replace(robot, questions=questions)
+
+
+def _axes_named(robot: Robot, point: NamedPoint) -> NamedPoint:
+    """The point, whose axes are the world's where frame 0 is the world."""
+    return replace(point, axes=None) if point.axes == 0 and not has_base(robot) else point
 
 
 def _with_target(

@@ -21,6 +21,7 @@ from typing import Literal
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Coordinate, Robot
+from dynsolve.robot.questions import NamedPoint
 from dynsolve.robot.units import Dimension
 
 
@@ -87,9 +88,9 @@ def of_coordinate(letter: Callable[[Coordinate], Node]) -> LetterMaker:
     return lambda robot, i: letter(robot.coordinates[i - 1])
 
 
-def of_point(letter: Callable[[str], Node]) -> LetterMaker:
-    """The letter of the quantity of a point, made from its name."""
-    return lambda robot, p: letter(robot.questions.points[p - 1].name)
+def of_point(letter: Callable[[NamedPoint], Node]) -> LetterMaker:
+    """The letter of the quantity of a point."""
+    return lambda robot, p: letter(robot.questions.points[p - 1])
 
 
 def _no_letter(robot: Robot, *index: int) -> Node:

@@ -157,14 +157,14 @@ def of_body(base: str, body: Body, style: str = "italic") -> Letter:
     return Letter(base, index_of(body.name), None, style)
 
 
-def of_point(base: str, point: str) -> Letter:
-    """A letter with a point's name as its index: p_P, v_P."""
-    return bold(base, Symbol(point))
+def of_point(base: str, point: str, axes: int | None = None) -> Letter:
+    """A letter with a point's name as its index: p_P, v_P, or v_P^i along the axes of frame i."""
+    return bold(base, Symbol(point), None if axes is None else Number(axes))
 
 
-def j_of_point(part: str, point: str) -> Letter:
-    """J_{v_P}, J_{ω_P}"""
-    return bold("J", Letter(part, Symbol(point)))
+def j_of_point(part: str, point: str, axes: int | None = None) -> Letter:
+    """J_{v_P}, J_{ω_P}, or J_{v_P}^i along the axes of frame i."""
+    return bold("J", Letter(part, Symbol(point)), None if axes is None else Number(axes))
 
 
 def of_load(index: int) -> Letter:

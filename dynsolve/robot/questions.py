@@ -31,12 +31,16 @@ class Method(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class NamedPoint:
-    """A point fixed in frame `link`: its `position` there, 3×1; `written` is how the file gave it."""
+    """A point fixed in frame `link`: its `position` there, 3×1; `written` is how the file gave it.
+
+    Its velocity and its Jacobians are written along the axes of frame `axes`, or of the world.
+    """
 
     name: str
     link: int
     position: Matrix
     written: str = ""
+    axes: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from dynsolve.quantities import families, static_families
 from dynsolve.quantities import kinematic_families as asked
 from dynsolve.quantities.family import Family
 from dynsolve.robot.model import Robot
-from dynsolve.robot.questions import Load
+from dynsolve.robot.questions import Load, NamedPoint
 
 Variant = tuple[Any, Diagnosis]
 InputValue = Callable[[str], Any]
@@ -31,9 +31,33 @@ def _in_last_frame(name: str) -> Callable[[Robot, InputValue], Iterator[Variant]
         last = len(robot.joints)
         R = kinematics.rotation(value(f"H{last}"))
         if Matrix.identity(robot.ring, 3) != R:
-            yield R.T @ value(name), slip("tool_frame", part=str(last))
+            yield R.T @ value(name), slip("tool_frame", part=f"frame {last}", asked="the base")
 
     return variants
+
+
+def _along_other_axes(name: str) -> Callable[[Robot, NamedPoint, InputValue], Iterator[Variant]]:
+    """What is asked for along the axes of one frame, along those of the world and of every other."""
+
+    def variants(robot: Robot, point: NamedPoint, value: InputValue) -> Iterator[Variant]:
+        right = value(name + point.name)
+        world = _rotation(robot, point.axes, value) @ right
+        for frame in (None, *range(1, len(robot.joints) + 1)):
+            own = _rotation(robot, frame, value).T @ world
+            if own != right:
+                yield own, slip("tool_frame", part=_ground(frame), asked=_ground(point.axes))
+
+    return variants
+
+
+def _rotation(robot: Robot, frame: int | None, value: InputValue) -> Matrix:
+    if frame is None:
+        return Matrix.identity(robot.ring, 3)
+    return kinematics.rotation(value(f"H{frame}"))
+
+
+def _ground(frame: int | None) -> str:
+    return "the world" if frame is None else f"frame {frame}"
 
 
 def _joint_rates(robot: Robot, value: InputValue) -> Iterator[Variant]:
@@ -85,4 +109,10 @@ OF_ROBOT: dict[Family, Callable[[Robot, InputValue], Iterator[Variant]]] = {
     asked.QD: _joint_rates,
     static_families.Q: _forces,
     static_families.TAU_STATIC: _holding,
+}
+
+OF_POINT: dict[Family, Callable[[Robot, NamedPoint, InputValue], Iterator[Variant]]] = {
+    asked.JV_POINT: _along_other_axes("Jv"),
+    asked.JW_POINT: _along_other_axes("Jw"),
+    asked.V_POINT: _along_other_axes("v"),
 }

@@ -46,6 +46,8 @@ def variants(robot: Robot, node: str, value: InputValue) -> Iterator[Variant]:
         yield from _OF_BODY[family](robot, robot.bodies[index[0] - 1], value)
     elif family in _OF_COORDINATE:
         yield from _OF_COORDINATE[family](robot, robot.coordinates[index[0] - 1], value)
+    elif family in kinematic_steps.OF_POINT:
+        yield from kinematic_steps.OF_POINT[family](robot, robot.questions.points[index[0] - 1], value)
     if robot.actions:
         from dynsolve.answers.diagnosis.action_steps import action_variants
 

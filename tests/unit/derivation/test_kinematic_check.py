@@ -31,7 +31,13 @@ def forms(text: str) -> tuple[object, dict[str, Node]]:
     return robot, {name: made(name) for name in names}
 
 
-@pytest.mark.parametrize("text", [RRP, RRP + FREE, "convention: modified\n" + RRP + FREE])
+TURNED = RRP.replace("[x, y, 0]", "[x, y, 0], in: link").replace("[0, 0, z]", "[0, 0, z], in: 2")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [RRP, RRP + FREE, TURNED, "convention: modified\n" + RRP + FREE, "convention: modified\n" + TURNED],
+)
 def test_what_is_derived_agrees(text: str) -> None:
     verify_kinematics(*forms(text))
 

@@ -50,6 +50,15 @@ def test_every_step_says_why_and_where_it_stands_in_the_book() -> None:
         assert step.why and step.title and re.fullmatch(r"§\d\.\d+", step.source)
 
 
+def test_a_jacobian_along_other_axes_is_that_of_the_world_turned() -> None:
+    step = steps(ARM.replace("E: {link: 3}", "E: {link: 3, in: 2}") + "find: [JvE, vE]")["JvE"]
+    shown = [to_unicode(node, PLAIN) for node in (*step.working, *step.result)]
+    assert shown[1].startswith("J_vE² = (R₂⁰)ᵀ J_vE = [") and shown[2].startswith("J_vE² = [")
+    assert "the cosine of a difference, " in "".join(
+        part for part in step.concluding if isinstance(part, str)
+    )
+
+
 def test_the_default_task_says_which_rows_it_leaves_out() -> None:
     (note,) = steps(ARM + "find: [Jr]")["Jr"].notes
     assert "without the row of " in "".join(part for part in note if isinstance(part, str))

@@ -31,6 +31,23 @@ def test_points_are_given_as_centres_are() -> None:
 
 
 @pytest.mark.parametrize(
+    ("base", "written", "axes"),
+    [
+        ("", "link: 2", None),
+        ("", "link: 2, in: link", 2),
+        ("", "link: 2, in: 1", 1),
+        ("", "link: 2, in: 0", None),
+        ("base: Rx(90deg)\n", "link: 2, in: 0", 0),
+    ],
+)
+def test_the_axes_of_a_velocity_are_those_of_a_frame_or_the_world(
+    base: str, written: str, axes: int | None
+) -> None:
+    (point,) = asked(f"points: {{P: {{{written}}}}}", base + PLANAR).points
+    assert point.axes == axes
+
+
+@pytest.mark.parametrize(
     ("table", "text", "entries"),
     [
         (PLANAR, "find: [Jr]", "xy"),
@@ -73,6 +90,8 @@ FAULTS = {
     "link 0": ("points: {P: {link: «0»}}", "the ground", "from 1 to 2"),
     "no such link": ("points: {P: {link: «3»}}", "there is no link 3", "from 1 to 2"),
     "a coordinate": ("points: {P: {link: 1, at: [«theta1», 0, 0]}}", "contains the coordinate", "table"),
+    "axes of no frame": ("points: {P: {link: 1, in: «3»}}", "there is no frame 3", "in: link"),
+    "axes that are no frame": ("points: {P: {link: 1, in: «world»}}", "is a whole number", "in: link"),
     "a place": ("points: {P: {link: 1, at: «end»}}", "tip, origin, midpoint", "{near:"),
     "names beside numbers": ("reach: [«px», 1]\nfind: [inverse]", "names px", "name all"),
     "no number": ("reach: [«l1», 1]\nfind: [inverse]", "l1 has no number", "under `values`"),

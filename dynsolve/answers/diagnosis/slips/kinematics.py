@@ -30,7 +30,7 @@ SLIPS = (
          Example(IN3140, "A1", [["-sin(theta1)", "0", "-cos(theta1)", "0"],
                  ["cos(theta1)", "0", "-sin(theta1)", "0"], ["0", "-1", "0", "L1"], ["0", "0", "0", "1"]])),
     Slip("tool_frame", "the frame of a vector",
-         "Your matrix is seen from frame {part}; it is asked for along the axes of the base.",
+         "Your matrix is seen from {part}; it is asked for along the axes of {asked}.",
          "Its columns are vectors: z and o belong in the same frame.",
          Example(PLANAR_2R, "Jv", [["l1*sin(q2)", "0"], ["l1*cos(q2) + l2", "l2"], ["0", "0"]])),
     Slip("transpose_for_inverse", "the transpose for the inverse",

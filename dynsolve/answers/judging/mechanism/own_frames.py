@@ -132,7 +132,8 @@ class _Own:
 
     def _point(self, point: NamedPoint) -> NamedPoint:
         place = _put(self.places.changes[point.link], self.places.moved(point.position))
-        return replace(point, link=self.places.own_link(point.link), position=place)
+        axes = None if point.axes is None else self.places.own_link(point.axes)
+        return replace(point, link=self.places.own_link(point.link), position=place, axes=axes)
 
     def _load(self, load: Load, seen: Matrix) -> Load:
         change = self.places.changes[load.link]

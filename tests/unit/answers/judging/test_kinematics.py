@@ -48,6 +48,30 @@ def test_verdicts(name: str, text: Text, verdict: str) -> None:
     assert judged(RRP, name, text).verdict == verdict
 
 
+CRAIG = """
+convention: modified
+dh: [{theta: q1*}, {theta: q2*, a: l1}, {a: l2}]
+points: {E: {link: 3, at: origin, in: link}}
+find: [JvE, JwE, vE]
+"""
+"""The planar arm of Craig, Introduction to Robotics (3rd ed.), examples 5.3 and 5.4."""
+
+
+def test_a_jacobian_is_asked_for_along_the_axes_of_a_frame() -> None:
+    there = [["l1*sin(q2)", "0"], ["l1*cos(q2) + l2", "l2"], ["0", "0"]]  # Craig (5.55) and (5.66)
+    world = [
+        ["-l1*sin(q1) - l2*sin(q1+q2)", "-l2*sin(q1+q2)"],
+        ["l1*cos(q1) + l2*cos(q1+q2)", "l2*cos(q1+q2)"],
+    ]
+    v = [["l1*sin(q2)*q1_dot"], ["l1*cos(q2)*q1_dot + l2*(q1_dot + q2_dot)"], ["0"]]
+    right = verdicts(judge(CRAIG, {"JvE": there, "JwE": [["1", "1"]], "vE": v}))
+    assert set(right.values()) == {"correct"}
+    found = judged(CRAIG, "JvE", [*world, ["0", "0"]])
+    assert found.verdict == "wrong"
+    assert [one.code for one in found.diagnosis] == ["tool_frame"]
+    assert "seen from the world; it is asked for along the axes of frame 3" in found.diagnosis[0].message
+
+
 def test_the_jacobian_and_its_rate_follow_from_a_task_that_is_wrong() -> None:
     wrong = [["l1*cos(q1)"], ["l1*sin(q1)"], ["q1"]]
     J = [["-l1*sin(q1)", "0", "0"], ["l1*cos(q1)", "0", "0"], ["1", "0", "0"]]
