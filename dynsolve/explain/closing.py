@@ -10,10 +10,12 @@ from collections.abc import Callable
 from dynsolve.document import Prose
 from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.entry_formulas import ChristoffelSymbols, collected_coriolis_force
+from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.style import style_of
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed, sum_of
+from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
@@ -64,6 +66,26 @@ def closing_step(context: Context) -> Step:
         result=result,
         detail=Detail.BRIEF,
     )
+
+
+def rows_in_names(context: Context, symbol: ChristoffelSymbols) -> Line:
+    """Σ_j d_kj q̈_j + Σ_ij c_ijk q̇_i q̇_j + g_k = τ_k, for symbols that have names of their own."""
+    robot, (D, g) = context.robot, (context.matrix(name) for name in ("D", "g"))
+    names = robot.ring.names
+    friction = context.matrix("friction") if has_friction(context) else None
+
+    def row(k: int) -> Node:
+        inertial = [
+            times(1, [(letters.entry("d", k + 1, j + 1), 1), (Symbol(name, 2), 1)])
+            for j, name in enumerate(names)
+            if D.rows[k][j] != ZERO
+        ]
+        rubbing = () if friction is None else (friction.rows[k][0],)
+        height = ZERO if g.rows[k][0] == ZERO else letters.entry("g", k + 1)
+        return total([*inertial, collected_coriolis_force(names, symbol, k), *rubbing, height])
+
+    rows = (equation(driving_row(context, q), row(k)) for k, q in enumerate(robot.coordinates))
+    return Line(("Row by row, in the entries of ", letters.D, " and ", letters.G, ":"), tuple(rows))
 
 
 def has_friction(context: Context) -> bool:

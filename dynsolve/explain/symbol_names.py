@@ -7,6 +7,7 @@ N = Ḋ - 2C are short sums of names and rates.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from math import gcd
@@ -14,6 +15,7 @@ from math import gcd
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Inline
 from dynsolve.explain.abbreviations import RECURRING, Abbreviated, Index, free_names
+from dynsolve.explain.closing import rows_in_names
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import coriolis_matrix
 from dynsolve.explain.forms import Forms
@@ -24,6 +26,7 @@ from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
+from dynsolve.notation.printing import flat_factors
 from dynsolve.notation.tree import ZERO, Matrix, Negative, Node, Relation, Sum, equation
 from dynsolve.notation.walk import with_children
 from dynsolve.quantities import letters
@@ -54,21 +57,56 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
 def _named(forms: Forms) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
     """The definitions, in the order in which the symbols are shown, and every symbol by them."""
     values: Mapping[Index, Expr] = forms.values["christoffel"]
-    names = free_names(RECURRING, {*forms.robot.ring.parameters, *forms.robot.ring.names})
-    definitions: list[Definition] = []
-    written: dict[Expr, Node] = {}
-    for key in sorted(values, key=lambda ijk: (ijk[2], ijk[0], ijk[1])):
-        value = values[key]
-        if value in written:
-            continue
-        form = forms.of(value)
-        if cost(form) >= SHORTEST:
-            minus = _starts_with_minus(form)
-            name = next(names)
-            definitions.append(Definition(name, total([negated(form)]) if minus else form))
-            form = Negative(name) if minus else name
-        written[value], written[-value] = form, total([negated(form)])
-    return tuple(definitions), {key: written[value] for key, value in values.items()}
+    namer = _Namer(forms, values)
+    symbols = {key: namer.written(values[key]) for key in namer.order}
+    return tuple(namer.definitions), {key: symbols[key] for key in values}
+
+
+class _Namer:
+    """Gives a name to each symbol that is worth one; a multiple of another one is written by that: σ₂ c₂²."""
+
+    def __init__(self, forms: Forms, values: Mapping[Index, Expr]) -> None:
+        self.order = sorted(values, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
+        self.forms: dict[Expr, Node] = {}
+        for value in (values[key] for key in self.order):
+            if value not in self.forms and -value not in self.forms:
+                self.forms[value] = forms.of(value)
+        self.definitions: list[Definition] = []
+        self._names = free_names(RECURRING, {*forms.robot.ring.parameters, *forms.robot.ring.names})
+        self._done: dict[Expr, Node] = {}
+
+    def written(self, value: Expr) -> Node:
+        """A symbol by its name, by that of another one, or as it is."""
+        if value not in self.forms:
+            return total([negated(self.written(-value))])
+        found = self._done.get(value)
+        if found is None:
+            form = self.forms[value]
+            found = form if cost(form) < SHORTEST else self._multiple(value) or self._named(form)
+            self._done[value] = found
+        return found
+
+    def _named(self, form: Node) -> Node:
+        minus = _starts_with_minus(form)
+        name = next(self._names)
+        self.definitions.append(Definition(name, total([negated(form)]) if minus else form))
+        return Negative(name) if minus else name
+
+    def _multiple(self, value: Expr) -> Node | None:
+        """The symbol as a product in which another one, worth a name, is a factor."""
+        sign, inner = split_sign(self.forms[value])
+        factors = Counter(_factors(inner))
+        for other, form in self.forms.items():
+            other_sign, part = split_sign(form)
+            own = Counter(_factors(part))
+            if cost(part) >= SHORTEST and own < factors:
+                rest = [(factor, 1) for factor in (factors - own).elements()]
+                return times(sign * other_sign, [(self.written(other), 1), *rest])
+        return None
+
+
+def _factors(node: Node) -> tuple[Node, ...]:
+    return flat_factors(node) if isinstance(node, tree.Product) else (node,)
 
 
 def _starts_with_minus(node: Node) -> bool:
@@ -84,7 +122,7 @@ def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abb
     changes: dict[str, Callable[[Step], Step]] = {
         "christoffel": lambda step: _christoffel(step, context, short),
         "C": lambda step: _result_exchanged(step, {context.form("C"): short.C}),
-        "model": lambda step: _result_exchanged(step, {context.form("C"): short.C}),
+        "model": lambda step: _model(step, context, short),
         "agreement": lambda step: replace(step, lines=coriolis_rows(context, short.symbol)),
         "skew": lambda step: _skew(step, context, short),
         "terms": lambda step: _terms(step, context, short),
@@ -116,6 +154,12 @@ def _result_exchanged(step: Step, named: Mapping[Node, Node]) -> Step:
         return with_children(node, exchanged) if inside else node
 
     return replace(step, result=tuple(map(exchanged, step.result)))
+
+
+def _model(step: Step, context: Context, short: Abbreviated) -> Step:
+    """The model, its rows in d_ij, g_k and the names, which repeats nothing."""
+    step = _result_exchanged(step, {context.form("C"): short.C})
+    return replace(step, lines=(rows_in_names(context, short.symbol),))
 
 
 def _skew(step: Step, context: Context, short: Abbreviated) -> Step:

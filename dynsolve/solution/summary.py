@@ -27,7 +27,7 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
     """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
 
     Of more than three coordinates D, C, g and the forces are not written again.  The names in C of
-    Christoffel symbols are repeated beside it.
+    Christoffel symbols are repeated beside it, and the rows are in these.
     """
     by_id = {step.id: step for step in steps}
     model = by_id.get(closing.ID)
@@ -51,8 +51,11 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
     if short is not None and short.at_symbols:
         yield Text(("In ", letters.C, ":"))
         yield Equations(tuple(equation(one.name, one.meaning) for one in short.sums))
+    for line in model.lines:
+        yield Text(line.by)
+        yield Equations(line.formulas)
     forces = [f"tau{q.index}" for q in robot.coordinates]
-    if all(name in by_id for name in forces):
+    if not model.lines and all(name in by_id for name in forces):
         yield Text(("Row by row:" if len(forces) > 1 else "Multiplied out:",))
         yield Equations(tuple(by_id[name].result[0] for name in forces))
 

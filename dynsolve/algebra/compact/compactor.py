@@ -214,12 +214,15 @@ class Compactor:
         """(size, terms / size): a polynomial and twice it are spelled alike.
 
         The size is the largest factor of a square of lengths; where there is none, that of most terms.
+        Of squares alone none is taken, m (h² + 3r²) c/12: it would make fractions of whole numbers.
         """
         if self.collector.decimal or len(terms) > LARGE:
             return 1, terms
         lengths = sum(width for _, width in layout.groups) + len(layout.leading)
         sizes: dict[Exponents, Rational] = {e: f if f > 0 else -f for e, f in terms.items()}
         squares = [f for e, f in sizes.items() if any(e[lengths:]) and not any(x % 2 for x in e[lengths:])]
+        if len(squares) == len(terms):
+            return 1, terms
         counts = Counter(sizes.values())
         size = max(squares) if squares else max(counts, key=lambda f: (counts[f], f))
         return size, terms if size == 1 else {e: exact(f, size) for e, f in terms.items()}

@@ -43,3 +43,11 @@ def test_the_factors_of_a_product_of_matrices_are_multiplied() -> None:
     steps = {step.id: step for step in solved("crustcrawler-2r").explain(["vectorized"])}
     shown = to_unicode(steps["D_direct2"].working[0], solved("crustcrawler-2r").style)
     assert "= ¼ m₂ L₂² [[-s₁ c₂" in shown
+
+
+def test_every_line_of_a_turned_tensor_has_its_factor_in_front() -> None:
+    """R (I Rᵀ) of a cylinder: (1/12) m₁ does not go into the entries on the way."""
+    solution = solved("crustcrawler-2r")
+    step = next(step for step in solution.explain(["inertia"]) if step.id == "I1")
+    lines = [to_unicode(last(line), solution.style) for line in (*step.working, *step.result)]
+    assert len(lines) == 3 and all(line.startswith("(1/12) m₁ [[") for line in lines)

@@ -10,10 +10,10 @@ import pytest
 from dynsolve.document import Table
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.step import Detail, Step
-from dynsolve.notation.tree import Node, Relation
+from dynsolve.notation.tree import Letter, Node, Number, Relation, Row, Symbol
 from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
-from dynsolve.notation.walk import walk
+from dynsolve.notation.walk import walk, with_children
 from dynsolve.solution.documents import solution_document
 from tests.support import solved
 from tests.unit.explain.test_abbreviated_steps import displayed
@@ -55,6 +55,35 @@ def test_the_elbow_has_three_names() -> None:
     assert to_unicode(short.C, style) == (
         "[[-σ₁ θ̇₂ - σ₂ θ̇₃, -σ₁ θ̇₁, -σ₂ θ̇₁], [σ₁ θ̇₁, -σ₃ θ̇₃, -σ₃ (θ̇₂ + θ̇₃)], [σ₂ θ̇₁, σ₃ θ̇₂, 0]]"
     )
+
+
+def test_a_multiple_of_a_symbol_is_written_by_it() -> None:
+    """c_131 of the box and the rod is c_232 times c₂², and gets no name of its own."""
+    style, short = solved("box-cylinder-rod-sphere").style, named("box-cylinder-rod-sphere")
+    assert [to_unicode(one.meaning, style) for one in short.definitions[1:]] == ["m₃ (d₃ - l₃/2) + m₄ d₃"]
+    assert [to_unicode(short.symbol(*ijk), style) for ijk in ((0, 2, 0), (1, 2, 1))] == ["σ₂ c₂²", "σ₂"]
+
+
+@pytest.mark.parametrize("problem", NAMED)
+def test_the_rows_of_the_summary_are_in_the_names(problem: str) -> None:
+    """d_kj q̈_j + the names + g_k come to the forces, and no row repeats what a name stands for."""
+    solution, values = solved(problem), known(problem)
+    D, g = evaluate(solution.forms("D"), values), evaluate(solution.forms("g"), values)
+    for i in range(3):
+        values |= {f"d{i + 1}{j + 1}": D[i][j] for j in range(3)} | {f"g{i + 1}": g[i][0]}
+    (line,) = steps(problem)["model"].lines
+    for q, row in zip(solution.robot.coordinates, line.formulas, strict=True):
+        assert isinstance(row, Relation)
+        ours = evaluate(with_symbols(row.parts[1]), values)
+        assert ours == pytest.approx(evaluate(solution.forms(f"tau{q.index}"), values))
+
+
+def with_symbols(node: Node) -> Node:
+    """The letters d_11 and g_2 as symbols."""
+    if not isinstance(node, Letter):
+        return with_children(node, with_symbols)
+    assert isinstance(node.sub, Row)
+    return Symbol(node.base + "".join(str(part.p) for part in node.sub.parts if isinstance(part, Number)))
 
 
 @pytest.mark.parametrize("problem", NAMED)
