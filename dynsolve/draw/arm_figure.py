@@ -16,7 +16,7 @@ from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.scene import Scene, framed, leads
-from dynsolve.draw.solids import solids
+from dynsolve.draw.solids import ground, solids
 from dynsolve.draw.svg import to_svg
 from dynsolve.draw.vectors import NEAR, Vector, length, unit
 from dynsolve.notation.printing import Style
@@ -36,7 +36,7 @@ def drawn_arm(figure: ArmFigure, problem: Problem, style: Style) -> Picture | No
     if found is None:
         return None
     pose, at = found
-    body = solids(pose.parts, pose.view, world.up)
+    body = (*ground(pose.parts, pose.view), *solids(pose.parts, pose.view, world.up))
     notes = annotate.Notes(style, Taken())
     notes.taken.add(body)
     for arrow in figure.arrows:

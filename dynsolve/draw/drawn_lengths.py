@@ -17,7 +17,7 @@ from dynsolve.algebra.floats import evaluate
 from dynsolve.draw.vectors import IDENTITY, Rotation
 from dynsolve.notation.walk import names_in
 from dynsolve.problem.model import Problem
-from dynsolve.robot.model import Robot
+from dynsolve.robot.model import Joint, JointType, Robot
 
 SHORTEST = 0.42
 """The shortest length that is drawn, as a part of the longest."""
@@ -30,12 +30,16 @@ _RETRIES = ((1.0, 0.0), (1.3, 0.1), (0.7, 0.3), (1.1, -0.4))
 
 @dataclass(frozen=True, slots=True)
 class TableRow:
-    """A row of the table in numbers, without its joint variable; the longest length is 1."""
+    """A row of the table in numbers, without its joint variable; the longest length is 1.
+
+    `offset` is the part of `theta` that is a number of degrees beside one coordinate: the 90° of θ_1 + 90°.
+    """
 
     theta: float
     d: float
     a: float
     alpha: float
+    offset: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,12 +86,32 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
         return drawn_length(ratio) if shortest < 0.8 * SHORTEST * unit else ratio
 
     rows = tuple(
-        TableRow(angle(joint.theta, values), drawn(joint.d), drawn(joint.a), angle(joint.alpha, values))
+        TableRow(
+            angle(joint.theta, values),
+            drawn(joint.d),
+            drawn(joint.a),
+            angle(joint.alpha, values),
+            _offset(robot, joint),
+        )
         for joint in robot.joints
     )
     x, y, z = ([finite(entry, values) for entry in row] for row in robot.base_rotation.rows)
     base = tuple(zip(x, y, z, strict=True))
     return RobotNumbers(rows, values, unit, (base[0], base[1], base[2]), frozenset(given))
+
+
+def _offset(robot: Robot, joint: Joint) -> float:
+    """The degrees beside a coordinate that stands alone in the column θ, in radians within half a turn."""
+    variable = turned_alone(robot, joint)
+    return math.remainder(math.radians(float(joint.theta.degrees)), 2 * math.pi) if variable else 0.0
+
+
+def turned_alone(robot: Robot, joint: Joint) -> str | None:
+    """The coordinate that is the whole angle of a row, but for a number of degrees; else None."""
+    if joint.type is not JointType.REVOLUTE or len(joint.rates) != 1:
+        return None
+    name = robot.coordinates[joint.rates[0][0]].name
+    return name if joint.theta.linear == Angle.of(name) else None
 
 
 def _has_vanished(robot: Robot, values: Mapping[str, float]) -> bool:

@@ -1,17 +1,21 @@
 """The angles of revolute joints: each from the x axis before the joint to the one after it, about its axis.
 
-Where a joint is drawn away from the origins of these frames, dashed lines through it are parallel to their
-x axes.  A robot with many rows has no room for that: an arrow around each axis shows the sense of its angle.
+Where the table adds degrees to a coordinate, its arrow ends that much before the x axis, and the rest is
+drawn beyond it.  An angle stands about the origin on its axis; dashed lines show the directions that nothing
+else shows there.  A robot with many rows has no room for that: an arrow around each axis shows the sense
+of its angle.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from itertools import pairwise
 
 from dynsolve.draw import paths
 from dynsolve.draw.annotate import Notes
+from dynsolve.draw.drawn_lengths import turned_alone
 from dynsolve.draw.parts import RADIUS, JointBody
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import MANY, Pose
@@ -32,8 +36,8 @@ from dynsolve.draw.vectors import (
     subtract,
     unit,
 )
-from dynsolve.notation.tree import Node
-from dynsolve.robot.model import JointType
+from dynsolve.notation.tree import Degrees, Node, Symbol
+from dynsolve.robot.model import JointType, Robot
 
 _RING = 1.75 * RADIUS
 _ARC = 31.0
@@ -49,47 +53,76 @@ _SMALL = 0.3
 _BEYOND = 12.0
 """How far the lines of an angle reach beyond its arc."""
 
+_SQUARE, _INNER = 19.0, 24.0
+"""The side of a right angle's mark, and the radius of the arc of another angle that the table adds."""
+
+_ALIKE = 1 - 1e-6
+"""The cosine from which two directions are one."""
+
 _PARTS = (0.5, 0.35, 0.65, 0.2, 0.8)
 """Where along an arc its name may stand, best first."""
 
 
-def joint_angles(pose: Pose, written: Sequence[Node], notes: Notes) -> None:
-    """The angle of every revolute joint, as the table has it."""
+def names_of_angles(robot: Robot) -> list[Node]:
+    """What the arrow of each row shows: a coordinate, without the degrees beside it, or the whole column."""
+    return [
+        Symbol(name, star=True) if (name := turned_alone(robot, joint)) else joint.written[0]
+        for joint in robot.joints
+    ]
+
+
+def joint_angles(pose: Pose, names: Sequence[Node], notes: Notes) -> None:
+    """The angle of every revolute joint."""
+    for part, leg in _turning(pose):
+        name = names[part.row - 1]
+        if pose.view.flat:
+            _flat_angle(pose, part, leg, name, notes)
+        elif _has_ring(pose, leg):
+            _ring(pose, part, name, notes)
+        else:
+            _angle_in_space(pose, part, leg, name, notes)
+
+
+def _turning(pose: Pose) -> Iterator[tuple[JointBody, Leg]]:
+    """The revolute joints with their rows."""
     for part in pose.parts.joints:
         if part.type is JointType.REVOLUTE:
-            leg, name = pose.skeleton.legs[part.row - 1], written[part.row - 1]
-            if pose.view.flat:
-                _flat_angle(pose, part, leg, name, notes)
-            elif _has_ring(pose, leg):
-                _ring(pose, part, name, notes)
-            else:
-                _angle_in_space(pose, part, leg, name, notes)
+            yield part, pose.skeleton.legs[part.row - 1]
 
 
 def has_parallels(pose: Pose) -> bool:
-    """Whether some angle is shown between lines that are parallel to its x axes."""
-    flat = pose.view.flat
-    legs = ((pose.skeleton.legs[part.row - 1], part) for part in pose.parts.joints)
+    """Whether a dashed line shows a direction of some angle."""
     return any(
-        leg.type is JointType.REVOLUTE
-        and (flat or not _has_ring(pose, leg))
-        and any(_drawn_lines(leg, part, flat))
-        for leg, part in legs
+        (pose.view.flat or not _has_ring(pose, leg)) and any(_unseen(leg, _center(pose, part, leg), pose))
+        for part, leg in _turning(pose)
     )
+
+
+def has_offsets(pose: Pose) -> bool:
+    """Whether some angle is drawn in two parts."""
+    return any(leg.offset and (pose.view.flat or not _has_ring(pose, leg)) for _, leg in _turning(pose))
 
 
 def _has_ring(pose: Pose, leg: Leg) -> bool:
     """Whether there is no room for an angle in space, or it is too small to be seen."""
-    return len(pose.skeleton.legs) > MANY or leg.angle % (2 * math.pi) < _SMALL
+    return len(pose.skeleton.legs) > MANY or leg.turn < _SMALL
 
 
-def _drawn_lines(leg: Leg, part: JointBody, flat: bool) -> Iterator[Vector]:
-    """The directions from a joint in which nothing else shows the x axis before it, or after it."""
-    if distance(leg.start, part.center) > NEAR:
-        yield leg.before
-    has_link = distance(leg.head, leg.end) > NEAR and distance(leg.head, part.center) < NEAR
-    if not flat and distance(leg.end, part.center) > NEAR and not has_link:
-        yield leg.after
+def _center(pose: Pose, part: JointBody, leg: Leg) -> Vector:
+    """The origin on the axis of a joint; the joint itself where the angle of another one is about that."""
+    others = (other for other, _ in _turning(pose) if other is not part)
+    at = leg.center
+    return part.center if any(distance(other.center, at) < NEAR for other in others) else at
+
+
+def _unseen(leg: Leg, center: Vector, pose: Pose) -> Iterator[Vector]:
+    """The directions of an angle that nothing else shows at its middle: no axis of a frame, and no link."""
+    frames = [frame for frame in pose.skeleton.frames if distance(frame.origin, center) < NEAR]
+    seen = [axis for frame in frames for axis in (frame.x, frame.z)]
+    ways = [*pairwise(pose.skeleton.path), *((b, a) for a, b in pairwise(pose.skeleton.path))]
+    seen += [unit(subtract(b, a)) for a, b in ways if distance(a, center) < NEAR < distance(a, b)]
+    directions = [leg.before, leg.turned, *([leg.after] if leg.offset else [])]
+    return (direction for direction in directions if all(dot(direction, way) < _ALIKE for way in seen))
 
 
 # -- in a plane ------------------------------------------------------------------------------------
@@ -100,14 +133,12 @@ def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes)
     view = pose.view
     center = view.point(part.center)
     first = view.direction(leg.before)
-    angle = leg.angle % (2 * math.pi)
-    if dot(leg.axis, view.toward) < 0:
-        angle = -angle
+    angle = leg.turn if dot(leg.axis, view.toward) > 0 else -leg.turn
     second = (first[1], -first[0])
-    lines = _drawn_lines(leg, part, flat=True) if math.dist(view.point(leg.start), center) > NEAR else ()
-    for line in lines:
-        end = moved(center, view.direction(line), _ARC + _BEYOND)
+    for direction in _unseen(leg, part.center, pose):
+        end = moved(center, view.direction(direction), _ARC + _BEYOND)
         notes.draw(Path(paths.line(center, end), paths.GREY, 0.9, dashed=True))
+    _offset(part.center, leg, pose, notes)
     radius = (_ARC if abs(angle) > 0.5 else _ARC + 16.0) + _WIDER * _before_here(pose, part)
     p, q = scaled(first, radius), scaled(second, radius)
     short = angle - math.copysign(min(6.0 / radius, abs(angle) / 2), angle)
@@ -116,6 +147,26 @@ def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes)
     )
     middle = [paths.on_ellipse(center, p, q, angle * part_of) for part_of in _PARTS[:3]]
     notes.label(node, middle, _from_to(center, middle[0]), paths.VARIABLE, "variable")
+
+
+def _offset(center: Vector, leg: Leg, pose: Pose, notes: Notes) -> None:
+    """The part of θ_i that is a number of degrees: a right angle, or an arc with its size."""
+    view, at = pose.view, pose.view.point(center)
+    size = abs(leg.offset)
+    if size < NEAR or size > math.pi - NEAR:
+        return
+    if abs(size - math.pi / 2) < NEAR:
+        corners = (leg.turned, add(leg.turned, leg.after), leg.after)
+        square = [moved(at, view.direction(corner), _SQUARE) for corner in corners]
+        notes.draw(Path(paths.line(*square), paths.GREY, 1.0))
+        return
+    side = cross(leg.axis, leg.turned)
+    p, q = scaled(view.direction(leg.turned), _INNER), scaled(view.direction(side), _INNER)
+    notes.draw(Path(paths.arc(at, p, q, 0.0, leg.offset), paths.GREY, 1.0))
+    middle = paths.on_ellipse(at, p, q, leg.offset / 2)
+    degrees = Fraction(math.degrees(size)).limit_denominator(1000)
+    node = Degrees(degrees.numerator, degrees.denominator)
+    notes.label(node, [middle], _from_to(at, middle), paths.GREY, "angle")
 
 
 def _before_here(pose: Pose, part: JointBody) -> int:
@@ -139,16 +190,17 @@ def _from_to(a: Point, b: Point) -> Point:
 
 
 def _angle_in_space(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes) -> None:
-    """θ_i around the joint's axis; what lies behind the joint is drawn before it."""
-    view = pose.view
-    center = view.point(part.center)
+    """θ_i around the joint's axis; what lies behind its middle is drawn before the joint."""
+    view, middle = pose.view, _center(pose, part, leg)
+    center = view.point(middle)
     side = cross(leg.axis, leg.before)
-    for direction in _drawn_lines(leg, part, flat=False):
-        tip = view.point(along(part.center, direction, view.space(_WIDE + _BEYOND)))
+    for direction in _unseen(leg, middle, pose):
+        tip = view.point(along(middle, direction, view.space(_WIDE + _BEYOND)))
         line = Path(paths.line(center, tip), paths.GREY, 0.9, dashed=True)
         notes.draw(line, behind=dot(direction, view.toward) < 0)
+    _offset(middle, leg, pose, notes)
     p, q = scaled(view.direction(leg.before), _WIDE), scaled(view.direction(side), _WIDE)
-    angle = leg.angle % (2 * math.pi)
+    angle = leg.turn
     short = angle - min(0.25, angle / 2)
     for start, end, behind in _seen(leg.before, side, view.toward, short):
         arc = paths.arc(center, p, q, start, end)

@@ -160,8 +160,7 @@ def taste(robot: Robot, pose: Pose, choice: Choice) -> float:
     if pose.view.flat:
         for leg in pose.skeleton.legs:
             if leg.type is JointType.REVOLUTE:
-                angle = leg.angle % (2 * math.pi)  # a negative one is the long way round
-                total += 12.0 * _shortfall(angle, 0.7) + 1.2 * abs(angle - 0.8)
+                total += 12.0 * _shortfall(leg.turn, 0.7) + 1.2 * abs(leg.turn - 0.8)
     else:
         total += 0.5 * abs(choice[-2] - math.radians(35))
         if len(pose.skeleton.legs) <= MANY:
@@ -175,7 +174,7 @@ def _hidden_angle(leg: Leg, view: View) -> float:
     """The cost of an angle in space that is small, or very large, or behind its joint."""
     if leg.type is not JointType.REVOLUTE:
         return 0.0
-    angle = leg.angle % (2 * math.pi)
+    angle = leg.turn
     side = cross(leg.axis, leg.before)
     behind = sum(
         max(0.0, -dot(leg.before, view.toward) * math.cos(t) - dot(side, view.toward) * math.sin(t))

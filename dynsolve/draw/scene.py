@@ -9,7 +9,7 @@ from fractions import Fraction
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.draw import annotate, paths
 from dynsolve.draw.drawn_lengths import RobotNumbers, numbers
-from dynsolve.draw.joint_angles import has_parallels, joint_angles
+from dynsolve.draw.joint_angles import has_offsets, has_parallels, joint_angles, names_of_angles
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimensions, row_lengths
 from dynsolve.draw.occupied import Box, Taken, bounds
@@ -17,7 +17,7 @@ from dynsolve.draw.orientation import Orientation, orientation
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.solids import solids
+from dynsolve.draw.solids import ground, solids
 from dynsolve.draw.vectors import NEAR, Point, dot
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
@@ -29,7 +29,8 @@ SLIDE = 0.9
 """How far out a slide is drawn whose letter stands in a drawing."""
 
 CAPTION = "The manipulator with its frames; not to scale."
-PARALLELS = "Dashed lines at a joint are parallel to the x axes between which its angle is measured."
+PARALLELS = "Dashed grey lines at a joint are parallel to the directions between which its angle is measured."
+OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey."
 OFF_LINKS = "A black dashed line leads from an origin to the mass centre of its link."
 
 _STAR = Style(star=True, decimal=True)
@@ -58,17 +59,17 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     values = numbers(problem)
     world = orientation(robot, values)
     pose = best_pose(robot, values, world, as_drawn(problem, values))
-    body = solids(pose.parts, pose.view, world.up, pose.bodies)
+    under, body = ground(pose.parts, pose.view), solids(pose.parts, pose.view, world.up, pose.bodies)
     notes = annotate.Notes(_STAR if star else _PLAIN, Taken())
-    notes.taken.add(body)
+    notes.taken.add([*under, *body])
     annotate.frames(pose, notes)
-    joint_angles(pose, [joint.written[0] for joint in robot.joints], notes)
+    joint_angles(pose, names_of_angles(robot), notes)
     annotate.masses(pose, notes)
     annotate.axes_end_on(pose, notes)
     dimensions([*row_lengths(robot, pose), *_center_lengths(pose)], pose, notes)
-    _gravity(world, pose, body, notes)
+    _gravity(world, pose, [*under, *body], notes)
     labels = place(notes.wanted, notes.taken)
-    paths = (*notes.behind, *body, *notes.paths, *leads(labels))
+    paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
         _caption(pose),
@@ -82,8 +83,8 @@ def scene(problem: Problem, star: bool = True) -> Scene:
 
 def _caption(pose: Pose) -> str:
     """What stands under the picture, with what its dashed lines are."""
-    parallels = [PARALLELS] if has_parallels(pose) else []
-    return " ".join([CAPTION, *parallels, *([OFF_LINKS] if annotate.has_masses_off_links(pose) else [])])
+    said = ((PARALLELS, has_parallels), (OFFSETS, has_offsets), (OFF_LINKS, annotate.has_masses_off_links))
+    return " ".join([CAPTION, *(sentence for sentence, holds in said if holds(pose))])
 
 
 def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:

@@ -9,6 +9,7 @@ its joint, of length d_i from its foot to its head, and a leg of length a_i acro
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -18,8 +19,14 @@ from dynsolve.draw.vectors import (
     ORIGIN,
     Rotation,
     Vector,
+    add,
     along,
+    cross,
     distance,
+    dot,
+    length,
+    scale,
+    subtract,
     turned,
 )
 from dynsolve.robot.model import Convention, Joint, JointType, Robot
@@ -49,6 +56,7 @@ class Leg:
 
     `axis` is the direction of the joint's axis, `before` and `after` the x axes that
     θ turns from and to, `start` the origin of the frame before it, `end` that of its own.
+    `offset` is the number of degrees in θ, in radians, beside a coordinate alone.
     """
 
     type: JointType | None
@@ -60,6 +68,25 @@ class Leg:
     before: Vector
     after: Vector
     angle: float
+    offset: float = 0.0
+
+    @property
+    def turn(self) -> float:
+        """θ without the offset, within one positive turn."""
+        return (self.angle - self.offset) % (2 * math.pi)
+
+    @property
+    def turned(self) -> Vector:
+        """The x axis before the joint after a turn by the coordinate alone; `after` is the offset beyond."""
+        side = cross(self.axis, self.after)
+        return add(scale(self.after, math.cos(self.offset)), scale(side, -math.sin(self.offset)))
+
+    @property
+    def center(self) -> Vector:
+        """The origin that is on the joint's axis: of the frame before it, else of the one after it."""
+        way = subtract(self.start, self.foot)
+        beside = subtract(way, scale(self.axis, dot(way, self.axis)))
+        return self.start if length(beside) < NEAR else self.end
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,13 +157,14 @@ def _leg(
         across = turned(frame.axes, 2, theta)
         head = along(o, frame.z, d)
         end = along(head, across[0], row.a)
-        leg = Leg(joint.type, o, o, head, end, frame.z, frame.x, across[0], theta)
+        leg = Leg(joint.type, o, o, head, end, frame.z, frame.x, across[0], theta, row.offset)
         return leg, DrawnFrame(end, turned(across, 0, row.alpha))
     tilted = turned(frame.axes, 0, row.alpha)
     foot = along(o, frame.x, row.a)
     head = along(foot, tilted[2], d)
     axes = turned(tilted, 2, theta)
-    return Leg(joint.type, o, foot, head, head, tilted[2], frame.x, axes[0], theta), DrawnFrame(head, axes)
+    leg = Leg(joint.type, o, foot, head, head, tilted[2], frame.x, axes[0], theta, row.offset)
+    return leg, DrawnFrame(head, axes)
 
 
 def near_and_far(robot: Robot, bare: Skeleton, link: int) -> tuple[Vector, Vector]:

@@ -28,18 +28,19 @@ from dynsolve.draw.vectors import (
 from dynsolve.draw.view import View
 from dynsolve.robot.model import JointType
 
-_GROUND = 30.0
+_GROUND, _PLATE = 30.0, 40.0
+"""Half the length of the ground in a plane, and half the side of its plate, on which an angle may stand."""
 
 
 def solids(parts: Parts, view: View, up: Vector, bodies: Sequence[DrawnBody] = ()) -> tuple[Path, ...]:
-    """All of a robot's body, from back to front."""
+    """All of a robot's body but the ground, from back to front."""
     turning = [part for part in parts.joints if part.type is JointType.REVOLUTE]
     sliding = [part for part in parts.joints if part.type is JointType.PRISMATIC]
     found = [*link_pieces(parts, view, bodies), *body_solids(bodies, parts, view, up)]
     found += (cylinder(part, view) for part in turning)
     found += (box(part, view, up) for part in sliding)
     found.sort(key=lambda solid: round(solid.depth, 6))
-    return (*ground(parts, view), *(path for solid in joined(found) for path in solid.paths))
+    return tuple(path for solid in joined(found) for path in solid.paths)
 
 
 # -- joints ----------------------------------------------------------------------------------------
@@ -81,7 +82,7 @@ def ground(parts: Parts, view: View) -> tuple[Path, ...]:
         return _hatched_line(place, cross(normal, view.toward), normal, view, _GROUND)
     first = parts.ground_side
     second = cross(normal, first)
-    half = view.space(_GROUND)
+    half = view.space(_PLATE)
     corners = [
         along(along(place, first, s * half), second, t * half)
         for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))

@@ -9,14 +9,15 @@ import pytest
 
 from dynsolve.draw.annotate import Notes
 from dynsolve.draw.drawn_lengths import numbers
-from dynsolve.draw.joint_angles import has_parallels, joint_angles
+from dynsolve.draw.joint_angles import has_offsets, has_parallels, joint_angles, names_of_angles
 from dynsolve.draw.occupied import Taken
 from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import GREY, VARIABLE, flattened
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.vectors import Point, Vector
+from dynsolve.draw.vectors import Point, Vector, cross, dot
 from dynsolve.notation.printing import Style
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.problem import load, read_problem
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType
@@ -30,7 +31,7 @@ def shown(problem: Problem) -> tuple[Pose, Notes]:
     values = numbers(problem)
     pose = best_pose(problem.robot, values, orientation(problem.robot, values))
     notes = Notes(Style(decimal=True), Taken())
-    joint_angles(pose, [joint.written[0] for joint in problem.robot.joints], notes)
+    joint_angles(pose, names_of_angles(problem.robot), notes)
     return pose, notes
 
 
@@ -66,18 +67,54 @@ def bearing(pose: Pose, center: Vector, point: Point) -> float:
     ids=lambda problem: problem.title or "offset",
 )
 def test_each_arrow_runs_from_axis_to_axis(problem: Problem) -> None:
-    """An offset in the table is in the angle that is drawn, as it is in its name."""
+    """About the origin on the joint's axis, but for the degrees that the table adds to a coordinate."""
     pose, notes = shown(problem)
     found = list(arcs(notes))
     for part in pose.parts.joints:
         if part.type is not JointType.REVOLUTE:
             continue
         leg = pose.skeleton.legs[part.row - 1]
-        wanted = [bearing(pose, (0.0, 0.0, 0.0), pose.view.point(x)) for x in (leg.before, leg.after)]
+        wanted = [bearing(pose, (0.0, 0.0, 0.0), pose.view.point(x)) for x in (leg.before, leg.turned)]
+        center = problem.robot.joints[part.row - 1].parent
+        about = pose.skeleton.frames[center].origin
         assert any(
-            [bearing(pose, part.center, point) for point in ends] == pytest.approx(wanted, abs=0.02)
+            all(
+                abs(math.remainder(bearing(pose, about, point) - angle, 2 * math.pi)) < 0.02
+                for point, angle in zip(ends, wanted, strict=True)
+            )
             for ends in found
         ), part.row
+
+
+@pytest.mark.parametrize(
+    ("column", "name", "degrees"),
+    [
+        ("q1* + 90deg", "q₁", 90.0),
+        ("q1* - 45deg", "q₁", -45.0),
+        ("q1* + 270deg", "q₁", -90.0),
+        ("q1*", "q₁", 0.0),
+        ("90deg - q1*", "90° - q₁", 0.0),
+        ("q1* + beta", "q₁ + β", 0.0),
+    ],
+)
+def test_degrees_beside_a_coordinate_are_drawn_apart(column: str, name: str, degrees: float) -> None:
+    problem = read_problem(f"dh: [{{theta: {column}, a: l1}}]", "one.yaml")
+    pose, notes = shown(problem)
+    (leg,) = pose.skeleton.legs
+    assert math.degrees(leg.offset) == pytest.approx(degrees)
+    assert dot(leg.turned, leg.after) == pytest.approx(math.cos(leg.offset))
+    assert dot(cross(leg.turned, leg.after), leg.axis) == pytest.approx(math.sin(leg.offset))
+    assert [to_unicode(label.node, notes.style) for label in notes.wanted if label.kind == "variable"] == [
+        name
+    ]
+    assert has_offsets(pose) is bool(degrees)
+
+
+def test_a_waist_has_its_angle_about_the_origin_of_the_base() -> None:
+    """The joint itself stands above that."""
+    pose, _ = shown(library("elbow-3r"))
+    assert pose.skeleton.legs[0].center == pose.skeleton.frames[0].origin
+    assert pose.parts.joints[0].center != pose.skeleton.frames[0].origin
 
 
 def test_lines_that_are_parallel_to_axes_are_said() -> None:

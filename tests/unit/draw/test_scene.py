@@ -166,7 +166,7 @@ def test_a_part_of_a_symbol_is_labelled_as_that_part() -> None:
 def test_no_star_leaves_the_marks_out() -> None:
     problem = load(next(path for path in LIBRARY if path.stem == "in3140-rp"))
     shown = names(scene(problem, star=False))
-    assert "θ₁ + 90°" in shown and "L₂" in shown and "L₁" in shown
+    assert "θ₁" in shown and "L₂" in shown and "L₁" in shown
 
 
 def test_joint_types_have_their_names_in_the_description() -> None:
@@ -188,7 +188,7 @@ def test_labels_are_text_with_indices() -> None:
     svg = to_svg(drawn(next(path for path in LIBRARY if path.stem == "in3140-rp")))
     labels = re.findall(r"<text [^>]*>(.*?)</text>", svg)
     plain = {re.sub("<[^>]*>", "", label) for label in labels}
-    assert {"θ1∗+\xa090°", "L2∗", "L1", "rc1", "rc2", "z0", "x2", "g"} <= plain
+    assert {"θ1∗", "L2∗", "L1", "rc1", "rc2", "z0", "x2", "g"} <= plain
     assert '<tspan font-style="italic">θ</tspan><tspan font-size="11.9" dy="4.08">1</tspan>' in svg
 
 
