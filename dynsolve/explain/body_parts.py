@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
-from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
 from dynsolve.explain.closing import WIDEST, matrix_width
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.working.column_products import of_columns
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.products import used_in_product
@@ -25,36 +25,50 @@ BESIDE = 2
 """Up to this number of coordinates the results of a body stand side by side."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Product:
-    """A product with this robot's matrices put in, and the identities by which it becomes what is shown."""
-
-    working: tuple[Node, ...]
-    used: tuple[Identity, ...]
-    uses: tuple[str, ...]
-    why: Prose = ()
-
-
 def part_step(context: Context, body: Body) -> Step:
     """The contribution of one body to D; of short arms the products are shown, at the normal detail."""
     is_short = context.robot.n <= MOST_JOINTS
-    products = tuple(_products(context, body)) if is_short else ()
-    used = dict.fromkeys(identity for product in products for identity in product.used)
-    concluding: Prose = ("Multiplied out, with ", *said(list(used)), ":") if used else ("Multiplied out:",)
-    return Step(
+    step = Step(
         id=f"D_direct{body.name}",
         stage=Stage.VECTORIZED,
         title=f"What body {body.name} adds to the inertia matrix",
-        why=(*_why(context, body), *(part for product in products for part in product.why)),
+        why=_why(context, body),
         source=spong("7.2.2"),
-        working=tuple(node for product in products for node in product.working),
-        concluding=concluding if products else (),
         result=tuple(_results(context, body)),
         together=context.robot.n <= BESIDE,
-        uses=tuple(name for product in products for name in product.uses),
+        uses=(f"Jv{body.name}",) if is_short else (),
         detail=Detail.NORMAL if is_short else Detail.FULL,
         is_task=False,
     )
+    return _worked_out(context, body, step) if is_short else step
+
+
+def _worked_out(context: Context, body: Body, step: Step) -> Step:
+    """The step with the products of this robot's matrices: the linear part, then the rotational one."""
+    turns = not (body.is_point or context.values[f"Jw{body.name}"].is_zero)
+    angular = tuple(_angular_lines(context, body)) if turns else ()
+    last = ("Multiplied out", _angular_used(context, body)) if turns else ("Multiplied out", ())
+    if context.values[f"Jv{body.name}"].is_zero:
+        return replace(step, lines=angular, concluding=_by(*last)) if turns else step
+    J = context.values[f"Jv{body.name}"]
+    shown = Product((context.mass(body), letters.transposed_product(context.show(J))))
+    step = replace(step, working=(equation(linear_name(context, body), shown),))
+    products = of_columns(context, body)
+    if products is None:
+        used = dict.fromkeys((*used_in_product(context, J.T, J, J.T @ J), *last[1]))
+        return replace(step, lines=angular, concluding=_by("Multiplied out", list(used)))
+    by: Prose = ("By ", *said(products.used))
+    by += (", and the numbers multiplied",) if body.mass.is_number else ()
+    if turns:
+        is_same = bool(last[1]) and set(last[1]) <= set(products.used)
+        second = ("multiplied out, with the same:",) if is_same else _by("multiplied out", last[1])
+        by += ("; the second product ", *second)
+    return replace(step, lines=(*products.lines, *angular), concluding=by if turns else (*by, ":"))
+
+
+def _by(operation: str, used: Sequence[Identity]) -> Prose:
+    """Multiplied out, with s₁² + c₁² = 1:"""
+    return (f"{operation}, with ", *said(used), ":") if used else (f"{operation}:",)
 
 
 def sum_step(context: Context) -> Step | None:
@@ -134,49 +148,30 @@ def _results(context: Context, body: Body) -> Iterator[Node]:
         yield equation(angular_name(body), context.form(f"Dw{body.name}"))
 
 
-def _products(context: Context, body: Body) -> Iterator[_Product]:
-    """The products that are more than a product with zeros."""
-    if not context.values[f"Jv{body.name}"].is_zero:
-        yield _linear(context, body)
-    if not (body.is_point or context.values[f"Jw{body.name}"].is_zero):
-        yield _angular(context, body)
-
-
-def _linear(context: Context, body: Body) -> _Product:
-    J = context.values[f"Jv{body.name}"]
-    shown = context.show(J)
-    product = Product((context.mass(body), letters.transposed_product(shown)))
-    used = tuple(used_in_product(context, J.T, J, J.T @ J))
-    return _Product((equation(linear_name(context, body), product),), used, (f"Jv{body.name}",))
-
-
-def _angular(context: Context, body: Body) -> _Product:
+def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     """J_ωᵀ 𝓘 J_ω along the axes that the energy was worked out in: the base's, or the body's own."""
     values, b = context.values, body.name
     J, tensor, given = values[f"Jw{b}"], values[f"I{b}"], values[f"I_body{b}"]
+    name = angular_name(body)
     if not along_own_axes(context, body):
-        working = (_rotational(context, body, J, tensor),)
-        return _Product(working, _used(context, J, tensor), (f"Jv{b}", f"I{b}"))
+        product = letters.transposed_product(context.show(J), context.show(tensor))
+        yield Line((), (equation(name, product),), (f"I{b}",))
+        return
     own = turned(context, body, "Jw", letters.jw(body))
-    why: Prose = (
-        " Along the body's own axes the tensor is ",
-        letters.tensor(context.robot, body),
-        ", and ",
-        letters.jw(body),
-        *((" stays the same: the rotation is about its axis.",) if own.is_same else (" becomes ", own.name)),
-        *own.why,
-        *(() if own.is_same else (".",)),
-    )
+    R, w = letters.of_body("R", body, "bold"), letters.of_body("omega", body, "bold")
+    along: Prose = ("Along the body's own axes", *own.why, ":")
+    yield Line((R, " turns about the axis of ", w, ":") if own.is_same else along, (own.working,), (f"R{b}",))
     in_letters = letters.transposed_product(Parenthesized(own.name), letters.tensor(context.robot, body))
     product = letters.transposed_product(context.show(own.value), context.show(given))
-    lines = (own.working, equation(angular_name(body), in_letters, product))
-    return _Product(lines, _used(context, own.value, given), (f"Jv{b}", f"R{b}", f"I_body{b}"), why)
+    put_in: Prose = ("The tensor along the same axes put in:",)
+    yield Line(put_in, (equation(name, in_letters, product),), (f"I_body{b}",))
 
 
-def _rotational(context: Context, body: Body, J: Matrix, tensor: Matrix) -> Node:
-    return equation(angular_name(body), letters.transposed_product(context.show(J), context.show(tensor)))
-
-
-def _used(context: Context, J: Matrix, tensor: Matrix) -> tuple[Identity, ...]:
+def _angular_used(context: Context, body: Body) -> tuple[Identity, ...]:
+    """The identities by which J_ωᵀ 𝓘 J_ω becomes what is printed."""
+    values, b = context.values, body.name
+    J, tensor = values[f"Jw{b}"], values[f"I{b}"]
+    if along_own_axes(context, body):
+        J, tensor = values[f"R{b}"].T @ J, values[f"I_body{b}"]
     left = J.T @ tensor
     return tuple(used_in_product(context, left, J, left @ J))

@@ -24,18 +24,18 @@ def multiplied_out(node: Node, *, decimal: bool = False) -> Node:
 
 
 def _expanded(node: Product, decimal: bool) -> Node:
-    sums = [factor for factor in node.factors if isinstance(factor, Sum) and _is_trigonometric(factor)]
+    sums = [factor for factor in node.factors if isinstance(factor, Sum) and is_trigonometric(factor)]
     if len(sums) < 2:
         return node
-    terms = [_product(chosen, decimal) for chosen in product(*(each.terms for each in sums))]
+    terms = [in_order(chosen, decimal) for chosen in product(*(each.terms for each in sums))]
     first = node.factors.index(sums[0])
     before = tuple(factor for factor in node.factors[:first])
     after = tuple(factor for factor in node.factors[first:] if factor not in sums)
     return Product((*before, total(terms), *after)) if before or after else total(terms)
 
 
-def _product(terms: tuple[Node, ...], decimal: bool) -> Node:
-    """The product of a term of each sum, its sign in front."""
+def in_order(terms: tuple[Node, ...], decimal: bool) -> Node:
+    """The product of some terms, its sign in front: symbols, then sines, then cosines, then sums."""
     signs, bare = zip(*map(split_sign, terms), strict=True)
     factors = [factor for term in bare for factor in (term.factors if isinstance(term, Product) else (term,))]
     found = product_of(1, [(factor, 1) for factor in sorted(factors, key=_place)], decimal=decimal)
@@ -52,5 +52,6 @@ def _place(factor: Node) -> tuple[int, str]:
     return 3, ""
 
 
-def _is_trigonometric(node: Node) -> bool:
+def is_trigonometric(node: Node) -> bool:
+    """Whether a sine or cosine stands in a tree."""
     return any(isinstance(part, Function) and part.name in ("sin", "cos") for part in walk(node))

@@ -73,7 +73,7 @@ def identities(ring: Ring, before: Node, after: Node) -> tuple[Identity, ...] | 
     if ring.reduce(difference):
         return None
     angles = _squared(ring, before, without_sums, difference)
-    return (*(_pythagoras(angle_node(angle, ring.names)) for angle in angles), *additions)
+    return (*(pythagoras(angle_node(angle, ring.names)) for angle in angles), *additions)
 
 
 def _squared(ring: Ring, before: Node, after: Node, difference: fmpq_mpoly) -> list[Angle]:
@@ -115,7 +115,7 @@ def _as_they_stand(ring: Ring, before: Node, after: Node) -> list[Angle]:
 _FULL = {"sin": "sine", "cos": "cosine"}
 
 
-def _pythagoras(angle: Node) -> Identity:
+def pythagoras(angle: Node) -> Identity:
     """sin² + cos² = 1 of an angle."""
     squares = tuple(Power(Function(name, angle), Number(2)) for name in ("sin", "cos"))
     return Identity("", equation(Sum(squares), Number(1)))

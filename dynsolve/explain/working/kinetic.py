@@ -33,7 +33,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
-from dynsolve.robot.model import Body, Coordinate
+from dynsolve.robot.model import Body
 
 MOST_GROUPS = 8
 """Up to this number of groups of terms squares are multiplied out term by term."""
@@ -103,7 +103,7 @@ class _Bracket:
 def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[_Bracket]:
     """Σ (a_k q̇_k)² as Σ a_k² q̇_k² and 2 Σ a_j a_k q̇_j q̇_k, the factors a as they stand."""
     coordinates = context.robot.coordinates
-    slopes = [[_slope(x, q) for q in coordinates] for x in components]
+    slopes = [[squares.factor_of_rate(x, q.name) for q in coordinates] for x in components]
     for j, k in combinations_with_replacement(range(len(coordinates)), 2):
         pairs = [(a[j], a[k]) for a in slopes if not (a[j].is_zero or a[k].is_zero)]
         if not pairs:
@@ -116,11 +116,6 @@ def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[_Bracket
         else:
             tree = total([times(1, [(context.show(a), 1), (context.show(b), 1)]) for a, b in pairs])
             yield _Bracket(tree, value, times(2, [(tree, 1), (first, 1), (second, 1)]))
-
-
-def _slope(x: Expr, q: Coordinate) -> Expr:
-    """The factor of q̇ in a component of a velocity."""
-    return Expr(x.ring, x.poly.derivative(x.ring.symbol_indices[(q.name, 1)]))
 
 
 def _along(context: Context, body: Body, i: int, turned: Matrix) -> Line:
@@ -138,7 +133,7 @@ def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | No
     if velocity != context.values[f"v{body.name}"]:
         lines.append((("Its squares:",), _sum_of_squares(context, components)))
     while (found := squares.turned(ring, components)) is not None:
-        components = _exchanged(components, found)
+        components = squares.exchanged(components, found)
         lines.append((_turn(context, found), _sum_of_squares(context, components)))
     if any(squares.has_roots(x) for x in components):
         return None
@@ -164,12 +159,6 @@ def _chain(context: Context, body: Body, lines: list[tuple[Prose, Node]], conclu
         lambda tree: equation(name, tree),
         concluding,
     )
-
-
-def _exchanged(components: Sequence[Expr], found: squares.Turned) -> list[Expr]:
-    """The components with a turned vector in place of two of them."""
-    rest = [x for k, x in enumerate(components) if k not in found.places]
-    return [x for x in found.parts if not x.is_zero] + rest
 
 
 def _turn(context: Context, found: squares.Turned) -> Prose:

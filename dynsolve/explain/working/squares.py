@@ -56,6 +56,17 @@ def _parts(x: Expr, pair: Pair) -> tuple[Expr, Expr] | None:
     return (Expr(x.ring, a), Expr(x.ring, b)) if poly == a * s + b * c else None
 
 
+def exchanged(components: Sequence[Expr], found: Turned) -> list[Expr]:
+    """The components with a turned vector in place of two of them."""
+    rest = [x for k, x in enumerate(components) if k not in found.places]
+    return [x for x in found.parts if not x.is_zero] + rest
+
+
+def factor_of_rate(x: Expr, coordinate: str) -> Expr:
+    """The factor of q̇ in a component of a velocity."""
+    return Expr(x.ring, x.poly.derivative(x.ring.symbol_indices[(coordinate, 1)]))
+
+
 def separate(ring: Ring, components: Sequence[Expr]) -> tuple[list[Expr], list[Expr]]:
     """(components whose squares share no product of rates with the others, all others)"""
     rates = [_rates(ring, x.poly * x.poly) for x in components]

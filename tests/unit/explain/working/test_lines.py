@@ -106,7 +106,8 @@ def test_what_a_line_needs_is_referred_to_where_it_goes_in() -> None:
     text = report(solved("elbow-3r"), Format.MARKDOWN).decode()
     of_rotation = re.findall(r"With \(\d+\) and \(\d+\), along the body's own axes", text)
     of_tensor = re.findall(r"With \(\d+\), the tensor along the same axes put in:", text)
-    assert len(of_rotation) == len(of_tensor) == 3, "ω and R first, the tensor a line later"
+    assert len(of_rotation) == 3, "ω and R first"
+    assert len(of_tensor) == 6, "and the tensor a line later, in the energies and in D"
 
 
 def test_where_one_identity_does_all_it_is_named_and_no_line_is_spent() -> None:
@@ -224,17 +225,54 @@ def test_the_identity_of_a_turned_tensor_and_of_a_lever_is_named() -> None:
 def test_the_products_that_make_up_the_inertia_matrix_are_shown() -> None:
     """Spong, Hutchinson, Vidyasagar, 7.2.2: m J_vᵀ J_v and J_ωᵀ 𝓘 J_ω, along the shorter axes."""
     part, style = step("elbow-3r", "D_direct3"), solved("elbow-3r").style
-    linear, turned, angular = (to_unicode(node, style) for node in part.working)
+    (linear,) = (to_unicode(node, style) for node in part.working)
     assert linear.startswith("m₃ 𝐉_v3ᵀ 𝐉_v3 = m₃ [[")
-    assert said(part.why, "elbow-3r").endswith("𝐉_ω3 becomes 𝐑₃ᵀ 𝐉_ω3, with s₁² + c₁² = 1.")
+    along, turned, put_in, angular, _ = lines("elbow-3r", "D_direct3")[-5:]
+    assert along == "Along the body's own axes, with s₁² + c₁² = 1:"
     assert turned.endswith(" = [[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]")
+    assert put_in == "The tensor along the same axes put in:"
     in_letters, product = "𝐉_ω3ᵀ 𝓘₃ 𝐉_ω3 = (𝐑₃ᵀ 𝐉_ω3)ᵀ 𝐈₃ (𝐑₃ᵀ 𝐉_ω3)", "[[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]"
     assert angular.startswith(f"{in_letters} = {product}ᵀ [[I_3xx, ")
-    assert lines("elbow-3r", "D_direct3")[-1] == (
-        "Multiplied out, with s₁² + c₁² = 1, s₂² + c₂² = 1, s₂₃² + c₂₃² = 1 "
-        "and the cosine of a difference, c₂ c₂₃ + s₂ s₂₃ = c₃:"
-    )
+    assert [line.uses for line in part.lines] == [(), ("R3",), ("I_body3",)]
     assert not step("scara-rrpr", "D_direct1").working
+
+
+def test_the_columns_of_a_jacobian_are_multiplied_by_one_identity_after_the_other() -> None:
+    """s₁² + c₁² = 1 leaves products without θ₁; these are multiplied out; then come the other identities."""
+    first, *entries = lines("elbow-3r", "D_direct3")[:5]
+    assert first == (
+        "With s₁² + c₁² = 1, entry by entry, then multiplied out (the matrix is symmetric, all other "
+        "entries are 0):"
+    )
+    assert entries == [
+        "(𝐉_v3ᵀ 𝐉_v3)₁₁ = (L₂ c₂ + l_c3 c₂₃)²",
+        "(𝐉_v3ᵀ 𝐉_v3)₂₂ = (L₂ s₂ + l_c3 s₂₃)² + (L₂ c₂ + l_c3 c₂₃)² = L₂² (s₂² + c₂²) "
+        "+ l_c3² (s₂₃² + c₂₃²) + 2L₂ l_c3 (s₂ s₂₃ + c₂ c₂₃)",
+        "(𝐉_v3ᵀ 𝐉_v3)₂₃ = l_c3 s₂₃ (L₂ s₂ + l_c3 s₂₃) + l_c3 c₂₃ (L₂ c₂ + l_c3 c₂₃) "
+        "= l_c3² (s₂₃² + c₂₃²) + L₂ l_c3 (s₂ s₂₃ + c₂ c₂₃)",
+        "(𝐉_v3ᵀ 𝐉_v3)₃₃ = (l_c3 s₂₃)² + (l_c3 c₂₃)²",
+    ]
+    assert lines("elbow-3r", "D_direct3")[-1] == (
+        "By s₂² + c₂² = 1, s₂₃² + c₂₃² = 1 and the cosine of a difference, c₂ c₂₃ + s₂ s₂₃ = c₃; "
+        "the second product multiplied out:"
+    )
+
+
+def test_narrow_products_of_columns_stand_in_a_matrix_and_trivial_ones_take_no_line() -> None:
+    by, matrix, concluding = lines("spherical-rrp", "D_direct3")
+    assert (by, concluding) == ("With s₁² + c₁² = 1:", "By s₂² + c₂² = 1:")
+    assert "(d₃ s₂)² + (d₃ c₂)², d₃ s₂ c₂ - d₃ s₂ c₂" in matrix
+    assert lines("planar-2r", "D_direct1")[-1] == "Multiplied out, with s₁² + c₁² = 1:"
+    assert "𝐉_v1" not in "".join(lines("planar-2r", "D_direct1"))
+
+
+def test_a_mass_in_numbers_is_multiplied_last() -> None:
+    by, first, *_, concluding = lines("numeric-2r", "D_directp")
+    assert by.startswith("The columns multiplied with each other, entry by entry")
+    assert first == (
+        "(m_p 𝐉_vpᵀ 𝐉_vp)₁₁ = 0.75 (0.25 (s₁² + c₁²) + 0.16 (s₁₂² + c₁₂²) + 0.4 (s₁ s₁₂ + c₁ c₁₂))"
+    )
+    assert concluding.endswith("c₁ c₁₂ + s₁ s₁₂ = c₂, and the numbers multiplied:")
 
 
 def test_identities_of_cross_products_and_of_sums_of_energies_are_named() -> None:

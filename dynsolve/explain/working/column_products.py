@@ -1,0 +1,177 @@
+"""J_vᵀ J_v on paper: the products of the columns of J_v, by one operation after the other.
+
+Two rows of J_v that are one row of lengths turned by an angle, (U s + V c) and (U c - V s), add up to
+U² + V² by s² + c² = 1 of that angle alone.  What is left is multiplied out, the sines and cosines in
+brackets, which become 1 or the cosine of a difference: the same lines as those of a speed's square.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from dynsolve.algebra.angles import angle_node
+from dynsolve.algebra.expr import Expr
+from dynsolve.document import Prose
+from dynsolve.explain.closing import matrix_width
+from dynsolve.explain.context import Context
+from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.step import Line
+from dynsolve.explain.working import squares
+from dynsolve.explain.working.derivatives import are_alike
+from dynsolve.explain.working.expansion import in_order, is_trigonometric
+from dynsolve.explain.working.identities import Identity, identities, pythagoras, said
+from dynsolve.explain.working.kinetic import MOST_GROUPS, without_signs
+from dynsolve.explain.working.proved import MOST_JOINTS, equals
+from dynsolve.explain.writing import sum_of
+from dynsolve.notation import tree
+from dynsolve.notation.build import negated, total
+from dynsolve.notation.tree import (
+    ZERO,
+    Entry,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Row,
+    Sum,
+    equation,
+)
+from dynsolve.notation.walk import walk
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body
+
+WIDEST = 60
+"""The characters up to which the products stand in a matrix; wider ones are given entry by entry."""
+
+
+@dataclass(frozen=True, slots=True)
+class Products:
+    """The lines from m J_vᵀ J_v with its matrices to the result, and the identities of the last operation."""
+
+    lines: tuple[Line, ...]
+    used: tuple[Identity, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """An entry of J_vᵀ J_v: as a sum of products, multiplied out, and the identities that are left."""
+
+    place: tuple[int, int]
+    products: Node
+    multiplied: Node
+    used: tuple[Identity, ...]
+
+
+def of_columns(context: Context, body: Body) -> Products | None:
+    """The lines of a body's linear part; None where one identity does all, or where they are not plain."""
+    robot, velocity = context.robot, context.values[f"v{body.name}"]
+    components = [x for x in velocity.entries if not x.is_zero]
+    if robot.n > MOST_JOINTS or any(map(squares.has_roots, components)):
+        return None
+    found = squares.turned(robot.ring, components)
+    if found is not None:
+        components = squares.exchanged(components, found)
+    rows = [[squares.factor_of_rate(x, q.name) for q in robot.coordinates] for x in components]
+    entries = [_entry(context, rows, i, j) for i in range(robot.n) for j in range(i, robot.n)]
+    shown = [entry for entry in entries if entry is not None]
+    used = dict.fromkeys(identity for entry in shown for identity in entry.used)
+    if len(shown) < len(entries) or not used or (found is None and len(used) < 2):
+        return None
+    turning = None if found is None else pythagoras(angle_node(found.pair.angle, robot.ring.names))
+    return Products(tuple(_lines(context, body, shown, turning)), tuple(used))
+
+
+def _entry(context: Context, rows: Sequence[Sequence[Expr]], i: int, j: int) -> _Entry | None:
+    """An entry from row i, column j; None where its squares do not come apart into lengths and angles."""
+    ring = context.robot.ring
+    pairs = [(row[i], row[j]) for row in rows if not (row[i].is_zero or row[j].is_zero)]
+    value = sum((a * b for a, b in pairs), start=ring.zero)
+    products = _products(context, pairs, is_square=i == j)
+    result = context.show(value)
+    used = identities(ring, products, result)
+    if used is None or not equals(products, value):
+        return None
+    if not used or not _has_sums(products):
+        return _Entry((i, j), products, products, used)
+    groups = squares.groups(context.forms, sum((a.poly * b.poly for a, b in pairs), start=ring.zero.poly))
+    if groups is None or len(groups) > MOST_GROUPS:
+        return None
+    multiplied = sum_of([group.multiplied for group in groups])
+    if are_alike(multiplied, products):
+        multiplied = products
+    return _Entry((i, j), products, multiplied, identities(ring, multiplied, result) or ())
+
+
+def _products(context: Context, pairs: Sequence[tuple[Expr, Expr]], is_square: bool) -> Node:
+    """Σ a b, or Σ a², as they stand."""
+    if is_square:
+        return sum_of([Power(without_signs(context.show(a)), Number(2)) for a, _ in pairs])
+    return total([_product(context, a, b) for a, b in pairs])
+
+
+def _product(context: Context, a: Expr, b: Expr) -> Node:
+    """a b, the minus signs of both in front."""
+    shown = context.show(a), context.show(b)
+    bare = tuple(map(without_signs, shown))
+    found = in_order(bare, is_numeric(context.robot))
+    return negated(found) if (shown[0] != bare[0]) != (shown[1] != bare[1]) else found
+
+
+def _has_sums(products: Node) -> bool:
+    """Whether a factor, or what is squared, is a sum of sines and cosines."""
+    factors = (part for part in walk(products) if isinstance(part, Product | Power))
+    return any(isinstance(part, Sum) and is_trigonometric(part) for each in factors for part in walk(each))
+
+
+def _lines(
+    context: Context, body: Body, entries: Sequence[_Entry], turning: Identity | None
+) -> Iterator[Line]:
+    """The products of the columns, where an identity leads to them, and these multiplied out."""
+    first: Prose = () if turning is None else ("With ", *said([turning]))
+    is_expanded = any(entry.multiplied != entry.products for entry in entries)
+    plain = _matrix(context, [(entry.place, entry.products) for entry in entries])
+    expanded = _matrix(context, [(entry.place, entry.multiplied) for entry in entries])
+    stages = [(first, plain)] * bool(first)
+    stages += [(("Multiplied out",) if first else ("The columns multiplied with each other",), expanded)] * (
+        is_expanded or not first
+    )
+    if all(matrix_width(context, matrix) <= WIDEST for _, matrix in stages):
+        mass, columns = context.mass(body), letters.transposed_product(letters.jv(body))
+        for by, matrix in stages:
+            whole = Product((context.show(body.mass), matrix))
+            yield Line((*by, ":"), (equation(Product((mass, columns)), whole),))
+        return
+    by = first or ("The columns multiplied with each other",)
+    by += (", entry by entry",)
+    by += (", then multiplied out",) if first and is_expanded else ()
+    are_some_zero = any(entry.products == ZERO for entry in entries)
+    by += (f" (the matrix is symmetric{', all other entries are 0' * are_some_zero}):",)
+    yield Line(by, tuple(_listed(context, body, entries, with_products=bool(first))))
+
+
+def _matrix(context: Context, entries: Sequence[tuple[tuple[int, int], Node]]) -> tree.Matrix:
+    """The symmetric matrix of some entries."""
+    n = context.robot.n
+    found = {place: node for (i, j), node in entries for place in ((i, j), (j, i))}
+    return tree.Matrix(tuple(tuple(found[i, j] for j in range(n)) for i in range(n)))
+
+
+def _listed(
+    context: Context, body: Body, entries: Sequence[_Entry], *, with_products: bool
+) -> Iterator[Node]:
+    """The entries that are not zero from the start, one under another, a number as mass in front."""
+    columns = letters.transposed_product(letters.jv(body))
+    for entry in entries:
+        if entry.products == ZERO:
+            continue
+        i, j = entry.place
+        members = [entry.products] * with_products + [entry.multiplied]
+        named: Node = columns
+        if body.mass.is_number:
+            mass = context.show(body.mass)
+            members = [Product((mass, Parenthesized(member))) for member in members]
+            named = Product((context.mass(body), columns))
+        name = Entry(named, Row((Number(i + 1), Number(j + 1))))
+        yield equation(name, *dict.fromkeys(members))
