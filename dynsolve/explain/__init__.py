@@ -38,6 +38,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     statement   what is given and what is to be found
     shapes      what uniform shapes are called
     style       how a robot's formulas look: s_1 for sin θ_1
+    widths      how wide formulas are as text
     signs       the style of a report, in which no sign stands for two things
     citations   the books and their sections that steps refer to
     writing     sentences and pieces of formulas

@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from dynsolve.document import Prose
-from dynsolve.explain.closing import WIDEST, matrix_width
+from dynsolve.explain.closing import WIDEST
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.column_products import of_columns
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import Identity, said

@@ -12,14 +12,13 @@ from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import ChristoffelSymbols, collected_coriolis_force
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.style import style_of
+from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import (
     ZERO,
     Entry,
-    Matrix,
     Negative,
     Node,
     Number,
@@ -31,7 +30,6 @@ from dynsolve.notation.tree import (
     column,
     equation,
 )
-from dynsolve.notation.unicode import UnicodePrinter, width
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Coordinate, Robot
@@ -172,10 +170,3 @@ def with_force_letters(robot: Robot) -> Callable[[Node], Node]:
     """The names of generalized forces as the letters that they are printed with elsewhere."""
     forces = {q.force: letters.force(q) for q in robot.coordinates if q.force in robot.inputs}
     return lambda part: forces.get(part.name, part) if isinstance(part, Symbol) else part
-
-
-def matrix_width(context: Context, matrix: Matrix) -> int:
-    """How wide a matrix is in characters, two blanks between its columns."""
-    printer = UnicodePrinter(style_of(context.robot))
-    columns = zip(*matrix.rows, strict=True)
-    return sum(max(width(printer.text(entry)) for entry in column) + 2 for column in columns)

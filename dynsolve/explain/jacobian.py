@@ -9,7 +9,6 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Prose
-from dynsolve.explain.closing import matrix_width
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import (
     BESIDE,
@@ -22,6 +21,7 @@ from dynsolve.explain.jacobian_columns import (
     used_in_cross,
 )
 from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.identities import said
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import column_of, craig, listed, side_by_side, spong, turns

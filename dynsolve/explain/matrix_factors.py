@@ -9,9 +9,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from dynsolve.algebra.compact.matrix_factor import matrix_factor
-from dynsolve.explain.closing import matrix_width
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
+from dynsolve.explain.widths import matrix_width
 from dynsolve.notation.build import number_in_front
 from dynsolve.notation.tree import Matrix, Node, Number, Product, Quotient, Relation, Transpose
 

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
-from dynsolve.explain.closing import matrix_width
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
+from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.expansion import in_order, is_trigonometric
