@@ -23,8 +23,19 @@ class Verbatim:
     text: str
 
 
-Inline = str | Node | Verbatim
-"""A piece of a sentence: words, a formula among them, or what somebody typed."""
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """The numbers of results, after words that lead to them: of (3) and (7).
+
+    Nothing, words and all, where a page has no numbers.
+    """
+
+    labels: tuple[str, ...]
+    before: str = " "
+
+
+Inline = str | Node | Verbatim | Reference
+"""A piece of a sentence: words, a formula among them, what somebody typed, numbers of results."""
 
 Prose = tuple[Inline, ...]
 """A sentence or several."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.agreement import agreement
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Line, Step
@@ -36,7 +36,11 @@ def agreement_step(context: Context) -> Step:
     """Whether D, C q̇ and g, read off from the forces, are those assembled directly."""
     agreed = context.agreement or agreement(context.robot, context.values)
     coriolis = Product((letters.C, letters.QD))
-    verdicts = ((letters.D, agreed.inertia), (coriolis, agreed.coriolis), (letters.G, agreed.gravity))
+    verdicts = (
+        ((letters.D, Reference(("D", "D_sum"), " in ")), agreed.inertia),
+        ((coriolis, Reference(("Cqd", "C"), " in ")), agreed.coriolis),
+        ((letters.G, Reference(("Cqd-2", "g"), " in ")), agreed.gravity),
+    )
     same = [name for name, holds in verdicts if holds]
     wrong = [name for name, holds in verdicts if not holds]
     why: Prose = ()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.closing import WIDEST
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
@@ -91,7 +91,9 @@ def sum_step(context: Context) -> Step | None:
         why=(
             f"Summed up, what the {who} {adds}{verdict}",
             letters.D,
-            f" read off above{', entry by entry' * same}.",
+            " read off above",
+            Reference(("D",), ", "),
+            ", entry by entry." if same else ".",
         ),
         source=spong("7.2.2"),
         result=(equation(letters.D, sum_of(forms)),) if fits else tuple(_summed_entries(context, parts)),
@@ -109,16 +111,23 @@ def _summands(context: Context) -> list[str]:
 
 
 def _summed_entries(context: Context, parts: Sequence[str]) -> Iterator[Node]:
-    """The entries of D to which several add: as a sum, and as they are read off."""
-    D = context.matrix("D")
-    for i in range(context.robot.n):
-        for j in range(i, context.robot.n):
-            entries = [context.matrix(name).rows[i][j] for name in parts]
-            added = [entry for entry in entries if entry != ZERO]
-            if len(added) > 1:
-                names = dict.fromkeys(letters.entry("d", r + 1, c + 1) for r, c in ((i, j), (j, i)))
-                plain, read_off = sum_of(added), D.rows[i][j]
-                yield equation(*names, plain, *(() if are_alike(plain, read_off) else (read_off,)))
+    """The entries of D as sums of what is added to them, and as they are read off; then those that are 0."""
+    D, n = context.matrix("D"), context.robot.n
+    added = {(i, j): _added(context, parts, i, j) for i in range(n) for j in range(n)}
+    for (i, j), entries in added.items():
+        if entries and i <= j:
+            names = dict.fromkeys(letters.entry("d", r + 1, c + 1) for r, c in ((i, j), (j, i)))
+            plain, read_off = sum_of(entries), D.rows[i][j]
+            yield equation(*names, plain, *(() if are_alike(plain, read_off) else (read_off,)))
+    zero = [letters.entry("d", i + 1, j + 1) for (i, j), entries in added.items() if not entries]
+    if zero:
+        yield equation(*zero, ZERO)
+
+
+def _added(context: Context, parts: Sequence[str], i: int, j: int) -> list[Node]:
+    """What the parts of D that are not zero there add to an entry."""
+    entries = [context.matrix(name).rows[i][j] for name in parts]
+    return [entry for entry in entries if entry != ZERO]
 
 
 def _why(context: Context, body: Body) -> Prose:

@@ -1,11 +1,11 @@
-"""Steps of the potential energy of each body: by its height, and by the vectors."""
+"""Steps of the potential energy of each body: by its height, or by the vectors."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.document import Prose
+from dynsolve.document import Inline, Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import is_small, name_of, side_by_side, spong
@@ -28,67 +28,78 @@ STAGE = Stage.ENERGY
 
 
 def potential_steps(context: Context) -> Iterator[Step]:
-    """P_i of every body; the vector of gravity is written out where it is used first."""
+    """P_i of every body; what gravity is, and which way is up, is told where it is used first."""
     heavy = [body for body in context.robot.bodies if not body.mass.is_zero]
     for body in context.robot.bodies:
         yield _potential(context, body, tells=heavy[:1] == [body])
 
 
 def _potential(context: Context, body: Body, tells: bool) -> Step:
-    P = letters.of_body("P", body)
-    general = equation(
-        P, Negative(Product((context.mass(body), Transpose(letters.GRAVITY), letters.rc(body))))
-    )
-    formula: Node = general
+    P, pull = letters.of_body("P", body), Product((Transpose(letters.GRAVITY), letters.rc(body)))
+    parts: tuple[Node, ...] = (P, Negative(Product((context.mass(body), pull))))
+    further: tuple[Node, ...] = ()
     working: tuple[Node, ...] = ()
     if context.robot.gravity.is_zero:
         why: Prose = ("There is no gravity.",)
     elif body.mass.is_zero:
         why = (f"{name_of(body).capitalize()} has inertia but no mass, so gravity does not act on it.",)
     else:
-        why, formula, working = _weight(context, body, general)
-        if tells:
-            working = (equation(letters.GRAVITY, _gravity(context)), *working)
+        why = _of_gravity(context) if tells else ()
+        further = (equation(letters.GRAVITY, _gravity(context)),) if tells else ()
+        height = _height(context, body)
+        if height is None:
+            why += ("Minus the mass times ", pull, ".")
+            working = _by_vectors(context, body)
+        else:
+            h, g = letters.height(context.robot, letters.index_of(body.name)), _acceleration(context)
+            why += _entry_of_height(context, body, h, tells)
+            parts += (Product((context.mass(body), g, h)),)
+            working = (*_numbers(context, body, g), equation(h, height))
     return Step(
         id=f"P{body.name}",
         stage=STAGE,
         title=f"Potential energy of {name_of(body)}",
         why=why,
-        formula=formula,
+        formula=equation(*parts),
         source=spong("7.2.3"),
+        further=further,
         working=working,
         result=(equation(P, context.form(f"P{body.name}")),),
     )
 
 
-def _weight(context: Context, body: Body, general: Node) -> tuple[Prose, Node, tuple[Node, ...]]:
-    """By the height, where gravity lies along an axis, and by the vectors: why, the formula, the working."""
-    P = letters.of_body("P", body)
-    center = context.form(f"rc{body.name}")
-    vectors = equation(P, Negative(Product((context.show(body.mass), _gravity(context).argument, center))))
-    working: tuple[Node, ...] = (vectors,) if is_small(center) else ()
-    product: Prose = (
-        Product((Transpose(letters.GRAVITY), letters.rc(body))),
-        ", ",
-        letters.GRAVITY,
-        " being the acceleration of gravity, which points down (",
-        spong("7.2.3"),
-        " writes a plus: its vector points up).",
-    )
-    height = _height(context, body)
-    if height is None:
-        return ("Minus the mass times ", *product), general, working
-    h, g = letters.height(context.robot, letters.index_of(body.name)), _acceleration(context)
+def _of_gravity(context: Context) -> Prose:
+    """What the vector of gravity is, and which axis points up where one does."""
     why: Prose = (
-        "The mass times ",
-        g,
-        " times the height ",
-        h,
-        f" above the origin of the {context.ground}: ",
+        letters.GRAVITY,
+        " is the acceleration of gravity, which points down (",
+        spong("7.2.3"),
+        " writes a plus: its vector points up). ",
     )
-    why += (*_entry_of_height(context, body), " The same with vectors: minus the mass times ", *product)
-    formula = side_by_side([equation(P, Product((context.mass(body), g, h))), general])
-    return why, formula, (*_numbers(context, body, g), equation(h, height), *working)
+    along = _along(context)
+    if along is None:
+        return why
+    i, entry = along
+    axis: Inline = Letter("xyz"[i], Number(0), style="bold")
+    axis = axis if context.ground == "base" else f"The axis {'xyz'[i]} of the world"
+    return (*why, axis, f" points {'up' if _leads_with_minus(entry) else 'down'}, so ")
+
+
+def _by_vectors(context: Context, body: Body) -> tuple[Node, ...]:
+    """-m g_0ᵀ r_c with this robot's vectors."""
+    P, center = letters.of_body("P", body), context.form(f"rc{body.name}")
+    product = Product((context.show(body.mass), _gravity(context).argument, center))
+    return (equation(P, Negative(product)),) if is_small(center) else ()
+
+
+def _entry_of_height(context: Context, body: Body, h: Node, tells: bool) -> Prose:
+    """Which entry of r_c the height is."""
+    along = _along(context)
+    assert along is not None
+    i, entry = along
+    what = f", the height above the origin of the {context.ground}," if tells else ""
+    minus = "" if _leads_with_minus(entry) else "minus "
+    return (h, f"{what} is {minus}the {('first', 'second', 'third')[i]} entry of ", letters.rc(body), ".")
 
 
 def _numbers(context: Context, body: Body, g: Node) -> tuple[Node, ...]:
@@ -105,23 +116,18 @@ def _gravity(context: Context) -> Transpose:
     return Transpose(Matrix((tuple(map(context.show, context.robot.gravity.entries)),)))
 
 
-def _entry_of_height(context: Context, body: Body) -> Prose:
-    """Which axis points up, and so which entry of r_c is the height."""
-    ((i, entry),) = ((i, entry) for i, entry in enumerate(context.robot.gravity.entries) if not entry.is_zero)
-    is_up = _leads_with_minus(entry)
-    axis = Letter("xyz"[i], Number(0), style="bold")
-    of_ground: Prose = (axis,) if context.ground == "base" else (f"the axis {'xyz'[i]} of the world",)
-    place = ("first", "second", "third")[i]
-    sense = "up, so it is the" if is_up else "down, so it is minus the"
-    return (*of_ground, f" points {sense} {place} entry of ", letters.rc(body), ".")
+def _along(context: Context) -> tuple[int, Expr] | None:
+    """The axis, from 0, along which gravity lies, and its entry there; None where it lies along none."""
+    along = [(i, entry) for i, entry in enumerate(context.robot.gravity.entries) if not entry.is_zero]
+    return along[0] if len(along) == 1 else None
 
 
 def _height(context: Context, body: Body) -> Node | None:
     """The height of the mass centre, where gravity lies along an axis of the base."""
-    along = [(i, entry) for i, entry in enumerate(context.robot.gravity.entries) if not entry.is_zero]
-    if len(along) != 1:
+    along = _along(context)
+    if along is None:
         return None
-    i, entry = along[0]
+    i, entry = along
     center: Expr = context.values[f"rc{body.name}"][i, 0]
     return context.show(center if _leads_with_minus(entry) else -center)
 

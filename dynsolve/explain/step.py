@@ -51,6 +51,7 @@ class Step:
     How it is shown: `entries` names the entries of a result that is a matrix too wide for
     the page; an `optional` result says nothing new, and is left out where it does not fit;
     results that are `listed` stand in one display, those that are `together` side by side;
+    a table that is `table_last` stands after the lines;
     `detail` says from which level on; `figure` is drawn beside it where drawings can be shown.
 
     What a hint makes of it: `hint` is said in place of a `why` that tells something of the
@@ -71,6 +72,7 @@ class Step:
     result: tuple[Node, ...] = ()
     notes: tuple[Prose, ...] = ()
     table: Table | None = None
+    table_last: bool = False
     figure: Figure | ArmFigure | None = None
     entries: tuple[tuple[Node, ...], ...] = ()
     optional: bool = False

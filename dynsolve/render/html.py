@@ -24,6 +24,7 @@ from dynsolve.document import (
     Inline,
     Picture,
     Prose,
+    Reference,
     Table,
     Text,
     Uses,
@@ -178,6 +179,13 @@ class _Page(MarkupPage):
             at = [level for level in shown if texts[level] == text]
             if text:
                 yield text, "" if at == shown else " ".join(["in", *(f"in{level}" for level in at)])
+
+    def referred(self, reference: Reference, numbers: Mapping[str, int]) -> str:
+        """References among words, with the numbers of each level."""
+        texts = list(self.by_level(lambda numbers: super(_Page, self).referred(reference, numbers)))
+        return "".join(
+            f'<span class="{classes}">{text}</span>' if classes else text for text, classes in texts
+        )
 
     def used(self, uses: Uses) -> Iterator[str]:
         """The results used in the next formula, with the numbers of each level."""

@@ -24,6 +24,7 @@ from dynsolve.document import (
     Note,
     Picture,
     Prose,
+    Reference,
     Table,
     Text,
     Uses,
@@ -96,12 +97,21 @@ class Page(ABC, Generic[_Piece]):
 
     def leading_on(self, uses: Uses, numbers: Mapping[str, int]) -> str:
         """With (3) and (7), term by term: the numbered results that are used in the next formula."""
-        references = [self.references(run, numbers) for run in runs(uses.labels, numbers)]
+        references = self.numbers_of(uses.labels, numbers)
         if not references:
             return self.prose(uses.parts)
-        last = " and " * (len(references) > 1) + references[-1]
-        named = f"With {', '.join(references[:-1])}{last}"
+        named = f"With {references}"
         return f"{named}{self.prose(after_references(uses.parts))}" if uses.parts else f"{named}:"
+
+    def numbers_of(self, labels: Iterable[str], numbers: Mapping[str, int]) -> str:
+        """References to formulas: (3), (7) to (9) and (12); none to those without a number."""
+        references = [self.references(run, numbers) for run in runs(labels, numbers)]
+        return ", ".join(references[:-1]) + " and " * (len(references) > 1) + "".join(references[-1:])
+
+    def referred(self, reference: Reference, numbers: Mapping[str, int]) -> str:
+        """References among words, with the words that lead to them."""
+        found = self.numbers_of(reference.labels, numbers)
+        return f"{self.words(reference.before)}{found}" if found else ""
 
     def references(self, run: Sequence[str], numbers: Mapping[str, int]) -> str:
         """References to formulas whose numbers follow each other: (3) to (7)."""
@@ -152,6 +162,8 @@ class Page(ABC, Generic[_Piece]):
                 return self.words(part)
             case Verbatim(text):
                 return self.verbatim(text)
+            case Reference():
+                return self.referred(part, self.labels)
         return self.inline(part)
 
     @abstractmethod

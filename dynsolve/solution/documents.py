@@ -229,12 +229,13 @@ def step_blocks(
         yield Text(step.why)
     if detail > Detail.BRIEF and step.figure and drawn and (picture := drawn(step.figure)):
         yield picture
-    if step.table:
-        yield Table(step.table.header, step.table.rows)
+    table = () if step.table is None else (Table(step.table.header, step.table.rows),)
+    yield from () if step.table_last else table
     if detail > Detail.BRIEF:
         yield from _way(step, inputs)
     elif step.formula is not None:
         yield Formula(step.formula, step.source)
+    yield from table if step.table_last else ()
     if step.listed:
         yield Equations(step.result, in_columns=True, label=step.id)
     for result, label in labelled_results(step):

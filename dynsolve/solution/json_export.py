@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from dynsolve.derivation.graph import Skipped
-from dynsolve.document import Inline, Prose, Verbatim
+from dynsolve.document import Inline, Prose, Reference, Verbatim
 from dynsolve.explain.citations import by_itself
 from dynsolve.explain.step import Line, Step
 from dynsolve.notation.latex import LatexPrinter
@@ -206,6 +206,8 @@ class _Exporter:
                 return part
             case Verbatim(text):
                 return text
+            case Reference():
+                return ""  # equations have names here, and no numbers
         return self.unicode.text(part)
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from dynsolve.document import Block, Equations, Formula, Heading, Text
+from dynsolve.document import Block, Equations, Formula, Heading, Reference, Text
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.step import Step
@@ -39,14 +39,17 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
     yield Formula(model.formula)
     if robot.n > MOST_JOINTS:
         number = list(stages_of(robot)).index(model.stage) + 1
-        yield Text((*listed([letters.D, letters.C, letters.G]), f" are those of section {number}."))
+        named = zip((letters.D, letters.C, letters.G), ("D", "C", "g"), strict=True)
+        matrices = listed([(letter, Reference((id,))) for letter, id in named])
+        yield Text((*matrices, f" are those of section {number}."))
         return
+    found = Reference(_MATRICES, ", ")
     if model.result:
-        yield Text(("With the matrices of this robot:",))
+        yield Text(("With the matrices of this robot", found, ":"))
         for result in model.result:
             yield Formula(result, entries=model.entries)
     else:
-        yield Text(("The matrices of this robot:",))
+        yield Text(("The matrices of this robot", found, ":"))
         yield from _results(by_id, [name for name in _MATRICES if name in by_id])
     if short is not None and short.at_symbols:
         yield Text(("In ", letters.C, ":"))
@@ -56,7 +59,8 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
         yield Equations(line.formulas)
     forces = [f"tau{q.index}" for q in robot.coordinates]
     if not model.lines and all(name in by_id for name in forces):
-        yield Text(("Row by row:" if len(forces) > 1 else "Multiplied out:",))
+        lead = "Row by row" if len(forces) > 1 else "Multiplied out"
+        yield Text((lead, Reference(tuple(forces), ", "), ":"))
         yield Equations(tuple(by_id[name].result[0] for name in forces))
 
 

@@ -12,6 +12,8 @@ They are made of
 
     pose          a value in which some angles have values
     sign          a formula that is positive for positive masses, moments and lengths
+    balance       how g = 0 is solved, row by row
+    curvature     what P has there, by the minors of its second derivatives
 
 Of longer arms those are done that read off a result what its pages hide: a coordinate that is
 cyclic, on what D depends, entries of g that are zero.

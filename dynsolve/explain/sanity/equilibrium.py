@@ -1,15 +1,19 @@
-"""Where g is zero: in every pose, or in poses of quarter turns, hanging and upright among them."""
+"""Where g is zero: in every pose, or in poses of quarter turns, hanging and upright among them.
+
+Where g = 0 is solved row by row (`balance`), all poses are found; what P has there is read off its
+second derivatives (`curvature`).  Else those poses are told in which P surely has an extremum.
+"""
 
 from __future__ import annotations
 
-from dynsolve.algebra.generators import Pair
-from dynsolve.derivation.stability import Stability
-from dynsolve.document import Inline, Prose, Table
+from collections.abc import Sequence
+
+from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity.definite import determinant
+from dynsolve.explain.sanity import balance, curvature
+from dynsolve.explain.sanity.curvature import Kind
 from dynsolve.explain.sanity.pose import Pose, at, poses, turning_in, written
-from dynsolve.explain.sanity.sign import is_positive, with_lengths
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Line, Step
 from dynsolve.explain.writing import listed, side_by_side, spong
 from dynsolve.notation.tree import Node, Row, Symbol, Words, equation
 from dynsolve.quantities import letters
@@ -18,30 +22,29 @@ from dynsolve.robot.model import JointType
 
 QUARTER_TURNS = (0, 90, 180, -90)
 
-Verdicts = dict[frozenset[tuple[str, int]], Stability]
-"""How stable a pose is, by its angles in degrees."""
-
 
 def equilibrium_step(context: Context) -> Step | None:
     """The poses in which the arm needs no torques against gravity, with what P has there."""
     robot = context.robot
     if robot.gravity.is_zero or robot.given is not None or robot.actions.springs:
         return None
-    table: Table | None = None
     if context.values["g"].is_zero:
-        why = _everywhere(context)
-    else:
-        found = _in_poses(context)
-        if found is None:
-            return None
-        why, table = found
+        return _step(_everywhere(context))
+    zero = _balanced(context)
+    return (_all_poses(context, zero) or _extrema(context, zero)) if zero else None
+
+
+def _step(why: Prose, lines: Sequence[Line] = (), concluding: Prose = (), table: Table | None = None) -> Step:
     return Step(
         id="equilibrium",
         stage=Stage.VECTORIZED,
         title="Check: where gravity is balanced",
         why=why,
         source=spong("7.2.3"),
+        lines=tuple(lines),
+        concluding=concluding,
         table=table,
+        table_last=bool(lines),
         is_task=False,
     )
 
@@ -62,20 +65,71 @@ def _everywhere(context: Context) -> Prose:
 # -- in some poses ---------------------------------------------------------------------------------
 
 
-def _in_poses(context: Context) -> tuple[Prose, Table] | None:
-    """The poses in which g is zero, and what P has there: all of them, or those where it is an extremum."""
-    zero = _balanced(context)
-    if not zero:
+def _all_poses(context: Context, zero: Sequence[Pose]) -> Step | None:
+    """All poses in which g is zero, by its rows; None where these do not give them, or what P has there."""
+    rows, names = balance.zeros(context), list(zero[0])
+    if rows is None or len(rows) != len(names):  # each row leaves two quarter turns of an angle
         return None
-    verdicts = _all_quarter_turns(context)
-    all_told = verdicts is not None and len(verdicts) == len(zero)
-    rows = [row for pose in zero if (row := _row(context, pose, verdicts if all_told else None))]
-    if not rows:
+    minors = curvature.minors(context, names, rows)
+    signs = [curvature.signs_of(context, minors, pose) for pose in zero]
+    kinds = [kind for each in signs if (kind := curvature.kind_of(each)) is not None]
+    if len(kinds) != len(zero):
         return None
-    why: Prose = ("Let all parameters be positive. ",) if context.robot.parameters else ()
-    why += (equation(letters.G, letters.bold("0")), f" {'exactly ' * all_told}in ")
-    why += ("this pose" if len(rows) == 1 else "these poses", *_free(context, zero[0]), ":")
-    return why, Table(("pose", "potential energy", "equilibrium"), tuple(rows))
+    shows = len(names) <= curvature.MOST_SHOWN
+    told = (
+        (*_signs(each, shows), *_told(context, pose, kind))
+        for pose, each, kind in zip(zero, signs, kinds, strict=True)
+    )
+    table = tuple((side_by_side(written(pose)), *row) for pose, row in zip(zero, told, strict=True))
+    lines = [Line((), tuple(balance.written(context, row) for row in rows))]
+    if shows:
+        lines.append(_second_derivatives(context, names, rows))
+    concluding: Prose = (_all(zero), *_free(context, zero[0]), ". ", _BY_MINORS[min(len(names), 3)])
+    why: Prose = (
+        *_assumed(context),
+        "The rows of " if len(rows) > 1 else "Of ",
+        letters.G,
+        Reference(("g",)),
+    )
+    why += (
+        (", from the last on, each zero put into the row before:",)
+        if len(rows) > 1
+        else (" one row varies:",)
+    )
+    return _step(why, lines, concluding, Table(_header(context, names), table))
+
+
+_BY_MINORS = {
+    1: "𝒫 has a minimum where the second derivative is positive, a maximum where it is negative:",
+    2: "𝒫 has a minimum where both are positive, a maximum where the determinant alone is, and a saddle "
+    "point where the determinant is negative:",
+    3: "What 𝒫 has there follows from the minors of its second derivatives (Sylvester's criterion):",
+}
+"""How what P has in a pose is found, by the number of angles."""
+
+
+def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[balance.Zero]) -> Line:
+    what = "The second derivative of " if len(names) == 1 else "The last second derivative of "
+    rest = " there:" if len(names) == 1 else " there, and the determinant of all of them:"
+    return Line((what, letters.P, rest), tuple(curvature.shown(context, names, rows)))
+
+
+def _header(context: Context, names: Sequence[str]) -> tuple[Inline, ...]:
+    slope = curvature.slope_of_last(context, names)
+    of_minors: tuple[Inline, ...] = {1: (slope,), 2: (slope, "determinant")}.get(len(names), ())
+    return ("pose", *of_minors, "potential energy", "equilibrium")
+
+
+def _signs(signs: Sequence[int], shows: bool) -> tuple[str, ...]:
+    return tuple("> 0" if sign > 0 else "< 0" for sign in signs) if shows else ()
+
+
+def _all(zero: Sequence[Pose]) -> str:
+    return f"Gravity is balanced in {'this pose' if len(zero) == 1 else 'these poses'} alone"
+
+
+def _assumed(context: Context) -> Prose:
+    return ("Let all parameters be positive. ",) if context.robot.parameters else ()
 
 
 def _free(context: Context, pose: Pose) -> Prose:
@@ -84,20 +138,17 @@ def _free(context: Context, pose: Pose) -> Prose:
     return (", whatever ", *listed(free), " is" if len(free) == 1 else " are") if free else ()
 
 
-def _row(context: Context, pose: Pose, verdicts: Verdicts | None) -> tuple[Inline, ...] | None:
-    """A pose, what P has there, how stable that is; None where only extrema are told, and it is none."""
+def _told(context: Context, pose: Pose, kind: Kind) -> tuple[Inline, Inline]:
+    """What P has in a pose, and how stable that is."""
     whole = len(pose) == context.robot.n
-    shown = side_by_side(written(pose))
-    if _is_definite(context, pose, 1):
-        told = f"minimum: the {context.machine} hangs" if whole else "minimum"
-        return shown, told, "stable" if whole else _stable_in(pose)
-    if _is_definite(context, pose, -1):
-        told = f"maximum: the {context.machine} stands upright" if whole else "maximum"
-        return shown, told, "unstable"
-    if verdicts is None:
-        return None
-    unstable = verdicts[frozenset(pose.items())] is Stability.UNSTABLE
-    return shown, "decreases in some direction" if unstable else "", "unstable" if unstable else "undecided"
+    match kind:
+        case Kind.MINIMUM:
+            hangs = f"{kind}: the {context.machine} hangs"
+            return (hangs, "stable") if whole else (kind.value, _stable_in(pose))
+        case Kind.MAXIMUM:
+            return f"{kind}: the {context.machine} stands upright" if whole else kind.value, "unstable"
+        case Kind.SADDLE:
+            return kind.value, "unstable"
 
 
 def _stable_in(pose: Pose) -> Row:
@@ -108,35 +159,28 @@ def _stable_in(pose: Pose) -> Row:
     )
 
 
-def _all_quarter_turns(context: Context) -> Verdicts | None:
-    """How stable each zero of g is, where all are quarter turns whatever the parameters."""
-    from dynsolve.derivation.equilibria import Equilibria, equilibria
-
-    found = equilibria(context.robot, context.values["g"])
-    if not isinstance(found, Equilibria) or any(found.exist):
+def _extrema(context: Context, zero: Sequence[Pose]) -> Step | None:
+    """The poses in which P surely has a minimum or a maximum."""
+    rows = [
+        (side_by_side(written(pose)), *_told(context, pose, kind))
+        for pose in zero
+        if (kind := _kind(context, pose)) in (Kind.MINIMUM, Kind.MAXIMUM)
+    ]
+    if not rows:
         return None
-    verdicts: Verdicts = {}
-    for alternative, points in zip(found.alternatives, found.points, strict=True):
-        if not points or any(len(point.values) < len(alternative) for point in points):
-            return None
-        for point in points:
-            verdicts[frozenset(map(_turn, point.values))] = point.stability
-    return verdicts
+    why = (*_assumed(context), equation(letters.G, letters.bold("0")))
+    why += (" in this pose" if len(rows) == 1 else " in these poses", *_free(context, zero[0]), ":")
+    return _step(why, table=Table(("pose", "potential energy", "equilibrium"), tuple(rows)))
 
 
-def _turn(value: tuple[Pair, int, int]) -> tuple[str, int]:
-    """A coordinate and its quarter turn in degrees."""
-    pair, sine, cosine = value
-    ((atom, _),) = pair.angle.terms
-    return atom[0][0], 90 * sine if sine else 90 - 90 * cosine
+def _kind(context: Context, pose: Pose) -> Kind | None:
+    """What P has in a pose of quarter turns."""
+    return curvature.kind_of(curvature.signs_of(context, curvature.minors(context, list(pose)), pose))
 
 
-def balanced_poses(context: Context) -> tuple[Pose | None, Pose | None]:
-    """The poses of quarter turns in which P surely has a minimum, and a maximum."""
-    zero = _balanced(context)
-    hanging = next((pose for pose in zero if _is_definite(context, pose, 1)), None)
-    upright = next((pose for pose in zero if _is_definite(context, pose, -1)), None)
-    return hanging, upright
+def balanced_poses(context: Context) -> dict[Kind, Pose]:
+    """A pose of quarter turns in which P surely has a minimum, a maximum, a saddle point."""
+    return {kind: pose for pose in _balanced(context) if (kind := _kind(context, pose)) is not None}
 
 
 def _balanced(context: Context) -> list[Pose]:
@@ -153,14 +197,3 @@ def _slides(context: Context) -> bool:
     robot, P = context.robot, context.values["P"]
     lengths = (k for k, q in enumerate(robot.coordinates) if q.type is JointType.PRISMATIC)
     return any(not robot.ring.diff(P, k).is_zero for k in lengths)
-
-
-def _is_definite(context: Context, pose: Pose, sign: int) -> bool:
-    """Whether ± ∂²P/∂q² is positive definite in a pose, by its leading minors."""
-    ring, names = context.robot.ring, list(pose)
-    places = [ring.names.index(name) for name in names]
-    g = context.values["g"]
-    second = [[at(ring, ring.diff(g[i, 0], j), pose) * sign for j in places] for i in places]
-    minors = (determinant([row[:size] for row in second[:size]]) for size in range(1, len(places) + 1))
-    positive, constant = with_lengths(context.robot), frozenset(ring.parameters)
-    return all(is_positive(context.show(minor), positive, constant) for minor in minors)

@@ -196,8 +196,8 @@ def test_axes_given_from_the_base_are_held_to_the_frame_of_the_link() -> None:
 
 def test_the_axis_that_points_up_is_named() -> None:
     told = {
-        "[0, -g, 0]": "𝐲₀ points up, so it is the second entry of 𝐫_c1",
-        "[g, 0, 0]": "𝐱₀ points down, so it is minus the first entry of 𝐫_c1",
+        "[0, -g, 0]": "𝐲₀ points up, so h₁, the height above the origin of the base, is the second entry",
+        "[g, 0, 0]": "𝐱₀ points down, so h₁, the height above the origin of the base, is minus the first entry",
     }
     for gravity, words in told.items():
         text = f"gravity: {gravity}\ndh: [{{theta: q1*, a: l1}}]\nmasses: [{{mass: m, link: 1}}]\n"
@@ -243,8 +243,9 @@ def test_the_parts_of_d_are_summed_up() -> None:
     ]
     (whole,) = shown("in3140-rp", "D_sum")  # small matrices stand side by side
     assert whole == "𝐃 = [[I_1zz, 0], [0, 0]] + [[m₂ L₂², 0], [0, m₂]]"
-    first, *_ = shown("elbow-3r", "D_sum")  # collected where it is read off
-    assert first.count(" = ") == 2
+    first, *_, zeros = shown("elbow-3r", "D_sum")
+    assert first.count(" = ") == 2  # collected where it is read off
+    assert zeros == "d₁₂ = d₁₃ = d₂₁ = d₃₁ = 0"
     assert "D_sum" not in {each.id for each in solved("puma560").steps}  # no parts are shown
 
 

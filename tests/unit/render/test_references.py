@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dynsolve.document import Document, Equations, Fold, Formula
+from dynsolve.document import Document, Equations, Fold, Formula, Reference, Text
 from dynsolve.notation.tree import Symbol, equation
-from dynsolve.render import markdown
+from dynsolve.render import html, markdown, terminal
 from dynsolve.render.references import numbered
 from dynsolve.solution.documents import solution_document
 from tests.support import solved
@@ -28,3 +28,39 @@ def test_the_lists_of_a_long_model_are_referred_to() -> None:
     for name in ("constants", "recurring", "christoffel"):
         assert name in numbered(solution_document(solved("stanford-6"), stages=["vectorized"]))
     assert "With (1) and (2):" in text
+
+
+REFERRED = Document((
+    Fold("In brief", (Formula(ONE, label="first"),), 1),
+    Fold("In full", (Formula(ONE, label="second"),), 3),
+    Fold("In brief", (Formula(ONE, label="third"),), 1),
+    Text(("It is the same", Reference(("third", "first", "nowhere"), " in "), ".")),
+))  # fmt: skip
+
+
+def test_results_are_referred_to_among_words() -> None:
+    assert "It is the same in (1) and (3)." in markdown.render(REFERRED)
+    assert "It is the same." in [
+        line.text for line in terminal.render(REFERRED)
+    ]  # where formulas have no numbers
+
+
+def test_each_level_of_detail_refers_by_its_own_numbers() -> None:
+    page = html.render(REFERRED)
+    assert '<a href="#eq-third">(2)</a>' in page and '<a href="#eq-third">(3)</a>' in page
+
+
+def test_both_ways_and_the_summary_say_which_equations_they_speak_of() -> None:
+    document = solution_document(solved("in3140-rp"))
+    number, text = numbered(document), markdown.render(document)
+    for one, other in (("D", "D_sum"), ("Cqd", "C"), ("Cqd-2", "g")):
+        assert f" in ({number[one]}) and ({number[other]})" in text
+    assert f"With the matrices of this robot, ({number['D']}), ({number['C']}) and ({number['g']}):" in text
+    assert f"Row by row, ({number['tau1']}) and ({number['tau2']}):" in text
+
+
+def test_the_summary_of_a_long_model_refers_to_its_matrices() -> None:
+    document = solution_document(solved("scara-rrpr"))
+    number, text = numbered(document), markdown.render(document)
+    for id in ("D", "C", "g"):
+        assert f"$ ({number[id]})" in text.split("Summary")[-1]

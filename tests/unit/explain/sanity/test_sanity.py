@@ -11,8 +11,11 @@ from hypothesis import given, settings
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
+from dynsolve.document import Reference
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import CHECKS, CHECKS_OF_LONGER_ARMS, Check, sanity_steps
+from dynsolve.explain.sanity.balance import zeros
+from dynsolve.explain.sanity.curvature import Kind
 from dynsolve.explain.sanity.definite import blocks, definite_step, determinant
 from dynsolve.explain.sanity.equilibrium import balanced_poses
 from dynsolve.explain.sanity.pose import at
@@ -38,7 +41,15 @@ def check(problem: str, id: str) -> Step | None:
 def said(problem: str, id: str) -> str:
     step = check(problem, id)
     assert step is not None
-    return "".join(part if isinstance(part, str) else to_unicode(part) for part in step.why)
+    parts = (part for part in step.why if not isinstance(part, Reference))
+    return "".join(part if isinstance(part, str) else to_unicode(part) for part in parts)
+
+
+def lines(problem: str, id: str) -> list[str]:
+    step = check(problem, id)
+    assert step is not None
+    style = solved(problem).style
+    return [to_unicode(node, style) for line in step.lines for node in line.formulas]
 
 
 def rows(problem: str, id: str) -> list[list[str]]:
@@ -78,18 +89,41 @@ def test_an_upright_elbow_has_no_mass_away_from_its_waist() -> None:
 
 
 def test_where_the_planar_arm_hangs_and_where_it_stands() -> None:
-    assert said("planar-2r", "equilibrium") == "Let all parameters be positive. g = 0 exactly in these poses:"
+    assert said("planar-2r", "equilibrium") == (
+        "Let all parameters be positive. The rows of g, from the last on, each zero put into the row before:"
+    )
+    assert lines("planar-2r", "equilibrium") == [
+        "g₂ = m₂ g l_c2 c₁₂ = 0, so c₁₂ = 0, q₁ + q₂ = 90° or -90°",
+        "g₁ = g (m₁ l_c1 + m₂ l₁) c₁ = 0, so c₁ = 0, q₁ = 90° or -90°",
+        "∂g₂/∂q₂ = -m₂ g l_c2 s₁₂",
+        "(∂g₁/∂q₁) ∂g₂/∂q₂ - (∂g₁/∂q₂)² = g ((m₁ l_c1 + m₂ l₁) s₁ + m₂ l_c2 s₁₂) m₂ g l_c2 s₁₂"
+        " - (m₂ g l_c2 s₁₂)² = m₂ g² l_c2 (m₁ l_c1 + m₂ l₁) s₁ s₁₂",
+    ]
     assert rows("planar-2r", "equilibrium") == [
-        ["q₁ = 90°, q₂ = 0", "maximum: the arm stands upright", "unstable"],
-        ["q₁ = 90°, q₂ = 180°", "decreases in some direction", "unstable"],
-        ["q₁ = -90°, q₂ = 0", "minimum: the arm hangs", "stable"],
-        ["q₁ = -90°, q₂ = 180°", "decreases in some direction", "unstable"],
+        ["q₁ = 90°, q₂ = 0", "< 0", "> 0", "maximum: the arm stands upright", "unstable"],
+        ["q₁ = 90°, q₂ = 180°", "> 0", "< 0", "saddle point", "unstable"],
+        ["q₁ = -90°, q₂ = 0", "> 0", "> 0", "minimum: the arm hangs", "stable"],
+        ["q₁ = -90°, q₂ = 180°", "< 0", "< 0", "saddle point", "unstable"],
     ]
 
 
 def test_a_waist_is_balanced_in_any_pose() -> None:
-    assert said("elbow-3r", "equilibrium").endswith("exactly in these poses, whatever θ₁ is:")
-    assert ["θ₂ = -90°, θ₃ = 0", "minimum", "stable in θ₂ and θ₃"] in rows("elbow-3r", "equilibrium")
+    step = check("elbow-3r", "equilibrium")
+    assert step is not None
+    concluding = "".join(p if isinstance(p, str) else to_unicode(p) for p in step.concluding)
+    assert concluding.startswith("Gravity is balanced in these poses alone, whatever θ₁ is. ")
+    assert ["θ₂ = -90°, θ₃ = 0", "> 0", "> 0", "minimum", "stable in θ₂ and θ₃"] in rows(
+        "elbow-3r", "equilibrium"
+    )
+    assert lines("elbow-3r", "equilibrium")[1].startswith("g₂ = g (m₂ l_c2 + m₃ L₂) c₂ = 0, so c₂ = 0")
+
+
+def test_one_second_derivative_tells_of_one_angle() -> None:
+    assert said("crustcrawler-2r", "equilibrium").endswith("Of g one row varies:")
+    assert rows("crustcrawler-2r", "equilibrium") == [
+        ["θ₂ = 90°", "< 0", "maximum", "unstable"],
+        ["θ₂ = -90°", "> 0", "minimum", "stable in θ₂"],
+    ]
 
 
 TILTED_BASE = """
@@ -268,14 +302,26 @@ def _definite(found: Context, state: dict[str, float]) -> None:
 
 def _balanced(found: Context, state: dict[str, float]) -> None:
     ring, g = found.robot.ring, found.values["g"]
-    for pose, sign in zip(balanced_poses(found), (1, -1), strict=True):
-        if pose is None:
-            continue
+    for kind, pose in balanced_poses(found).items():
         there = {**state, **{name: np.radians(angle) for name, angle in pose.items()}}
         assert all(abs(evaluate(entry, there)) < 1e-9 for entry in g.entries)
         places = [ring.names.index(name) for name in pose]
         second = [[evaluate(ring.diff(g[i, 0], j), there) for j in places] for i in places]
-        assert (np.linalg.eigvalsh(sign * np.array(second)) > 0).all()
+        curvatures = np.linalg.eigvalsh(np.array(second))
+        rises, falls = bool((curvatures > 0).any()), bool((curvatures < 0).any())
+        assert (rises, falls) == {
+            Kind.MINIMUM: (True, False), Kind.MAXIMUM: (False, True), Kind.SADDLE: (True, True),
+        }[kind]  # fmt: skip
+
+
+def test_a_row_is_zero_where_it_is_said_to_be() -> None:
+    found = context("elbow-3r")
+    told = zeros(found)
+    assert told is not None and [zero.row for zero in told] == [2, 1]
+    state = {**values_of(found, seed=3), "theta2": np.pi / 2, "theta3": np.pi}
+    assert all(abs(evaluate(found.values["g"][zero.row, 0], state)) < 1e-9 for zero in told)
+    assert zeros(context("spherical-rrp")) is None  # a length stands in its rows
+    assert zeros(context(TILTED_BASE)) is None  # two factors of a row may be 0
 
 
 def test_a_pose_puts_values_for_angles() -> None:

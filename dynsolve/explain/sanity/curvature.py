@@ -1,0 +1,108 @@
+"""What P has where g = 0, by the signs of the minors of its second derivatives, ∂²P/∂q_i∂q_j = ∂g_i/∂q_j.
+
+The minors are those of the last coordinate, the last two, ... (Sylvester's criterion): all of them
+are positive at a minimum; those of odd size alone are negative at a maximum; where the determinant
+is not 0, and it is neither, P rises in one direction and falls in another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from enum import StrEnum
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.explain.context import Context
+from dynsolve.explain.sanity.balance import Zero, at_zeros
+from dynsolve.explain.sanity.definite import determinant
+from dynsolve.explain.sanity.pose import Pose, at
+from dynsolve.explain.sanity.sign import is_positive, with_lengths
+from dynsolve.notation.build import cost
+from dynsolve.notation.tree import (
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Sum,
+    Symbol,
+    equation,
+)
+from dynsolve.quantities import letters
+
+MOST_SHOWN = 2
+"""Of up to so many angles the minors are shown with the derivatives that they are made of."""
+
+
+class Kind(StrEnum):
+    """What P has where its first derivatives are 0."""
+
+    MINIMUM = "minimum"
+    MAXIMUM = "maximum"
+    SADDLE = "saddle point"
+
+
+def minors(context: Context, names: Sequence[str], known: Sequence[Zero] = ()) -> list[Expr]:
+    """The minors of ∂g/∂q of the last angle, the last two, ..., where rows of g are 0."""
+    second = _second(context, names, known)
+    sizes = range(1, len(names) + 1)
+    return [determinant([row[-size:] for row in second[-size:]]) for size in sizes]
+
+
+def _second(context: Context, names: Sequence[str], known: Sequence[Zero]) -> list[list[Expr]]:
+    ring, g = context.robot.ring, context.values["g"]
+    places = [ring.names.index(name) for name in names]
+    return [[at_zeros(ring.diff(g[i, 0], j), known) for j in places] for i in places]
+
+
+def signs_of(context: Context, found: Sequence[Expr], pose: Pose) -> list[int]:
+    """The sign of each minor in a pose: 1, -1, or 0 where it is not seen."""
+    return [_sign(context, at(context.robot.ring, minor, pose)) for minor in found]
+
+
+def _sign(context: Context, value: Expr) -> int:
+    positive, constant = with_lengths(context.robot), frozenset(context.robot.ring.parameters)
+    return next((sign for sign in (1, -1) if is_positive(context.show(value * sign), positive, constant)), 0)
+
+
+def kind_of(signs: Sequence[int]) -> Kind | None:
+    """What P has by the signs of the minors; None where they do not tell.
+
+    >>> [kind_of(signs) for signs in ([1, 1], [-1, 1], [1, -1], [0, -1], [1, 0])]
+    [<Kind.MINIMUM: 'minimum'>, <Kind.MAXIMUM: 'maximum'>, <Kind.SADDLE: 'saddle point'>, \
+<Kind.SADDLE: 'saddle point'>, None]
+    """
+    at_maximum = [(-1) ** size for size in range(1, len(signs) + 1)]
+    if all(sign == 1 for sign in signs):
+        return Kind.MINIMUM
+    if list(signs) == at_maximum:
+        return Kind.MAXIMUM
+    rules_out_both = -1 in signs and any(a == -b for a, b in zip(signs, at_maximum, strict=True) if a)
+    return Kind.SADDLE if rules_out_both and signs[-1] else None
+
+
+def shown(context: Context, names: Sequence[str], known: Sequence[Zero]) -> Iterator[Node]:
+    """The last second derivative, and the determinant of two with the derivatives put in."""
+    first, *others = map(context.show, minors(context, names, known))
+    yield equation(_slope(context, names[-1], names[-1]), first)
+    if others:
+        second = _second(context, names, known)
+        letters_of = [[_slope(context, i, j) for j in names] for i in names]
+        values = [[[context.show(entry * sign) for entry in row] for row in second] for sign in (1, -1)]
+        shorter = min(values, key=lambda rows: cost(Sum((*rows[0], *rows[1]))))  # (-a)(-c) is a c
+        yield equation(_determinant(letters_of), _determinant(shorter), *others)
+
+
+def slope_of_last(context: Context, names: Sequence[str]) -> Node:
+    """∂g_n/∂q_n"""
+    return _slope(context, names[-1], names[-1])
+
+
+def _slope(context: Context, row: str, by: str) -> Node:
+    place = context.robot.ring.names.index(row) + 1
+    return letters.partial_derivative(letters.entry("g", place), Symbol(by))
+
+
+def _determinant(rows: Sequence[Sequence[Node]]) -> Node:
+    """a c - b² of a symmetric matrix"""
+    (a, b), (_, c) = rows
+    return Sum((Product((a, c)), Negative(Power(b, Number(2)))))
