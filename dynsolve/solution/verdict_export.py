@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from dynsolve.derivation.definite import Definiteness
 from dynsolve.derivation.graph import Skipped
-from dynsolve.document import Verbatim
+from dynsolve.document import Reference, Verbatim
 from dynsolve.explain.definite import inequality, reason
 from dynsolve.notation.python import PythonPrinter
 from dynsolve.notation.tree import Relation
@@ -32,7 +32,8 @@ def _result(
     if isinstance(found, Skipped):
         return {"skipped": found.why}
     why = reason(solution.forms, found)
-    parts = (p if isinstance(p, str) else p.text if isinstance(p, Verbatim) else reader.text(p) for p in why)
+    said = (p for p in why if not isinstance(p, Reference))
+    parts = (p if isinstance(p, str) else p.text if isinstance(p, Verbatim) else reader.text(p) for p in said)
     return {
         "verdict": found.answer.value,
         "conditions": [
