@@ -116,7 +116,7 @@ def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[b
 
 def _header(context: Context, names: Sequence[str]) -> tuple[Inline, ...]:
     slope = curvature.slope_of_last(context, names)
-    of_minors: tuple[Inline, ...] = {1: (slope,), 2: (slope, "determinant")}.get(len(names), ())
+    of_minors: tuple[Inline, ...] = {1: (slope,), 2: (slope, "det")}.get(len(names), ())
     return ("pose", *of_minors, "potential energy", "equilibrium")
 
 
