@@ -31,6 +31,9 @@ from dynsolve.quantities import letters
 _END_ON = 0.06
 """The foreshortening below which an axis is drawn as a point or a cross in a circle."""
 
+_ALONG = 0.99
+"""The cosine from which gravity acts along an axis."""
+
 _SAME = 5.0
 _MARK = 6.0
 """The radius of the mark of a mass centre."""
@@ -74,13 +77,19 @@ class Notes:
 # -- frames ----------------------------------------------------------------------------------------
 
 
-def frames(pose: Pose, notes: Notes) -> None:
-    """The z and x axes of every frame; axes that fall on one another share a label."""
+def frames(pose: Pose, gravity: Vector | None, notes: Notes) -> None:
+    """The z and x axes of every frame; axes that fall on one another share a label.
+
+    Of frame 0 the y axis too where gravity acts along it.
+    """
     view = pose.view
     groups: list[tuple[Point, Point, list[Node]]] = []
     for i, frame in enumerate(pose.skeleton.frames):
         origin = view.point(frame.origin)
-        for letter, axis in (("x", frame.x), ("z", frame.z)):
+        axes = [("x", frame.x), ("z", frame.z)]
+        if i == 0 and gravity and abs(dot(gravity, frame.axes[1])) > _ALONG:
+            axes.append(("y", frame.axes[1]))
+        for letter, axis in axes:
             name = letters.bold(letter, Number(i))
             tip = _axis(origin, axis, pose, notes)
             known = next(

@@ -20,7 +20,7 @@ _SHORTEST = 6.0
 
 
 def body_solids(bodies: Sequence[DrawnBody], parts: Parts, view: View, up: Vector) -> Iterator[Solid]:
-    """Every body, in as many pieces as joints leave of it."""
+    """Every body, in as many pieces as joints and thicker bodies leave of it."""
     sink = 0.4 if view.flat else 0.0  # in a plane joints lie on bodies, and bodies on links
     for body in bodies:
         halves = list(body.on_paper(view.size))
@@ -28,7 +28,8 @@ def body_solids(bodies: Sequence[DrawnBody], parts: Parts, view: View, up: Vecto
             yield ball(body.center, halves[0], view, up, BODY)
             continue
         lengthwise = max(range(3), key=lambda k: halves[k])
-        for start, end in _pieces(body, lengthwise, halves[lengthwise], parts, view):
+        thicker = [other for other in bodies if _thickness(other, view) > _thickness(body, view)]
+        for start, end in _pieces(body, lengthwise, halves[lengthwise], parts, thicker, view):
             center = along(body.center, body.axes[lengthwise], view.space((start + end) / 2))
             halves[lengthwise] = (end - start) / 2
             yield nearer(_piece(body, center, halves, view, up), -sink)
@@ -42,20 +43,30 @@ def _piece(body: DrawnBody, center: Vector, halves: Sequence[float], view: View,
 
 
 def _pieces(
-    body: DrawnBody, lengthwise: int, half: float, parts: Parts, view: View
+    body: DrawnBody,
+    lengthwise: int,
+    half: float,
+    parts: Parts,
+    thicker: Sequence[DrawnBody],
+    view: View,
 ) -> Iterator[tuple[float, float]]:
-    """From where to where a body is outside of all joints, along its longest side, in picture units."""
+    """From where to where a body is outside of joints and thicker ones, along its longest side, on paper."""
     steps = max(1, math.ceil(2 * half / _STEP))
     width = 2 * half / steps
 
     def hidden(k: int) -> bool:
-        middle = -half + (k + 0.5) * width
-        return is_inside(along(body.center, body.axes[lengthwise], view.space(middle)), parts, view)
+        middle = along(body.center, body.axes[lengthwise], view.space(-half + (k + 0.5) * width))
+        return is_inside(middle, parts, view) or covers(thicker, middle, view)
 
     for inside, run in groupby(range(steps), hidden):
         places = list(run)
         if not inside and (len(places) * width >= _SHORTEST or len(places) == steps):
             yield -half + places[0] * width, -half + (places[-1] + 1) * width
+
+
+def _thickness(body: DrawnBody, view: View) -> float:
+    """The second of its three sides on paper, by size: how thick a long body is."""
+    return sorted(body.on_paper(view.size))[1]
 
 
 def covers(bodies: Sequence[DrawnBody], point: Vector, view: View) -> bool:

@@ -14,7 +14,7 @@ from random import Random
 
 from dynsolve.draw.occupied import Box, Taken
 from dynsolve.draw.typography import LabelLine
-from dynsolve.draw.vectors import Point
+from dynsolve.draw.vectors import Point, segment_distance
 from dynsolve.notation.tree import Node
 
 _ROUNDS = 4
@@ -36,6 +36,9 @@ _CLOSE, _BARRED = 5.0, 8.0
 
 _CLASH = 5000.0
 """What it costs that two labels, or a label and the line of another, do not keep off each other."""
+
+_CROSSING = 2.0
+"""What the lines of two labels cross, or nearly so, when they come nearer to each other."""
 
 _BESIDE, _ABOVE = 7.0, 2.0
 """The least room between two labels."""
@@ -81,6 +84,7 @@ class _Place:
             self.box.overlaps(other.box, _BESIDE, _ABOVE)
             or (other.lead and self.box.meets(*other.lead))
             or (self.lead and other.box.meets(*self.lead))
+            or (self.lead and other.lead and segment_distance(self.lead, other.lead) < _CROSSING)
         )
 
 

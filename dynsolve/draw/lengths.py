@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from dynsolve.draw import paths
 from dynsolve.draw.annotate import Notes
-from dynsolve.draw.labels import place
+from dynsolve.draw.labels import Label, Wanted, place
 from dynsolve.draw.occupied import Box, Taken
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
@@ -16,7 +16,7 @@ from dynsolve.draw.vectors import NEAR, Point, Vector, distance, moved, scaled
 from dynsolve.notation.tree import Negative, Node
 from dynsolve.robot.model import JointType, Robot
 
-_OFFSETS = tuple(side * away for away in (24.0, 36.0, 48.0, 62.0, 78.0) for side in (1.0, -1.0))
+_OFFSETS = tuple(side * away for away in (24.0, 36.0, 48.0, 62.0, 78.0, 94.0) for side in (1.0, -1.0))
 """How far beside what it measures a line may run, in picture units; below 0 on the lower side."""
 
 _SHORT = 20.0
@@ -25,8 +25,11 @@ _SHORT = 20.0
 _LABEL = 60.0
 """What it costs to run through the place of a label."""
 
-_UNDER, _HEAD = 4.0, 8.0
-"""What each cell costs that is taken under a line, and under a head."""
+_UNDER, _ACROSS, _HEAD = 12.0, 4.0, 8.0
+"""What each cell costs that is taken under a length's line, under those to its ends, and under a head."""
+
+_CLOSE = 2.0
+"""How near to a label a line may run."""
 
 _CROWDED = 0.3
 """The part of its line from which a length that can be missed is left out."""
@@ -71,10 +74,19 @@ def dimensions(found: Sequence[Length], pose: Pose, notes: Notes) -> None:
     def on_paper(measured: Length) -> float:
         return round(math.dist(pose.view.point(measured.start), pose.view.point(measured.end)), 6)
 
-    placed = place([wanted for wanted in notes.wanted if wanted.kind != "mass"], notes.taken)
-    reserved = [label.box for label in placed]
+    wanted = [wanted for wanted in notes.wanted if wanted.kind != "mass"]
+    placed = place(wanted, notes.taken)
+    reserved = [_reserved(label, named) for label, named in zip(placed, wanted, strict=True)]
     for measured in sorted(found, key=on_paper):
         dimension(measured, pose, notes, reserved)
+
+
+def _reserved(label: Label, wanted: Wanted) -> Box:
+    """The place of a label with the way to what it names, which no line is to run between."""
+    box = label.box.grown(_CLOSE)
+    if label.lead:
+        return box
+    return box.holding(min(wanted.anchors, key=lambda anchor: math.dist(anchor, box.nearest(anchor))))
 
 
 def dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[Box] = ()) -> None:
@@ -129,10 +141,10 @@ def _offset(
         side = math.copysign(1.0, offset)
         from_ends = [(moved(at, across, side * 8.0), moved(at, across, offset + side * 4.0)) for at in (a, b)]
         in_labels = sum(box.meets(*line) for box in reserved for line in ((p, q), *from_ends))
-        under = sum(taken.cells_on(*line) for line in ((p, q), *from_ends))
+        under = _UNDER * taken.cells_on(p, q) + _ACROSS * sum(taken.cells_on(*line) for line in from_ends)
         heads = sum(taken.inside(Box.around(at, 6.0, 6.0)) for at in (p, q))
         total = 250.0 * crowded(offset) + 0.35 * abs(offset) + 2.0 * (offset < 0)
-        return round(total + _LABEL * in_labels + _UNDER * under + _HEAD * heads, 6), offset
+        return round(total + _LABEL * in_labels + under + _HEAD * heads, 6), offset
 
     best = min(_OFFSETS, key=cost)
     return best, crowded(best)

@@ -5,6 +5,7 @@ One that is given by a symbol which the table does not have lies near the middle
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -25,7 +26,7 @@ from dynsolve.draw.vectors import (
     subtract,
 )
 from dynsolve.notation.walk import names_in
-from dynsolve.robot.model import Body, Robot
+from dynsolve.robot.model import Body, Convention, Robot
 
 _SHARES = (1.0, 0.7, 1.3)
 """What part of the way to the middle of a link a free symbol stands for, best first."""
@@ -46,6 +47,24 @@ def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton) -> Skeleton
     return replace(bare, masses=tuple(masses))
 
 
+def _is_from_near(body: Body) -> bool:
+    """Whether the file measures the centre from the near end of its link."""
+    return re.match(r"\W*near\b", body.center_written) is not None
+
+
+def _number(robot: Robot, numbers: RobotNumbers, body: Body) -> float | None:
+    """The distance that is given as a number, along one axis of the link, from its near end or its origin."""
+    center = body.center.entries
+    if _is_from_near(body) and robot.convention is Convention.STANDARD:
+        row, ring = robot.joints[body.link - 1], robot.ring
+        to_near = (row.a, row.d * ring.sin(row.alpha), row.d * ring.cos(row.alpha))
+        center = tuple(entry + way for entry, way in zip(center, to_near, strict=True))
+    if symbols_of(robot, center):
+        return None
+    along = [size for entry in center if (size := abs(finite(entry, numbers.values))) > NEAR]
+    return along[0] if len(along) == 1 else None
+
+
 def _is_apart(mass: MassCenter, others: Sequence[MassCenter]) -> bool:
     return all(distance(mass.center, other.center) > _APART for other in others)
 
@@ -62,6 +81,9 @@ def _mass(
     ends = (into(frame.axes, subtract(end, frame.origin)) for end in (near, far))
     center, from_, rate, chosen = _local_center(robot, numbers, body, free, share, *ends)
     place = add(frame.origin, applied(frame.axes, center))
+    if not free and (number := _number(robot, numbers, body)):
+        start = near if _is_from_near(body) else frame.origin
+        return MassCenter(body.name, place, body.is_point, body.link, start, rate=number)
     start = None if from_ is None else add(frame.origin, applied(frame.axes, from_))
     symbol = free[0] if start else ""
     return MassCenter(body.name, place, body.is_point, body.link, start, symbol, rate, chosen)

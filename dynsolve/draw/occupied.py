@@ -38,6 +38,11 @@ class Box:
         """The box with room around it."""
         return Box(self.left - room, self.top - room, self.right + room, self.bottom + room)
 
+    def holding(self, point: Point) -> Box:
+        """The least box that holds this one and a point."""
+        x, y = point
+        return Box(min(self.left, x), min(self.top, y), max(self.right, x), max(self.bottom, y))
+
     def overlaps(self, other: Box, beside: float = 0.0, above: float = 0.0) -> bool:
         """Whether two boxes come nearer to each other than this, beside or above one another."""
         return (

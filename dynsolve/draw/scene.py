@@ -25,6 +25,9 @@ from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType
 
 MARGIN = 14.0
+_FINEST = 10**6
+"""The denominator up to which a number of the file is found from its value."""
+
 SLIDE = 0.9
 """How far out a slide is drawn whose letter stands in a drawing."""
 
@@ -62,7 +65,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     under, body = ground(pose.parts, pose.view), solids(pose.parts, pose.view, world.up, pose.bodies)
     notes = annotate.Notes(_STAR if star else _PLAIN, Taken())
     notes.taken.add([*under, *body])
-    annotate.frames(pose, notes)
+    annotate.frames(pose, world.gravity, notes)
     joint_angles(pose, names_of_angles(robot), notes)
     annotate.masses(pose, notes)
     annotate.axes_end_on(pose, notes)
@@ -103,14 +106,16 @@ def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:
 
 
 def _center_lengths(pose: Pose) -> list[Length]:
-    """The distances of mass centres that are given by one symbol, or a simple part of one."""
+    """The distances of mass centres that are given by a number, one symbol, or a simple part of one."""
     found = []
     for mass in pose.skeleton.masses:
         if mass.from_ is None:
             continue
-        rate = Fraction(mass.rate).limit_denominator(12)
+        rate = Fraction(mass.rate).limit_denominator(12 if mass.symbol else _FINEST)
         if abs(rate - mass.rate) < NEAR:
-            node = _part(Symbol(mass.symbol), rate)
+            node = (
+                _part(Symbol(mass.symbol), rate) if mass.symbol else Number(rate.numerator, rate.denominator)
+            )
             found.append(Length(mass.from_, mass.center, node, optional=True))
     return found
 

@@ -94,7 +94,8 @@ class MassCenter:
     """A mass centre.
 
     `from_` is where its one free `symbol` is measured from, if it has just one;
-    `rate` is how far the centre moves as that grows by 1.  `chosen` are the values that its
+    `rate` is how far the centre moves as that grows by 1, and the distance itself where that is a
+    number, without a symbol.  `chosen` are the values that its
     free symbols are drawn with.
     """
 
@@ -168,8 +169,9 @@ def _leg(
 
 
 def near_and_far(robot: Robot, bare: Skeleton, link: int) -> tuple[Vector, Vector]:
-    """The two ends of a link: o_{i-1} and o_i in the standard convention, o_i and o_{i+1} in the modified."""
+    """The two ends of a link: its start and o_i, in the modified convention o_i and o_{i+1}."""
     last = len(bare.frames) - 1
     if robot.convention is Convention.STANDARD:
-        return bare.frames[max(link - 1, 0)].origin, bare.frames[link].origin
+        parent = robot.joints[link - 1].parent if link else 0
+        return bare.frames[parent].origin, bare.frames[link].origin
     return bare.frames[link].origin, bare.frames[min(link + 1, last)].origin

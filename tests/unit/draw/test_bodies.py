@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import pytest
 
 from dynsolve.draw.bodies import DrawnBody, Form, drawn_bodies, sleeves
+from dynsolve.draw.body_solids import body_solids
 from dynsolve.draw.drawn_lengths import numbers
 from dynsolve.draw.mass_centers import with_masses
 from dynsolve.draw.orientation import orientation
+from dynsolve.draw.paths import flattened
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.primitives import BODY
 from dynsolve.draw.skeleton import skeleton
@@ -83,3 +88,23 @@ def test_a_guide_stands_at_the_mass_centre_of_the_body_that_it_is_part_of() -> N
 
 def test_point_masses_have_no_body() -> None:
     assert bodies(read_problem(ARM.format(shape="point").encode(), "arm.yaml")) == ()
+
+
+def test_a_rod_in_a_thicker_body_is_hidden_there() -> None:
+    """Of two bodies about one point along x, what is drawn of the thin one lies beyond the other's ends."""
+    text = """
+dh: [{theta: q1*, a: l1}]
+values: {l1: 1}
+masses:
+  - {mass: m1, link: 1, center: midpoint, shape: {box: {x: 0.4, y: 0.2, z: 0.2}}}
+  - {mass: m2, link: 1, center: midpoint, shape: {rod: {length: 0.8, axis: x}}}
+"""
+    problem = read_problem(text, "arm.yaml")
+    robot, values = problem.robot, numbers(problem)
+    pose = best_pose(robot, values, orientation(robot, values))
+    _, *rods = body_solids(pose.bodies, replace(pose.parts, joints=()), pose.view, (0.0, 0.0, 1.0))
+    assert len(rods) == 2
+    size, center = pose.view.size, pose.view.point(pose.bodies[0].center)
+    for rod in rods:
+        ends = [math.dist(point, center) for piece in flattened(rod.paths[0].commands) for point in piece]
+        assert min(ends) > 0.2 * size - 3.0 and max(ends) == pytest.approx(0.4 * size, abs=3.0)

@@ -21,7 +21,7 @@ from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.scene import OFF_LINKS, scene
 from dynsolve.draw.svg import to_svg
 from dynsolve.draw.typography import SIZE
-from dynsolve.draw.vectors import Point, distance, dot
+from dynsolve.draw.vectors import Point, distance, dot, segment_distance
 from dynsolve.problem import load, read_problem
 from dynsolve.robot.model import JointType
 from tests.support import LIBRARY, TEXTBOOKS
@@ -123,7 +123,9 @@ def test_axes_joints_and_masses_are_named(path: Path) -> None:
     robot, picture = load(path).robot, drawn(path)
     subscripts = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
     axes = [f"{letter}{i}".translate(subscripts) for letter in "xz" for i in range(len(robot.joints) + 1)]
-    assert sorted(names(picture, "axis")) == sorted(axes)
+    x, y, z = (not entry.is_zero for entry in (robot.base_rotation.T @ robot.gravity).entries)
+    along_y = ["y₀"] if y and not (x or z) else []
+    assert sorted(names(picture, "axis")) == sorted([*axes, *along_y])
     assert names(picture, "mass") == [f"r_c{body.name}" for body in robot.bodies]
     assert sum("⋆" in name for name in names(picture, "variable")) == sum(
         joint.type is not None for joint in robot.joints
@@ -161,6 +163,39 @@ def test_a_part_of_a_symbol_is_labelled_as_that_part() -> None:
     """[0, 0, l2/2] puts the centre half of l2 away, and the picture says so."""
     shown = names(drawn(next(path for path in LIBRARY if path.stem == "box-cylinder-rod-sphere")))
     assert "l₂/2" in shown and "l₂" not in shown
+
+
+def test_a_mass_centre_that_is_given_by_a_number_has_its_distance() -> None:
+    """`near: [0.15, 0, 0]`; what is half-way, or at the end, needs none."""
+    shown = names(drawn(next(path for path in LIBRARY if path.stem == "numeric-2r")), "length")
+    assert sorted(shown) == ["0.15", "0.4", "0.5"]
+
+
+@pytest.mark.parametrize(
+    ("center", "said"),
+    [("[-0.1, 0, 0]", "0.1"), ("{near: [0, 0.1, 0]}", "0.1"), ("[0.1, 0.2, 0]", ""), ("[-a1/2, 0, 0]", "")],
+)
+def test_a_number_along_one_axis_is_a_distance(center: str, said: str) -> None:
+    """With a number of a1 too: its letter is what the file says of the centre."""
+    text = (
+        f"dh: [{{theta: q1*, a: a1}}]\nmasses: [{{mass: m1, link: 1, center: {center}}}]\nvalues: {{a1: 0.5}}"
+    )
+    assert [name for name in names(drawn_text(text), "length") if name != "a₁"] == ([said] if said else [])
+
+
+@pytest.mark.parametrize("name", ["box-cylinder-rod-sphere", "puma560", "stanford-6"])
+def test_lines_of_labels_do_not_cross(name: str) -> None:
+    leads = [label.lead for label in drawn(next(p for p in LIBRARY if p.stem == name)).labels if label.lead]
+    assert all(segment_distance(a, b) > 0.0 for k, a in enumerate(leads) for b in leads[k + 1 :])
+
+
+def test_mass_centres_of_a_branch_are_half_way_along_its_own_link() -> None:
+    """Link 4 of the five-bar linkage starts from frame 1."""
+    problem = load(next(path for path in LIBRARY if path.stem == "five-bar"))
+    values = numbers(problem)
+    pose = best_pose(problem.robot, values, orientation(problem.robot, values)).skeleton
+    start, end, center = pose.frames[1].origin, pose.frames[4].origin, pose.masses[3].center
+    assert distance(start, center) == pytest.approx(distance(center, end))
 
 
 def test_no_star_leaves_the_marks_out() -> None:
