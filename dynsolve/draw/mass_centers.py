@@ -82,8 +82,8 @@ def _mass(
     center, from_, rate, chosen = _local_center(robot, numbers, body, free, share, *ends)
     place = add(frame.origin, applied(frame.axes, center))
     if not free and (number := _number(robot, numbers, body)):
-        start = near if _is_from_near(body) else frame.origin
-        return MassCenter(body.name, place, body.is_point, body.link, start, rate=number)
+        from_end = near if _is_from_near(body) else frame.origin
+        return MassCenter(body.name, place, body.is_point, body.link, from_end, rate=number)
     start = None if from_ is None else add(frame.origin, applied(frame.axes, from_))
     symbol = free[0] if start else ""
     return MassCenter(body.name, place, body.is_point, body.link, start, symbol, rate, chosen)
