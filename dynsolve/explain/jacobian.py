@@ -155,9 +155,7 @@ def _column(context: Context, q: Coordinate) -> Step:
         why=(Symbol(q.name), *_column_why(context, q, joint)),
         formula=equation(name, column(*in_letters)),
         source=spong("4.6.3"),
-        working=column_shown(
-            context, joints_moved(context, k, last), end_of(context), in_letters[0], None if named else linear
-        ),
+        working=column_shown(context, joints_moved(context, k, last), end_of(context), in_letters[0], linear),
         concluding=named,
         result=(equation(name, _on_one_line(context, linear.rows + angular.rows)),),
         uses=("axes",),

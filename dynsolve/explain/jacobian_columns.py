@@ -6,10 +6,12 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from dynsolve.algebra import matrix as algebra
+from dynsolve.algebra.expr import Expr
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import axis, origin
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
+from dynsolve.explain.working import squares
 from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS
@@ -90,7 +92,8 @@ def crosses(
 ) -> tuple[tuple[Node, ...], Prose]:
     """The columns z × (p - o) of a point p of a link that are more than a look, and their identities.
 
-    Where z is an axis of the base the product is one: two coordinates of p - o change places.
+    The product is a look where z is an axis of the base and o a fixed point: two coordinates of p - o
+    change places.
     """
     if context.robot.n > MOST_JOINTS:
         return (), ()
@@ -98,12 +101,11 @@ def crosses(
     for k in range(context.robot.n):
         moved = joints_moved(context, k, link)
         turning = [joint for _, joint in moved if joint.type is JointType.REVOLUTE]
-        if all(_is_along_the_base(context, joint) for joint in turning):
+        if all(_is_fixed(context, joint) for joint in turning):
             continue
         in_letters = coordinate_column(context, k, link, name)
         assert in_letters is not None
-        named = any(used_in_cross(context, joint, point) for joint in turning)
-        shown += column_shown(context, moved, point, in_letters[0], None if named else column_of(J, k))
+        shown += column_shown(context, moved, point, in_letters[0], column_of(J, k))
     used = _used_in_crosses(context, link, point)
     words = "With " if shown else "The cross products, with "
     return tuple(shown), (words, *said(used), ":") if used else ()
@@ -114,10 +116,11 @@ def joints_moved(context: Context, k: int, link: int) -> list[tuple[Fraction, Jo
     return [(rate, joint) for joint in context.robot.path(link) for i, rate in joint.rates if i == k]
 
 
-def _is_along_the_base(context: Context, joint: Joint) -> bool:
-    """Whether the axis of a joint is one of those of the base."""
-    z = axis(context.values[f"H{joint_frame(context.robot, joint)}"])
-    return sum(not entry.is_zero for entry in z.entries) == 1
+def _is_fixed(context: Context, joint: Joint) -> bool:
+    """Whether the axis of a joint is one of those of the base, through a point that does not move."""
+    H = context.values[f"H{joint_frame(context.robot, joint)}"]
+    moves = any(map(context.robot.ring.depends_on_coordinates, origin(H).entries))
+    return sum(not entry.is_zero for entry in axis(H).entries) == 1 and not moves
 
 
 def used_in_cross(context: Context, joint: Joint, point: algebra.Matrix) -> list[Identity]:
@@ -137,11 +140,11 @@ def column_shown(
     moved: Sequence[tuple[Fraction, Joint]],
     point: algebra.Matrix,
     in_letters: Node,
-    linear: Matrix | None,
+    linear: Matrix,
 ) -> tuple[Node, ...]:
     """A column of J_v with this robot's axes and levers put in, where there is anything to work out.
 
-    Its value stands at the end, unless it is None: then an identity is named before the result.
+    Its value stands at the end; where an identity leads to that, the product as it is multiplied out.
     """
     robot = context.robot
     if all(joint.type is JointType.PRISMATIC for _, joint in moved):
@@ -160,8 +163,26 @@ def column_shown(
         else:
             small.append(z)
             parts.append((rate, z))
-    members = [in_letters, _total(parts), *([linear] if linear else [])]
+    value: Node | None = linear
+    if any(used_in_cross(context, joint, point) for _, joint in moved if joint.type is JointType.REVOLUTE):
+        value = _multiplied_out(context, moved[0][1], point) if len(moved) == 1 else None
+    members = [in_letters, _total(parts), *([] if value is None else [value])]
     return (equation(*members),) if is_small(*small) else ()
+
+
+def _multiplied_out(context: Context, joint: Joint, point: algebra.Matrix) -> Matrix:
+    """z × (p - o) of a joint before s² + c² = 1 is used."""
+    ring = context.robot.ring
+    z, lever = axis(context.values[f"H{joint_frame(context.robot, joint)}"]), _lever(context, joint, point)
+    entries: list[tuple[Node]] = []
+    for row in algebra.skew(z).rows:
+        terms = (a.poly * b.poly for a, b in zip(row, lever.entries, strict=True))
+        poly = sum(terms, start=ring.zero.poly)
+        value = Expr(ring, ring.reduce(poly))
+        entries.append(
+            (context.show(value) if value.poly == poly else squares.factored(context.forms, poly),)
+        )
+    return Matrix(tuple(entries))
 
 
 def _lever(context: Context, joint: Joint, point: algebra.Matrix) -> algebra.Matrix:

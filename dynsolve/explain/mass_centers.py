@@ -5,10 +5,14 @@ from __future__ import annotations
 import re
 
 from dynsolve.algebra import matrix as algebra
+from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Prose
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Step
+from dynsolve.explain.step import Detail, Line, Step
+from dynsolve.explain.working.identities import said
+from dynsolve.explain.working.products import used_in_product
+from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import block_of, is_small, name_of, spong
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
@@ -42,6 +46,7 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
         why += (" No joint comes before that link, so the body belongs to the ground and does not move.",)
     formula: Node = equation(r, Sum((Product((letters.R(context.robot, link), frame)), letters.o(link))))
     working: tuple[Node, ...] = ()
+    back = None if at_origin else _between_the_ends(context, body)
     if at_origin:
         formula = equation(r, letters.o(link))
     else:
@@ -56,10 +61,12 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
         why=why,
         formula=formula,
         source=spong("2.6"),
-        working=working,
+        working=() if back else working,
+        lines=(back, *(Line((), (each,)) for each in working)) if back else (),
         result=(equation(r, context.form(f"rc{body.name}")),),
         notes=(_not_the_origin(body, H),) if tells else (),
         detail=Detail.BRIEF,
+        uses=(f"H{link}", "axes") if back else None,
     )
 
 
@@ -120,25 +127,58 @@ def _part_of_the_way(body: Body) -> Node | None:
 
 def _measured(context: Context, body: Body) -> tuple[Node, ...]:
     """A centre in its frame, from the ends of the link where it is given so: in letters, then in values."""
+    found = _other_end(context, body)
+    if found is None:
+        return ()
+    way, length = _way(context, body, found[0]), found[1]
+    if body.center_written == "midpoint":
+        return Product((letters.HALF, *way.factors)), Product((letters.HALF, context.show(length)))
+    given = context.show(body.center - length)
+    return Sum((way, given)), Sum((context.show(length), given))
+
+
+def _other_end(context: Context, body: Body) -> tuple[int, algebra.Matrix] | None:
+    """The frame at the other end of a link from which a centre is given, and the vector to it.
+
+    The vector is in the link's own frame.
+    """
     robot, link = context.robot, body.link
     after = robot.links_after(link)
     if not (context.standard or len(after) == 1):
-        return ()
+        return None
     row = robot.joints[link - 1 if context.standard else after[0] - 1]
     ring = robot.ring
     sine, cosine = ring.sin(row.alpha), ring.cos(row.alpha)
-    across = row.d * sine if context.standard else -(row.d * sine)
-    length = algebra.Matrix.column(ring, (row.a, across, row.d * cosine))  # from the near to the far end
-    other_end = row.parent if context.standard else row.index
-    between = Parenthesized(Sum((letters.o(other_end), Negative(letters.o(link)))))
-    way = Product((Transpose(letters.R(robot, link)), between))
-    if is_given_by(body, "near") and context.standard and not length.is_zero:
-        given = context.show(body.center + length)
-        return Sum((way, given)), Sum((context.show(-length), given))
-    if body.center_written == "midpoint":
-        shown = context.show(-length if context.standard else length)
-        return Product((letters.HALF, *way.factors)), Product((letters.HALF, shown))
-    return ()
+    if context.standard:
+        back = algebra.Matrix.column(ring, (-row.a, -(row.d * sine), -(row.d * cosine)))
+        is_near = is_given_by(body, "near") and not back.is_zero
+        return (row.parent, back) if is_near or body.center_written == "midpoint" else None
+    onward = algebra.Matrix.column(ring, (row.a, -(row.d * sine), row.d * cosine))
+    return (row.index, onward) if body.center_written == "midpoint" else None
+
+
+def _way(context: Context, body: Body, other_end: int) -> Product:
+    """Rᵀ (o_j - o_i), in letters."""
+    between = Parenthesized(Sum((letters.o(other_end), Negative(letters.o(body.link)))))
+    return Product((Transpose(letters.R(context.robot, body.link)), between))
+
+
+def _between_the_ends(context: Context, body: Body) -> Line | None:
+    """Rᵀ (o_j - o_i) with this robot's values, of short arms; None where no centre is given from there."""
+    found = _other_end(context, body)
+    if found is None or context.robot.n > MOST_JOINTS:
+        return None
+    other_end, length = found
+    R, end, own = (
+        context.values[f"H{body.link}"].block(0, 3, 0, 3),
+        origin(context.values[f"H{other_end}"]),
+        origin(context.values[f"H{body.link}"]),
+    )
+    used = used_in_product(context, R.T, end - own, length)
+    by: Prose = (f"Along the axes of frame {body.link}",)
+    by += (", with ", *said(used), ":") if used else (":",)
+    values = Product((Transpose(context.show(R)), context.show(end - own)))
+    return Line(by, (equation(_way(context, body, other_end), values, context.show(length)),))
 
 
 def _not_the_origin(body: Body, H: Letter) -> Prose:

@@ -117,6 +117,19 @@ def groups(forms: Forms, poly: fmpq_mpoly) -> list[Group] | None:
     return None if None in made else [group for group in made if group is not None]
 
 
+def factored(forms: Forms, poly: fmpq_mpoly) -> Node:
+    """A polynomial before s² + c² = 1 is used, as what that leaves alone times what it changes."""
+    ring = forms.robot.ring
+    content, factors = poly.factor()
+    kept, changed = ring.one, list[tuple[Node, int]]()
+    for factor, exponent in factors:
+        if ring.reduce(factor) == factor:
+            kept = kept * Expr(ring, factor) ** int(exponent)
+        else:
+            changed.append((_terms(ring, factor), int(exponent)))
+    return times(fraction(content), [(forms.of(kept), 1), *changed], decimal=is_numeric(forms.robot))
+
+
 def _group(forms: Forms, poly: fmpq_mpoly, angular: set[int], rates: set[int]) -> Group | None:
     """The product of the factors: lengths, what is in brackets, rates; None for a bracket with rates."""
     ring, decimal = forms.robot.ring, is_numeric(forms.robot)

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 from dynsolve.explain.step import Detail
 from dynsolve.notation.unicode import to_unicode
+from dynsolve.render.formats import Format
+from dynsolve.solution.reports import report
 from tests.support import solved
 from tests.unit.explain.told import everything_said, formula, said, shown, shown_working, step
 
@@ -52,15 +56,42 @@ def test_a_mass_without_a_symbol_is_called_after_its_body() -> None:
     assert formula("numeric-2r", "Kvp") == "K_vp = ½ m_p 𝐯_pᵀ 𝐯_p"
 
 
+def lines(problem: str, id: str) -> list[str]:
+    """The lines of a step, each with what leads to it."""
+    found, style = step(problem, id), solved(problem).style
+    return [
+        text
+        for line in found.lines
+        for text in (said(line.by, problem), *(to_unicode(each, style) for each in line.formulas))
+        if text
+    ]
+
+
 def test_where_a_centre_comes_from() -> None:
     assert "from the near end of link 1, 𝐨₀" in said(step("planar-2r", "rc1").why, "planar-2r")
-    assert shown_working("planar-2r", "rc1")[0] == (
+    assert lines("planar-2r", "rc1")[:3] == [
+        "Along the axes of frame 1, with s₁² + c₁² = 1:",
+        "(𝐑₁⁰)ᵀ (𝐨₀ - 𝐨₁) = [[c₁, -s₁, 0], [s₁, c₁, 0], [0, 0, 1]]ᵀ [[-l₁ c₁], [-l₁ s₁], [0]]"
+        " = [[-l₁], [0], [0]]",
         "𝐫_c1¹ = (𝐑₁⁰)ᵀ (𝐨₀ - 𝐨₁) + [[l_c1], [0], [0]] = [[-l₁], [0], [0]] + [[l_c1], [0], [0]]"
-        " = [[l_c1 - l₁], [0], [0]]"
-    )
-    assert shown_working("in3140-rp", "rc1")[0] == (
-        "𝐫_c1¹ = ½ (𝐑₁⁰)ᵀ (𝐨₀ - 𝐨₁) = ½ [[0], [-L₁], [0]] = [[0], [-L₁/2], [0]]"
-    )
+        " = [[l_c1 - l₁], [0], [0]]",
+    ]
+    by, _, halved, *_ = lines("in3140-rp", "rc1")
+    assert by == "Along the axes of frame 1:", "no identity is needed"
+    assert halved == "𝐫_c1¹ = ½ (𝐑₁⁰)ᵀ (𝐨₀ - 𝐨₁) = ½ [[0], [-L₁], [0]] = [[0], [-L₁/2], [0]]"
+    text = report(solved("planar-2r"), Format.MARKDOWN).decode()
+    assert re.search(r"With \(\d+\), \(\d+\) and \(\d+\), along the axes of frame 1", text), "H₁⁰, o₀, o₁"
+
+
+def test_a_cross_product_is_worked_out_before_an_identity_is_used() -> None:
+    lever = "[[s₁], [-c₁], [0]] × [[d₃ c₁ c₂], [d₃ s₁ c₂], [d₃ s₂]]"
+    worked_out = "[[-d₃ c₁ s₂], [-d₃ s₁ s₂], [d₃ c₂ (s₁² + c₁²)]]"
+    assert shown_working("spherical-rrp", "J2") == [f"𝐳₁ × (𝐨₃ - 𝐨₁) = {lever} = {worked_out}"]
+    assert shown_working("spherical-rrp", "Jv2")[0].endswith("[-l_c2 s₁ s₂], [l_c2 c₂ (s₁² + c₁²)]]")
+    assert shown_working("numeric-2r", "Jv2") == [  # about an axis of the base, but through a moving point
+        "𝐳₁ × (𝐫_c2 - 𝐨₁) = [[0], [0], [1]] × [[0.15 c₁₂], [0.15 s₁₂], [0]] = [[-0.15 s₁₂], [0.15 c₁₂], [0]]"
+    ]
+    assert not shown_working("numeric-2r", "Jv1"), "two coordinates change places"
 
 
 def test_numbers_that_go_in_are_named() -> None:

@@ -9,7 +9,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.ring import Ring
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.notation import tree
-from dynsolve.notation.tree import Node, Product, Relation, Transpose
+from dynsolve.notation.tree import Node, Product, Relation, Sum, Transpose
 from dynsolve.notation.walk import walk
 
 Value = Expr | Matrix
@@ -26,6 +26,8 @@ def evaluated(ring: Ring, node: Node) -> Value:
             return value.T
         case Product(factors) if any(isinstance(part, tree.Matrix) for part in walk(node)):
             return reduce(_times, (evaluated(ring, factor) for factor in factors))
+        case Sum(terms) if any(isinstance(part, tree.Matrix) for part in walk(node)):
+            return reduce(_plus, (evaluated(ring, term) for term in terms))
     return value_of(ring, node)
 
 
@@ -36,6 +38,11 @@ def _times(left: Value, right: Value) -> Value:
         assert isinstance(right, Matrix)
         return right.scale(left)
     return left @ right if isinstance(right, Matrix) else left.scale(right)
+
+
+def _plus(left: Value, right: Value) -> Value:
+    assert isinstance(left, Matrix) and isinstance(right, Matrix)
+    return left + right
 
 
 def scalar(value: Value) -> Value:
