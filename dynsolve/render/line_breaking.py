@@ -260,17 +260,26 @@ def together(pieces: Sequence[Piece], most: float, join: Callable[[Sequence[str]
 _SUM_COST = 0.35
 _INSIDE_COST = 25.0
 """A line ends in parentheses only where what they hold is too wide: many lines are better."""
+_MIXED_COST = 2.5
+"""A term that takes several lines has them for itself: that is worth as many lines more."""
+_SHORT, _SHORT_COST = 0.3, 0.3
+"""A last line that takes less of its room is too short, and what that costs."""
 _OVERFULL = 1e6
+_DEEPEST = 10**6
 
 
-def _depth_cost(depth: int) -> float:
-    return _SUM_COST * depth if depth <= SUM_BREAK else _INSIDE_COST * 3.0 ** (depth - SUM_BREAK)
+def _depth_cost(depth: int, opened: int) -> float:
+    """What it costs to end a line at a depth, where a line has ended in parentheses at `opened` before."""
+    if depth <= max(SUM_BREAK, opened):
+        return _SUM_COST * min(depth, FACTOR_BREAK)
+    return _INSIDE_COST * 3.0 ** (depth - SUM_BREAK)
 
 
 def lines(pieces: Sequence[Piece], first: float, rest: float, step: float = 0.0) -> list[list[Piece]]:
     """The pieces in lines, the first `first` em wide, the others `rest`: as shallow and as even as can be.
 
-    A line that begins in parentheses is narrower, by `step` for each pair of them.
+    A line that begins in parentheses is narrower, by `step` for each pair of them.  What stands in
+    parentheses over several lines shares none of them with a term outside.
 
     >>> parts = [Piece("a", 4), Piece("+ b (c", 6, 1), Piece("+ d)", 4, 3), Piece("+ e", 4, 1)]
     >>> [[piece.text for piece in line] for line in lines(parts, 14, 14)]
@@ -281,16 +290,23 @@ def lines(pieces: Sequence[Piece], first: float, rest: float, step: float = 0.0)
     following = [n] * (n + 1)
     for i in range(n - 1, -1, -1):
         room = first if i == 0 else rest - step * pieces[i].level
+        began = pieces[i].depth
         width, found = 0.0, float("inf")
+        outermost = _DEEPEST  # of the places that this line goes over
         for j in range(i + 1, n + 1):
             width += pieces[j - 1].width
-            cost = best[j] + 1.0
+            if j > i + 1:
+                outermost = min(outermost, pieces[j - 1].depth)
+            cost = best[j] + 1.0 + _MIXED_COST * (outermost < began)
             if width > room:
                 cost += _OVERFULL * (width - room)
             elif j < n:
                 cost += ((room - width) / room) ** 2
+            elif width < _SHORT * room:
+                cost += _SHORT_COST
             if j < n:
-                cost += _depth_cost(pieces[j].depth)
+                depth = pieces[j].depth
+                cost += _depth_cost(depth, min(began, outermost)) + _MIXED_COST * (outermost < depth)
             if cost < found:
                 found, following[i] = cost, j
             if width > room:

@@ -8,12 +8,12 @@ entry.  A line that goes on with a member is moved in, and further where it begi
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dynsolve.document import Formula
 from dynsolve.notation.extent import RELATION, Ruler
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
-from dynsolve.render.line_breaking import FormulaSplitter, Notation, Piece, lines
+from dynsolve.render.line_breaking import FACTOR_BREAK, FormulaSplitter, Notation, Piece, lines
 from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 
 INDENT = 2.0
@@ -179,7 +179,10 @@ def _indent(line: Sequence[Piece], place: int) -> float:
 
 
 def _on_own_lines(members: Sequence[list[Piece]], room: float) -> list[list[Piece]]:
-    """The members of a chain, together where they fit one line; else apart, but names together."""
+    """The members of a chain, together where they fit one line; else apart, but names together.
+
+    A single name is hardly parted from the member after it.
+    """
     if _width(piece for member in members for piece in member) <= room:
         return [[piece for member in members for piece in member]] if members else []
     apart: list[list[Piece]] = []
@@ -188,7 +191,8 @@ def _on_own_lines(members: Sequence[list[Piece]], room: float) -> list[list[Piec
         names = bool(before) and all(piece.width <= _LONGEST_NAME for piece in before)
         together = len(member) == 1 and member[0].width <= _LONGEST_NAME
         if names and (len(before) == 1 or (together and _width([*before, *member]) <= room)):
-            apart[-1] = [*before, *member]
+            first = member[0] if together else replace(member[0], depth=FACTOR_BREAK)
+            apart[-1] = [*before, first, *member[1:]]
         else:
             apart.append(member)
     return apart

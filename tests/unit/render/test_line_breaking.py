@@ -131,6 +131,22 @@ def test_a_line_that_begins_in_parentheses_is_moved_in_further() -> None:
     assert [line.indent for line in others] == [INDENT + INSIDE] * len(others)
 
 
+def test_a_term_that_takes_several_lines_shares_none_with_a_term_beside_it() -> None:
+    wide = "(a1*b1*c1 + d1*e1*f1 + a2*b2*c2 + d2*e2*f2)*k1"
+    for sides in (f"x1*y1 + {wide} + z1", f"{wide} + x1*y1 + z1"):
+        texts = [line.right for line in setter(16).set(Formula(equation(Symbol("K1"), read(sides).tree)))]
+        inside = [text for text in texts if text.count("(") != text.count(")")]
+        assert len(inside) == 2
+        assert not any("x_" in text or "z_" in text for text in inside)
+
+
+def test_what_takes_many_lines_in_parentheses_is_broken_at_their_outermost_signs() -> None:
+    wide = "(a1*b1*c1 + d1*e1*f1 + a2*b2*c2 + d2*e2*f2)*k1"
+    node = equation(Symbol("K1"), read(f"2*({wide} + (x1*x2 + y1*y2)*k2 + (z1*z2 + w1*w2)*k3)").tree)
+    texts = [line.right.strip("{} ") for line in setter(18).set(Formula(node))]
+    assert [text[:9] for text in texts if text.startswith("+ (")] == ["+ (x_{1} ", "+ (z_{1} "]
+
+
 def test_each_sign_of_a_chain_begins_a_line_where_one_line_is_too_short() -> None:
     long = [read("*".join(f"{letter}{i}" for i in range(1, 7))).tree for letter in "abc"]
     broken = setter(15).set(Formula(equation(Symbol("P1"), *long)))
