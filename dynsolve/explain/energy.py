@@ -191,7 +191,7 @@ def _at_the_end(context: Context, body: Body, step: Step) -> Step:
 def _velocities(context: Context, body: Body) -> Step:
     b = body.name
     v, w = letters.of_body("v", body, "bold"), letters.of_body("omega", body, "bold")
-    results = [equation(v, context.form(f"v{b}"))]
+    results = [equation(v, kinetic.velocity(context, body))]
     formulas: list[Node] = [equation(v, Product((letters.jv(body), letters.QD)))]
     if not body.is_point:
         results.append(equation(w, context.form(f"w{b}")))
@@ -221,7 +221,7 @@ def _times_rates(context: Context, body: Body) -> str:
 def _linear(context: Context, body: Body, tells: bool) -> Step:
     b = body.name
     Kv, v = letters.energy_part("v", body), letters.of_body("v", body, "bold")
-    velocity = context.matrix(f"v{b}")
+    velocity = kinetic.velocity(context, body)
     form = context.form(f"Kv{b}")
     mass = context.show(body.mass)
     working: tuple[Node, ...] = ()
@@ -281,7 +281,8 @@ def _cancelling(context: Context, body: Body) -> Iterator[Prose]:
 def _kinetic(context: Context, body: Body) -> Step:
     K = letters.of_body("K", body)
     parts = Sum((letters.energy_part("v", body), letters.energy_part("omega", body)))
-    way = summed(context, (f"Kv{body.name}", f"Kw{body.name}"), f"K{body.name}", K)
+    names = (f"Kv{body.name}", f"Kw{body.name}")
+    way = summed(context, names, f"K{body.name}", K, stand_above=True)
     return Step(
         id=f"K{body.name}",
         stage=STAGE,

@@ -17,6 +17,7 @@ from dynsolve.explain.working import squares
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
+from dynsolve.notation import tree
 from dynsolve.notation.build import negated, split_sign, times, total
 from dynsolve.notation.tree import (
     Function,
@@ -49,6 +50,38 @@ def _sums_of_rates(node: Node) -> set[Node]:
     """The sums q̇₁ + q̇₂ that stand in a tree."""
     sums = (part for part in walk(node) if isinstance(part, Sum))
     return {each for each in sums if all(part.dots for part in walk(each) if isinstance(part, Symbol))}
+
+
+def velocity(context: Context, body: Body) -> tree.Matrix:
+    """v of a mass centre, as U s + V c where two components are a vector turned by an angle.
+
+    Other forms stay where they hold that sine and that cosine once, and so show U and V too.
+    """
+    form, value = context.matrix(f"v{body.name}"), context.values[f"v{body.name}"]
+    places = [k for k, x in enumerate(value.entries) if not x.is_zero]
+    found = squares.turned(context.robot.ring, [value[k, 0] for k in places])
+    if found is None or context.robot.n > MOST_JOINTS or any(part.is_zero for part in found.parts):
+        return form
+    angle = angle_node(found.pair.angle, context.robot.ring.names)
+    s, c = Function("sin", angle), Function("cos", angle)
+    by_angle = [context.robot.ring.generator(k) for k in (found.pair.sine, found.pair.cosine)]
+    rows = list(form.rows)
+    for is_second, place in enumerate(found.places):
+        k = places[place]
+        if sum(part in (s, c) for part in walk(rows[k][0])) > 2:
+            factors = squares.parts(value[k, 0], found.pair)
+            assert factors is not None
+            terms = [_beside(context, each, factor) for each, factor in zip(by_angle, factors, strict=True)]
+            rows[k] = (Sum(tuple(reversed(terms) if is_second else terms)),)
+    return tree.Matrix(tuple(rows))
+
+
+def _beside(context: Context, angular: Expr, factor: Expr) -> Node:
+    """A sine or cosine times its factor, which stays in one bracket."""
+    shown = context.show(angular * factor)
+    if not isinstance(shown, Sum):
+        return shown
+    return times(1, [(context.show(angular), 1), (context.show(factor), 1)])
 
 
 def linear(context: Context, body: Body, squares_shown: bool) -> Way:

@@ -39,14 +39,14 @@ class Turned:
 def turned(ring: Ring, components: Sequence[Expr]) -> Turned | None:
     """The first two components that are a vector turned by a basic angle: a s + b c and ±(a c - b s)."""
     for pair in ring.pairs:
-        linear = [(k, found) for k, x in enumerate(components) if (found := _parts(x, pair)) is not None]
+        linear = [(k, found) for k, x in enumerate(components) if (found := parts(x, pair)) is not None]
         for (i, (a, b)), (j, (x, y)) in combinations(linear, 2):
             if (x == b and y == -a) or (x == -b and y == a):
                 return Turned(pair, (i, j), (a, b))
     return None
 
 
-def _parts(x: Expr, pair: Pair) -> tuple[Expr, Expr] | None:
+def parts(x: Expr, pair: Pair) -> tuple[Expr, Expr] | None:
     """(a, b) of a s + b c, the coefficients free of both; None for anything else, and for 0."""
     poly = x.poly
     a, b = poly.derivative(pair.sine), poly.derivative(pair.cosine)

@@ -6,24 +6,29 @@ from collections.abc import Sequence
 
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
+from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import identities, said
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
-from dynsolve.notation.tree import Node, Power, Sum, equation
+from dynsolve.notation.tree import ZERO, Node, Power, Sum, equation
 from dynsolve.notation.walk import walk
 
 
-def summed(context: Context, parts: Sequence[str], result: str, name: Node) -> Way:
+def summed(
+    context: Context, parts: Sequence[str], result: str, name: Node, *, stand_above: bool = False
+) -> Way:
     """The plain sum of scalar quantities, and what it takes to collect it.
 
-    Silent of longer arms, and where the terms are only sorted: no square is opened, no identity used.
+    Silent of longer arms, and where the terms are only sorted.  Of terms that `stand_above`, just
+    before, the plain sum is shown where a square is opened or an identity used.
     """
     if context.robot.n > MOST_JOINTS:
         return SILENT
-    before, after = sum_of([context.form(part) for part in parts]), context.form(result)
+    forms = [context.form(part) for part in parts]
+    before, after = sum_of([form for form in forms if form != ZERO]), context.form(result)
     used = identities(context.robot.ring, before, after)
     opened = _squares_of_sums(before) - _squares_of_sums(after)
-    if not (used or opened):
+    if not (used or opened) and (stand_above or are_alike(before, after)):
         return SILENT
     by: Prose = ("The square multiplied out, and collected",) if opened else ("Collected",)
     by += (", with ", *said(used), ":") if used else (":",)
