@@ -18,6 +18,7 @@ What is drawn of it:
     solids        the joints as paths, with all else from back to front: `links` the tubes between them,
                   `body_solids` the bodies; `primitives` drums, blocks and balls
     annotate      axes of frames, mass centres, gravity
+    world_frame   the world where the base is moved in it or leans
     joint_angles  the angles of the joints, from the line from which each is measured
     lengths       lengths with their heads
     labels        where labels stand; `typography` how wide they are

@@ -35,7 +35,7 @@ _ALONG = 0.99
 """The cosine from which gravity acts along an axis."""
 
 _SAME = 5.0
-_MARK = 6.0
+MARK = 6.0
 """The radius of the mark of a mass centre."""
 
 _AROUND = 11.0
@@ -91,7 +91,7 @@ def frames(pose: Pose, gravity: Vector | None, notes: Notes) -> None:
             axes.append(("y", frame.axes[1]))
         for letter, axis in axes:
             name = letters.bold(letter, Number(i))
-            tip = _axis(origin, axis, pose, notes)
+            tip = axis_arrow(origin, axis, pose, notes)
             known = next(
                 (g for g in groups if math.dist(g[1], tip) < _SAME and math.dist(g[0], origin) < _SAME), None
             )
@@ -101,7 +101,7 @@ def frames(pose: Pose, gravity: Vector | None, notes: Notes) -> None:
                 groups.append((origin, tip, [name]))
     for origin, tip, names in groups:
         toward = (tip[0] - origin[0], tip[1] - origin[1])
-        radius = _MARK if tip == origin else 0.0
+        radius = MARK if tip == origin else 0.0
         notes.label(_listed(names), [tip], toward, paths.FRAME, "axis", radius)
 
 
@@ -112,12 +112,12 @@ def _listed(names: Sequence[Node]) -> Node:
     return parts[0] if len(parts) == 1 else Row(tuple(parts))
 
 
-def _axis(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
+def axis_arrow(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     """Draw an axis, and give its tip."""
     view = pose.view
     x, y = view.direction(axis)
     if _is_end_on(axis, pose):
-        notes.taken.add([Path(paths.circle(origin, _MARK))])  # drawn last, by `axes_end_on`
+        notes.taken.add([Path(paths.circle(origin, MARK))])  # drawn last, by `axes_end_on`
         return origin
     tip = (origin[0] + x * AXIS, origin[1] + y * AXIS)
     back = (tip[0] - x / math.hypot(x, y) * 6.0, tip[1] - y / math.hypot(x, y) * 6.0)
@@ -134,16 +134,16 @@ def axes_end_on(pose: Pose, notes: Notes) -> None:
     for frame in pose.skeleton.frames:
         for axis in (frame.x, frame.z):
             if _is_end_on(axis, pose):
-                _end_on(pose.view.point(frame.origin), dot(axis, pose.view.toward) > 0, notes)
+                axis_end_on(pose.view.point(frame.origin), dot(axis, pose.view.toward) > 0, notes)
 
 
 def _is_end_on(axis: Vector, pose: Pose) -> bool:
     return math.hypot(*pose.view.direction(axis)) < _END_ON
 
 
-def _end_on(origin: Point, toward: bool, notes: Notes) -> None:
+def axis_end_on(origin: Point, toward: bool, notes: Notes) -> None:
     """An axis seen end on: a point for the tip of the arrow, a cross for its feathers."""
-    radius = _MARK
+    radius = MARK
     notes.draw(Path(paths.circle(origin, radius), paths.FRAME, 1.4, paths.WHITE))
     if toward:
         notes.draw(Path(paths.circle(origin, 2.0), None, fill=paths.FRAME))
@@ -163,7 +163,7 @@ def masses(pose: Pose, notes: Notes) -> None:
         if not _is_on_link(center, pose):
             origin = pose.view.point(pose.skeleton.frames[mass.link].origin)
             notes.draw(Path(paths.line(origin, center), paths.BLACK, 0.9, dashed=True))
-        radius = _AROUND if _is_under_axis(center, pose) else _MARK
+        radius = _AROUND if _is_under_axis(center, pose) else MARK
         notes.draw(*(_ball(center, radius) if mass.is_point else _quartered(center, radius)))
         name = letters.bold("r", Row((Words("c"), letters.index_of(mass.name))))
         notes.label(name, [center], (0.0, 0.0), paths.BLACK, "mass", radius)
@@ -177,7 +177,7 @@ def has_masses_off_links(pose: Pose) -> bool:
 def _is_under_axis(center: Point, pose: Pose) -> bool:
     """Whether an axis that is seen end on stands where a mass centre is."""
     return any(
-        math.dist(center, pose.view.point(frame.origin)) < _MARK
+        math.dist(center, pose.view.point(frame.origin)) < MARK
         and any(_is_end_on(axis, pose) for axis in (frame.x, frame.z))
         for frame in pose.skeleton.frames
     )

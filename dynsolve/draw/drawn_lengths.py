@@ -14,13 +14,16 @@ from dataclasses import dataclass
 from dynsolve.algebra.angles import Angle
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
-from dynsolve.draw.vectors import IDENTITY, Rotation
+from dynsolve.draw.vectors import IDENTITY, ORIGIN, Rotation, Vector
 from dynsolve.notation.walk import names_in
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import Joint, JointType, Robot
 
 SHORTEST = 0.42
 """The shortest length that is drawn, as a part of the longest."""
+
+MOVED = 0.75
+"""How far a base is drawn from the world's origin along an axis, as a part of the longest length."""
 
 _TINY = 1e-9
 _ANGLE = math.radians(35)
@@ -46,8 +49,8 @@ class TableRow:
 class RobotNumbers:
     """A robot in numbers: its rows in picture lengths, and the value of every parameter.
 
-    `unit` is the value that is drawn with length 1; `base` turns frame 0 in the world.  `given` are the
-    parameters whose number is the file's own.
+    `unit` is the value that is drawn with length 1; `base` turns frame 0 in the world, `moved` is where it
+    is drawn from the world's origin.  `given` are the parameters whose number is the file's own.
     """
 
     rows: tuple[TableRow, ...]
@@ -55,6 +58,7 @@ class RobotNumbers:
     unit: float
     base: Rotation = IDENTITY
     given: frozenset[str] = frozenset()
+    moved: Vector = ORIGIN
 
 
 def numbers(problem: Problem) -> RobotNumbers:
@@ -97,7 +101,17 @@ def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: fl
     )
     x, y, z = ([finite(entry, values) for entry in row] for row in robot.base_rotation.rows)
     base = tuple(zip(x, y, z, strict=True))
-    return RobotNumbers(rows, values, unit, (base[0], base[1], base[2]), frozenset(given))
+    moved = _moved(robot, values)
+    return RobotNumbers(rows, values, unit, (base[0], base[1], base[2]), frozenset(given), moved)
+
+
+def _moved(robot: Robot, values: Mapping[str, float]) -> Vector:
+    """From the world's origin to that of frame 0, as long along each axis where it is not 0."""
+    x, y, z = (
+        0.0 if entry.is_zero else math.copysign(MOVED, finite(entry, values))
+        for entry in robot.base_position.entries
+    )
+    return x, y, z
 
 
 def _offset(robot: Robot, joint: Joint) -> float:

@@ -19,6 +19,7 @@ from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.solids import ground, solids
 from dynsolve.draw.vectors import NEAR, Point, dot
+from dynsolve.draw.world_frame import WORLD, has_world, moves, world_frame
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
 from dynsolve.problem.model import Problem
@@ -66,16 +67,18 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     notes = annotate.Notes(_STAR if star else _PLAIN, Taken())
     notes.taken.add([*under, *body])
     annotate.frames(pose, world.gravity, notes)
+    if has_world(robot, values):
+        under = (*world_frame(robot, values, pose, notes), *under)
     joint_angles(pose, names_of_angles(robot), notes)
     annotate.masses(pose, notes)
     annotate.axes_end_on(pose, notes)
-    dimensions([*row_lengths(robot, pose), *_center_lengths(pose)], pose, notes)
+    dimensions([*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values)], pose, notes)
     _gravity(world, pose, [*under, *body], notes)
     labels = place(notes.wanted, notes.taken)
     paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
-        _caption(pose),
+        _caption(pose, has_world(robot, values)),
         _description(problem),
         paths,
         labels,
@@ -84,10 +87,11 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     )
 
 
-def _caption(pose: Pose) -> str:
+def _caption(pose: Pose, shows_world: bool) -> str:
     """What stands under the picture, with what its dashed lines are."""
     said = ((PARALLELS, has_parallels), (OFFSETS, has_offsets), (OFF_LINKS, annotate.has_masses_off_links))
-    return " ".join([CAPTION, *(sentence for sentence, holds in said if holds(pose))])
+    sentences = [sentence for sentence, holds in said if holds(pose)]
+    return " ".join([CAPTION, *([WORLD] if shows_world else []), *sentences])
 
 
 def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:
