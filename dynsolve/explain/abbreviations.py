@@ -231,6 +231,16 @@ def free_names(letter: str, taken: set[str]) -> Iterator[Symbol]:
     return (Symbol(f"{letter}{k}") for k in count(1) if f"{letter}{k}" not in taken)
 
 
+def expanded_once(definitions: Sequence[Definition], node: Node) -> Node:
+    """A tree with the meanings put in for the names that stand in it, as they were defined."""
+    meanings: dict[Node, Node] = {definition.name: definition.meaning for definition in definitions}
+
+    def put(part: Node) -> Node:
+        return meanings.get(part, part) if isinstance(part, Symbol) else with_children(part, put)
+
+    return put(node)
+
+
 def expanded(definitions: Sequence[Definition], nodes: Sequence[Node]) -> list[Node]:
     """Trees with the meanings put back for the names; what recurs is shared and not repeated."""
     meanings: dict[Node, Node] = {}

@@ -98,9 +98,13 @@ def _symbol(context: Context, i: int, j: int, k: int) -> Node:
     names: list[Node] = [letters.entry("c", i + 1, j + 1, k + 1)]
     if i != j:
         names.append(letters.entry("c", j + 1, i + 1, k + 1))
+    return equation(*names, in_slopes(context, i, j, k), value)
+
+
+def in_slopes(context: Context, i: int, j: int, k: int) -> Node:
+    """½ (∂d_kj/∂q_i + ∂d_ki/∂q_j - ∂d_ij/∂q_k) without those that are zero or cancel, of indices from 0."""
     weights = _weights(context, i, j, k)
-    parts = [_weighted(context, key, weight) for key, weight in weights.items() if weight]
-    return equation(*names, _halved(parts), value)
+    return _halved([_weighted(context, key, weight) for key, weight in weights.items() if weight])
 
 
 def _weights(context: Context, i: int, j: int, k: int) -> dict[tuple[tuple[int, int], int], int]:

@@ -9,6 +9,8 @@ links stay the products they are, which would fill pages written out.
     general     what is said once for all links, bodies and coordinates
     frames      the last frame, and the axes of the others
     energies    the energies, the Lagrangian and the forces
+    inertia_entry  one entry of D worked out in full
+    slopes      one Christoffel symbol and one gravity term worked out in full
     vectorized  D, the Christoffel symbols, C and g
     sizes       which results would fill pages, and what stands in their place
 """

@@ -17,7 +17,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian_columns import ZERO
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.writing import side_by_side, spong
+from dynsolve.explain.writing import listed, side_by_side, spong
 from dynsolve.notation.tree import (
     BigSum,
     Cross,
@@ -275,8 +275,9 @@ def _rates_of_entries() -> Line:
     by: Prose = (
         "The chain rule gives the rates of ",
         _d(_K, _J),
-        ". Each product of two rates then occurs twice in the sum, with i and j exchanged, so each "
-        "derivative may be replaced by half the sum of the two:",
+        ". Each product of two rates then occurs twice in the sum, with ",
+        *listed([_I, _J]),
+        " exchanged, so each derivative may be replaced by half the sum of the two:",
     )
     both = Product((letters.HALF, _over_rates(Parenthesized(Sum(tuple(slopes))))))
     return Line(by, (equation(moving, _over_rates(slopes[0]), both),))

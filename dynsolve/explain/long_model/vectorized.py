@@ -9,7 +9,9 @@ from itertools import chain
 
 from dynsolve.document import Prose
 from dynsolve.explain.entry_formulas import coriolis_matrix
+from dynsolve.explain.long_model.inertia_entry import worked_row
 from dynsolve.explain.long_model.model import QUADRATIC, Change, LongModel
+from dynsolve.explain.long_model.slopes import christoffel_example, gravity_example
 from dynsolve.explain.sanity.dependence import is_carried_along
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed
@@ -101,8 +103,22 @@ def christoffel(model: LongModel, step: Step) -> Step:
     if not rows:
         return replace(step, result=())
     zero = any(value == ZERO for value in symbols.values())
-    note: Prose = ("They are listed with i ≤ j", "; of these, all others are zero." if zero else ".")
-    return replace(step, why=_on_symbols(model), result=rows, listed=True, notes=(note,))
+    note: Prose = (
+        "They are listed with ",
+        _ordered("i", "j"),
+        "; of these, all others are zero." if zero else ".",
+    )
+    row = worked_row(model)
+    example = None if row is None else christoffel_example(model, row)
+    return replace(
+        step,
+        why=_on_symbols(model),
+        lines=(example,) if example else (),
+        concluding=("The others in the same way:",) if example else (),
+        result=rows,
+        listed=True,
+        notes=(note,),
+    )
 
 
 def _on_symbols(model: LongModel) -> Prose:
@@ -112,8 +128,9 @@ def _on_symbols(model: LongModel) -> Prose:
     opposite = equation(c("ijk"), Negative(c("ikj")))
     if is_carried_along(model.context):
         entry, coordinate = _with_indices("d", "jk"), Letter("q", Symbol("i"))
-        why += ("Joint i moves the links from i on like one body, so ", entry, " does not depend on ")
-        why += (coordinate, " where i ≤ j and i ≤ k; there ", opposite, ". ")
+        why += ("Joint i moves the links from ", Symbol("i"), " on like one body, so ", entry)
+        why += (" does not depend on ", coordinate, " where ", _ordered("i", "j"), " and ")
+        why += (_ordered("i", "k"), "; there ", opposite, ". ")
     return (*why, "Symbols that are equal, or each other's opposites, stand in one line.")
 
 
@@ -164,12 +181,19 @@ def gravity(model: LongModel, step: Step) -> Step:
         return replace(step, result=result)
     potential = Line(("In the abbreviations:",), (equation(letters.P, model.short.P),))
     why: Prose = ("The partial derivatives of the potential energy.",)
-    return replace(step, why=why, lines=(potential,), concluding=("Differentiated:",), result=result)
+    example = gravity_example(model)
+    after: Prose = ("All entries:",) if example else ("Differentiated:",)
+    return replace(step, why=why, lines=(potential, *example), concluding=after, result=result)
 
 
 def _with_indices(letter: str, indices: str) -> Letter:
     """c_ijk"""
     return Letter(letter, Row(tuple(map(Symbol, indices))))
+
+
+def _ordered(first: str, second: str) -> Relation:
+    """i ≤ j"""
+    return Relation((Symbol(first), Symbol(second)), ("≤",))
 
 
 def _of_the_bodies() -> Prose:

@@ -6,9 +6,9 @@ from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import pairs
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import spong, turns
+from dynsolve.explain.writing import listed, spong, turns
 from dynsolve.notation.build import cost
-from dynsolve.notation.tree import Letter, Row, Symbol, equation
+from dynsolve.notation.tree import Letter, Relation, Row, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
@@ -24,13 +24,18 @@ def dependence_step(context: Context) -> Step | None:
     last = robot.coordinates[-1]
     entry = letters.entry("d", last.index, last.index)
     j, k, i = (Symbol(name) for name in "jki")
+    within = (Relation((i, other), ("≤",)) for other in (j, k))
     what = "moment of inertia about its axis" if turns(last) else "mass"
     why: Prose = (
-        "Joint i moves the links from i on like one body. So no ",
+        "Joint i moves the links from ",
+        i,
+        " on like one body. So no ",
         Letter("d", Row((j, k))),
         " depends on ",
         Letter("q", i),
-        " where i ≤ j and i ≤ k. ",
+        " where ",
+        *listed(list(within)),
+        ". ",
         entry,
         f" is constant: of all that joint {last.index} moves, it is the {what}.",
     )

@@ -26,6 +26,7 @@ def shown(text: str) -> list[str]:
         ("H₂⁰", [r"$\mathbf{H}_{2}^{0}$"]),
         ("from frame i-1 to frame i", ["from frame ", "$i - 1$", " to frame ", "$i$"]),
         ("joint 1 is in row n.", ["joint 1 is in row ", "$n$", "."]),
+        ("Joint i moves", ["Joint ", "$i$", " moves"]),
         ("axis zᵢ₋₁", ["axis ", "$z_{i - 1}$"]),
         ("column index, link joint", ["column index, link joint"]),
         ("Überarm naïve I a", ["Überarm naïve I a"]),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from unicodedata import normalize
 
 import pytest
@@ -11,6 +12,7 @@ from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Matrix, Relation, Symbol
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import walk
+from dynsolve.render.prose import with_formulas
 from tests.support import solved
 
 LONG = ("stanford-6", pytest.param("puma560", marks=pytest.mark.slow))
@@ -83,6 +85,16 @@ def test_a_spherical_wrist_and_its_point_that_is_written_once() -> None:
     assert "slides" not in said(step, "puma560")
     assert [text.rpartition(", ")[2] for text in shown("puma560", "axes")[-2:]] == ["𝐨₅ = 𝐨₄", "𝐨₆ = 𝐨₄"]
     assert "c₂ c₃ - s₂ s₃ = c₂₃" in said(steps("puma560")["H6"], "puma560")
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_indices_among_words_are_set_as_in_formulas(problem: str) -> None:
+    """An i in a sentence is a formula of its own, or one that the writer of words knows: frame i."""
+    for step in steps(problem).values():
+        lines = [part for line in step.lines for part in line.by]
+        parts = [*step.why, *lines, *step.concluding, *(part for note in step.notes for part in note)]
+        words = [piece for part in parts if isinstance(part, str) for piece in with_formulas(part)]
+        assert not [word for word in words if isinstance(word, str) and re.search(r"\b[ijk]\b", word)]
 
 
 @pytest.mark.parametrize("problem", LONG)
