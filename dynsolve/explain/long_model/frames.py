@@ -4,20 +4,33 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from itertools import groupby
+from operator import itemgetter
 
 from dynsolve.explain.context import Context
+from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
 from dynsolve.explain.long_model.model import Change, LongModel
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.products import used_in_product
-from dynsolve.notation.tree import Letter, Product, Symbol, Words, equation
+from dynsolve.explain.writing import column_of, side_by_side
+from dynsolve.notation import tree
+from dynsolve.notation.build import cost
+from dynsolve.notation.tree import Letter, Product, Relation, Symbol, Words, equation
 from dynsolve.quantities import letters
+
+LONGEST_ENTRY = 20
+"""The operations in an entry of the Jacobian up to which three columns stand on a line or two."""
 
 
 def changes(model: LongModel) -> dict[str, Change]:
     """The changes by the ids of their steps."""
     last = len(model.context.robot.joints)
-    return {f"H{last}": partial(last_frame, model), "axes": partial(axes, model)}
+    return {
+        f"H{last}": partial(last_frame, model),
+        "axes": partial(axes, model),
+        "J": partial(jacobian, model),
+    }
 
 
 def last_frame(model: LongModel, step: Step) -> Step:
@@ -35,6 +48,26 @@ def axes(model: LongModel, step: Step) -> Step:
     frame = replace(letters.H(robot, 1), sub=i)
     product = Product((letters.A(1), Words("…"), Letter("A", i, style="bold")))
     return replace(step, why=(*step.why, " Frame i is ", equation(frame, product), "."))
+
+
+def jacobian(model: LongModel, step: Step) -> Step:
+    """J_v by its columns, equal neighbours in one chain: all side by side are too wide for a page."""
+    context = model.context
+    J, last = context.matrix("Jv"), len(context.robot.joints)
+    names = [coordinate_column(context, k, last, letters.o(last)) for k in range(model.n)]
+    if None in names or max(cost(entry) for row in J.rows for entry in row) > LONGEST_ENTRY:
+        return step
+    columns = [(column_of(J, k), name[0]) for k, name in enumerate(names) if name]
+    shown = []
+    for value, equal in groupby(columns, itemgetter(0)):
+        is_zero = all(row == (tree.ZERO,) for row in value.rows)
+        shown.append(equation(*(name for _, name in equal), ZERO if is_zero else value))
+    angular = [part for part in step.result if isinstance(part, Relation) and part.parts[0] == letters.JW]
+    return replace(
+        step,
+        concluding=("The columns of ", letters.JV, " from the first to the last, and ", letters.JW, ":"),
+        result=(side_by_side(shown), *angular),
+    )
 
 
 def _identities_outwards(context: Context) -> list[Identity]:

@@ -108,7 +108,17 @@ def test_what_is_said_once_leaves_nothing_out(problem: str) -> None:
     ids = [step.id for step in steps]
     assert [name for name in ids if name in plain] == plain
     general = {name for name in ids if name not in plain}
-    assert general == {"rows", "columns", "rc", "tensors", "potentials", "kinetics", "forces", "C_entries"}
+    assert general == {
+        "rows",
+        "columns",
+        "rc",
+        "tensors",
+        "potentials",
+        "kinetics",
+        "forces",
+        "C_entries",
+        "D_entry",
+    }
     shown = [step.id for step in steps if step.detail < Detail.FULL]
     assert len(shown) < 30 < len(plain)
     for name in ("H6", "J", "P", "K", "L", "D", "christoffel", "C", "g", "model"):

@@ -9,11 +9,13 @@ import pytest
 
 import dynsolve
 from dynsolve.explain.step import Step
-from dynsolve.notation.tree import Matrix, Relation, Symbol
+from dynsolve.notation.tree import Matrix, Relation, Row, Symbol
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import walk
+from dynsolve.quantities import letters
 from dynsolve.render.prose import with_formulas
 from tests.support import solved
+from tests.unit.explain.working.evaluated import evaluated
 
 LONG = ("stanford-6", pytest.param("puma560", marks=pytest.mark.slow))
 
@@ -95,6 +97,22 @@ def test_indices_among_words_are_set_as_in_formulas(problem: str) -> None:
         parts = [*step.why, *lines, *step.concluding, *(part for note in step.notes for part in note)]
         words = [piece for part in parts if isinstance(part, str) for piece in with_formulas(part)]
         assert not [word for word in words if isinstance(word, str) and re.search(r"\b[ijk]\b", word)]
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_the_jacobian_by_its_columns(problem: str) -> None:
+    """Each column of J_v once, in order; the wrist's axes pass through the point that they do not move."""
+    solution, step = solved(problem), steps(problem)["J"]
+    beside, angular = step.result
+    assert isinstance(beside, Row) and isinstance(angular, Relation) and angular.parts[0] == letters.JW
+    columns = [part.parts[-1] for part in beside.parts if isinstance(part, Relation) for _ in part.parts[:-1]]
+    J = solution.values["Jv"]
+    assert len(columns) == solution.robot.n
+    for k, column in enumerate(columns):
+        if isinstance(column, Matrix):
+            assert evaluated(solution.robot.ring, column) == J.column_at(k)
+        else:
+            assert J.column_at(k).is_zero and to_unicode(column) == "𝟎"
 
 
 @pytest.mark.parametrize("problem", LONG)
