@@ -19,7 +19,7 @@ from dynsolve.notation.build import cost
 from dynsolve.notation.tree import Letter, Product, Relation, Symbol, Words, equation
 from dynsolve.quantities import letters
 
-LONGEST_ENTRY = 20
+LONGEST_ENTRY = 40
 """The operations in an entry of the Jacobian up to which three columns stand on a line or two."""
 
 
