@@ -23,7 +23,7 @@ from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.working.rotational import along_own_axes
-from dynsolve.explain.writing import and_joined, is_small, name_of, side_by_side, spong
+from dynsolve.explain.writing import and_joined, is_small, measured, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
     Negative,
@@ -153,8 +153,8 @@ def _shape(context: Context, body: Body) -> tuple[Node | None, tuple[Node, ...],
     formula = side_by_side([
         equation(Letter("I", Words(axes)), moment) for axes, moment in shape.formulas
     ])  # fmt: skip
-    given = [equation(Symbol("m"), context.show(body.mass))]
-    given += [equation(Symbol(letter), context.show(value)) for letter, value in shape.letters]
+    named = [("m", body.mass, "kg"), *((letter, value, "m") for letter, value in shape.letters)]
+    given = [equation(Symbol(letter), measured(context.show(value), unit)) for letter, value, unit in named]
     given = [relation for relation in given if relation.parts[0] != relation.parts[1]]
     why: Prose = (f"{name_of(body).capitalize()} is a uniform {SHAPES[shape.kind]}",)
     if shape.axis:

@@ -211,9 +211,8 @@ def _numbers(style: Style) -> Iterator[Inline]:
     """How numbers are shown."""
     if not style.digits:
         return
-    which = f"those that do not end within {style.exact} digits" if style.exact > style.digits else "they"
-    yield f"Numbers are exact, in SI units (m, kg, s, N); {which} are shown with {style.digits} significant "
-    yield "digits, and rounded only where they are printed. "
+    yield f"Numbers are exact, in SI units (m, kg, s, N). One with more than {style.digits} significant "
+    yield "digits is rounded to these where it is printed, and nowhere else; ≈ marks that. "
 
 
 def _bold(occurring: set[Kind]) -> Iterator[Inline]:

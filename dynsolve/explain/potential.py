@@ -8,7 +8,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import is_small, name_of, side_by_side, spong
+from dynsolve.explain.writing import is_small, measured, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
     Matrix,
@@ -103,11 +103,11 @@ def _entry_of_height(context: Context, body: Body, h: Node, tells: bool) -> Pros
 
 
 def _numbers(context: Context, body: Body, g: Node) -> tuple[Node, ...]:
-    """What the mass and g are where they are numbers: m_2 = 1.2, g = 9.81."""
+    """What the mass and g are where they are numbers: m_2 = 1.2 kg, g = 9.81 m/s²."""
     (entry,) = (entry for entry in context.robot.gravity.entries if not entry.is_zero)
     size = context.show(-entry if _leads_with_minus(entry) else entry)
-    named = ((context.mass(body), context.show(body.mass)), (g, size))
-    given = [equation(letter, value) for letter, value in named if letter != value]
+    named = ((context.mass(body), context.show(body.mass), "kg"), (g, size, "m/s²"))
+    given = [equation(letter, measured(value, unit)) for letter, value, unit in named if letter != value]
     return (side_by_side(given),) if given else ()
 
 

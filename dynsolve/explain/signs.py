@@ -44,16 +44,15 @@ CONSTANTS_OF_SOLUTIONS = "ABDXY"
 """What a solution of inverse kinematics calls what stands beside its sines and cosines."""
 
 
-ENDING_SOON = 2
-"""A decimal that has so many digits more than are shown of others is not rounded: 0.15625."""
+MORE_DIGITS = 2
+"""So many digits more than the longest number of the problem are shown: sums of what is printed add up."""
 
 
 def report_style(robot: Robot, digits: int | None = None) -> Style:
     """The style of a report on a robot, in which every sign has one meaning.
 
-    A model in numbers is shown with `digits` significant digits.  Without these, decimals that end soon are
-    shown as they are, so that a reader can follow them; the others have as many digits as the longest number
-    of the problem.
+    A model in numbers is shown with `digits` significant digits; without these, with a few more than the
+    longest number of the problem has, so that a reader can follow each line from the one before it.
     """
     style = _with_free_shorthands(robot, style_of(robot))
     taken = frozenset(_own(robot, style))
@@ -63,9 +62,8 @@ def report_style(robot: Robot, digits: int | None = None) -> Style:
         if read_as_cosine or not taken.isdisjoint(_printed(_scalars(robot, base, count))):
             found[base, "italic", count] = other
     decimal = style.decimal or digits is not None
-    shown = (digits or shown_digits(robot)) if decimal else 0
-    exact = shown + ENDING_SOON if shown and digits is None else shown
-    return replace(style, letters=found, bold=True, decimal=decimal, digits=shown, exact=exact)
+    shown = (digits or shown_digits(robot) + MORE_DIGITS) if decimal else 0
+    return replace(style, letters=found, bold=True, decimal=decimal, digits=shown)
 
 
 def _printed(nodes: Iterable[Node]) -> Iterator[str]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dynsolve.document import Prose
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.shapes import SHAPES
-from dynsolve.explain.writing import listed, machine, name_of
+from dynsolve.explain.writing import listed, machine, measured, name_of
 from dynsolve.notation.tree import Node
 from dynsolve.quantities.index import quantities
 from dynsolve.robot.model import Body
@@ -78,7 +78,7 @@ def _body(forms: Forms, body: Body) -> Prose:
     kind = "a point" if body.is_point else ""
     if body.shape is not None and body.shape.formulas:
         kind = f"a uniform {SHAPES[body.shape.kind]}"
-    mass: Prose = (" of mass ", forms.of(body.mass))
+    mass: Prose = (" of mass ", measured(forms.of(body.mass), "kg"))
     if body.mass.is_zero:
         mass = (" without mass",)
     return (f"{name_of(body)} in link {body.link},", f" {kind}" if kind else "", *mass)

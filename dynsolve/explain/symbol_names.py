@@ -63,7 +63,7 @@ def _named(forms: Forms) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
 
 
 class _Namer:
-    """Gives a name to each symbol that is worth one; a multiple of another one is written by that: σ₂ c₂²."""
+    """Gives a name to each symbol worth one; what has another one as factor or part is written by that."""
 
     def __init__(self, forms: Forms, values: Mapping[Index, Expr]) -> None:
         self.order = sorted(values, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
@@ -82,7 +82,7 @@ class _Namer:
         found = self._done.get(value)
         if found is None:
             form = self.forms[value]
-            found = form if cost(form) < SHORTEST else self._multiple(value) or self._named(form)
+            found = form if cost(form) < SHORTEST else self._multiple(value) or self._named(self._sum(form))
             self._done[value] = found
         return found
 
@@ -103,6 +103,21 @@ class _Namer:
                 rest = [(factor, 1) for factor in (factors - own).elements()]
                 return times(sign * other_sign, [(self.written(other), 1), *rest])
         return None
+
+    def _sum(self, form: Node) -> Node:
+        """A sum in which all terms of another symbol's stand, with the name of that in their place."""
+        terms = _summands(form)
+        for other, part in self.forms.items():
+            for sign in (1, -1):
+                own = _summands(part) if sign > 0 else tuple(map(negated, _summands(part)))
+                if 1 < len(own) < len(terms) and set(own) <= set(terms):
+                    rest = [term for term in terms if term not in own]
+                    return total([*rest, times(sign, [(self.written(other), 1)])])
+        return form
+
+
+def _summands(node: Node) -> tuple[Node, ...]:
+    return node.terms if isinstance(node, Sum) else (node,)
 
 
 def _factors(node: Node) -> tuple[Node, ...]:

@@ -8,8 +8,10 @@ from itertools import islice
 from dynsolve.document import Inline, Prose
 from dynsolve.explain.citations import craig as craig  # what stages write, in one place
 from dynsolve.explain.citations import spong as spong
-from dynsolve.notation.tree import ZERO, Matrix, Node, Row, Sum, Words
+from dynsolve.notation.build import split_sign
+from dynsolve.notation.tree import ZERO, Matrix, Node, Number, Row, Sum, Words
 from dynsolve.notation.walk import walk
+from dynsolve.robot import units
 from dynsolve.robot.model import Body, Coordinate, JointType, Robot
 
 LARGEST_WORKING = 260
@@ -73,6 +75,13 @@ def scalar(form: Node) -> Node:
         case Matrix(((entry,),)):
             return entry
     return form
+
+
+def measured(form: Node, unit: str) -> Node:
+    """A number with its unit: 2.5 kg.  Other forms, and 0, as they are."""
+    if not isinstance(split_sign(form)[1], Number) or form == ZERO:
+        return form
+    return Row((form, Words(" "), units.node(unit)))
 
 
 def sum_of(terms: Sequence[Node]) -> Node:

@@ -55,7 +55,7 @@ class Style:
     `shorthand` maps the name of a coordinate to its subscript in s_1 and c_12,
     `star` shows the mark of joint variables, and `stars` puts it on every symbol of
     these names; `decimal` writes 981/100 as 9.81 where that is exact, and with `digits` every number
-    as a decimal of so many significant digits, or of up to `exact` where that is all of them.
+    as a decimal of up to so many significant digits.
 
     Letters of the textbook that would be taken for something else are set otherwise:
     `letters` maps their base, style and number of lower indices to another base; with `bold`
@@ -67,7 +67,6 @@ class Style:
     decimal: bool = False
     stars: frozenset[str] = frozenset()
     digits: int = 0
-    exact: int = 0
     letters: Mapping[Sign, str] = field(default_factory=dict)
     bold: bool = False
 
@@ -75,11 +74,16 @@ class Style:
         """A number with a decimal point, where the style wants that and a fraction is not as good."""
         if not (self.decimal or node.decimal):
             return None
-        text = decimal_text(node.p, node.q)
-        longest = max(self.digits, self.exact)
-        if self.digits and (text is None or len(text.replace(".", "").lstrip("-0")) > longest):
+        if self.rounds(node):
             return rounded_text(Fraction(node.p, node.q), self.digits)
-        return text
+        return decimal_text(node.p, node.q)
+
+    def rounds(self, node: Number) -> bool:
+        """Whether a number is shown rounded, having more digits than are shown."""
+        if not self.digits or not (self.decimal or node.decimal):
+            return False
+        text = decimal_text(node.p, node.q)
+        return text is None or len(text.replace(".", "").lstrip("-0")) > self.digits
 
     def base(self, node: Letter) -> str:
         """The base that a letter of the textbook is set with."""

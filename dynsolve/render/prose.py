@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import lru_cache
 
 from dynsolve.notation.characters import GREEK, SUBSCRIPT_DIGITS, SUPERSCRIPT_DIGITS
@@ -41,6 +42,9 @@ _COUNT = rf"(?P<counted>\b(?:{_COUNTED}) )(?P<count>[ijkn])(?P<less>-1)?(?!\w)"
 """What is counted by a letter: frame i-1."""
 
 _AMONG_WORDS = re.compile(rf"{_COUNT}|(?<![^\W_]){_FORMULA.pattern}(?![^\W_])")
+
+_AFTER_UNIT = re.compile(r"(?:\b(?:kg|N|J|rad|m)[ ·]|/)$")
+"""What stands before m² or s² where that is a unit: kg m², m/s²."""
 
 _APOSTROPHE = re.compile(r"(?<=[^\W\d_])'(?=s\b)|(?<=[a-z]s)'(?= [a-z])")
 
@@ -93,10 +97,19 @@ def with_formulas(text: str) -> Iterator[str | Node]:
             continue
         if place < found.start():
             yield text[place : found.start()]
-        yield _formula(*found.group("base", "dots", "sub", "sup"))
+        yield _unit_or_formula(found)
         place = found.end()
     if place < len(text):
         yield text[place:]
+
+
+def _unit_or_formula(found: re.Match[str]) -> Node:
+    """A letter with what is raised or lowered beside it; of a unit upright."""
+    formula = _formula(*found.group("base", "dots", "sub", "sup"))
+    is_raised = found["base"] in "ms" and found["sup"] and not (found["dots"] or found["sub"])
+    if is_raised and _AFTER_UNIT.search(found.string[: found.start()]):
+        return replace(formula, style="upright")
+    return formula
 
 
 class ProseWriter:
@@ -130,7 +143,7 @@ def _parts(text: str) -> tuple[str | Node, ...]:
 
 
 @lru_cache(maxsize=2048)
-def _formula(base: str, dots: str, sub: str, sup: str) -> Node:
+def _formula(base: str, dots: str, sub: str, sup: str) -> Letter:
     if base in _SCRIPTS:
         letter, style = _SCRIPTS[base]
     elif base in _BOLD_LETTERS:

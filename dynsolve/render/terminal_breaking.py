@@ -61,8 +61,8 @@ def _breaks(text: str, start: int, room: int) -> Iterator[tuple[int, int, int]]:
         elif character == ")":
             depth -= 1
         elif character == " " and i > start:
-            sign = text[i + 1 : i + 3] in ("+ ", "- ", "= ")
-            if sign or text[i - 1] not in "+-=":
+            sign = text[i + 1 : i + 3] in ("+ ", "- ", "= ", "≈ ")
+            if sign or text[i - 1] not in "+-=≈":
                 yield (depth if sign else depth + _NEVER), i, cells
                 met_one = True
         cells += width(character)

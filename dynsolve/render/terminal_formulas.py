@@ -90,7 +90,7 @@ def _members(groups: Sequence[Group]) -> Iterator[list[Group]]:
     """The members of a chain of equations."""
     member: list[Group] = []
     for lead, piece in groups:
-        if "=" in lead and member:
+        if ("=" in lead or "≈" in lead) and member:
             yield member
             member = []
         member.append((lead, piece))

@@ -16,6 +16,7 @@
                     the stability of equilibria as JSON has it
     table_export    the Denavit-Hartenberg table as JSON has it
     documents       a solution as a document: stages, steps, numbers
+    measured_steps  ≈ before what is rounded, and units, in a model in numbers
     remarks         what the problem's author says of results, as notes
     earlier_results which of the equations before it a step uses
     said_once       what holds for several bodies alike, said of the first

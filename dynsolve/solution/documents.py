@@ -41,6 +41,7 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.render.page_ends import leads_on
 from dynsolve.solution.dynamics import Dynamics
 from dynsolve.solution.earlier_results import EarlierResults, labelled_results
+from dynsolve.solution.measured_steps import measured_steps
 from dynsolve.solution.said_once import SaidOnce
 from dynsolve.solution.summary import summary_blocks
 
@@ -67,7 +68,7 @@ def solution_document(
     """
     stages = None if stages is None else tuple(stages)
     short = solution.abbreviated(abbreviate)
-    steps = tuple(solution.explain(stages, short))
+    steps = tuple(measured_steps(solution.explain(stages, short), solution.robot, solution.style))
     derivation = (
         *_stages(solution, detail, steps, short, drawn),
         *_numbers(solution, detail, stages),

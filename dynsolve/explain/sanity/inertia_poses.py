@@ -14,7 +14,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.pose import Pose, at, turning_in, written
 from dynsolve.explain.sanity.sign import is_nonnegative, with_lengths
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import listed, side_by_side, spong
+from dynsolve.explain.writing import listed, measured, side_by_side, spong
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import equation
 from dynsolve.quantities import letters
@@ -89,7 +89,7 @@ def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
     if max(map(cost, forms)) > LONGEST:
         return
     for form, (_, pose) in zip(forms, found, strict=True):
-        entry = equation(letters.entry("d", q.index, q.index), form)
+        entry = equation(letters.entry("d", q.index, q.index), measured(form, "kg m²"))
         yield side_by_side(written(pose)), _shape(context, pose), entry
 
 

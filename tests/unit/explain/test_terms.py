@@ -13,6 +13,7 @@ from dynsolve.explain.terms import terms_of, value_of_term
 from dynsolve.notation.tree import equation
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
+from dynsolve.solution.measured_steps import measured_steps
 from dynsolve.solution.summary import TITLE
 from tests.robots import robots
 from tests.support import STEMS, solved
@@ -78,8 +79,12 @@ def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> Non
         [equation(one.name, one.meaning) for one in short.sums] if short and short.at_symbols else []
     )
     shown = [node for node in displayed(blocks[last:]) if node not in definitions]
-    by_id = {step.id: step for step in solved(problem).explain(short=short)}
-    forces = [by_id[f"tau{q.index}"].result[0] for q in solved(problem).robot.coordinates]
+    solution = solved(problem)
+    steps = measured_steps(solution.explain(short=short), solution.robot, solution.style)
+    by_id = {step.id: step for step in steps}
+    forces = [by_id[f"tau{q.index}"].result[0] for q in solution.robot.coordinates]
+    for line in by_id["model"].lines:
+        forces = list(line.formulas)
     matrices = by_id["model"].result or tuple(by_id[name].result[0] for name in "DCg")
     wanted = [*matrices, *forces] if solved(problem).robot.n <= 3 else []
     assert shown == [by_id["model"].formula, *wanted]

@@ -184,13 +184,14 @@ def test_the_star_is_shown_where_it_is_asked_for():
 
 @pytest.mark.parametrize(
     ("text", "shown"),
-    [("15.696", "15.696"), ("0.078125", "0.078125"), ("1/3", "0.3333"), ("0.1234567", "0.1235"),
-     ("0.99996001", "1.000"), ("123456789/1000", "123457")],
+    [("15.696", "15.696"), ("0.078125", "0.078125"), ("1/3", "0.333333"), ("0.1234567", "0.123457"),
+     ("0.9999996001", "1.00000"), ("123456789/1000", "123457")],
 )  # fmt: skip
 def test_decimals_that_end_soon_are_not_rounded(text: str, shown: str) -> None:
-    value = Fraction(text)
-    style = Style(decimal=True, digits=4, exact=6)
-    assert to_unicode(Number(value.numerator, value.denominator), style) == shown
+    value, style = Fraction(text), Style(decimal=True, digits=6)
+    number = Number(value.numerator, value.denominator)
+    assert to_unicode(number, style) == shown
+    assert style.rounds(number) == (Fraction(shown) != value)
 
 
 def test_decimals_where_they_are_asked_for():

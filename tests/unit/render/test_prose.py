@@ -29,6 +29,11 @@ def shown(text: str) -> list[str]:
         ("Joint i moves", ["Joint ", "$i$", " moves"]),
         ("axis zᵢ₋₁", ["axis ", "$z_{i - 1}$"]),
         ("column index, link joint", ["column index, link joint"]),
+        (
+            "inertia in kg m², gravity in m/s²",
+            ["inertia in kg ", r"$\mathrm{m}^{2}$", ", gravity in m/", r"$\mathrm{s}^{2}$"],
+        ),
+        ("with m² and s²", ["with ", "$m^{2}$", " and ", "$s^{2}$"]),
         ("Überarm naïve I a", ["Überarm naïve I a"]),
     ],
 )

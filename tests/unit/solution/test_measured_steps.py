@@ -1,0 +1,73 @@
+"""A model in numbers: what is rounded has ≈ before it, what stands alone has its unit."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+
+import pytest
+
+from dynsolve.explain.step import Step
+from dynsolve.notation.tree import Node, Number, Relation
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.notation.walk import walk
+from dynsolve.solution.measured_steps import measured_steps
+from tests.support import solved
+
+
+def steps() -> dict[str, Step]:
+    solution = solved("numeric-2r")
+    return {step.id: step for step in measured_steps(solution.explain(), solution.robot, solution.style)}
+
+
+def shown(node: Node) -> str:
+    return to_unicode(node, solved("numeric-2r").style)
+
+
+@pytest.mark.parametrize(
+    ("step", "printed"),
+    [
+        ("I_body1", "𝐈₁ ≈ [[0, 0, 0], [0, 0.0520833, 0], [0, 0, 0.0520833]] kg m²"),  # 2.5·0.5²/12
+        ("I_body2", "𝐈₂ = [[0, 0, 0], [0, 0, 0], [0, 0, 0.02]] kg m²"),
+        ("P1", "P₁ = 6.13125 s₁"),  # ends within the six digits
+        ("K1", "K₁ ≈ 0.104167 q̇₁²"),
+        ("D", "𝐃 ≈ [[0.862833 + 0.48 c₂, 0.167 + 0.24 c₂], [0.167 + 0.24 c₂, 0.167]] kg m²"),
+        ("g", "𝐠 = [[15.696 c₁ + 4.7088 c₁₂], [4.7088 c₁₂]] N m"),
+    ],
+)
+def test_results(step: str, printed: str) -> None:
+    assert shown(steps()[step].result[0]) == printed
+
+
+def test_given_numbers_have_their_units() -> None:
+    found = steps()
+    assert shown(found["I_body1"].working[0]) == "m = 2.5 kg, l = 0.5 m"
+    assert "m₁ = 2.5 kg, g = 9.81 m/s²" in map(shown, found["P1"].working)
+
+
+def test_equality_is_never_claimed_for_what_is_rounded() -> None:
+    """= stands between members of which every number is written whole."""
+    style = solved("numeric-2r").style
+    for step in steps().values():
+        for node in (*step.working, *step.result, *(f for line in step.lines for f in line.formulas)):
+            if isinstance(node, Relation):
+                rounded = [
+                    any(isinstance(p, Number) and style.rounds(p) for p in walk(part)) for part in node.parts
+                ]
+                assert [
+                    sign for sign, (a, b) in zip(node.signs, pairwise(rounded), strict=True) if a or b
+                ] == ["≈"] * sum(a or b for a, b in pairwise(rounded))
+
+
+def test_the_digits_that_are_shown_add_up() -> None:
+    """The terms of d_11, as they are printed, come to its printed value, to half its last digit."""
+    (line,) = (f for f in steps()["D_sum"].result if isinstance(f, Relation) and shown(f).startswith("d₁₁"))
+    terms, value = (shown(part).split(" + ") for part in line.parts[-2:])
+    constants = [sum(Fraction(term) for term in part if " " not in term) for part in (terms, value)]
+    assert abs(constants[0] - constants[1]) <= Fraction("0.0000005")
+
+
+def test_a_model_in_symbols_stays_as_it_is() -> None:
+    solution = solved("planar-2r")
+    plain = tuple(solution.explain())
+    assert tuple(measured_steps(plain, solution.robot, solution.style)) == plain
