@@ -11,6 +11,7 @@
 They are made of
 
     pose          a value in which some angles have values
+    determinant   the determinant of two coupled coordinates, line by line
     sign          a formula that is positive for positive masses, moments and lengths
     balance       how g = 0 is solved, row by row
     curvature     what P has there, by the minors of its second derivatives

@@ -9,19 +9,19 @@ and if all of these vanish, the rates vanish one by one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
+from dynsolve.explain.sanity.determinant import MULTIPLIED_OUT, Determinant, determinant_of_two, said_of
 from dynsolve.explain.sanity.sign import is_positive, masses_and_moments
 from dynsolve.explain.step import Step
-from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.build import cost, times
-from dynsolve.notation.tree import Negative, Node, Number, Power, Product, Row, Sum, Words, equation
+from dynsolve.notation.tree import Node, Number, Power, Product, Row, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
@@ -52,8 +52,7 @@ def definite_step(context: Context) -> Step | None:
 def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
     """By the entries of the diagonal, and by minors where coordinates are coupled."""
     firsts: list[int] = []
-    determinants: list[Node] = []
-    used: dict[Identity, None] = {}
+    determinants: list[Determinant] = []
     D = context.values["D"]
     for block in blocks(D):
         first = next((k for k in (block[0], block[-1]) if _own_part(context, k) is not None), None)
@@ -65,7 +64,6 @@ def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
             if minors is None:
                 return None
             determinants += minors
-            used |= dict.fromkeys(_identities(context, block))
     why = _diagonal(context, firsts)
     if not determinants:
         return (*why, " All other entries are zero, so ", letters.D, " is positive definite."), ()
@@ -78,9 +76,8 @@ def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
         letters.D,
         " is positive definite ",
     )
-    why += ("(Sylvester's criterion); multiplied out",)
-    why += (" with ", *said(list(used)), ":") if used else (":",)
-    return why, tuple(determinants)
+    why += ("(Sylvester's criterion); ", *said_of(determinants), ":")
+    return why, tuple(each.line for each in determinants)
 
 
 def _diagonal(context: Context, places: Sequence[int]) -> Prose:
@@ -167,39 +164,21 @@ def _is_positive(context: Context, form: Node) -> bool:
     return is_positive(form, masses_and_moments(context.robot), constant)
 
 
-def _minors(context: Context, block: Sequence[int]) -> list[Node] | None:
+def _minors(context: Context, block: Sequence[int]) -> list[Determinant] | None:
     """The determinants of the first two, three, ... coordinates of a block; None where a sign is not seen."""
     D = context.values["D"]
-    found: list[Node] = []
+    found: list[Determinant] = []
     for size in range(2, len(block) + 1):
         places = sorted(block[:size])
-        form = context.show(determinant([[D[i, j] for j in places] for i in places]))
+        value = determinant([[D[i, j] for j in places] for i in places])
+        form = context.show(value)
         if cost(form) > LONGEST or not _is_positive(context, form):
             return None
-        found.append(equation(_written(places), *_entries_put_in(context, places), form))
+        if size == 2:
+            found.append(determinant_of_two(context, (places[0], places[1]), value))
+        else:
+            found.append(Determinant(equation(Row((Words("det "), letters.D)), form), (MULTIPLIED_OUT,)))
     return found
-
-
-def _entries_put_in(context: Context, places: Sequence[int]) -> Iterator[Node]:
-    """d_aa d_bb - d_ab² with the entries, of two coordinates; nothing of more, or where that is long."""
-    if len(places) != 2:
-        return
-    (a, b), D = places, context.values["D"]
-    product = Product((context.show(D[a, a]), context.show(D[b, b])))
-    before = Sum((product, Negative(Power(context.show(D[a, b]), Number(2)))))
-    if cost(before) <= LONGEST:
-        yield before
-
-
-def _identities(context: Context, block: Sequence[int]) -> tuple[Identity, ...]:
-    """Those by which the determinant of two coupled coordinates becomes what is shown."""
-    if len(block) != 2:
-        return ()
-    (a, b), D = block, context.values["D"]
-    entries = [[D[i, j] for j in (a, b)] for i in (a, b)]
-    product = Product((context.show(D[a, a]), context.show(D[b, b])))
-    before = Sum((product, Negative(Power(context.show(D[a, b]), Number(2)))))
-    return identities(context.robot.ring, before, context.show(determinant(entries))) or ()
 
 
 def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
@@ -211,11 +190,3 @@ def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
         rest = [[*row[:j], *row[j + 1 :]] for row in rows[1:]]
         total = total + entry * determinant(rest) * (-1) ** j
     return total
-
-
-def _written(places: Sequence[int]) -> Node:
-    """d₁₁ d₂₂ - d₁₂², or det D where the block is more than two coordinates."""
-    if len(places) == 2:
-        (a, b), d = (i + 1 for i in places), letters.entry
-        return Sum((Product((d("d", a, a), d("d", b, b))), Negative(Power(d("d", a, b), Number(2)))))
-    return Row((Words("det "), letters.D))

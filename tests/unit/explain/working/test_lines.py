@@ -312,8 +312,3 @@ def test_a_square_of_rates_is_opened_after_it_is_added() -> None:
     _, plain, concluding = lines("planar-2r", "K2")
     assert plain.endswith(" + ½ I₂ (q̇₁ + q̇₂)²")
     assert concluding == "The square multiplied out, and collected:"
-
-
-def test_the_identity_of_a_determinant_is_named() -> None:
-    (found,) = (each for each in solved("planar-2r").steps if each.id == "definite")
-    assert said(found.why, "planar-2r").endswith("; multiplied out with s₂² + c₂² = 1:")

@@ -1,0 +1,150 @@
+"""The determinant of two coupled coordinates, from its formula to the value: d_aa d_bb - d_ab².
+
+The square of an entry that is a sum is long.  Where it is shorter, the determinant is written with
+differences of entries first: (d_aa - 2 d_ab + d_bb) d_bb - (d_ab - d_bb)² is the same, and what two
+entries share is gone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from dynsolve.algebra.compact.monomials import Monomial
+from dynsolve.algebra.compact.terms import Rational
+from dynsolve.algebra.expr import Expr
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.working.derivatives import are_alike
+from dynsolve.explain.working.identities import Identity, identities, said
+from dynsolve.explain.working.kinetic import without_signs
+from dynsolve.explain.working.proved import equals
+from dynsolve.notation.build import cost, negated, total
+from dynsolve.notation.tree import (
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Power,
+    Product,
+    Sum,
+    equation,
+)
+from dynsolve.quantities import letters
+
+MOST_TERMS = 16
+"""Up to this number of terms a determinant is multiplied out."""
+
+LONGEST = 60
+"""The operations of the entries up to which they are put in."""
+
+
+OPERATIONS = ("written with differences of entries", "the entries put in", "multiplied out", "collected")
+"""What may be done to a determinant, in this order."""
+
+_BY_DIFFERENCES, _PUT_IN, MULTIPLIED_OUT, _COLLECTED = OPERATIONS
+
+
+@dataclass(frozen=True, slots=True)
+class Determinant:
+    """The determinant of two coordinates: its lines, each by an operation, and the identities of the last."""
+
+    line: Node
+    operations: tuple[str, ...] = ()
+    used: tuple[Identity, ...] = ()
+
+
+def said_of(determinants: Sequence[Determinant]) -> Prose:
+    """The entries put in, multiplied out, and collected with s₃² + c₃² = 1: what leads from line to line."""
+    done = {operation for each in determinants for operation in each.operations}
+    *first, last = [operation for operation in OPERATIONS if operation in done]
+    used = list(dict.fromkeys(identity for each in determinants for identity in each.used))
+    words = f"{', '.join(first)}, and {last}" if first else last
+    return (f"{words} with ", *said(used)) if used else (words,)
+
+
+@dataclass(frozen=True, slots=True)
+class _Written:
+    """p q - r²: in letters, and with the entries put in."""
+
+    in_letters: Node
+    values: tuple[Expr, Expr, Expr]
+
+    def put_in(self, context: Context) -> Node:
+        p, q, r = map(context.show, self.values)
+        if self.values[2].is_zero:
+            return Product((p, q))
+        return Sum((Product((p, q)), Negative(Power(without_signs(r), Number(2)))))
+
+
+def determinant_of_two(context: Context, places: tuple[int, int], value: Expr) -> Determinant:
+    """The lines from d_aa d_bb - d_ab² to its value."""
+    a, b = places
+    plain, *others = _ways(context, a, b)
+    form = context.show(value)
+    best = min((plain, *others), key=lambda way: cost(way.put_in(context)))
+    before = best.put_in(context)
+    members, operations = [plain.in_letters], list[str]()
+    if best is not plain:
+        members.append(best.in_letters)
+        operations.append(_BY_DIFFERENCES)
+    if cost(before) > LONGEST or not equals(before, value):
+        return Determinant(equation(*members, form), (*operations, MULTIPLIED_OUT))
+    operations.append(_PUT_IN)
+    if are_alike(before, form):
+        return Determinant(equation(*members, form), tuple(operations))
+    lines, last = [before], MULTIPLIED_OUT
+    expanded, count = _multiplied_out(context, before)
+    if count <= MOST_TERMS and not are_alike(expanded, form) and equals(expanded, value):
+        lines.append(expanded)
+        operations.append(MULTIPLIED_OUT)
+        last = _COLLECTED
+    used = identities(context.robot.ring, lines[-1], form) or ()
+    return Determinant(equation(*members, *lines, form), (*operations, last), used)
+
+
+def _ways(context: Context, a: int, b: int) -> Iterator[_Written]:
+    """d_aa d_bb - d_ab², and the same by the differences of entries, from either end."""
+    D = context.values["D"]
+    d_ab = letters.entry("d", a + 1, b + 1)
+
+    def square(node: Node) -> Node:
+        return Negative(Power(node, Number(2)))
+
+    d_aa, d_bb = (letters.entry("d", k + 1, k + 1) for k in (a, b))
+    yield _Written(Sum((Product((d_aa, d_bb)), square(d_ab))), (D[a, a], D[b, b], D[a, b]))
+    whole = Parenthesized(Sum((d_aa, Negative(Product((Number(2), d_ab))), d_bb)))
+    for k, kept in ((b, d_bb), (a, d_aa)):
+        difference = Parenthesized(Sum((d_ab, Negative(kept))))
+        written = Sum((Product((whole, kept)), square(difference)))
+        yield _Written(written, (D[a, a] - D[a, b] * 2 + D[b, b], D[k, k], D[a, b] - D[k, k]))
+
+
+def _multiplied_out(context: Context, node: Node) -> tuple[Node, int]:
+    """The sum of all products of terms, and of how many terms it is."""
+    collector = context.forms.compactor.collector
+    found: dict[Monomial, Rational] = {}
+    for term in _terms(node):
+        factor, monomial = collector.decompose(term)
+        found[monomial] = found.get(monomial, 0) + factor
+    left = [collector.product(factor, monomial, ()) for monomial, factor in found.items() if factor]
+    return total(left), len(left)
+
+
+def _terms(node: Node) -> Iterator[Node]:
+    """The terms of a tree, products and squares of sums as all products of their terms."""
+    match node:
+        case Sum(terms):
+            for term in terms:
+                yield from _terms(term)
+        case Negative(argument):
+            yield from map(negated, _terms(argument))
+        case Parenthesized(argument):
+            yield from _terms(argument)
+        case Power(Sum() | Product() as base, Number(2, 1)):
+            yield from _terms(Product((base, base)))
+        case Product(factors):
+            yield from map(Product, product(*(tuple(_terms(factor)) for factor in factors)))
+        case _:
+            yield node
