@@ -9,6 +9,7 @@ from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
+from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import is_small, listed, spong
 from dynsolve.notation.tree import (
     BigSum,
@@ -100,6 +101,21 @@ def _exchanged() -> Prose:
     )
 
 
+def _nothing_to_check(name: Node) -> Step:
+    """N of a constant D, of which no Christoffel symbol is left."""
+    zero = letters.bold("0")
+    return Step(
+        id="skew",
+        stage=STAGE,
+        title="Check: a matrix that must be skew-symmetric",
+        why=(letters.D, " is constant, and ", equation(letters.C, zero), ": nothing is left to be checked."),
+        formula=equation(name, SKEW),
+        source=spong("7.5.1"),
+        result=(equation(name, zero),),
+        is_task=False,
+    )
+
+
 def skew_step(context: Context) -> Step:
     """N = Ḋ - 2C, and N + Nᵀ = 0."""
     robot = context.robot
@@ -111,7 +127,12 @@ def skew_step(context: Context) -> Step:
         N: algebra.Matrix = D.map(ring.time_derivative) - C.scale(ring.constant(2))
         result = (equation(letters.bold("N"), context.show(N)),)
     name = letters.bold("N")
+    if C.is_zero:
+        return _nothing_to_check(name)
     general = () if result or robot.n == 1 else (_in_general(),)
+    passive = (
+        " Passivity follows from this." if robot.n > MOST_JOINTS else ""
+    )  # of short arms the energy does
     return Step(
         id="skew",
         stage=STAGE,
@@ -125,7 +146,7 @@ def skew_step(context: Context) -> Step:
             *_by_entries(robot.n),
             ", so that ",
             equation(letters.transposed_product(letters.QD, name), Number(0)),
-            " for all rates. Passivity follows from this.",
+            f" for all rates.{passive}",
         ),
         formula=equation(name, SKEW),
         lines=rate or general,

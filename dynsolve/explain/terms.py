@@ -12,7 +12,7 @@ By the rates, so that it is true of every robot (Spong, Hutchinson, Vidyasagar, 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -53,13 +53,13 @@ _MEANINGS: dict[Kind, str] = {
     Kind.INERTIAL: "A term with the acceleration of its own coordinate is inertial: what it takes to "
     "accelerate that coordinate alone.",
     Kind.COUPLING: "With the acceleration of another coordinate it is coupling inertia: what that "
-    "acceleration asks of this {joint}.",
+    "acceleration takes at this {joint}.",
     Kind.CENTRIFUGAL: "With the square of a rate it is centrifugal: it remains where that coordinate alone "
     "moves, at a constant rate.",
     Kind.CORIOLIS: "With the product of two rates it is a Coriolis term: it needs both coordinates to move.",
     Kind.FRICTION: "What takes energy away is friction: its sign is that of the rates.",
     Kind.GRAVITY: "Without rates and accelerations it is gravity: what {holds} must hold at rest.",
-    Kind.SPRING: "What {holds} must hold at rest against a spring has neither rates nor accelerations.",
+    Kind.SPRING: "Without rates and accelerations it is a spring: what {holds} must hold at rest.",
     Kind.HELD: "Without rates and accelerations it is what {holds} must hold at rest, against gravity and "
     "springs.",
 }
@@ -135,7 +135,7 @@ def terms_step(context: Context) -> Iterator[Step]:
     words = {"joint": "joint", "holds": "the joint"}
     if not context.robot.has_table:
         words = {"joint": "coordinate", "holds": "the force of the coordinate"}
-    why = [_MEANINGS[kind].format(**words) for kind in Kind if kind in kinds]
+    why = [_MEANINGS[kind].format(**words) for kind in Kind if kind in _told(kinds)]
     checked = _said_of_units(robot.coordinates) if units_known else ()
     header = ("force", "term", "what it is", *(("unit",) if units_known else ()))
     rows = [row for q, terms in found for row in _rows(context, q, terms, known if units_known else None)]
@@ -148,6 +148,13 @@ def terms_step(context: Context) -> Iterator[Step]:
         table=Table(header, tuple(rows)),
         is_task=False,
     )
+
+
+def _told(kinds: Iterable[Kind]) -> frozenset[Kind]:
+    """The kinds whose meaning is told: of gravity and springs, where there are both, once."""
+    held = frozenset({Kind.GRAVITY, Kind.SPRING, Kind.HELD})
+    several = len(held.intersection(kinds)) > 1
+    return frozenset(kinds) - held | {Kind.HELD} if several else frozenset(kinds)
 
 
 def _twice() -> Prose:

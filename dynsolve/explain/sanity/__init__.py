@@ -1,6 +1,6 @@
 """Checks that a person can do on a finished model, each found by the program and proved before it is said.
 
-    cyclic        a coordinate that does not appear in L: its momentum is conserved
+    conserved     how the energy changes, and the momentum of a coordinate that does not appear in L
     definite      D is positive definite, by its diagonal and its determinants or body by body
     inertia_poses the moments of inertia on the diagonal of D, the arm stretched and folded
     equilibrium   the poses in which g is zero, hanging and upright among them
@@ -29,7 +29,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity.cyclic import cyclic_step
+from dynsolve.explain.sanity.conserved import conserved_step, momenta_step
 from dynsolve.explain.sanity.definite import definite_step
 from dynsolve.explain.sanity.dependence import dependence_step
 from dynsolve.explain.sanity.equilibrium import equilibrium_step
@@ -49,10 +49,8 @@ class Check:
     step: Callable[[Context], Step | None]
 
 
-CYCLIC = Check("cyclic", "a coordinate stands neither in K nor in P", cyclic_step)
-
 CHECKS = (
-    CYCLIC,
+    Check("conserved", "the model follows from energies, or a coordinate is cyclic", conserved_step),
     Check("definite", "D is seen to be definite for positive masses", definite_step),
     Check("inertia_poses", "a moment of inertia varies with one or two joint angles", inertia_poses_step),
     Check("equilibrium", "gravity is balanced everywhere, or in some poses", equilibrium_step),
@@ -61,7 +59,7 @@ CHECKS = (
 """All checks of short arms, in the order in which they are shown."""
 
 CHECKS_OF_LONGER_ARMS = (
-    CYCLIC,
+    Check("conserved", "a coordinate stands neither in K nor in P", momenta_step),
     Check("dependence", "each coordinate moves its own joint, in a chain", dependence_step),
     Check("unloaded", "an axis is vertical, or a joint slides level", unloaded_step),
 )

@@ -18,15 +18,29 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.sanity.determinant import MULTIPLIED_OUT, Determinant, determinant_of_two, said_of
 from dynsolve.explain.sanity.sign import is_positive, masses_and_moments
-from dynsolve.explain.step import Step
+from dynsolve.explain.step import Line, Step
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.build import cost, times
-from dynsolve.notation.tree import Node, Number, Power, Product, Row, Words, equation
+from dynsolve.notation.tree import (
+    ZERO,
+    Letter,
+    Node,
+    Number,
+    Product,
+    Row,
+    Symbol,
+    Words,
+    equation,
+)
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 
 LONGEST = 60
 """The operations of a determinant up to which it is of use to a reader."""
+
+
+_Shown = tuple[Prose, tuple[Node, ...], Prose]
+"""Why D is definite, the formulas that show it, and the words after them."""
 
 
 def definite_step(context: Context) -> Step | None:
@@ -36,7 +50,7 @@ def definite_step(context: Context) -> Step | None:
     found = _by_entries(context) or _by_bodies(context)
     if found is None:
         return None
-    why, result = found
+    why, shown, concluding = found
     assumed: Prose = ("Let all parameters be positive. ",) if context.robot.parameters else ()
     return Step(
         id="definite",
@@ -44,12 +58,14 @@ def definite_step(context: Context) -> Step | None:
         title="Check: the inertia matrix is positive definite",
         why=(*assumed, *why),
         source=spong("7.5.1"),
-        result=result,
+        lines=(Line((), shown),) if concluding else (),
+        concluding=concluding,
+        result=() if concluding else shown,
         is_task=False,
     )
 
 
-def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
+def _by_entries(context: Context) -> _Shown | None:
     """By the entries of the diagonal, and by minors where coordinates are coupled."""
     firsts: list[int] = []
     determinants: list[Determinant] = []
@@ -66,7 +82,7 @@ def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
             determinants += minors
     why = _diagonal(context, firsts)
     if not determinants:
-        return (*why, " All other entries are zero, so ", letters.D, " is positive definite."), ()
+        return (*why, " All other entries are zero, so ", letters.D, " is positive definite."), (), ()
     if len(firsts) > 1:
         why += (" Coordinates that are not coupled have no entry in common, so each block counts by itself.",)
     why += (f" The determinant{'s' * (len(determinants) > 1)} below ",)
@@ -77,7 +93,7 @@ def _by_entries(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
         " is positive definite ",
     )
     why += ("(Sylvester's criterion); ", *said_of(determinants), ":")
-    return why, tuple(each.line for each in determinants)
+    return why, tuple(each.line for each in determinants), ()
 
 
 def _diagonal(context: Context, places: Sequence[int]) -> Prose:
@@ -90,13 +106,16 @@ def _diagonal(context: Context, places: Sequence[int]) -> Prose:
             *listed(names),
             f" {'is' if one else 'are'} positive: {seen if one else seen.replace('it', 'them', 1)}.",
         )
-    twice = equation(letters.transposed_product(letters.QD, letters.D), Product((Number(2), letters.K)))
-    why: Prose = (
-        "Since ",
-        twice,
-        f", no body takes anything away from the diagonal, and {'' if one else 'each of '}",
+    i = Symbol("i")
+    rate, entry = Letter("q", i, dots=1), Letter("d", Row((i, i)))
+    why: Prose = ("Where ", equation(rate, Number(1)), " and the other rates are 0, ")
+    why += (
+        equation(entry, Product((Number(2), letters.K))),
+        ", so no body takes anything away from ",
+        entry,
+        ". ",
     )
-    why += (*listed(names), " is positive: ")
+    why += (*listed(names), f" {'is' if one else 'are'} positive: ")
     return (*why, *listed(tuple(_adding(context, k) for k in places)), ".")
 
 
@@ -108,7 +127,7 @@ def _adding(context: Context, k: int) -> Prose:
     return (who, " ", form, " to ", letters.entry("d", k + 1, k + 1))
 
 
-def _by_bodies(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
+def _by_bodies(context: Context) -> _Shown | None:
     """Body by body: its energy vanishes only where one rate more does."""
     robot, resting, lines = context.robot, set[int](), list[Node]()
     for body in sorted(robot.bodies, key=lambda body: body.link):
@@ -120,22 +139,29 @@ def _by_bodies(context: Context) -> tuple[Prose, tuple[Node, ...]] | None:
         factor = context.show(D[k, k])
         if _is_positive(context, factor):
             energy = Product((Number(2), letters.of_body("K", body)))
-            square = Power(letters.velocity(robot.coordinates[k]), Number(2))
-            value = times(1, [(factor, 1), (square, 1)], decimal=is_numeric(robot))
-            lines.append(equation(energy, value))
+            rate = letters.velocity(robot.coordinates[k])
+            value = times(1, [(factor, 1), (rate, 2)], decimal=is_numeric(robot))
+            lines.append(Row((equation(energy, value, ZERO), Words(" only where "), equation(rate, ZERO))))
             resting.add(k)
     if len(resting) < robot.n:
         return None
-    twice = equation(letters.transposed_product(letters.QD, letters.D), Product((Number(2), letters.K)))
+    power = letters.transposed_product(letters.QD, letters.D)
     why: Prose = (
-        "Since ",
-        twice,
-        ", the kinetic energy must be 0 at rest only. No body has a negative one, so where ",
-        letters.K,
-        " is 0, that of each body is. Each line below is written with the rates of the lines before it equal "
-        "to 0, so that one rate after the other must be 0:",
+        equation(power, Product((Number(2), letters.K))),
+        " is the sum of what the bodies have, none ",
     )
-    return why, tuple(lines)
+    why += (
+        "of it negative: where it is 0, that of each body is. In each line the rates of the lines before ",
+    )
+    why += ("are 0:",)
+    concluding: Prose = (
+        "So ",
+        equation(power, ZERO),
+        " at rest alone: ",
+        letters.D,
+        " is positive definite.",
+    )
+    return why, tuple(lines), concluding
 
 
 def blocks(D: Matrix) -> list[list[int]]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from itertools import chain
+from math import isqrt
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix, cross
@@ -14,12 +16,12 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.pose import Pose, at, turning_in, written
 from dynsolve.explain.sanity.sign import is_nonnegative, with_lengths
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import listed, measured, side_by_side, spong
+from dynsolve.explain.writing import listed, measured, side_by_side, spong, sum_of
 from dynsolve.notation.build import cost
-from dynsolve.notation.tree import equation
+from dynsolve.notation.tree import Node, Number, Power, Product, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Coordinate, Joint, JointType
+from dynsolve.robot.model import Body, Coordinate, Joint, JointType
 
 LONGEST = 40
 """The operations up to which a moment of inertia is of use to a reader."""
@@ -88,9 +90,33 @@ def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
     forms = [context.show(there) for there, _ in found]
     if max(map(cost, forms)) > LONGEST:
         return
-    for form, (_, pose) in zip(forms, found, strict=True):
-        entry = equation(letters.entry("d", q.index, q.index), measured(form, "kg m²"))
+    for form, (there, pose) in zip(forms, found, strict=True):
+        is_all_numbers = there.is_number and not context.robot.parameters
+        summed = (_summed(context, q, pose),) if is_all_numbers else ()
+        entry = equation(letters.entry("d", q.index, q.index), *summed, measured(form, "kg m²"))
         yield side_by_side(written(pose)), _shape(context, pose), entry
+
+
+def _summed(context: Context, q: Coordinate, pose: Pose) -> Node:
+    """An entry in numbers as what is added to it: masses times squared distances, moments of inertia."""
+    values, k = context.values, q.index - 1
+    terms: list[Node] = []
+    for body in context.robot.bodies:
+        linear, angular = (at(context.robot.ring, values[f"D{part}{body.name}"][k, k], pose) for part in "vw")
+        if not linear.is_zero:
+            terms.append(_mass_at_a_distance(context, body, linear))
+        terms += [] if angular.is_zero else [context.show(angular)]
+    rotors = at(context.robot.ring, values["Dm"][k, k], pose) if context.robot.actions.motors else None
+    return sum_of([*terms, *([] if rotors is None or rotors.is_zero else [context.show(rotors)])])
+
+
+def _mass_at_a_distance(context: Context, body: Body, moment: Expr) -> Node:
+    """1.2·0.65², or 1.2·0.2725 where the distance has no exact decimals."""
+    squared = moment.number / body.mass.number
+    root = Fraction(isqrt(squared.numerator), isqrt(squared.denominator))
+    distance = context.show(moment.ring.constant(root))
+    factor = Power(distance, Number(2)) if root**2 == squared else context.show(moment.ring.constant(squared))
+    return Product((context.show(body.mass), factor))
 
 
 def _simple(names: Sequence[str]) -> Iterator[Pose]:

@@ -11,6 +11,7 @@ from dynsolve.notation.tree import (
     BigSum,
     Letter,
     Negative,
+    Node,
     Number,
     Product,
     Sum,
@@ -24,8 +25,13 @@ from dynsolve.robot.model import JointType
 
 
 def point_masses_step(context: Context) -> Step | None:
-    """Σ m J_vᵀ J_v: D without the tensors; None where that is D itself, or nothing; and D - Σ m J_vᵀ J_v."""
+    """Σ m J_vᵀ J_v: D without the tensors, and D - Σ m J_vᵀ J_v; None where one of them is nothing.
+
+    None of numbers either: what is left over cannot be seen in them.
+    """
     values, robot = context.values, context.robot
+    if not robot.parameters:
+        return None
     parts = [values[f"Dv{body.name}"] for body in robot.bodies]
     points = sum(parts, start=Matrix.zero(robot.ring, robot.n, robot.n))
     if points.is_zero or points == values["D"]:
@@ -36,6 +42,7 @@ def point_masses_step(context: Context) -> Step | None:
     i = Symbol("i")
     jv = letters.bold("J", Letter("v", i))
     general = BigSum(Product((Letter("m", i), Transpose(jv), jv)), i, Number(1), Number(len(robot.bodies)))
+    bodies: tuple[Node, ...] = (general,) if len(robot.bodies) > 1 else ()
     return Step(
         id="point_masses",
         stage=Stage.VECTORIZED,
@@ -43,7 +50,7 @@ def point_masses_step(context: Context) -> Step | None:
         why=_why(context),
         source=spong("7.2"),
         result=(
-            equation(letters.D_POINTS, general, shown),
+            equation(letters.D_POINTS, *bodies, shown),
             equation(Sum((letters.D, Negative(letters.D_POINTS))), rest),
         ),
         is_task=False,

@@ -1,0 +1,188 @@
+"""What is conserved: the energy, and the momenta of cyclic coordinates (Goldstein 2.6)."""
+
+from __future__ import annotations
+
+from dynsolve.derivation.jacobian import joint_frame
+from dynsolve.document import Prose, Reference
+from dynsolve.explain.closing import driving_row, driving_side, has_friction
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Line, Step
+from dynsolve.explain.writing import listed, spong, sum_of, turns
+from dynsolve.notation.build import cost
+from dynsolve.notation.tree import (
+    Negative,
+    Node,
+    Number,
+    Parenthesized,
+    Product,
+    Sum,
+    Symbol,
+    Transpose,
+    equation,
+)
+from dynsolve.quantities import letters
+from dynsolve.quantities.stages import Stage
+from dynsolve.robot.model import Coordinate
+from dynsolve.robot.questions import Method
+
+LONGEST = 30
+"""The operations up to which a momentum is written again."""
+
+
+def conserved_step(context: Context) -> Step | None:
+    """How the energy changes, and which momenta stay as they are."""
+    return _step(context, _of_energy(context))
+
+
+def momenta_step(context: Context) -> Step | None:
+    """The momenta that stay as they are."""
+    return _step(context, None)
+
+
+def _step(context: Context, energy: Line | None) -> Step | None:
+    free = _cyclic(context)
+    if energy is None and not free:
+        return None
+    by: Prose = energy.by if energy else ()
+    of_momenta = _of_momenta(context, free) if free else ()
+    momenta = (equation(_momentum(q), _written(context, q)) for q in free)
+    return Step(
+        id="conserved",
+        stage=Stage.VECTORIZED,
+        title="Check: what is conserved",
+        why=by or of_momenta,
+        source=spong("7.1"),
+        lines=(Line((), energy.formulas),) if energy else (),
+        concluding=(*_of_power(context), *of_momenta) if energy else (),
+        result=tuple(momenta),
+        is_task=False,
+    )
+
+
+# -- the energy ------------------------------------------------------------------------------------
+
+
+def _of_energy(context: Context) -> Line | None:
+    """d/dt (K + P) = q̇ᵀ (D q̈ + ½ Ḋ q̇ + g) = q̇ᵀ (τ + ½ N q̇) = q̇ᵀ τ; None where D and g are given otherwise."""
+    asked = context.robot.questions
+    if context.robot.given is not None or asked.method is not Method.LAGRANGE or asked.constraints:
+        return None
+    half, N = letters.HALF, letters.bold("N")
+    powers = [
+        Sum(
+            (
+                Product((letters.D, letters.QDD)),
+                Product((half, letters.bold("D", dots=1), letters.QD)),
+                letters.G,
+            )
+        ),
+        sum_of([*_acting(context), Product((half, N, letters.QD))]),
+        sum_of(_acting(context)),
+    ]
+    rate = letters.time_derivative(Sum((letters.K, letters.P)))
+    kinetic = equation(letters.K, Product((half, letters.transposed_product(letters.QD, letters.D))))
+    slope = equation(letters.G, letters.partial_derivative(letters.P, letters.Q))
+    by: Prose = (
+        "The energy: the product rule with ",
+        kinetic,
+        " and ",
+        slope,
+        ", the equations of motion, and ",
+    )
+    by += (
+        equation(letters.transposed_product(letters.QD, N), Number(0)),
+        Reference(("skew-2",), " by "),
+        ":",
+    )
+    return Line(by, (equation(rate, *map(_power, powers)),))
+
+
+def _acting(context: Context) -> list[Node]:
+    """τ, the forces from outside and friction, as they stand beside D q̈ + C q̇ + g."""
+    driving = driving_side(context)
+    terms: list[Node] = [*(driving.terms if isinstance(driving, Sum) else (driving,))]
+    return [*terms, Negative(letters.FRICTION)] if has_friction(context) else terms
+
+
+def _power(force: Node) -> Product:
+    """q̇ᵀ times a force"""
+    return Product((Transpose(letters.QD), Parenthesized(force) if isinstance(force, Sum) else force))
+
+
+def _of_power(context: Context) -> Prose:
+    """What changes the energy."""
+    driving = driving_side(context)
+    said: Prose = ("It changes by the power of ", driving)
+    if has_friction(context):
+        return (*said, " and of friction, which takes energy away. ")
+    zero = equation(driving, letters.bold("0"))
+    return (*said, " alone: as long as ", zero, " it is conserved. ")
+
+
+# -- momenta ---------------------------------------------------------------------------------------
+
+
+def _cyclic(context: Context) -> list[Coordinate]:
+    """The coordinates that stand neither in L nor in friction, on which no friction acts."""
+    values = context.values
+    return [
+        q
+        for q in context.robot.coordinates
+        if values[f"dLdq{q.index}"].is_zero
+        and ("friction" not in values.rules or values["friction"][q.index - 1, 0].is_zero)
+    ]
+
+
+def _momentum(q: Coordinate) -> Node:
+    return letters.partial_derivative(letters.L, letters.velocity(q))
+
+
+def _of_momenta(context: Context, free: list[Coordinate]) -> Prose:
+    """Which momenta stay constant as long as nothing acts on them, and what these are."""
+    one = len(free) == 1
+    why: Prose = (*listed([Symbol(q.name) for q in free]), f" {'does' if one else 'do'} not appear in ")
+    why += (letters.L, f": {'a cyclic coordinate' if one else 'cyclic coordinates'}. As long as ")
+    why += (
+        *listed([equation(driving_row(context, q), Number(0)) for q in free]),
+        ", the Euler-Lagrange equation",
+    )
+    why += (" says" if one else "s say", f" that the {'momentum' if one else 'momenta'} ")
+    why += (*listed([(_momentum(q), *_named(context, q)) for q in free]), " is" if one else " are")
+    return (*why, " conserved.")
+
+
+def _named(context: Context, q: Coordinate) -> Prose:
+    """What the momentum is of a coordinate that moves one joint, or shifts all bodies alike."""
+    robot = context.robot
+    if robot.actions.motors:
+        return ()
+    if not robot.has_table:
+        return (", the total linear momentum,",) if _shifts_all(context, q) else ()
+    moved = robot.joints_of(q)
+    if len(moved) != 1 or moved[0][1] != 1:
+        return ()
+    joint = moved[0][0]
+    kind, where = ("angular", "about") if turns(q) else ("linear", "along")
+    is_first = not robot.is_tree and all(body.link >= joint.index for body in robot.bodies)
+    whose = f"the {context.machine}" if is_first else f"all that joint {joint.index} moves"
+    return (f", the {kind} momentum {where} ", letters.z(joint_frame(robot, joint)), f" of {whose},")
+
+
+def _shifts_all(context: Context, q: Coordinate) -> bool:
+    """Whether a coordinate moves every body along the same fixed direction, and turns none."""
+    ring, values, k = context.robot.ring, context.values, q.index - 1
+    names = [body.name for body in context.robot.bodies]
+    shifts = {tuple(row[k] for row in values[f"Jv{name}"].rows) for name in names}
+    turned = [row[k] for name in names if f"Jw{name}" in values.rules for row in values[f"Jw{name}"].rows]
+    fixed = not any(ring.depends_on_coordinates(entry) for shift in shifts for entry in shift)
+    return len(shifts) == 1 and fixed and all(entry.is_zero for entry in turned)
+
+
+def _written(context: Context, q: Coordinate) -> Node:
+    """A momentum: its formula, or the entries of D times the rates where that is long."""
+    form = context.form(f"dLdqd{q.index}")
+    if cost(form) <= LONGEST:
+        return form
+    row, k = context.values["D"].rows[q.index - 1], q.index
+    coupled = [other for other in context.robot.coordinates if not row[other.index - 1].is_zero]
+    return sum_of([Product((letters.entry("d", k, j.index), letters.velocity(j))) for j in coupled])
