@@ -186,7 +186,6 @@ def test_the_momentum_of_a_sliding_joint_is_linear() -> None:
     free = check(CART.replace("[0, 0, -g]", "none"), "conserved")
     assert free is not None
     assert "the linear momentum along z₀ of the arm" in words(free.concluding)
-    assert [to_unicode(node) for node in free.result] == ["∂ℒ/∂ṗ₁ = (m₁ + m₂) ṗ₁ + m₂ l cos(q₂) q̇₂"]
 
 
 def test_the_determinant_of_the_planar_arm() -> None:
