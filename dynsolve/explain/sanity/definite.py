@@ -141,7 +141,9 @@ def _by_bodies(context: Context) -> _Shown | None:
             energy = Product((Number(2), letters.of_body("K", body)))
             rate = letters.velocity(robot.coordinates[k])
             value = times(1, [(factor, 1), (rate, 2)], decimal=is_numeric(robot))
-            lines.append(Row((equation(energy, value, ZERO), Words(" only where "), equation(rate, ZERO))))
+            lines.append(
+                Row((equation(energy, value), Words(", which is 0 only where "), equation(rate, ZERO)))
+            )
             resting.add(k)
     if len(resting) < robot.n:
         return None

@@ -232,9 +232,9 @@ def test_body_by_body_where_the_determinants_are_long() -> None:
     step = check(TILTED, "definite")
     assert step is not None
     assert lines(TILTED, "definite") == [
-        "2K₁ = (m₁ x₁² + C₁) q̇₁² = 0 only where q̇₁ = 0",
-        "2K₂ = (m₂ x₂² + C₂) q̇₂² = 0 only where q̇₂ = 0",
-        "2K₃ = (m₃ x₃² + C₃) q̇₃² = 0 only where q̇₃ = 0",
+        "2K₁ = (m₁ x₁² + C₁) q̇₁², which is 0 only where q̇₁ = 0",
+        "2K₂ = (m₂ x₂² + C₂) q̇₂², which is 0 only where q̇₂ = 0",
+        "2K₃ = (m₃ x₃² + C₃) q̇₃², which is 0 only where q̇₃ = 0",
     ]
     assert words(step.concluding).endswith("D is positive definite.")
 
@@ -242,7 +242,7 @@ def test_body_by_body_where_the_determinants_are_long() -> None:
 def test_a_moment_of_inertia_in_numbers_is_summed_up() -> None:
     """Masses 2.5, 1.2 and 0.75 at 0.25, 0.5 + 0.15 and 0.5 + 0.4 of the axis."""
     assert rows("numeric-2r", "inertia_poses")[0][-1] == (
-        "d₁₁ = 2.5 (0.25)² + 0.05208 + 1.2 (0.65)² + 0.02 + 0.75 (0.9)² = 1.343"
+        "d₁₁ = 2.5 (0.25)² + 0.0520833 + 1.2 (0.65)² + 0.02 + 0.75 (0.9)² = 1.34283 kg m²"
     )
     assert check("numeric-2r", "point_masses") is None
 
