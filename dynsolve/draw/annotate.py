@@ -44,7 +44,7 @@ _AROUND = 11.0
 
 @dataclass
 class Notes:
-    """Paths and labels as they are collected; `taken` is what is drawn so far.
+    """Paths and labels as they are collected; `taken` is what is drawn so far, `solid` the robot's body.
 
     `behind` are the paths that the body of the robot is drawn over.
     """
@@ -54,6 +54,7 @@ class Notes:
     paths: list[Path] = field(default_factory=list)
     behind: list[Path] = field(default_factory=list)
     wanted: list[Wanted] = field(default_factory=list)
+    solid: Taken = field(default_factory=Taken)
 
     def draw(self, *paths: Path, behind: bool = False) -> None:
         """Add paths."""

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dynsolve.draw import paths
 from dynsolve.draw.annotate import Notes
 from dynsolve.draw.labels import Label, Wanted, place
-from dynsolve.draw.occupied import Box, Taken
+from dynsolve.draw.occupied import Box
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.vectors import NEAR, Point, Vector, distance, moved, scaled
 from dynsolve.notation.tree import Negative, Node
 from dynsolve.robot.model import JointType, Robot
 
-_OFFSETS = tuple(side * away for away in (24.0, 36.0, 48.0, 62.0, 78.0, 94.0) for side in (1.0, -1.0))
-"""How far beside what it measures a line may run, in picture units; below 0 on the lower side."""
+_AWAY = (24.0, 36.0, 48.0, 62.0, 78.0, 94.0)
+"""How far beside what it measures a line may run, in picture units."""
+
+_SLANTS = (0.0, math.radians(35), math.radians(-35))
+_SLANTED = 80.0
+"""By how much the way to it may lean, where links on both sides are in its way, and what that costs."""
 
 _SHORT = 20.0
 """What is shorter has no room for two heads."""
@@ -27,6 +31,9 @@ _LABEL = 60.0
 
 _UNDER, _ACROSS, _HEAD = 12.0, 4.0, 8.0
 """What each cell costs that is taken under a length's line, under those to its ends, and under a head."""
+
+_ON_LINK = 150.0
+"""What it costs to run over a link or a joint."""
 
 _CLOSE = 2.0
 """How near to a label a line may run."""
@@ -100,51 +107,58 @@ def dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[Box
             notes.label(measured.node, [middle], (0.0, 0.0), colour, kind)
         return
     along = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
-    across = (
-        (along[1], -along[0]) if along[0] > 0 or (along[0] == 0 and along[1] > 0) else (-along[1], along[0])
-    )
-    offset, crowded = _offset(a, b, along, across, notes.taken, reserved)
+    shift, crowded = _shift(a, b, along, notes, reserved)
     if measured.optional and crowded > _CROWDED:
         return
-    p, q = moved(a, across, offset), moved(b, across, offset)
-    side = math.copysign(1.0, offset)
+    p, q = moved(a, shift, 1.0), moved(b, shift, 1.0)
     shaft = paths.line(moved(p, along, 5.0), moved(q, along, -5.0))
     notes.draw(
-        *(
-            Path(
-                paths.line(moved(at, across, side * 8.0), moved(at, across, offset + side * 4.0)),
-                paths.GREY,
-                0.7,
-            )
-            for at in (a, b)
-        ),
+        *(Path(paths.line(*line), paths.GREY, 0.7) for line in _from_ends(a, b, shift)),
         Path(shaft, paths.WHITE, 3.4),
         Path(shaft, colour, 1.0),
         Path(paths.head(p, scaled(along, -1.0), 7.5), None, fill=colour),
         Path(paths.head(q, along, 7.5), None, fill=colour),
     )
     anchors = [moved(p, along, reach * part) for part in (0.5, 0.35, 0.65, 0.2, 0.8)]
-    notes.label(measured.node, anchors, scaled(across, side), colour, kind)
+    notes.label(measured.node, anchors, shift, colour, kind)
 
 
-def _offset(
-    a: Point, b: Point, along: Point, across: Point, taken: Taken, reserved: Sequence[Box]
-) -> tuple[float, float]:
+def _shift(a: Point, b: Point, along: Point, notes: Notes, reserved: Sequence[Box]) -> tuple[Point, float]:
     """How far beside a length its line runs best, and how much of it then runs over other things."""
+    taken = notes.taken
 
-    def crowded(offset: float) -> float:
-        p, q = moved(a, across, offset), moved(b, across, offset)
+    def crowded(shift: Point) -> float:
+        p, q = moved(a, shift, 1.0), moved(b, shift, 1.0)
         return taken.on_line(moved(p, along, 3.0), moved(q, along, -3.0))
 
-    def cost(offset: float) -> tuple[float, float]:
-        p, q = moved(a, across, offset), moved(b, across, offset)
-        side = math.copysign(1.0, offset)
-        from_ends = [(moved(at, across, side * 8.0), moved(at, across, offset + side * 4.0)) for at in (a, b)]
+    def cost(shift: Point) -> float:
+        p, q = moved(a, shift, 1.0), moved(b, shift, 1.0)
+        from_ends = _from_ends(a, b, shift)
         in_labels = sum(box.meets(*line) for box in reserved for line in ((p, q), *from_ends))
         under = _UNDER * taken.cells_on(p, q) + _ACROSS * sum(taken.cells_on(*line) for line in from_ends)
         heads = sum(taken.inside(Box.around(at, 6.0, 6.0)) for at in (p, q))
-        total = 250.0 * crowded(offset) + 0.35 * abs(offset) + 2.0 * (offset < 0)
-        return round(total + _LABEL * in_labels + under + _HEAD * heads, 6), offset
+        on_link = _ON_LINK if notes.solid.cells_on(p, q) else 0.0
+        return 250.0 * crowded(shift) + _LABEL * in_labels + under + _HEAD * heads + on_link
 
-    best = min(_OFFSETS, key=cost)
+    tried = [(round(cost(shift) + price, 6), k, shift) for k, (shift, price) in enumerate(_shifts(along))]
+    best = min(tried)[-1]
     return best, crowded(best)
+
+
+def _shifts(along: Point) -> Iterator[tuple[Point, float]]:
+    """Where a line may run beside a length, and what it costs: best near, above, and straight across."""
+    upper = along[0] > 0 or (along[0] == 0 and along[1] > 0)
+    across = (along[1], -along[0]) if upper else (-along[1], along[0])
+    for away in _AWAY:
+        for side in (1.0, -1.0):
+            for slant in _SLANTS:
+                c, s = math.cos(slant), math.sin(slant)
+                out = across[0] * c - across[1] * s, across[0] * s + across[1] * c
+                price = 0.35 * away + 2.0 * (side < 0) + _SLANTED * (slant != 0)
+                yield scaled(out, side * away), price
+
+
+def _from_ends(a: Point, b: Point, shift: Point) -> list[tuple[Point, Point]]:
+    """The thin lines from the ends of what is measured to those of its line, and a little beyond."""
+    away = math.hypot(*shift)
+    return [(moved(at, shift, 8.0 / away), moved(at, shift, 1.0 + 4.0 / away)) for at in (a, b)]

@@ -66,6 +66,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     under, body = ground(pose.parts, pose.view), solids(pose.parts, pose.view, world.up, pose.bodies)
     notes = annotate.Notes(_STAR if star else _PLAIN, Taken())
     notes.taken.add([*under, *body])
+    notes.solid.add(body)
     annotate.frames(pose, world.gravity, notes)
     if has_world(robot, values):
         under = (*world_frame(robot, values, pose, notes), *under)

@@ -12,13 +12,14 @@ import pytest
 
 from dynsolve.draw.drawn_lengths import numbers
 from dynsolve.draw.latex import font_size
-from dynsolve.draw.occupied import bounds
+from dynsolve.draw.occupied import Taken, bounds
 from dynsolve.draw.orientation import orientation
 from dynsolve.draw.parts import HALF_HEIGHT
-from dynsolve.draw.paths import FRAME, VARIABLE, flattened, line
+from dynsolve.draw.paths import BLACK, FRAME, VARIABLE, flattened, line
 from dynsolve.draw.paths import Path as Drawn
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.scene import OFF_LINKS, scene
+from dynsolve.draw.solids import solids
 from dynsolve.draw.svg import to_svg
 from dynsolve.draw.typography import SIZE
 from dynsolve.draw.vectors import Point, distance, dot, segment_distance
@@ -295,3 +296,22 @@ def test_a_plate_stands_across_a_tilted_axis() -> None:
 def test_the_caption_says_what_dashed_lines_to_mass_centres_are(name: str, said: bool) -> None:
     caption = drawn(next(path for path in LIBRARY if path.stem == name)).caption
     assert (OFF_LINKS in caption) is said
+
+
+@pytest.mark.parametrize("name", ["puma560", "puma560-first3", "five-bar", "planar-2r", "elbow-3r"])
+def test_lengths_are_drawn_clear_of_links_and_joints(name: str) -> None:
+    """The line beside d₃ of the PUMA would end on link 2, were it straight beside it."""
+    path = next(path for path in LIBRARY if path.stem == name)
+    problem = load(path)
+    values = numbers(problem)
+    world = orientation(problem.robot, values)
+    pose = best_pose(problem.robot, values, world)
+    body = Taken()
+    body.add(solids(pose.parts, pose.view, world.up, pose.bodies))
+    shafts = [
+        p for p in drawn(path).paths if (p.stroke, p.width, p.fill, p.dashed) == (BLACK, 1.0, None, False)
+    ]
+    assert shafts
+    for shaft in shafts:
+        (line_of,) = flattened(shaft.commands)
+        assert body.cells_on(*line_of) == 0
