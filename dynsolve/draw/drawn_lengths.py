@@ -25,6 +25,9 @@ SHORTEST = 0.42
 MOVED = 0.75
 """How far a base is drawn from the world's origin along an axis, as a part of the longest length."""
 
+_APART = 0.0437
+"""How far apart the values of letters are that are to differ."""
+
 _TINY = 1e-9
 _ANGLE = math.radians(35)
 _RETRIES = ((1.0, 0.0), (1.3, 0.1), (0.7, 0.3), (1.1, -0.4))
@@ -72,6 +75,11 @@ def numbers(problem: Problem) -> RobotNumbers:
             continue
     rows = tuple(TableRow(0.0, 0.0, 1.0, 0.0) for _ in robot.joints)
     return RobotNumbers(rows, dict.fromkeys(robot.ring.parameters, 1.0), 1.0)
+
+
+def generic_numbers(robot: Robot) -> RobotNumbers:
+    """Numbers of which no two letters have the same: what holds for them holds for all."""
+    return _numbers(robot, {}, 1.0, _APART)
 
 
 def _numbers(robot: Robot, given: Mapping[str, float], factor: float, spread: float) -> RobotNumbers:

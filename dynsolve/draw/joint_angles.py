@@ -109,10 +109,10 @@ def _has_ring(pose: Pose, leg: Leg) -> bool:
 
 
 def _center(pose: Pose, part: JointBody, leg: Leg) -> Vector:
-    """The origin on the axis of a joint; the joint itself where the angle of another one is about that."""
+    """The origin on the axis of a joint; in space the joint itself, where another one stands at that origin."""
     others = (other for other, _ in _turning(pose) if other is not part)
-    at = leg.center
-    return part.center if any(distance(other.center, at) < NEAR for other in others) else at
+    is_free = all(distance(other.center, leg.center) > NEAR for other in others)
+    return leg.center if is_free or pose.view.flat else part.center
 
 
 def _unseen(leg: Leg, center: Vector, pose: Pose) -> Iterator[Vector]:
@@ -131,14 +131,14 @@ def _unseen(leg: Leg, center: Vector, pose: Pose) -> Iterator[Vector]:
 def _flat_angle(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: Notes) -> None:
     """θ_i in the plane of the paper, turning as the joint's axis says."""
     view = pose.view
-    center = view.point(part.center)
+    center = view.point(leg.center)
     first = view.direction(leg.before)
     angle = leg.turn if dot(leg.axis, view.toward) > 0 else -leg.turn
     second = (first[1], -first[0])
-    for direction in _unseen(leg, part.center, pose):
+    for direction in _unseen(leg, leg.center, pose):
         end = moved(center, view.direction(direction), _ARC + _BEYOND)
         notes.draw(Path(paths.line(center, end), paths.GREY, 0.9, dashed=True))
-    _offset(part.center, leg, pose, notes)
+    _offset(leg.center, leg, pose, notes)
     radius = (_ARC if abs(angle) > 0.5 else _ARC + 16.0) + _WIDER * _before_here(pose, part)
     p, q = scaled(first, radius), scaled(second, radius)
     short = angle - math.copysign(min(6.0 / radius, abs(angle) / 2), angle)

@@ -13,6 +13,7 @@ from random import Random
 
 from dynsolve.draw.bodies import drawn_bodies, sleeves
 from dynsolve.draw.drawn_lengths import RobotNumbers
+from dynsolve.draw.loops import closing_links
 from dynsolve.draw.mass_centers import with_masses
 from dynsolve.draw.orientation import Orientation
 from dynsolve.draw.parts import NO_SLEEVES, arrange
@@ -64,7 +65,8 @@ def best_pose(
     best = min((improved(start, options, cost) for start in starts), key=lambda c: (cost(c), c))
     pose = pose_of(robot, numbers, orientation, best, slid_in)
     body = with_masses(robot, numbers, pose.skeleton)
-    return replace(pose, skeleton=body, bodies=drawn_bodies(robot, numbers, body))
+    parts = replace(pose.parts, links=(*pose.parts.links, *closing_links(robot, body)))
+    return replace(pose, skeleton=body, parts=parts, bodies=drawn_bodies(robot, numbers, body))
 
 
 def _pick(random: Random, values: Sequence[float]) -> float:

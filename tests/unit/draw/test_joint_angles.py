@@ -121,5 +121,6 @@ def test_lines_that_are_parallel_to_axes_are_said() -> None:
     pose, notes = shown(library("spherical-rrp"))
     dashed = [path for path in (*notes.paths, *notes.behind) if path.dashed and path.stroke == GREY]
     assert has_parallels(pose) and dashed
-    flat, none = shown(library("planar-2r"))
-    assert not has_parallels(flat) and not [path for path in none.paths if path.dashed]
+    for name in ("planar-2r", "five-bar"):
+        flat, none = shown(library(name))
+        assert not has_parallels(flat) and not [path for path in none.paths if path.dashed]
