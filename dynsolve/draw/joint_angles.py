@@ -109,7 +109,7 @@ def _has_ring(pose: Pose, leg: Leg) -> bool:
 
 
 def _center(pose: Pose, part: JointBody, leg: Leg) -> Vector:
-    """The origin on the axis of a joint; in space the joint itself, where another one stands at that origin."""
+    """The origin on the axis of a joint; in space the joint itself, where another one stands there."""
     others = (other for other, _ in _turning(pose) if other is not part)
     is_free = all(distance(other.center, leg.center) > NEAR for other in others)
     return leg.center if is_free or pose.view.flat else part.center
