@@ -37,7 +37,7 @@ def part_step(context: Context, body: Body) -> Step:
         source=spong("7.2.2"),
         result=tuple(_results(context, body)),
         together=context.robot.n <= BESIDE,
-        uses=(f"Jv{body.name}",) if is_short else (),
+        uses=(f"Jv{body.name}#1",) if is_short and not context.values[f"Jv{body.name}"].is_zero else (),
         detail=Detail.NORMAL if is_short else Detail.FULL,
         is_task=False,
     )
@@ -165,12 +165,16 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     name = angular_name(body)
     if not along_own_axes(context, body):
         product = letters.transposed_product(context.show(J), context.show(tensor))
-        yield Line((), (equation(name, product),), (f"I{b}",))
+        yield Line((), (equation(name, product),), (f"Jv{b}#2", f"I{b}"))
         return
     own = turned(context, body, "Jw", letters.jw(body))
     R, w = letters.of_body("R", body, "bold"), letters.of_body("omega", body, "bold")
     along: Prose = ("Along the body's own axes", *own.why, ":")
-    yield Line((R, " turns about the axis of ", w, ":") if own.is_same else along, (own.working,), (f"R{b}",))
+    yield Line(
+        (R, " turns about the axis of ", w, ":") if own.is_same else along,
+        (own.working,),
+        (f"Jv{b}#2", f"R{b}"),
+    )
     in_letters = letters.transposed_product(Parenthesized(own.name), letters.tensor(context.robot, body))
     product = letters.transposed_product(context.show(own.value), context.show(given))
     put_in: Prose = ("The tensor along the same axes put in:",)

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
@@ -36,6 +38,7 @@ from dynsolve.notation.tree import (
     Product,
     Row,
     Sum,
+    Transpose,
     equation,
 )
 from dynsolve.notation.walk import walk
@@ -65,10 +68,31 @@ class _Entry:
 
 
 def of_columns(context: Context, body: Body) -> Products | None:
-    """The lines of a body's linear part; None where one identity does all, or where they are not plain."""
-    robot, velocity = context.robot, context.values[f"v{body.name}"]
+    """The lines of a body's linear part; None where one identity does all, or where they are not plain.
+
+    Where the base leans, along the axes of the first frame in which they are plain.
+    """
+    velocity = context.values[f"v{body.name}"]
+    if context.robot.n > MOST_JOINTS:
+        return None
+    if not any(map(squares.has_roots, velocity.entries)) or not context.robot.has_table:
+        return _along(context, body, velocity)
+    for i in range(body.link + 1):
+        R = rotation(context.values[f"H{i}"])
+        found = _along(context, body, R.T @ velocity)
+        if found is not None:
+            name = Product((Transpose(letters.R(context.robot, i)), letters.jv(body)))
+            shown = context.show(R.T @ context.values[f"Jv{body.name}"])
+            by: Prose = (f"The products are the same along the axes of frame {i}:",)
+            return Products((Line(by, (equation(name, shown),), (f"H{i}",)), *found.lines), found.used)
+    return None
+
+
+def _along(context: Context, body: Body, velocity: Matrix) -> Products | None:
+    """The lines by the components of the velocity along some axes."""
+    robot = context.robot
     components = [x for x in velocity.entries if not x.is_zero]
-    if robot.n > MOST_JOINTS or any(map(squares.has_roots, components)):
+    if any(map(squares.has_roots, components)):
         return None
     found = squares.turned(robot.ring, components)
     if found is not None:

@@ -130,7 +130,7 @@ def test_what_a_line_needs_is_referred_to_where_it_goes_in() -> None:
     text = report(solved("elbow-3r"), Format.MARKDOWN).decode()
     of_rotation = re.findall(r"With \(\d+\) and \(\d+\), along the body's own axes", text)
     of_tensor = re.findall(r"With \(\d+\), the tensor along the same axes put in:", text)
-    assert len(of_rotation) == 3, "ω and R first"
+    assert len(of_rotation) == 6, "R and what is turned first"
     assert len(of_tensor) == 6, "and the tensor a line later, in the energies and in D"
 
 
@@ -218,6 +218,16 @@ def test_a_velocity_is_squared_along_the_axes_in_which_that_is_plain() -> None:
     assert "√" not in "".join(found)
 
 
+def test_the_columns_of_a_leaning_arm_are_multiplied_along_axes_in_which_that_is_plain() -> None:
+    found = lines(TILTED, "D_direct1")
+    assert found[0] == "The products are the same along the axes of frame 0:"
+    assert (
+        found[1] == "(𝐑₀^w)ᵀ 𝐉_v1 = [[-s₁ (l₁ + l₂ c₂), -l₂ c₁ s₂], [c₁ (l₁ + l₂ c₂), -l₂ s₁ s₂], [0, l₂ c₂]]"
+    )
+    assert found[2] == "With s₁² + c₁² = 1:" and found[-1] == "By s₂² + c₂² = 1:"
+    assert "√" not in "".join(found)
+
+
 def test_squares_of_sums_of_lengths_are_multiplied_out_by_the_rates() -> None:
     """One operation a line: squares, products of rates, and then the brackets one by one."""
     assert lines("puma560-first3", "Kv2")[-3:] == [
@@ -259,7 +269,8 @@ def test_the_products_that_make_up_the_inertia_matrix_are_shown() -> None:
     assert put_in == "The tensor along the same axes put in:"
     in_letters, product = "𝐉_ω3ᵀ 𝓘₃ 𝐉_ω3 = (𝐑₃ᵀ 𝐉_ω3)ᵀ 𝐈₃ (𝐑₃ᵀ 𝐉_ω3)", "[[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]"
     assert angular.startswith(f"{in_letters} = {product}ᵀ [[I_3xx, ")
-    assert [line.uses for line in part.lines] == [(), ("R3",), ("I_body3",)]
+    assert part.uses == ("Jv3#1",)
+    assert [line.uses for line in part.lines] == [(), ("Jv3#2", "R3"), ("I_body3",)]
     assert not step("scara-rrpr", "D_direct1").working
 
 
