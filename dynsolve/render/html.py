@@ -32,7 +32,7 @@ from dynsolve.document import (
 from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Matrix, Node, Relation, Row, equation
+from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
 from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
 from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
@@ -287,9 +287,21 @@ class _Page(MarkupPage):
         return max(piece.width for piece in self.splitter.pieces(node)) > PAGE
 
     def broken(self, node: Node) -> str:
+        """A formula in pieces; of several side by side each is broken only where a line cannot hold it."""
+        beside = list(listed(node)) if isinstance(node, Row) else []
+        if len(beside) < 2:
+            return f'<div class="line">{self.in_pieces(node)}</div>'
+        comma = math(self.printer.text(Words(",")))
+        *before, last = map(self.in_pieces, beside)
+        parts = [*(f"{part}{comma}" for part in before), last]
+        return "".join(
+            ('<div class="line">', *(f'<span class="part">{part}</span>' for part in parts), "</div>")
+        )
+
+    def in_pieces(self, node: Node) -> str:
+        """A formula between whose pieces a line may end."""
         parts = together(self.splitter.pieces(node), _WHOLE, "".join)
-        pieces = "<wbr>".join(math(part.text, display=True) for part in parts)
-        return f'<div class="line">{pieces}</div>'
+        return "<wbr>".join(math(part.text, display=True) for part in parts)
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:
         left = node.parts[0] if isinstance(node, Relation) else None

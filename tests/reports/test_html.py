@@ -94,6 +94,23 @@ def test_a_matrix_stays_one_on_a_phone_and_is_scrolled(page: Page, tmp_path: Pat
     assert page.ask(f"{box}.scrollWidth > {box}.clientWidth && getComputedStyle({box}).overflowX") == "auto"
 
 
+@pytest.mark.parametrize("width", [*WIDTHS, 900])
+def test_a_matrix_beside_others_stands_on_the_line_of_its_name(
+    width: int, page: Page, tmp_path: Path
+) -> None:
+    """z_1 = [...], o_1 = [...]: a line ends between them, and within one only where it holds no more."""
+    page.open(saved(next(p for p in LIBRARY if p.stem == "stanford-6"), tmp_path), width)
+    assert page.ask("document.querySelectorAll('.part mtable').length") > 0
+    parted = """
+    [...document.querySelectorAll('.part')].filter(e => e.checkVisibility()).filter(e => {
+      const pieces = [...e.querySelectorAll(':scope > math')].map(m => m.getBoundingClientRect());
+      const middles = pieces.map(r => (r.top + r.bottom) / 2);
+      const needed = pieces.reduce((sum, r) => sum + r.width, 0);
+      return needed < e.parentElement.clientWidth - 40 && Math.max(...middles) - Math.min(...middles) > 20
+    }).map(e => e.textContent.slice(0, 80))"""
+    assert page.ask(parted) == []
+
+
 @pytest.mark.parametrize("letters", ["q", "theta"])
 def test_dots_stand_over_the_middle_of_their_letter(letters: str, page: Page, tmp_path: Path) -> None:
     """A little to the right of the middle of its box: the letter is slanted."""
