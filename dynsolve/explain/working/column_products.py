@@ -16,12 +16,11 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
-from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.step import Line
 from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.derivatives import are_alike
-from dynsolve.explain.working.expansion import in_order, is_trigonometric
+from dynsolve.explain.working.expansion import is_trigonometric
 from dynsolve.explain.working.identities import Identity, identities, pythagoras, said
 from dynsolve.explain.working.kinetic import MOST_GROUPS, without_signs
 from dynsolve.explain.working.proved import MOST_JOINTS, equals
@@ -129,18 +128,16 @@ def _entry(context: Context, rows: Sequence[Sequence[Expr]], i: int, j: int) -> 
 
 
 def _products(context: Context, pairs: Sequence[tuple[Expr, Expr]], is_square: bool) -> Node:
-    """Σ a b, or Σ a², as they stand."""
-    if is_square:
-        return sum_of([Power(without_signs(context.show(a)), Number(2)) for a, _ in pairs])
-    return total([_product(context, a, b) for a, b in pairs])
-
-
-def _product(context: Context, a: Expr, b: Expr) -> Node:
-    """a b, the minus signs of both in front."""
-    shown = context.show(a), context.show(b)
-    bare = tuple(map(without_signs, shown))
-    found = in_order(bare, is_numeric(context.robot))
-    return negated(found) if (shown[0] != bare[0]) != (shown[1] != bare[1]) else found
+    """Σ a b, or Σ a², each in printing order."""
+    collector = context.forms.compactor.collector
+    terms: list[Node] = []
+    for a, b in pairs:
+        first, second = map(context.show, (a, b))
+        bare = without_signs(first), without_signs(second)
+        found = collector.product(*collector.decompose(Product(bare)), ())
+        opposite = (first != bare[0]) != (second != bare[1])
+        terms.append(negated(found) if opposite and not is_square else found)
+    return sum_of(terms) if is_square else total(terms)
 
 
 def _has_sums(products: Node) -> bool:
