@@ -43,10 +43,14 @@ Prose = tuple[Inline, ...]
 
 @dataclass(frozen=True, slots=True)
 class Heading:
-    """A heading; level 1 is the document's title."""
+    """A heading; level 1 is the document's title.
+
+    From one that is `closing` to the end is one page, where all of that fits one.
+    """
 
     text: str
     level: int = 2
+    closing: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,7 +28,7 @@ from dynsolve.render.latex_displays import DisplayRow, aligned, gathered, in_col
 from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import SHORT, TypesetPage, prose_columns
-from dynsolve.render.page_ends import introduces
+from dynsolve.render.page_ends import before_closing, introduces
 from dynsolve.render.references import is_long, numbered, running_title, sections, slug
 
 PAGE = 46.9
@@ -72,12 +72,16 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \pagestyle{myheadings}
 """
 
-# The source of a formula; equations in columns: a row, a cell of a width with its name and the rest.
+# The source of a formula; equations in columns: a row, a cell of a width with its name and the rest;
+# what closes a document, on a page of its own where it fits that but not what is left of one.
 _MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
 \providecommand{\equationrow}[1]{\par\noindent\strut#1}
 \providecommand{\equationcell}[4]{\makebox[#1\dimexpr\linewidth-3.4em\relax][l]{%
   \makebox[#2em][r]{$\displaystyle #3$}$\displaystyle {}#4$}}
 \providecommand{\equationnumber}[1]{\hfill\refstepcounter{equation}(\theequation)#1}
+\ifdefined\closingpage\else\newsavebox\closingpage\fi
+\providecommand{\putclosingpage}{\penalty0 \ifdim\ht\closingpage>\textheight\else
+  \ifdim\ht\closingpage>\dimexpr\pagegoal-\pagetotal\relax\newpage\fi\fi\unvbox\closingpage}
 """
 
 
@@ -90,7 +94,7 @@ def render(document: Document, style: Style = PLAIN) -> str:
     """A complete document."""
     page = _Page(style, PAGE, document, contents=is_long(document))
     title = next((block.text for block in document.blocks if isinstance(block, Heading)), "")
-    body = "\n".join(page.blocks(b for b in document.blocks if not _is_title(b)))
+    body = "\n".join(page.all([block for block in document.blocks if not _is_title(block)]))
     words = page.words(title)
     return (
         f"{_PREAMBLE}{_MACROS}\\begin{{document}}\n\\markright{{{page.words(running_title(title))}}}\\thispagestyle{{plain}}\n"
@@ -101,7 +105,7 @@ def render(document: Document, style: Style = PLAIN) -> str:
 def render_fragment(document: Document, style: Style = PLAIN) -> str:
     r"""A fragment for \input into another document; it needs amsmath."""
     page = _Page(style, FRAGMENT_PAGE, document)
-    body = "\n".join(page.blocks(document.blocks))
+    body = "\n".join(page.all(document.blocks))
     begin = "\\begingroup\\emergencystretch=6em\\renewcommand{\\arraystretch}{1.12}"
     return f"{_NEEDS}{_MACROS}{begin}\n{body}\n\\par\\endgroup\n"
 
@@ -160,6 +164,15 @@ class _Page(TypesetPage):
         self.contents_are_due = contents
         self.close(document)
         self.end_is_due = True
+
+    def all(self, blocks: Sequence[Block]) -> Iterator[str]:
+        """The blocks of a document, the closing ones on one page where they fit one."""
+        before, end = before_closing(blocks)
+        yield from self.blocks(before)
+        if end:
+            yield "\\par\\setbox\\closingpage=\\vbox\\bgroup"
+            yield from self.blocks(end)
+            yield "\\par\\egroup\\putclosingpage"
 
     def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
         """The blocks one after the other, formulas that follow each other in one display.

@@ -1,9 +1,10 @@
 """Where a page may end, in what is set on pages: not at a few lines of a display, or of a document.
 
-Paragraphs stay with the display that they introduce, a formula of the textbook and a short one with
-what they lead to, the last of several results with the one before.  The rows of an equation stay
-together, of a long one the first two and the last ones, as do those of a display.  So many rows at the
-end of a document are on one page that none is nearly empty.
+Paragraphs stay with the display that they introduce, a long one not with a table, a formula of the
+textbook and a short one with what they lead to, but not a short one with a matrix, a note with what it
+is about, the last of several results with the one before.  The rows of an equation stay together, of a
+long one the first two and the last ones, as do those of a display.  So many rows at the end of a
+document are on one page that none is nearly empty.
 """
 
 from __future__ import annotations
@@ -11,13 +12,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from itertools import accumulate
 
-from dynsolve.document import Block, Equations, Formula, Prose, Table, Text, Uses
+from dynsolve.document import Block, Equations, Formula, Heading, Note, Prose, Table, Text, Uses
 from dynsolve.render.matrices import holds_matrix
 
 LAST_OF_DISPLAY = 3
 LAST_OF_DOCUMENT = 8
 
 _FIRST = 2
+_LONG = 350
+"""A paragraph of more letters need not stay with a table."""
 
 
 def runs_of_rows(count: int, last: int = LAST_OF_DISPLAY) -> tuple[int, ...]:
@@ -64,19 +67,34 @@ def introduces(block: Block, following: Block | None, closes: bool = False) -> b
     """Whether a block belongs on one page with the one that follows; it `closes` where it is the last one."""
     if isinstance(block, Text):
         leads = isinstance(following, Text) and leads_on(following.parts)
-        return leads_on(block.parts) or leads or isinstance(following, Formula | Equations | Table | Uses)
+        table = isinstance(following, Table) and not _is_long(block.parts)
+        return leads_on(block.parts) or leads or table or isinstance(following, Formula | Equations | Uses)
+    if isinstance(following, Note):
+        return isinstance(block, Formula | Equations | Table)
     if isinstance(block, Formula):
         if block.label:
             return closes and isinstance(following, Formula)
         if block.source:
             return isinstance(following, Formula | Equations | Text | Uses)
-        return not holds_matrix(block.node) and isinstance(following, Formula | Equations | Uses)
+        tall = isinstance(following, Formula) and holds_matrix(following.node)
+        return not (tall or holds_matrix(block.node)) and isinstance(following, Formula | Equations | Uses)
     return isinstance(block, Uses)
+
+
+def _is_long(parts: Prose) -> bool:
+    return sum(len(part) for part in parts if isinstance(part, str)) > _LONG
 
 
 def leads_on(parts: Prose) -> bool:
     """Whether a sentence ends with a colon."""
     return bool(parts) and isinstance(parts[-1], str) and parts[-1].rstrip().endswith(":")
+
+
+def before_closing(blocks: Sequence[Block]) -> tuple[Sequence[Block], Sequence[Block]]:
+    """The blocks before a heading that is closing, and those from it on."""
+    places = (k for k, block in enumerate(blocks) if isinstance(block, Heading) and block.closing)
+    first = next(places, len(blocks))
+    return blocks[:first], blocks[first:]
 
 
 def closing(blocks: Iterable[Block], rows: Callable[[Block], int]) -> tuple[Block, ...]:

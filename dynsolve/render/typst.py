@@ -27,7 +27,7 @@ from dynsolve.notation.typst import TypstPrinter, quoted
 from dynsolve.render.columns import Columns
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import SHORT, TypesetPage, prose_columns
-from dynsolve.render.page_ends import introduces, runs_of_equations
+from dynsolve.render.page_ends import before_closing, introduces, runs_of_equations
 from dynsolve.render.prose import typographic, visible
 from dynsolve.render.references import is_long, numbered, running_title
 from dynsolve.render.typesetting import Line
@@ -71,6 +71,10 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 #let columned(count, sticky: false, ..cells) = displayed(sticky: sticky,
   grid(columns: (0pt,) + (1fr,) * count + (3em,), row-gutter: 0.3em,
     align: (x, y) => if x == count + 1 { right + horizon } else { left + horizon }, ..cells))
+#let on-one-page(body) = layout(size => {
+  let fits = measure(block(width: size.width, body)).height <= size.height
+  block(above: 1.6em, width: 100%, breakable: not fits, body)
+})
 #let note(body) = {
   block(inset: (left: 0.8em, y: 0.3em), stroke: (left: 1.5pt + luma(150)), text(9.3pt, body))
 }
@@ -97,7 +101,7 @@ def to_typst_document(document: Document, style: Style = PLAIN) -> str:
     page = _Page(style, document)
     texts = {"{title}": quoted(title), "{header}": quoted(_known(running_title(title)))}
     preamble = re.sub("{title}|{header}", lambda found: texts[found[0]], _PREAMBLE)
-    return preamble + "\n".join(page.blocks(document.blocks)) + "\n"
+    return preamble + "\n".join(page.all(document)) + "\n"
 
 
 def typst_notation(printer: TypstPrinter) -> Notation:
@@ -124,12 +128,17 @@ def typst_notation(printer: TypstPrinter) -> Notation:
 
 
 class _Printer(TypstPrinter):
-    """Typst's mathematics for a page: fractions in a matrix are as large as beside it."""
+    """Typst's mathematics for a page: fractions in a matrix are as large as beside it.
+
+    Entries do not touch the brackets, nor fractions those of the next row.
+    """
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
-        return super()._bracketed(
-            [[_displayed(cell) if "frac(" in cell else cell for cell in row] for row in rows]
-        )
+        shown = [[_displayed(cell) if "frac(" in cell else cell for cell in row] for row in rows]
+        high = any("frac(" in cell for row in rows for cell in row)
+        gap = "row-gap: #0.8em, " if high else ""
+        body = "; ".join(map(", ".join, shown))
+        return f"lr([#h(0.12em) mat(delim: #none, {gap}{body}) #h(0.12em)])"
 
 
 class _Page(TypesetPage):
@@ -142,6 +151,15 @@ class _Page(TypesetPage):
         self.sticks = False
         """Whether the block that is written stays on the page of the next."""
         self.close(document)
+
+    def all(self, document: Document) -> Iterator[str]:
+        """The blocks of a document, the closing ones on one page where they fit one."""
+        before, end = before_closing(document.blocks)
+        yield from self.blocks(before)
+        if end:
+            yield "#on-one-page["
+            yield from self.blocks(end)
+            yield "]"
 
     def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
         """The blocks, in a sticky block what stays on the page of the next."""

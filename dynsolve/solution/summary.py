@@ -33,10 +33,10 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
     model = by_id.get(closing.ID)
     if model is None:
         return
-    yield Heading(TITLE, 2)
+    yield Heading(TITLE, 2, closing=True)
     yield Text(model.why)
     assert model.formula is not None
-    yield Formula(model.formula)
+    yield Formula(model.formula, source=model.source)
     if robot.n > MOST_JOINTS:
         number = list(stages_of(robot)).index(model.stage) + 1
         named = zip((letters.D, letters.C, letters.G), ("D", "C", "g"), strict=True)
