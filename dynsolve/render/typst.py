@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby, zip_longest
+from itertools import groupby, islice, zip_longest
 
 from dynsolve.document import (
     Block,
@@ -59,18 +59,25 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 #let source(body) = text(size: 8.5pt, fill: luma(90), body)
 #let displayed(body, ..options) = {
   set text(top-edge: "bounds", bottom-edge: "bounds")
-  block(above: 0.85em, below: 0.85em, width: 100%, ..options, body)
+  block(width: 100%, ..options, body)
 }
-#let formula(body, side, sticky: false) = displayed(breakable: false, sticky: sticky,
+#let formula(body, side, sticky: false) = displayed(
+  above: 0.85em, below: 0.85em, breakable: false, sticky: sticky,
   grid(columns: (1fr, auto, 1fr), align: (left, center, right + horizon), [], body, side))
-#let held(rows) = grid.cell(rowspan: rows, breakable: false, [])
+#let in-runs(runs, sticky, columns, ..options) = for (place, rows) in runs.enumerate() {
+  let last = place == runs.len() - 1
+  displayed(breakable: false, sticky: sticky and last, above: if place == 0 { 0.85em } else { 0.3em },
+    below: if last { 0.85em } else { 0.3em },
+    grid(columns: columns, row-gutter: 0.3em, ..options, ..rows.flatten()))
+}
 #let strut = box(width: 0pt, hide($lr(|, size: #1.5em)$))
-#let formula-lines(sticky: false, ..cells) = displayed(sticky: sticky,
-  grid(columns: (1fr, auto, auto, 1fr), column-gutter: (0pt, 0.28em, 0pt), row-gutter: 0.3em,
-    align: (left, right + horizon, left + horizon, right + horizon), ..cells))
-#let columned(count, sticky: false, ..cells) = displayed(sticky: sticky,
-  grid(columns: (0pt,) + (1fr,) * count + (3em,), row-gutter: 0.3em,
-    align: (x, y) => if x == count + 1 { right + horizon } else { left + horizon }, ..cells))
+#let formula-lines(sticky: false, ..runs) = context {
+  let widest(part) = calc.max(..runs.pos().join().map(row => measure(row.at(part)).width))
+  in-runs(runs.pos(), sticky, (1fr, widest(1), widest(2), 1fr), column-gutter: (0pt, 0.28em, 0pt),
+    align: (left, right + horizon, left + horizon, right + horizon))
+}
+#let columned(count, sticky: false, ..runs) = in-runs(runs.pos(), sticky, (1fr,) * count + (3em,),
+  align: (x, y) => if x == count { right + horizon } else { left + horizon })
 #let on-one-page(body) = layout(size => {
   let fits = measure(block(width: size.width, body)).height <= size.height
   block(above: 1.6em, width: 100%, breakable: not fits, body)
@@ -290,39 +297,41 @@ def _display(lines: Sequence[Line], sides: Sequence[str], last: int, sticks: boo
     """
     if len(lines) == 1:
         return f"#formula({_math(lines[0].alone)}, [{sides[0]}]{_STICKY * sticks})"
-    cells: list[str] = []
-    held = _held([bool(line.left) for line in lines], last)
-    for line, side, run in zip(lines, sides, held, strict=True):
-        cells += [*run, _strutted(line.left), _strutted(_right(line)), f"[{side}]"]
-    return f"#formula-lines({', '.join(cells)}{_STICKY * sticks})"
+    rows = [
+        f"([], {_strutted(line.left)}, {_strutted(_right(line))}, [{side}])"
+        for line, side in zip(lines, sides, strict=True)
+    ]
+    runs = _in_runs(rows, [bool(line.left) for line in lines], last)
+    return f"#formula-lines({runs}{_STICKY * sticks})"
 
 
 def _strutted(text: str) -> str:
     """A formula as high about the axis as its neighbour, so that both stand on one line of writing."""
-    return f"strut + {_math(text)}" if text else "none"
+    return f"strut + {_math(text)}" if text else "[]"
 
 
-def _held(begins: Sequence[bool], last: int) -> Iterator[list[str]]:
-    """What stands before each row: at the first of a run of rows a cell as high as all, which holds them."""
-    for run in runs_of_equations(begins, last):
-        yield [f"held({run})"]
-        yield from [[]] * (run - 1)
+def _in_runs(rows: Sequence[str], begins: Sequence[bool], last: int) -> str:
+    """The rows of a display in runs in which no page ends; each run is an array of rows."""
+    left = iter(rows)
+    runs = [islice(left, count) for count in runs_of_equations(begins, last)]
+    return ", ".join(f"({', '.join(run)},)" for run in runs)
 
 
 def _in_columns(columns: Columns, side: str, last: int, sticks: bool) -> str:
     """Equations in columns, `side` at the end of the last row."""
-    cells: list[str] = []
-    for row, run in zip(columns.rows, _held(columns.begins, last), strict=True):
-        cells += run
+    rows: list[list[str]] = []
+    for row in columns.rows:
+        cells: list[str] = []
         for cell in row:
             name = f"box(width: {columns.name:.2f}em, align(right, {_math(cell.line.left)}))"
             whole = f"strut + {name} + h(0.28em) + {_math(_right(cell.line))}"
             cells.append(f"grid.cell(colspan: {cell.span}, {whole})")
         if rest := columns.count - sum(cell.span for cell in row):
             cells.append(f"grid.cell(colspan: {rest}, [])")
-        cells.append("[]")
-    cells[-1] = f"[{side}]"
-    return f"#columned({columns.count}, {', '.join(cells)}{_STICKY * sticks})"
+        rows.append([*cells, "[]"])
+    rows[-1][-1] = f"[{side}]"
+    runs = _in_runs([f"({', '.join(row)})" for row in rows], columns.begins, last)
+    return f"#columned({columns.count}, {runs}{_STICKY * sticks})"
 
 
 def _right(line: Line) -> str:

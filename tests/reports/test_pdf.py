@@ -85,6 +85,22 @@ def test_no_line_of_a_sentence_ends_with_a_sign_between_two_parts(name: str, tmp
     assert [line for line in lines if line.rstrip().endswith(("=", "−", "+"))] == []
 
 
+def test_the_summary_is_on_one_page(tmp_path: Path) -> None:
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == "elbow-3r"), Format.PDF))
+    *before, last = lines_of(pdf)
+    summary = [line.strip() for line in last]
+    assert summary.index("Summary") < summary.index("Verification")
+    assert not any(line.strip() == "Summary" for page in before for line in page)
+
+
+def test_no_page_begins_with_a_note(tmp_path: Path) -> None:
+    pdf = tmp_path / "report.pdf"
+    pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == "elbow-3r"), Format.PDF))
+    firsts = [page[1].strip() for page in lines_of(pdf)[1:]]
+    assert not any(line.startswith("Note.") for line in firsts)
+
+
 LAW = re.compile(r" {3,}§[\d.]+$")
 """The section of the textbook, at the right edge."""
 
