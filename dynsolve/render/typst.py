@@ -175,6 +175,7 @@ class _Page(TypesetPage):
         for are_level, run in groupby(pairs, lambda pair: self.is_level(pair[0])):
             shown = list(run)
             if are_level and len(shown) > 1:
+                self.sticks = self.closes(shown[-1][0]) or introduces(*shown[-1])
                 yield from self.results([block for block, _ in shown if isinstance(block, Formula)])
                 continue
             for block, following in shown:
@@ -189,7 +190,7 @@ class _Page(TypesetPage):
         """Results of one line each in one display, each with its number."""
         lines = [line for formula in formulas if (line := self.level_result(formula))]
         sides = [self.side(formula) for formula in formulas]
-        yield _display(lines, sides, self.kept(formulas[-1]), self.closes(formulas[-1]))
+        yield _display(lines, sides, self.kept(formulas[-1]), self.sticks)
 
     def stuck(self, block: Block) -> Iterator[str]:
         """A block, in a sticky one where it stays on the page of the next and cannot be sticky itself."""
