@@ -40,7 +40,7 @@ FRAGMENT_PAGE = 32.8
 _NUMBER = 3.4
 _MOST_ROWS = 18
 _COLUMN_SPACE = 1.3  # around a column of a table, in em
-_NARROWEST = 12.0
+_NARROWEST = 7.0
 _MARGIN = 0.8
 _QUAD = 0.9  # what a comma between formulas takes more in LaTeX
 _STAYS = r"\begingroup\postdisplaypenalty=10000"
