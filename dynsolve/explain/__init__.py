@@ -84,6 +84,7 @@ Long models are written in names (`--abbreviate`):
     abbreviations        which constants and terms get names, and D, C and g in these
     base_parameters      the inertial constants that D and g are made of
     recurring            what stands in several places
+    recurring_multiples  sums that are multiples of each other
     abbreviated_steps    the steps of a derivation in these names
     symbol_names         names for the Christoffel symbols of a short model, and its steps in these
     long_model           those of a long model, which stay in d_ij, c_ijk and g_k where they can

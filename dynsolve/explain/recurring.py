@@ -7,13 +7,15 @@ of several sums; so is a product.  Names build on each other, the inner ones fir
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import combinations
 
+from dynsolve.explain.recurring_multiples import Multiples
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.tree import Function, Negative, Node, Number, Power, Product, Quotient, Sum, Symbol
-from dynsolve.notation.walk import children
+from dynsolve.notation.walk import children, with_children
 
 SHORTEST_SUM = 5
 """The operations from which on a recurring sum is worth a name."""
@@ -63,6 +65,7 @@ def name_recurring(
     sharing = _Sharing(decimal)
     roots = [sharing.intern(entry) for entry in entries]
     sharing.share_parts()
+    roots = sharing.united(roots)
     uses = sharing.uses(dict.fromkeys(split_sign(r)[1] for r in roots) if whole else roots)
     writer = _Writer(sharing.terms, uses, names, decimal, LEAST_SAVED if whole else 0)
     used = [writer.write(root) for root in roots]
@@ -79,6 +82,7 @@ class _Sharing:
         self._order: dict[Symbol, int] = {}
         self._seen: dict[Node, Node] = {}
         self._costs: dict[int, tuple[Node, int]] = {}
+        self._multiples = Multiples(decimal)
 
     # -- reading -----------------------------------------------------------------------------------
 
@@ -115,11 +119,15 @@ class _Sharing:
             return self.sums[key]
         if opposite in self.sums:
             return Negative(self.sums[opposite])
+        multiple = self._multiples.of_sum(terms)
+        if multiple is not None:
+            return multiple
         flip = sum(isinstance(t, Negative) for t in terms) * 2 > len(terms)
         name = Symbol(f" {len(self.terms)}")
         self.sums[opposite if flip else key] = name
         self._order[name] = len(self.terms)
         self.terms[name] = tuple(map(negated, terms)) if flip else tuple(terms)
+        self._multiples.add(name, self.terms[name])
         return Negative(name) if flip else name
 
     # -- parts that sums share ---------------------------------------------------------------------
@@ -186,6 +194,56 @@ class _Sharing:
             rest = [t for t in terms if t not in mine]
             before = sum(t not in mine for t in terms[:place])
             self.terms[name] = (*rest[:before], one, *rest[before:])
+
+    # -- products that are sums by themselves ------------------------------------------------------
+
+    def united(self, roots: Sequence[Node]) -> list[Node]:
+        """The entries with c (a s + b c) as a s c + b c², where that has a placeholder; the sums, too.
+
+        Then the smallest of the multiples of a sum is what its placeholder stands for: 2σ, and no σ/2.
+        """
+
+        def multiplied(node: Node) -> Node | None:
+            return self._multiples.in_product(node, self.terms) if isinstance(node, Product) else None
+
+        roots = self._everywhere(multiplied, roots)
+        smallest = self._multiples.smallest
+
+        def scaled(node: Node) -> Node | None:
+            match node:
+                case Symbol() if node in smallest:
+                    return times(1 / smallest[node], [(node, 1)], decimal=self.decimal)
+                case Power(Symbol() as name, Number(p, 1)) if name in smallest:
+                    return times(1 / smallest[name] ** p, [(name, p)], decimal=self.decimal)
+                case Product(factors) if any(map(scaled, factors)):
+                    parts = [(scaled(factor) or factor, 1) for factor in factors]
+                    return times(1, parts, decimal=self.decimal)
+                case Quotient(numerator, Number(p, q)) if whole := scaled(numerator):
+                    return times(Fraction(q, p), [(whole, 1)], decimal=self.decimal)
+            return None
+
+        roots = self._everywhere(scaled, roots)
+        for name, part in smallest.items():
+            terms = self.terms[name]
+            self.terms[name] = tuple(times(part, [(term, 1)], decimal=self.decimal) for term in terms)
+        return roots
+
+    def _everywhere(self, change: Callable[[Node], Node | None], roots: Sequence[Node]) -> list[Node]:
+        """The sums changed where `change` has something for a part, and so the entries."""
+        done: dict[Node, Node] = {}
+
+        def put(node: Node) -> Node:
+            found = done.get(node)
+            if found is None:
+                found = change(node)
+                if found is None:
+                    found = node if isinstance(node, Function) else with_children(node, put)
+                done[node] = found
+            return found
+
+        for name, terms in self.terms.items():
+            self.terms[name] = tuple(map(put, terms))
+        return [put(root) for root in roots]
 
     def uses(self, roots: Iterable[Node]) -> Counter[Node]:
         """How often each sum and product stands in the entries and in the distinct sums."""
