@@ -35,7 +35,7 @@ SLIDE = 0.9
 CAPTION = "The manipulator with its frames; not to scale."
 PARALLELS = "Dashed grey lines at a joint are parallel to the directions between which its angle is measured."
 OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey."
-OFF_LINKS = "A black dashed line leads from an origin to the mass centre of its link."
+OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
 
 _STAR = Style(star=True, decimal=True)
 _PLAIN = Style(decimal=True)

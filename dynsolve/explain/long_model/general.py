@@ -167,6 +167,7 @@ def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
         why=(
             f"Each is given about the mass centre, along the axes of its link's frame; in {context.ground} "
             "coordinates it turns with the link.",
+            *_off_the_diagonal(bodies),
         ),
         formula=side_by_side(
             [
@@ -179,6 +180,16 @@ def _tensors(context: Context, bodies: Sequence[Body]) -> Step:
         together=True,
         detail=Detail.BRIEF,
         uses=(),
+    )
+
+
+def _off_the_diagonal(bodies: Sequence[Body]) -> Prose:
+    """The sign of the products of inertia, where there are any."""
+    tensors = [body.inertia for body in bodies if body.inertia]
+    if all(tensor[i, j].is_zero for tensor in tensors for i in range(3) for j in range(i)):
+        return ()
+    return (
+        " An entry off the diagonal is minus the integral of the product of two coordinates over the mass.",
     )
 
 

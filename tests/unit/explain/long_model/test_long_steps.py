@@ -99,6 +99,14 @@ def test_indices_among_words_are_set_as_in_formulas(problem: str) -> None:
         assert not [word for word in words if isinstance(word, str) and re.search(r"\b[ijk]\b", word)]
 
 
+@pytest.mark.slow
+def test_the_sign_of_products_of_inertia_is_said_where_there_are_any() -> None:
+    """Spong, Hutchinson, Vidyasagar, section 7.2.1: I_xy is minus the integral of x y."""
+    minus = "An entry off the diagonal is minus the integral of the product of two coordinates"
+    assert minus in said(steps("puma560")["tensors"], "puma560")
+    assert minus not in said(steps("stanford-6")["tensors"], "stanford-6")
+
+
 @pytest.mark.parametrize("problem", LONG)
 def test_the_jacobian_by_its_columns(problem: str) -> None:
     """Each column of J_v once, in order; the wrist's axes pass through the point that they do not move."""
