@@ -21,6 +21,7 @@ What is drawn of it:
     annotate      axes of frames, mass centres, gravity
     world_frame   the world where the base is moved in it or leans
     joint_angles  the angles of the joints, from the line from which each is measured
+    springs       springs at joints
     lengths       lengths with their heads
     labels        where labels stand; `typography` how wide they are
     scene         all of it together

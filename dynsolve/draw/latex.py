@@ -15,7 +15,7 @@ from dynsolve.draw.svg import number
 from dynsolve.draw.typography import SIZE
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Node, Row, Words
+from dynsolve.notation.tree import Node, Product, Quotient, Row, Sum, Words
 
 WIDEST = 345.0
 """The width of a page's text, in big points."""
@@ -86,10 +86,15 @@ def _colour(colour: str) -> str:
 
 
 class _Printer(LatexPrinter):
-    """LaTeX that needs no package for a word."""
+    """LaTeX that needs no package for a word, with fractions on the line, where their digits stay large."""
 
     def _words(self, node: Words) -> str:
         return rf"\mathrm{{{node.text}}}"
+
+    def _quotient(self, node: Quotient) -> str:
+        if isinstance(node.numerator, Sum) or isinstance(node.denominator, Sum | Product):
+            return super()._quotient(node)
+        return f"{self.text(node.numerator)}/{self.text(node.denominator)}"
 
 
 def _formula(node: Node, style: Style) -> str:

@@ -18,12 +18,13 @@ from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.solids import ground, solids
+from dynsolve.draw.springs import SPRINGS, joint_springs, springs
 from dynsolve.draw.vectors import NEAR, Point, dot
 from dynsolve.draw.world_frame import WORLD, has_world, moves, world_frame
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
 from dynsolve.problem.model import Problem
-from dynsolve.robot.model import JointType
+from dynsolve.robot.model import JointType, Robot
 
 MARGIN = 14.0
 _FINEST = 10**6
@@ -71,6 +72,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     if has_world(robot, values):
         under = (*world_frame(robot, values, pose, notes), *under)
     joint_angles(pose, names_of_angles(robot), notes)
+    springs(robot, values, pose, notes)
     annotate.masses(pose, notes)
     annotate.axes_end_on(pose, notes)
     dimensions([*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values)], pose, notes)
@@ -79,7 +81,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",
-        _caption(pose, has_world(robot, values)),
+        _caption(robot, values, pose),
         _description(problem),
         paths,
         labels,
@@ -88,11 +90,16 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     )
 
 
-def _caption(pose: Pose, shows_world: bool) -> str:
-    """What stands under the picture, with what its dashed lines are."""
-    said = ((PARALLELS, has_parallels), (OFFSETS, has_offsets), (OFF_LINKS, annotate.has_masses_off_links))
-    sentences = [sentence for sentence, holds in said if holds(pose)]
-    return " ".join([CAPTION, *([WORLD] if shows_world else []), *sentences])
+def _caption(robot: Robot, values: RobotNumbers, pose: Pose) -> str:
+    """What stands under the picture, with what its lines are that are not always there."""
+    said = (
+        (WORLD, has_world(robot, values)),
+        (PARALLELS, has_parallels(pose)),
+        (OFFSETS, has_offsets(pose)),
+        (OFF_LINKS, annotate.has_masses_off_links(pose)),
+        (SPRINGS, bool(joint_springs(robot, values, pose))),
+    )
+    return " ".join([CAPTION, *(sentence for sentence, holds in said if holds)])
 
 
 def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:

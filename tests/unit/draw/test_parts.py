@@ -133,6 +133,11 @@ def test_a_picture_for_documents_has_svg_and_latex() -> None:
     assert r"$\theta_{1}^{\star}$" in block.latex and "usepackage" not in block.latex
 
 
+def test_fractions_stand_on_the_line_in_latex() -> None:
+    block = picture(load(next(path for path in LIBRARY if path.stem == "box-cylinder-rod-sphere")))
+    assert "$l_{2}/2$" in block.latex and r"\frac" not in block.latex
+
+
 def test_the_latex_has_balanced_groups() -> None:
     tex = draw(load(LIBRARY[0]), PictureFormat.LATEX).decode()
     assert tex.count("{") == tex.count("}") and "%" not in tex.replace("%\n", "")
