@@ -55,11 +55,16 @@ class Relations:
         for index, relation in self._pairs:
             if degrees[index] > 1:
                 poly %= relation
+        poly = self.reduce_roots(poly)
+        if self._inverses:
+            poly = self._without_inverses(poly)
+        return poly
+
+    def reduce_roots(self, poly: fmpq_mpoly) -> fmpq_mpoly:
+        """A polynomial with √3² = 3, and s² + c² as it stands."""
         for index, degree, relation in self._roots:
             if poly.degrees()[index] >= degree:
                 poly %= relation
-        if self._inverses:
-            poly = self._without_inverses(poly)
         return poly
 
     def _without_inverses(self, poly: fmpq_mpoly) -> fmpq_mpoly:

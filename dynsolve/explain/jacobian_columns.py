@@ -177,7 +177,7 @@ def _multiplied_out(context: Context, joint: Joint, point: algebra.Matrix) -> Ma
     entries: list[tuple[Node]] = []
     for row in algebra.skew(z).rows:
         terms = (a.poly * b.poly for a, b in zip(row, lever.entries, strict=True))
-        poly = sum(terms, start=ring.zero.poly)
+        poly = ring.reduce_roots(sum(terms, start=ring.zero.poly))
         value = Expr(ring, ring.reduce(poly))
         entries.append(
             (context.show(value) if value.poly == poly else squares.factored(context.forms, poly),)

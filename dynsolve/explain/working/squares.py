@@ -169,7 +169,9 @@ def _terms(ring: Ring, poly: fmpq_mpoly) -> Node:
     """A polynomial term by term, as it stands."""
 
     def factors(powers: Sequence[int]) -> list[tuple[Node, int]]:
-        return [(_written(ring, ring.generators[i]), int(e)) for i, e in enumerate(powers) if e]
+        found = [(ring.generators[i], int(e)) for i, e in enumerate(powers) if e]
+        found.sort(key=lambda power: power[0].kind != "root")  # √3 s c
+        return [(_written(ring, g), e) for g, e in found]
 
     return total([times(fraction(factor), factors(powers)) for powers, factor in poly.to_dict().items()])
 
@@ -178,4 +180,6 @@ def _written(ring: Ring, g: Generator) -> Node:
     """A generator as a formula."""
     if g.kind in ("sin", "cos"):
         return Function(g.kind, angle_node(g.angle, ring.names))
-    return Symbol(g.name, g.dots) if g.node is None else g.node
+    if g.node is None:
+        return Symbol(g.name, g.dots)
+    return Function("sqrt", g.node) if g.kind == "root" else g.node

@@ -11,6 +11,8 @@ import dynsolve
 from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.step import Step
+from dynsolve.notation.tree import Cross, Relation
+from dynsolve.notation.tree_values import evaluate
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.render.formats import Format
 from dynsolve.solution.reports import report
@@ -323,3 +325,16 @@ def test_a_square_of_rates_is_opened_after_it_is_added() -> None:
     _, plain, concluding = lines("planar-2r", "K2")
     assert plain.endswith(" + ½ I₂ (q̇₁ + q̇₂)²")
     assert concluding == "The square multiplied out, and collected:"
+
+
+def test_a_cross_product_before_its_identity_has_the_roots_of_a_leaning_base() -> None:
+    """z × (o₂ - o) with √3² = 3 put in, and s₁² + c₁² not yet 1: the same value as its column of J_v."""
+    solution = solved(TILTED)
+    shown = [node for found in solution.steps for node in found.working if isinstance(node, Relation)]
+    values = [node.parts[-1] for node in shown if isinstance(node.parts[0], Cross)]
+    state = {name: 0.3 + 0.2 * place for place, name in enumerate(("q1", "q2", "l1", "l2", "m", "g"))}
+    columns = list(zip(*evaluate(solution.forms("J"), state)[:3], strict=True))
+    assert any("√3" in to_unicode(value) for value in values)
+    for value in values:
+        column = tuple(row[0] for row in evaluate(value, state))
+        assert any(column == pytest.approx(other) for other in columns)
