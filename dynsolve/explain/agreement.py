@@ -46,9 +46,7 @@ def agreement_step(context: Context) -> Step:
     wrong = [name for name, holds in verdicts if not holds]
     why: Prose = ()
     if same:
-        verb = "is" if len(same) == 1 else "are"
-        how = f", read off from the forces and assembled directly, {verb} exactly equal."
-        why += (*listed(same), how)
+        why += ("Read off and assembled directly: the same ", *listed(same), ".")
     if wrong:
         why += (" The two ways differ in " if same else "The two ways differ in ", *listed(wrong), ".")
     return Step(
@@ -138,15 +136,15 @@ def skew_step(context: Context) -> Step:
         stage=STAGE,
         title="Check: a matrix that must be skew-symmetric",
         why=(
-            "With ",
+            "With this ",
             letters.C,
-            " from the Christoffel symbols, the matrix ",
+            " the matrix ",
             name,
             " must be skew-symmetric",
             *_by_entries(robot.n),
             ", so that ",
             equation(letters.transposed_product(letters.QD, name), Number(0)),
-            f" for all rates.{passive}",
+            f".{passive}",
         ),
         formula=equation(name, SKEW),
         lines=rate or general,

@@ -37,7 +37,6 @@ def potential_steps(context: Context) -> Iterator[Step]:
 def _potential(context: Context, body: Body, tells: bool) -> Step:
     P, pull = letters.of_body("P", body), Product((Transpose(letters.GRAVITY), letters.rc(body)))
     parts: tuple[Node, ...] = (P, Negative(Product((context.mass(body), pull))))
-    further: tuple[Node, ...] = ()
     working: tuple[Node, ...] = ()
     if context.robot.gravity.is_zero:
         why: Prose = ("There is no gravity.",)
@@ -45,7 +44,6 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         why = (f"{name_of(body).capitalize()} has inertia but no mass, so gravity does not act on it.",)
     else:
         why = _of_gravity(context) if tells else ()
-        further = (equation(letters.GRAVITY, _gravity(context)),) if tells else ()
         height = _height(context, body)
         if height is None:
             why += ("Minus the mass times ", pull, ".")
@@ -62,7 +60,6 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         why=why,
         formula=equation(*parts),
         source=spong("7.2.3"),
-        further=further,
         working=working,
         result=(equation(P, context.form(f"P{body.name}")),),
     )
@@ -71,7 +68,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
 def _of_gravity(context: Context) -> Prose:
     """What the vector of gravity is, and which axis points up where one does."""
     why: Prose = (
-        letters.GRAVITY,
+        equation(letters.GRAVITY, _gravity(context)),
         " is the acceleration of gravity, which points down (",
         spong("7.2.3"),
         " writes a plus: its vector points up). ",

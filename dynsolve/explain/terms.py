@@ -50,13 +50,11 @@ class Kind(StrEnum):
 
 
 _MEANINGS: dict[Kind, str] = {
-    Kind.INERTIAL: "A term with the acceleration of its own coordinate is inertial: what it takes to "
-    "accelerate that coordinate alone.",
-    Kind.COUPLING: "With the acceleration of another coordinate it is coupling inertia: what that "
-    "acceleration takes at this {joint}.",
+    Kind.INERTIAL: "A term with the acceleration of its own coordinate is inertial.",
+    Kind.COUPLING: "With that of another coordinate it is coupling inertia.",
     Kind.CENTRIFUGAL: "With the square of a rate it is centrifugal: it remains where that coordinate alone "
-    "moves, at a constant rate.",
-    Kind.CORIOLIS: "With the product of two rates it is a Coriolis term: it needs both coordinates to move.",
+    "moves.",
+    Kind.CORIOLIS: "With the product of two rates it is a Coriolis term: it needs both to move.",
     Kind.FRICTION: "What takes energy away is friction: its sign is that of the rates.",
     Kind.GRAVITY: "Without rates and accelerations it is gravity: what {holds} must hold at rest.",
     Kind.SPRING: "Without rates and accelerations it is a spring: what {holds} must hold at rest.",
@@ -132,10 +130,8 @@ def terms_step(context: Context) -> Iterator[Step]:
     kinds = dict.fromkeys(term.kind for _, terms in found for term in terms)
     known = Dimensions(robot.ring, robot)
     units_known = _fit(context, known, found)
-    words = {"joint": "joint", "holds": "the joint"}
-    if not context.robot.has_table:
-        words = {"joint": "coordinate", "holds": "the force of the coordinate"}
-    why = [_MEANINGS[kind].format(**words) for kind in Kind if kind in _told(kinds)]
+    holds = "the joint" if context.robot.has_table else "the force of the coordinate"
+    why = [_MEANINGS[kind].format(holds=holds) for kind in Kind if kind in _told(kinds)]
     checked = _said_of_units(robot.coordinates) if units_known else ()
     header = ("force", "term", "what it is", *(("unit",) if units_known else ()))
     rows = [row for q, terms in found for row in _rows(context, q, terms, known if units_known else None)]
@@ -225,4 +221,4 @@ def _said_of_units(coordinates: tuple[Coordinate, ...]) -> Prose:
         said.append((units.node("kg m^2/s^2 = N m"), " in a torque (an angle is a number)"))
     if JointType.PRISMATIC in kinds:
         said.append((units.node("kg m/s^2 = N"), " in a force"))
-    return (" The units are a check: factor times rates or acceleration gives ", *listed(said), ".")
+    return (" Factor times rates or acceleration gives ", *listed(said), ".")

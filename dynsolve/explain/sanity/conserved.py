@@ -83,7 +83,7 @@ def _of_energy(context: Context) -> Line | None:
     kinetic = equation(letters.K, Product((half, letters.transposed_product(letters.QD, letters.D))))
     slope = equation(letters.G, letters.partial_derivative(letters.P, letters.Q))
     by: Prose = (
-        "The energy: the product rule with ",
+        "The energy, by ",
         kinetic,
         " and ",
         slope,
@@ -91,7 +91,7 @@ def _of_energy(context: Context) -> Line | None:
     )
     by += (
         equation(letters.transposed_product(letters.QD, N), Number(0)),
-        Reference(("skew-2",), " by "),
+        Reference(("skew-2",)),
         ":",
     )
     return Line(by, (equation(rate, *map(_power, powers)),))

@@ -187,7 +187,7 @@ MEANINGS = [
      "generalized force i: a torque at a revolute joint, a force (fᵢ) at a prismatic one", "N m or N"),
     ("planar-2r", "τᵢ", "generalized force i, a torque", "N m"),
     ("cartesian-pp", "τᵢ, fᵢ", "generalized force i, a force", "N"),
-    ("planar-2r", "𝐃_points", "inertia matrix of the masses alone, as points", "kg m²"),
+    ("elbow-3r", "𝐃_points", "inertia matrix of the masses alone, as points", "kg m²"),
     ("in3140-rp", "θ, d, a, α", "columns of the Denavit-Hartenberg table", ""),
     ("inf3480-rrp-drawn", "θ, d, a, α", "columns of the Denavit-Hartenberg table", ""),
     ("elbow-3r", "s₁, c₁, …, c₂₃", "s₁ = sin θ₁, c₁ = cos θ₁, s₂₃ = sin(θ₂ + θ₃)", ""),

@@ -209,7 +209,7 @@ def test_without_moments_of_inertia_the_linear_parts_are_left() -> None:
     step = check("in3140-rp", "point_masses")
     assert step is not None
     style = solved("in3140-rp").style
-    _, rest = (to_unicode(node, style) for node in step.result)
+    (rest,) = (to_unicode(node, style) for node in step.result)
     assert rest == "𝐃 - 𝐃_points = [[I_1zz, 0], [0, 0]]"
     assert said("in3140-rp", "point_masses").endswith(
         "in each term, and nothing for L₂, which turns no body:"
