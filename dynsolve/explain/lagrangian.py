@@ -20,9 +20,9 @@ def steps(context: Context) -> Iterator[Step]:
         id="L",
         stage=STAGE,
         title="Kinetic minus potential energy",
+        why=("The one function from which every equation of motion follows.",),
         formula=equation(letters.L, Sum((letters.K, Negative(letters.P)))),
         source=spong("7.1"),
         result=(equation(letters.L, context.form("L")),),
-        hint=("The one function from which every equation of motion follows.",),
         detail=Detail.BRIEF,
     )

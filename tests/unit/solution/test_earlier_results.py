@@ -25,8 +25,9 @@ def folds(problem: str) -> tuple[Fold, ...]:
 
 
 def cited(problem: str, title: str) -> tuple[str, ...]:
-    """The labels that the step of a title refers to."""
-    return next((block.labels for block in fold_of(problem, title).blocks if isinstance(block, Uses)), ())
+    """The labels that the step of a title refers to, line by line."""
+    uses = (block for block in fold_of(problem, title).blocks if isinstance(block, Uses))
+    return tuple(dict.fromkeys(label for block in uses for label in block.labels))
 
 
 def fold_of(problem: str, title: str) -> Fold:
