@@ -74,7 +74,7 @@ def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> Non
     short = solved(problem).abbreviated("auto")
     blocks = solution_document(solved(problem), detail).blocks
     *_, last, verification = (place for place, block in enumerate(blocks) if isinstance(block, Heading))
-    assert blocks[last] == Heading(TITLE) and blocks[verification] == Heading("Verification")
+    assert blocks[last] == Heading(TITLE, closing=True) and blocks[verification] == Heading("Verification")
     definitions = (
         [equation(one.name, one.meaning) for one in short.sums] if short and short.at_symbols else []
     )
