@@ -37,11 +37,20 @@ def part_step(context: Context, body: Body) -> Step:
         source=spong("7.2.2"),
         result=tuple(_results(context, body)),
         together=context.robot.n <= BESIDE,
-        uses=(f"Jv{body.name}#1",) if is_short and not context.values[f"Jv{body.name}"].is_zero else (),
+        uses=_uses(context, body) if is_short else (),
         detail=Detail.NORMAL if is_short else Detail.FULL,
         is_task=False,
     )
     return _worked_out(context, body, step) if is_short else step
+
+
+def _uses(context: Context, body: Body) -> tuple[str, ...]:
+    """What goes into the first product; into both, where the second needs nothing but matrices put in."""
+    b = body.name
+    turns = not (body.is_point or context.values[f"Jw{b}"].is_zero)
+    if turns and not along_own_axes(context, body):
+        return f"Jv{b}", f"I{b}"
+    return () if context.values[f"Jv{b}"].is_zero else (f"Jv{b}#1",)
 
 
 def _worked_out(context: Context, body: Body, step: Step) -> Step:
@@ -165,7 +174,7 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     name = angular_name(body)
     if not along_own_axes(context, body):
         product = letters.transposed_product(context.show(J), context.show(tensor))
-        yield Line((), (equation(name, product),), (f"Jv{b}#2", f"I{b}"))
+        yield Line((), (equation(name, product),))
         return
     own = turned(context, body, "Jw", letters.jw(body))
     R, w = letters.of_body("R", body, "bold"), letters.of_body("omega", body, "bold")

@@ -306,7 +306,7 @@ def _base_tensor(context: Context, body: Body) -> Step:
         source=spong("7.2.1"),
         working=tuple(equation(name, line) for line in turning.lines),
         concluding=turning.concluding,
-        result=(equation(name, base),),
+        result=(equation(name, *((turning.same,) if turning.same else ()), base),),
         notes=turning.notes,
         detail=_detail(context, body, base),
     )
@@ -314,12 +314,16 @@ def _base_tensor(context: Context, body: Body) -> Step:
 
 @dataclass(frozen=True, slots=True)
 class _Turning:
-    """How R I Rᵀ comes about: what is said of it, its lines, and the identities that lead to the result."""
+    """How R I Rᵀ comes about: what is said of it, its lines, and the identities that lead to the result.
+
+    `same` is the tensor that it is equal to, where the rotation does not change it.
+    """
 
     lines: tuple[Node, ...]
     why: Prose = ()
     concluding: Prose = ()
     notes: tuple[Prose, ...] = ()
+    same: Letter | None = None
 
 
 def _turning(context: Context, body: Body, R: Letter) -> _Turning:
@@ -331,7 +335,7 @@ def _turning(context: Context, body: Body, R: Letter) -> _Turning:
         return _Turning((Product((shown, *turned.factors)), Product((shown, one))), why)
     if axis is not None:
         why = (f" Here it turns about {axis}, and the tensor is the same about all axes across {axis}.",)
-        return _Turning((letters.tensor(context.robot, body),), why)
+        return _Turning((), why, same=letters.tensor(context.robot, body))
     lines = tuple(_turned(context, body))
     is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")
     notes: tuple[Prose, ...] = (("This rotation does not change the tensor.",),) if is_kept else ()
