@@ -15,6 +15,9 @@ from dynsolve.render.typesetting import Line
 FEWEST = 20
 """From this number of equations on they are set in columns."""
 
+FEWEST_SHORT = 6
+"""The same for equations each of which fits a column."""
+
 MOST_COLUMNS = 3
 GAP = 1.2
 """The space between two columns, in em."""

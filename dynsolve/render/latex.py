@@ -62,7 +62,7 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \setlength{\jot}{2pt}
 \setcounter{MaxMatrixCols}{30}
 \renewcommand{\arraystretch}{1.12}
-\clubpenalty=9000 \widowpenalty=9000
+\clubpenalty=10000 \widowpenalty=10000
 \AtBeginDocument{\setlength{\abovedisplayskip}{4pt plus 2pt}\setlength{\belowdisplayskip}{4pt plus 2pt}}
 \makeatletter
 \renewcommand\section{\@startsection{section}{1}{0pt}{-14pt plus -4pt}{5pt}{\Large\bfseries}}

@@ -33,7 +33,7 @@ from dynsolve.document import (
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.formulas import FormulaPrinter
 from dynsolve.notation.tree import Node, Relation, Row, Words
-from dynsolve.render.columns import FEWEST, Columns, in_columns
+from dynsolve.render.columns import FEWEST, FEWEST_SHORT, GAP, MOST_COLUMNS, Columns, in_columns
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.matrices import height, holds_matrix
 from dynsolve.render.page_ends import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, closing
@@ -256,10 +256,13 @@ class TypesetPage(MarkupPage):
         return lines[0] if len(lines) == 1 else None
 
     def equation_columns(self, equations: Equations) -> Columns | None:
-        """Equations in columns, where they may be and are many."""
-        if not equations.in_columns or len(equations.nodes) < FEWEST:
-            return None
+        """Equations in columns, where they may be and are many, or are all short and not few."""
         room = self.width - self.number
+        short = len(equations.nodes) >= FEWEST_SHORT and all(
+            self.ruler.width(node) + GAP <= room / MOST_COLUMNS for node in equations.nodes
+        )
+        if not short and not (equations.in_columns and len(equations.nodes) >= FEWEST):
+            return None
         return in_columns(Typesetter(self.notation, self.ruler, room).each(equations.nodes), room)
 
     def lines_of(self, equations: Equations) -> list[Line]:

@@ -27,9 +27,9 @@ def runs_of_rows(count: int, last: int = LAST_OF_DISPLAY) -> tuple[int, ...]:
     """The rows of a display, in runs in which no page ends.
 
     >>> runs_of_rows(7), runs_of_rows(5)
-    ((2, 1, 1, 3), (5,))
+    ((2, 1, 1, 3), (2, 3))
     """
-    if count <= _FIRST + last:
+    if count < _FIRST + last:
         return (count,)
     return (_FIRST, *[1] * (count - _FIRST - last), last)
 
