@@ -141,9 +141,7 @@ def _by_bodies(context: Context) -> _Shown | None:
             energy = Product((Number(2), letters.of_body("K", body)))
             rate = letters.velocity(robot.coordinates[k])
             value = times(1, [(factor, 1), (rate, 2)], decimal=is_numeric(robot))
-            lines.append(
-                Row((equation(energy, value), Words(", which is 0 only where "), equation(rate, ZERO)))
-            )
+            lines.append(equation(energy, value))
             resting.add(k)
     if len(resting) < robot.n:
         return None
@@ -155,7 +153,7 @@ def _by_bodies(context: Context) -> _Shown | None:
     why += (
         "of it negative: where it is 0, that of each body is. In each line the rates of the lines before ",
     )
-    why += ("are 0:",)
+    why += ("are 0, so that it is 0 only where its own rate is:",)
     concluding: Prose = (
         "So ",
         equation(power, ZERO),
