@@ -52,6 +52,7 @@ def compact(text: str) -> str:
         ("-a*sin(q1) - b*sin(q1 + q2)", "-a*sin(q1) - b*sin(q1 + q2)"),
         ("2*a*q1_dot*q2_dot + a*q2_dot^2", "a*(2*q1_dot*q2_dot + q2_dot**2)"),
         ("m1*a^2/3", "m1*a**2/3"),
+        ("m1*b^2/2 + m2*a^2*cos(q1)^2/12", "m1*b**2/2 + m2*a**2*cos(q1)**2/12"),
         ("m1*(a^2 + 3*b^2)*cos(q1)/12", "m1*(a**2 + 3*b**2)*cos(q1)/12"),
         ("(sin(q1)*a*q1_dot)^2 + (cos(q1)*a*q1_dot)^2", "a**2*q1_dot**2"),
         ("a*q1_ddot + b*q1_dot + g*cos(q1)", "a*q1_ddot + b*q1_dot + g*cos(q1)"),
