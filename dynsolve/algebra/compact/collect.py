@@ -95,8 +95,8 @@ class Collector:
     def primitive(self, poly: Polynomial) -> tuple[Rational, Monomial, Polynomial]:
         """(factor, monomial, rest) with poly = factor · monomial · rest, the rest with few minus signs."""
         factor = self.content(poly.values())
-        if self._of_several_bodies(poly) and len({Fraction(f).denominator for f in poly.values()}) > 1:
-            factor = Fraction(factor).numerator
+        if factor.denominator != 1 and self._of_several_bodies(poly):
+            factor = factor.numerator
         mono = self._worth_drawing(poly, common(poly))
         rest = self._divided(poly, mono, factor)
         if (factor != 1 or mono) and self.mostly_negative(rest):
@@ -104,8 +104,10 @@ class Collector:
         return factor, mono, rest
 
     def _of_several_bodies(self, poly: Polynomial) -> bool:
-        """Whether terms have different masses or moments: m₁ r²/2 + m₂ l²/12 stays two terms."""
+        """Whether terms have different masses and fractions: m₁ r²/2 + m₂ l²/12 stays two terms."""
         ranks = self.atoms.ranks
+        if len({f.denominator for f in poly.values()}) == 1:
+            return False
         return len({tuple(a for a, _ in mono if ranks[a][0] is Rank.LEADING) for mono in poly}) > 1
 
     def content(self, factors: Iterable[Rational]) -> Rational:

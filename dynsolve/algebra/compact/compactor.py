@@ -233,10 +233,10 @@ class Compactor:
         symbols = zip(*(e[start:] for e in terms), strict=True)
         least = tuple(min(powers) if len(set(powers)) == 1 else 0 for powers in symbols)
         factor = self.collector.content(terms.values())
-        stop = start + len(layout.leading)
-        several = len({e[start:stop] for e in terms}) > 1
-        if several and len({f.denominator for f in terms.values()}) > 1:  # m₁ r²/2 + m₂ l²/12
-            factor = factor.numerator
+        if factor.denominator != 1 and len({f.denominator for f in terms.values()}) > 1:
+            stop = start + len(layout.leading)
+            if len({e[start:stop] for e in terms}) > 1:  # m₁ r²/2 + m₂ l²/12
+                factor = factor.numerator
         if factor == 1 and not any(least):
             return (1, ()), terms
         rest = {
