@@ -36,6 +36,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     entry_formulas
                 energies, momenta and forces in the entries of D and g and the Christoffel symbols
     statement   what is given and what is to be found
+    hypotheses  what it rests on: joints, mass centres, gravity, friction, values
     shapes      what uniform shapes are called
     style       how a robot's formulas look: s_1 for sin θ_1
     widths      how wide formulas are as text

@@ -24,7 +24,6 @@ from dynsolve.explain.writing import (
     side_by_side,
     spong,
     sum_of,
-    turns,
 )
 from dynsolve.notation.tree import (
     BigSum,
@@ -84,10 +83,6 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
     weightless = name == "P" and context.robot.gravity.is_zero
     if are_counted(context.robot.bodies) and len(bodies) > 1 and not weightless:
         members.append(sum_of([_summed(context, name), *others]))
-    notes: tuple[Prose, ...] = ()
-    if name == "K":
-        kinds = {"torque" if turns(q) else "force": None for q in context.robot.coordinates}
-        notes = ((f"Each body has its kinetic energy, but each joint its {' or '.join(kinds)}, below.",),)
     acting = [name + ("s" if name == "P" else "m")] if others else []
     way = summed(context, [*(name + body.name for body in context.robot.bodies), *acting], name, letter)
     return Step(
@@ -100,7 +95,6 @@ def _total(context: Context, name: str, kind: str, letter: Letter, others: list[
         lines=way.lines,
         concluding=way.concluding,
         result=(equation(letter, context.form(name)),),
-        notes=notes,
         detail=Detail.BRIEF,
     )
 

@@ -16,14 +16,14 @@ from dynsolve.explain import given_axes
 from dynsolve.explain.citations import LYNCH_PARK
 from dynsolve.explain.context import Context
 from dynsolve.explain.density import density_step
-from dynsolve.explain.mass_centers import is_given_by, mass_center_step
+from dynsolve.explain.mass_centers import mass_center_step
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.shapes import SHAPES
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.working.rotational import along_own_axes
-from dynsolve.explain.writing import and_joined, is_small, measured, name_of, side_by_side, spong
+from dynsolve.explain.writing import is_small, listed, measured, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
     Negative,
@@ -115,8 +115,9 @@ def _tensor(context: Context, body: Body) -> Step:
     if body.density is not None:
         why = (f"That of {name_of(body)}, found above: nothing across the rod, and the same on both sides.",)
     elif body.shape is None or not body.shape.formulas:
-        why = (f"The tensor of {name_of(body)} is given, about {about}, along the axes of its own frame.",)
-        why += _left_out(context, body)
+        axes = f"the axes of frame {body.link}" if _in_frame(context, body) else "its own axes"
+        why = (f"The tensor of {name_of(body)} is given, about {about}, along {axes}.",)
+        why += _left_out(context, body) or _principal(body)
     return Step(
         id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",
         stage=STAGE,
@@ -138,11 +139,35 @@ def _left_out(context: Context, body: Body) -> Prose:
     still = [i for i in range(3) if all(entry.is_zero for entry in turning.rows[i])]
     if not still or len(still) > 2 or not all(e.is_zero for i in still for e in body.inertia.rows[i]):
         return ()
-    axes = and_joined([name for i, name in enumerate("xyz") if i not in still])
-    about = f" It turns about its {axes} alone, so only what belongs to "
-    return (
-        about + f"{'that axis' if len(still) == 2 else 'these axes'} enters; all else is left out, as 0.",
+    axes = listed(
+        [_axis(context, body, name, f"its {name}") for i, name in enumerate("xyz") if i not in still]
     )
+    what = "that axis" if len(still) == 2 else "these axes"
+    return (
+        " It turns about ",
+        *axes,
+        f" alone, so only what belongs to {what} enters; all else is left out, as 0.",
+    )
+
+
+def _principal(body: Body) -> Prose:
+    """That the axes of a given tensor are principal, where its products of inertia are zero."""
+    assert body.inertia is not None
+    if any(not body.inertia[i, j].is_zero for i in range(3) for j in range(3) if i != j):
+        return ()
+    return (" They are principal axes: there are no products of inertia.",)
+
+
+def _in_frame(context: Context, body: Body) -> bool:
+    """Whether the body's axes are known to be those of its link's frame."""
+    return context.robot.has_table and has_link_axes(body)
+
+
+def _axis(context: Context, body: Body, name: str, otherwise: str) -> Prose:
+    """An axis of a body: 𝐳₁ where it is that of its link's frame, else what it is called otherwise."""
+    if _in_frame(context, body):
+        return (Letter(name, letters.index_of(str(body.link)), style="bold"),)
+    return (otherwise,)
 
 
 def _shape(context: Context, body: Body) -> tuple[Node | None, tuple[Node, ...], Prose]:
@@ -158,7 +183,10 @@ def _shape(context: Context, body: Body) -> tuple[Node | None, tuple[Node, ...],
     given = [relation for relation in given if relation.parts[0] != relation.parts[1]]
     why: Prose = (f"{name_of(body).capitalize()} is a uniform {SHAPES[shape.kind]}",)
     if shape.axis:
-        why += (f", its own axis along {shape.axis} of the body's frame",)
+        why += (
+            ", its own axis along ",
+            *_axis(context, body, shape.axis, f"{shape.axis} of the body's frame"),
+        )
     why += (". Its principal moments about the mass centre:",)
     return formula, (side_by_side(given),) if given else (), why
 
@@ -229,9 +257,7 @@ def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tupl
     frame, turned = letters.R(robot, link), context.show(body.axes.rotation)
     match body.axes.kind:
         case AxesKind.LINK if has_link_axes(body):
-            beyond = _ends_after(context, body) and not body.center.is_zero
-            which = "the frame that comes after the mass and" if beyond else "which"
-            why = f"The body's axes are those of frame {link}, {which} is fixed in the same link."
+            why = f"The body's axes are those of frame {link}, which is fixed in link {link}."
             return (why,), frame, ()
         case AxesKind.LINK:
             why = f"The body's axes are turned in frame {link}, as the problem gives them."
@@ -262,14 +288,6 @@ def _turned_back(context: Context, body: Body, name: Letter) -> tuple[Node, ...]
     rest = context.show(turned.map(context.robot.ring.at_rest))
     shown = context.show(turned)
     return (equation(name, Product((shown, Transpose(rest)))),) if is_small(shown, rest) else ()
-
-
-def _ends_after(context: Context, body: Body) -> bool:
-    """Whether the frame of the link is known to lie behind the mass: the mass is between the link's ends."""
-    between = (
-        body.center_written in ("tip", "midpoint") or is_given_by(body, "near") or is_given_by(body, "along")
-    )
-    return context.standard and between
 
 
 def _right_frame(context: Context, link: int) -> Iterator[Prose]:

@@ -289,7 +289,7 @@ def _frame(context: Context, i: int) -> Step:
         id=f"H{i}",
         stage=STAGE,
         title=f"Frame {i} seen from the {context.ground}",
-        why=_frame_why(context) if last else _OUTWARDS,
+        why=_frame_why(context, tells=not _multiplied_before(context, i)) if last else OUTWARDS,
         formula=equation(name, Product(tuple(chain))) if last or len(chain) > 2 else None,
         source=_products(context),
         working=(equation(*members),),
@@ -305,16 +305,23 @@ def _products(context: Context) -> str:
     return spong("3.1") if context.standard else craig("3.5")
 
 
-_OUTWARDS: Prose = (
+def _multiplied_before(context: Context, i: int) -> bool:
+    """Whether a frame before frame i is a product too."""
+    return letters.has_base(context.robot) or any(joint.parent for joint in context.robot.joints[: i - 1])
+
+
+OUTWARDS: Prose = (
     "Each ",
     Letter("A", style="bold"),
     " leads one frame further along the arm, so it multiplies from the right.",
 )
+"""Why the matrices of the rows stand in this order."""
 
 
-def _frame_why(context: Context) -> Prose:
-    """What the last frame tells, and of which point."""
-    why: Prose = (*_OUTWARDS, f" The fourth column is where {context.end} is, the first three ")
+def _frame_why(context: Context, tells: bool) -> Prose:
+    """What the last frame tells, and of which point; with `tells` why the matrices stand in this order."""
+    why: Prose = (f"The fourth column is where {context.end} is, the first three ",)
+    why = (*OUTWARDS, " ", *why) if tells else why
     if not context.robot.ends_in_a_joint:
         return (*why, "how it is turned.")
     return (

@@ -29,7 +29,7 @@ from dynsolve.notation.tree import (
 )
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import Body
+from dynsolve.robot.model import Body, Convention, Robot
 
 STAGE = Stage.INERTIA
 
@@ -77,7 +77,7 @@ def _parts(context: Context, link: int) -> tuple[Matrix, Matrix]:
 
 def _where(context: Context, body: Body) -> Prose:
     link, written = body.link, body.center_written
-    near, far = (link - 1, link) if context.standard else (link, link + 1)
+    near, far = ends(context.robot, body)
     if written == "tip":
         return (f"is at the far end of link {link}, ", letters.o(far))
     if written == "origin":
@@ -104,11 +104,11 @@ def _where(context: Context, body: Body) -> Prose:
             ", so the vector back from there is added",
         )
     if is_given_by(body, "along"):
-        ends: Prose = ("from ", letters.o(near), " to ", letters.o(far))
-        fraction = _part_of_the_way(body)
+        way: Prose = ("from ", letters.o(near), " to ", letters.o(far))
+        fraction = part_of_the_way(body)
         if fraction is None:
-            return (f"is on link {link}, at the given part of the way ", *ends)
-        return ("is ", fraction, f" of the way along link {link}, ", *ends)
+            return (f"is on link {link}, at the given part of the way ", *way)
+        return ("is ", fraction, f" of the way along link {link}, ", *way)
     return (f"is given by its coordinates in frame {link}, which are constant",)
 
 
@@ -117,7 +117,7 @@ def is_given_by(body: Body, key: str) -> bool:
     return re.match(rf"\W*{key}\b", body.center_written) is not None
 
 
-def _part_of_the_way(body: Body) -> Node | None:
+def part_of_the_way(body: Body) -> Node | None:
     """The part of the way, as the problem writes it; None where it cannot be read."""
     try:
         return read(re.sub(r"^\W*along\W*:|[{}'\"]", "", body.center_written).strip()).tree
@@ -127,7 +127,7 @@ def _part_of_the_way(body: Body) -> Node | None:
 
 def _measured(context: Context, body: Body) -> tuple[Node, ...]:
     """A centre in its frame, from the ends of the link where it is given so: in letters, then in values."""
-    found = _other_end(context, body)
+    found = other_end(context.robot, body)
     if found is None:
         return ()
     way, length = _way(context, body, found[0]), found[1]
@@ -137,19 +137,26 @@ def _measured(context: Context, body: Body) -> tuple[Node, ...]:
     return Sum((way, given)), Sum((context.show(length), given))
 
 
-def _other_end(context: Context, body: Body) -> tuple[int, algebra.Matrix] | None:
+def ends(robot: Robot, body: Body) -> tuple[int, int]:
+    """The frames at the near and at the far end of a body's link."""
+    if robot.convention is Convention.STANDARD:
+        return robot.joints[body.link - 1].parent, body.link
+    return body.link, next(iter(robot.links_after(body.link)), body.link + 1)
+
+
+def other_end(robot: Robot, body: Body) -> tuple[int, algebra.Matrix] | None:
     """The frame at the other end of a link from which a centre is given, and the vector to it.
 
     The vector is in the link's own frame.
     """
-    robot, link = context.robot, body.link
+    standard, link = robot.convention is Convention.STANDARD, body.link
     after = robot.links_after(link)
-    if not (context.standard or len(after) == 1):
+    if not (standard or len(after) == 1):
         return None
-    row = robot.joints[link - 1 if context.standard else after[0] - 1]
+    row = robot.joints[link - 1 if standard else after[0] - 1]
     ring = robot.ring
     sine, cosine = ring.sin(row.alpha), ring.cos(row.alpha)
-    if context.standard:
+    if standard:
         back = algebra.Matrix.column(ring, (-row.a, -(row.d * sine), -(row.d * cosine)))
         is_near = is_given_by(body, "near") and not back.is_zero
         return (row.parent, back) if is_near or body.center_written == "midpoint" else None
@@ -157,28 +164,28 @@ def _other_end(context: Context, body: Body) -> tuple[int, algebra.Matrix] | Non
     return (row.index, onward) if body.center_written == "midpoint" else None
 
 
-def _way(context: Context, body: Body, other_end: int) -> Product:
+def _way(context: Context, body: Body, other: int) -> Product:
     """Rᵀ (o_j - o_i), in letters."""
-    between = Parenthesized(Sum((letters.o(other_end), Negative(letters.o(body.link)))))
+    between = Parenthesized(Sum((letters.o(other), Negative(letters.o(body.link)))))
     return Product((Transpose(letters.R(context.robot, body.link)), between))
 
 
 def _between_the_ends(context: Context, body: Body) -> Line | None:
     """Rᵀ (o_j - o_i) with this robot's values, of short arms; None where no centre is given from there."""
-    found = _other_end(context, body)
+    found = other_end(context.robot, body)
     if found is None or context.robot.n > MOST_JOINTS:
         return None
-    other_end, length = found
+    other, length = found
     R, end, own = (
         context.values[f"H{body.link}"].block(0, 3, 0, 3),
-        origin(context.values[f"H{other_end}"]),
+        origin(context.values[f"H{other}"]),
         origin(context.values[f"H{body.link}"]),
     )
     used = used_in_product(context, R.T, end - own, length)
     by: Prose = (f"Along the axes of frame {body.link}",)
     by += (", with ", *said(used), ":") if used else (":",)
     values = Product((Transpose(context.show(R)), context.show(end - own)))
-    return Line(by, (equation(_way(context, body, other_end), values, context.show(length)),))
+    return Line(by, (equation(_way(context, body, other), values, context.show(length)),))
 
 
 def _not_the_origin(body: Body, H: Letter) -> Prose:

@@ -18,9 +18,10 @@ from dynsolve.explain.signs import shorthands
 from dynsolve.explain.textbook_letters import BY_ENTRY, SHAPES, Line, of_entries, textbook
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.characters import GREEK
-from dynsolve.notation.printing import Style
-from dynsolve.notation.tree import Function, Letter, Node, Row, Sum, Symbol, Words, equation
-from dynsolve.robot.model import JointType, Robot
+from dynsolve.notation.printing import PLAIN, Style
+from dynsolve.notation.tree import Function, Letter, Node, Product, Row, Sum, Symbol, Words, equation
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.shapes import MASS
 from dynsolve.robot.units import node as unit_node
 
@@ -141,7 +142,8 @@ def notation(
     shown = _merged(
         _told(line.of(line.kinds & occurring, style), style) for line in lines if line.kinds & occurring
     )
-    return Notation((*_counting(occurring - own), *_numbers(style), *_bold(occurring)), shown)
+    remarks = (*_counting(occurring - own), *_numbers(style), *_bold(occurring), *_of_craig(robot, occurring))
+    return Notation(remarks, shown)
 
 
 def _merged(lines: Iterable[Line]) -> tuple[Line, ...]:
@@ -213,6 +215,13 @@ def _numbers(style: Style) -> Iterator[Inline]:
         return
     yield f"Numbers are exact, in SI units (m, kg, s, N). One with more than {style.digits} significant "
     yield "digits is rounded to these where it is printed, and nowhere else; ≈ marks that. "
+
+
+def _of_craig(robot: Robot, occurring: set[Kind]) -> Iterator[Inline]:
+    """What Craig calls the parts of the model, for those who come from his convention."""
+    if robot.convention is Convention.MODIFIED and kind_of(letters.D, PLAIN) in occurring:
+        ours = [letters.D, Product((letters.C, letters.QD)), letters.G]
+        yield from (" Craig writes M, V and G for ", *listed(ours), ".")
 
 
 def _bold(occurring: set[Kind]) -> Iterator[Inline]:

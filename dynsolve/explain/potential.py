@@ -79,13 +79,13 @@ def _of_gravity(context: Context) -> Prose:
     i, entry = along
     axis: Inline = Letter("xyz"[i], Number(0), style="bold")
     axis = axis if context.ground == "base" else f"The axis {'xyz'[i]} of the world"
-    return (*why, axis, f" points {'up' if _leads_with_minus(entry) else 'down'}, so ")
+    return (*why, axis, f" points {'up' if leads_with_minus(entry) else 'down'}, so ")
 
 
 def _by_vectors(context: Context, body: Body) -> tuple[Node, ...]:
     """-m g_0ᵀ r_c with this robot's vectors."""
     P, center = letters.of_body("P", body), context.form(f"rc{body.name}")
-    product = Product((context.show(body.mass), _gravity(context).argument, center))
+    product = Product((context.show(body.mass), gravity_row(context).argument, center))
     return (equation(P, Negative(product)),) if is_small(center) else ()
 
 
@@ -95,20 +95,20 @@ def _entry_of_height(context: Context, body: Body, h: Node, tells: bool) -> Pros
     assert along is not None
     i, entry = along
     what = f", the height above the origin of the {context.ground}," if tells else ""
-    minus = "" if _leads_with_minus(entry) else "minus "
+    minus = "" if leads_with_minus(entry) else "minus "
     return (h, f"{what} is {minus}the {('first', 'second', 'third')[i]} entry of ", letters.rc(body), ".")
 
 
 def _numbers(context: Context, body: Body, g: Node) -> tuple[Node, ...]:
     """What the mass and g are where they are numbers: m_2 = 1.2 kg, g = 9.81 m/s²."""
     (entry,) = (entry for entry in context.robot.gravity.entries if not entry.is_zero)
-    size = context.show(-entry if _leads_with_minus(entry) else entry)
+    size = context.show(-entry if leads_with_minus(entry) else entry)
     named = ((context.mass(body), context.show(body.mass), "kg"), (g, size, "m/s²"))
     given = [equation(letter, measured(value, unit)) for letter, value, unit in named if letter != value]
     return (side_by_side(given),) if given else ()
 
 
-def _gravity(context: Context) -> Transpose:
+def gravity_row(context: Context) -> Transpose:
     """The vector of gravity as the transpose of a row."""
     return Transpose(Matrix((tuple(map(context.show, context.robot.gravity.entries)),)))
 
@@ -126,16 +126,17 @@ def _height(context: Context, body: Body) -> Node | None:
         return None
     i, entry = along
     center: Expr = context.values[f"rc{body.name}"][i, 0]
-    return context.show(center if _leads_with_minus(entry) else -center)
+    return context.show(center if leads_with_minus(entry) else -center)
 
 
 def _acceleration(context: Context) -> Node:
     """The size of gravity along its axis: the problem's symbol, g for a number."""
     (entry,) = (entry for entry in context.robot.gravity.entries if not entry.is_zero)
-    size = context.show(-entry if _leads_with_minus(entry) else entry)
+    size = context.show(-entry if leads_with_minus(entry) else entry)
     named = "g" in context.robot.parameters
     return size if named or not entry.is_number else Symbol("g")
 
 
-def _leads_with_minus(expr: Expr) -> bool:
+def leads_with_minus(expr: Expr) -> bool:
+    """Whether a value is written with a minus: of gravity along an axis, whether that points up."""
     return bool(expr.poly.leading_coefficient() < 0)

@@ -1,16 +1,16 @@
-"""What is given and what is to be found: the exercise in two sentences, before its solution."""
+"""What is given and what is to be found: the exercise in two paragraphs, before its solution."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from dynsolve.document import Prose
+from dynsolve.explain import hypotheses
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.shapes import SHAPES
-from dynsolve.explain.writing import listed, machine, measured, name_of
+from dynsolve.explain.writing import listed, machine
 from dynsolve.notation.tree import Node
+from dynsolve.problem.model import Problem
 from dynsolve.quantities.index import quantities
-from dynsolve.robot.model import Body
 
 MOST_BODIES = 4
 """Up to this number of bodies each is named."""
@@ -51,37 +51,35 @@ _CALLED = {
 """What whole answers are called; others are told by their letters."""
 
 
-def statement(forms: Forms, asked: Sequence[str]) -> Iterator[Prose]:
+def statement(forms: Forms, problem: Problem) -> Iterator[Prose]:
     """Given: ...; To be found: ..., of an arm with a table; of others what is to be found."""
     if forms.robot.has_table and forms.robot.bodies:
-        yield ("Given: ", *_given(forms), ".")
-    found = [told for name in asked if (told := _called(forms, name)) is not None]
+        values = hypotheses.of_values(forms.robot, problem.written, problem.units)
+        yield (
+            "Given: ",
+            *_given(forms),
+            ". ",
+            *hypotheses.of_forces(forms),
+            *values,
+        )
+    found = [told for name in problem.find if (told := _called(forms, name)) is not None]
     if found:
         yield ("To be found: ", *listed(found), ".")
 
 
 def _given(forms: Forms) -> Prose:
     """The table, and what has mass."""
-    bodies, what = forms.robot.bodies, machine(forms.robot)
-    if len(bodies) > MOST_BODIES:
-        return (f"the table of the {what} (1.1), and mass, mass centre and tensor of {len(bodies)} bodies",)
-    told = [_body(forms, body) for body in bodies]
-    count = "one body" if len(told) == 1 else f"{_COUNTS[len(told)]} bodies"
+    robot = forms.robot
+    what = f"the table of the {machine(robot)}{hypotheses.joints(robot)} (1.1)"
+    if len(robot.bodies) > MOST_BODIES:
+        count = len(robot.bodies)
+        return (f"{what}, and mass, mass centre and inertia tensor of {count} rigid bodies",)
+    told = [hypotheses.of_body(forms, body) for body in robot.bodies]
+    count = "one rigid body" if len(told) == 1 else f"{_COUNTS[len(told)]} rigid bodies"
     parts: Prose = told[0]
     for each in told[1:]:
         parts += ("; ", *each)
-    return (f"the table of the {what} (1.1) and {count}: ", *parts)
-
-
-def _body(forms: Forms, body: Body) -> Prose:
-    """body 2 in link 2, a uniform slender rod of mass m₂"""
-    kind = "a point" if body.is_point else ""
-    if body.shape is not None and body.shape.formulas:
-        kind = f"a uniform {SHAPES[body.shape.kind]}"
-    mass: Prose = (" of mass ", measured(forms.of(body.mass), "kg"))
-    if body.mass.is_zero:
-        mass = (" without mass",)
-    return (f"{name_of(body)} in link {body.link},", f" {kind}" if kind else "", *mass)
+    return (f"{what} and {count}: ", *parts)
 
 
 def _called(forms: Forms, name: str) -> Prose | None:

@@ -72,9 +72,9 @@ SHAPES = {
     "r": "radius",
     "ro": "outer radius",
     "ri": "inner radius",
-    "x": "side along x",
-    "y": "side along y",
-    "z": "side along z",
+    "l_x": "side along x",
+    "l_y": "side along y",
+    "l_z": "side along z",
 }
 """The letters of the formulas of uniform shapes."""
 
@@ -188,14 +188,14 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     yield _line(_body("m"), "mass of body i", "kg")
     yield _line(Letter("r", center, None, "bold"), "mass centre of body i", "m")
     yield _line(Letter("r", center, _I, "bold"), "mass centre of body i, in its link's frame", "m")
-    yield _line(_own_tensors(robot), "inertia tensor of body i, along its own axes", "kg m^2")
+    yield _line(_own_tensors(robot), "tensor of body i about its mass centre, along its own axes", "kg m^2")
     yield _line(letters.base_tensor(_I), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
     yield _line(_numbered("R"), f"axes of body i, seen from {ground}")
     yield _line(Letter("R", Row((_I, Words(","), _J)), None, "bold"), "turn j of body i")
     yield _line([Letter("I", Words(a)) for a in ("xx", "yy", "zz")], "moments of a uniform shape", "kg m^2")
     yield _line(letters.bold("E"), "identity matrix")
     yield _line(Symbol("g"), "acceleration of gravity", "m/s^2")
-    yield _line(letters.GRAVITY, "acceleration of gravity, a vector down; §7.2.3 has it up", "m/s^2")
+    yield _line(letters.GRAVITY, "acceleration of gravity, a vector that points down", "m/s^2")
     yield _line(letters.height(robot, _I), "height of the mass centre of body i", "m")
 
 

@@ -63,8 +63,8 @@ KINDS: Mapping[str, ShapeKind] = {
         ShapeKind("point", (), None),
         ShapeKind(
             "box",
-            (("x", "x"), ("y", "y"), ("z", "z")),
-            ("m*(y^2 + z^2)/12", "m*(x^2 + z^2)/12", "m*(x^2 + y^2)/12"),
+            (("x", "l_x"), ("y", "l_y"), ("z", "l_z")),
+            ("m*(l_y^2 + l_z^2)/12", "m*(l_x^2 + l_z^2)/12", "m*(l_x^2 + l_y^2)/12"),
         ),
         ShapeKind(
             "cylinder",

@@ -86,7 +86,7 @@ def solution_document(
 def _statement(solution: Dynamics, detail: Detail, stages: Iterable[str] | None) -> Iterator[Block]:
     """The exercise, before a whole solution of it."""
     if stages is None and detail > Detail.BRIEF:
-        yield from map(Text, statement(solution.forms, solution.problem.find))
+        yield from map(Text, statement(solution.forms, solution.problem))
 
 
 def _notation(

@@ -9,6 +9,7 @@ from operator import itemgetter
 
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
+from dynsolve.explain.kinematics import OUTWARDS
 from dynsolve.explain.long_model.model import Change, LongModel
 from dynsolve.explain.step import Step
 from dynsolve.explain.working.identities import Identity, said
@@ -36,7 +37,8 @@ def changes(model: LongModel) -> dict[str, Change]:
 def last_frame(model: LongModel, step: Step) -> Step:
     """The last frame by the matrices of the rows, without the frames on the way to it."""
     used = _identities_outwards(model.context)
-    return replace(step, working=(), concluding=("With ", *said(used), ":") if used else ())
+    why = step.why if step.why[: len(OUTWARDS)] == OUTWARDS else (*OUTWARDS, " ", *step.why)
+    return replace(step, why=why, working=(), concluding=("With ", *said(used), ":") if used else ())
 
 
 def axes(model: LongModel, step: Step) -> Step:

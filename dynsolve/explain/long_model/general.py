@@ -16,6 +16,7 @@ from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian_columns import ZERO
+from dynsolve.explain.potential import gravity_row
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, side_by_side, spong
 from dynsolve.notation.tree import (
@@ -207,6 +208,7 @@ def _potential(context: Context) -> Step:
         why=("Minus the mass times ", Product((down, center)), "; ", letters.GRAVITY, " points down."),
         formula=equation(Letter("P", _I), Negative(Product((Letter("m", _I), down, center)))),
         source=spong("7.2.3"),
+        further=(equation(letters.GRAVITY, gravity_row(context)),),
         result=tuple(equation(letters.of_body("P", body), context.form(f"P{body.name}")) for body in bodies),
         listed=True,
         detail=Detail.BRIEF,

@@ -179,8 +179,8 @@ MEANINGS = [
     ("in3140-rp", "𝐃, dᵢⱼ", "inertia matrix, its entries", "by entry"),
     ("planar-2r", "Kᵢ, K_vi, K_ωi, Pᵢ",
      "kinetic energy, its part of translation, its part of rotation, potential energy of body i", "J"),
-    ("planar-2r", "𝐈ᵢ^b", "inertia tensor of body i, along its own axes", "kg m²"),
-    ("elbow-3r", "𝐈ᵢ", "inertia tensor of body i, along its own axes", "kg m²"),
+    ("planar-2r", "𝐈ᵢ^b", "tensor of body i about its mass centre, along its own axes", "kg m²"),
+    ("elbow-3r", "𝐈ᵢ", "tensor of body i about its mass centre, along its own axes", "kg m²"),
     ("elbow-3r", "U, V", "expressions of an identity, given where they stand", ""),
     ("in3140-rp", "s₁, c₁", "s₁ = sin θ₁, c₁ = cos θ₁", ""),
     ("in3140-rp", "τᵢ, fᵢ",
@@ -199,7 +199,7 @@ MEANINGS = [
     ("box-cylinder-rod-sphere", "r₁, r₄", "radius of body i", "m"),
     ("box-cylinder-rod-sphere", "b", "side of body 2 along its axes x and y", "m"),
     ("box-cylinder-rod-sphere", "m", "mass of a uniform shape", "kg"),
-    ("box-cylinder-rod-sphere", "l, r, x, y, z",
+    ("box-cylinder-rod-sphere", "l, r, l_x, l_y, l_z",
      "length, radius, side along x, side along y, side along z of a uniform shape", "m"),
 ]  # fmt: skip
 
@@ -291,7 +291,7 @@ def test_what_an_exercise_asks_for_besides_has_its_letters_too() -> None:
 def test_the_letters_of_shapes_are_told_where_there_are_shapes() -> None:
     """The values of a task may be called x, y and z, as the sides of a box are."""
     assert lines("inf3480-rpr")["x, y, z"] == ("values of the task that are to be reached", "")
-    assert "of a uniform shape" in lines("box-cylinder-rod-sphere")["l, r, x, y, z"][0]
+    assert "of a uniform shape" in lines("box-cylinder-rod-sphere")["l, r, l_x, l_y, l_z"][0]
 
 
 @pytest.mark.parametrize("problem", ["planar-2r-reach", "in3140-rp"])

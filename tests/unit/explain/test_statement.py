@@ -10,19 +10,23 @@ from dynsolve.document import Block, Text
 from dynsolve.explain.statement import statement
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
+from dynsolve.solution.dynamics import Dynamics
 from tests.support import solved
 
 CASES = [
     (
         "in3140-rp",
-        "Given: the table of the arm (1.1) and two bodies: body 1 in link 1, of mass m₁; "
-        "body 2 in link 2, a point of mass m₂.",
+        "Given: the table of the arm with a revolute and a prismatic joint (1.1) and two rigid bodies: "
+        "body 1 in link 1, of mass m₁, its mass centre half-way along the link; body 2 in link 2, a point of "
+        "mass m₂ at 𝐨₂. Gravity g acts along -𝐳₀; there is no friction.",
         "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and centrifugal "
         "terms 𝐂 and the gravity terms 𝐠.",
     ),
     (
         "puma560",
-        "Given: the table of the arm (1.1), and mass, mass centre and tensor of 6 bodies.",
+        "Given: the table of the arm with revolute joints (1.1), and mass, mass centre and inertia tensor of "
+        "6 rigid bodies. Gravity g acts along -𝐳₀; there is no friction. In numbers: a₂ = 0.4318 m, "
+        "a₃ = 0.0203 m, d₃ = 0.15005 m and d₄ = 0.4318 m.",
         "To be found: the inertia matrix 𝐃, the matrix of Coriolis and centrifugal terms 𝐂, the gravity "
         "terms 𝐠 and the generalized forces 𝛕.",
     ),
@@ -42,13 +46,73 @@ CASES = [
 
 @pytest.mark.parametrize(("problem", "told"), [(name, told) for name, *told in CASES])
 def test_the_exercise_is_stated_before_it_is_solved(problem: str, told: list[str]) -> None:
-    solution = solved(problem)
-    found = statement(solution.forms, solution.problem.find)
-    texts = [
+    assert stated(solved(problem)) == told
+
+
+def stated(solution: Dynamics) -> list[str]:
+    """The paragraphs of the statement, as text."""
+    return [
         "".join(part if isinstance(part, str) else to_unicode(part, solution.style) for part in text)
-        for text in found
+        for text in statement(solution.forms, solution.problem)
     ]
-    assert texts == told
+
+
+ARM = """
+dh: [{theta: q1*, a: l1}, {theta: q2*, a: l2}]
+masses:
+  - {mass: m1, link: 1, center: {near: [0, -e, 0]}, inertia: {zz: I1}}
+  - {mass: m2, link: 2, center: %s}
+"""
+
+PLACES = [
+    ("tip", "a point of mass m₂ at 𝐨₂"),
+    ("origin", "a point of mass m₂ at 𝐨₂"),
+    ("midpoint", "a point of mass m₂ half-way along the link"),
+    ("{near: [lc, 0, 0]}", "a point of mass m₂ at l_c from 𝐨₁ along 𝐱₂"),
+    ("{near: [0, 0, 0]}", "a point of mass m₂ at 𝐨₁"),
+    ("{along: 2/3}", "a point of mass m₂ ⅔ of the way from 𝐨₁ to 𝐨₂"),
+    ("[0, -e, 0]", "a point of mass m₂ at e from 𝐨₂ along -𝐲₂"),
+    ("[0.25, 0, 0]", "a point of mass m₂ at ¼ m from 𝐨₂ along 𝐱₂"),
+    ("[e, 0, h]", "a point of mass m₂ at (e, 0, h) from 𝐨₂ along the axes of frame 2"),
+]
+
+
+@pytest.mark.parametrize(("center", "told"), PLACES)
+def test_the_statement_says_where_a_mass_centre_is(center: str, told: str) -> None:
+    (given, _) = stated(solved(ARM % center))
+    assert "its mass centre at e from 𝐨₀ along -𝐲₁" in given
+    assert told in given
+
+
+ACTING = [
+    ("gravity: [0, 0, 0]", "There is no gravity and no friction."),
+    ("gravity: [g, 0, 0]", "Gravity g acts along 𝐱₀; there is no friction."),
+    ("gravity: [0, -9.81, 0]", "Gravity, 9.81 m/s², acts along -𝐲₀; there is no friction."),
+    (
+        "gravity: [0, 0, -g]\nbase: {rotate: Rx(30deg)}",
+        "Gravity g acts along -z of the world; there is no friction.",
+    ),
+    (
+        "gravity: [g1, 0, -g2]",
+        "𝐠₀, the acceleration of gravity, is along no axis of frame 0; there is no friction.",
+    ),
+    (
+        "friction: {q1: {viscous: b1}}",
+        "Gravity g acts along -𝐳₀. Coefficients of friction are given too.",
+    ),
+]
+
+
+@pytest.mark.parametrize(("keys", "told"), ACTING)
+def test_the_statement_says_what_acts(keys: str, told: str) -> None:
+    (given, _) = stated(solved(f"{keys}\n{ARM % 'tip'}"))
+    assert given.endswith(told)
+
+
+def test_a_link_of_a_tree_begins_where_its_row_starts() -> None:
+    """Link 2 of the five-bar linkage is carried by the ground: Spong 7.4, figure 7.10."""
+    (given, _) = stated(solved("five-bar"))
+    assert "body 2 in link 2, of mass m₂, its mass centre at l_c2 from 𝐨₀ along 𝐱₂" in given
 
 
 def test_a_part_of_a_solution_has_no_statement() -> None:

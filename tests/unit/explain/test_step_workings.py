@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+import pytest
+
 from dynsolve.explain.step import Detail
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.render.formats import Format
@@ -210,15 +212,37 @@ masses:
 
 def test_frame_i_is_before_the_mass_in_the_modified_convention() -> None:
     text = everything_said(CRAIG)
-    assert "comes after the mass" not in text and "before the mass" not in text
     assert "Frame 1 is the one to take: in the modified convention it is fixed in link 1" in text
     assert "frame 2 moves with the next link." in text
     assert "from 𝐨₁, half the way on" in said(step(CRAIG, "rc1").why, CRAIG)
 
 
-def test_a_frame_comes_after_the_mass_where_the_mass_is_on_the_link() -> None:
-    assert "comes after the mass" in said(step("planar-2r", "R2").why, "planar-2r")
-    assert "comes after the mass" not in said(step("spherical-rrp", "R2").why, "spherical-rrp")
+TENSORS = [
+    (
+        "planar-2r",
+        "1",
+        "along the axes of frame 1. It turns about 𝐳₁ alone, so only what belongs to that axis",
+    ),
+    (
+        "elbow-3r",
+        "3",
+        "along the axes of frame 3. They are principal axes: there are no products of inertia.",
+    ),
+    ("rp-vertical", "2", "along its own axes. They are principal axes: there are no products of inertia."),
+    ("crustcrawler-2r", "1", "a uniform solid cylinder, its own axis along 𝐲₁. Its principal moments"),
+]
+
+
+@pytest.mark.parametrize(("problem", "body", "told"), TENSORS)
+def test_a_tensor_is_said_to_be_along_the_axes_it_is_given_for(problem: str, body: str, told: str) -> None:
+    """A body whose axes are not those of its link's frame is not said to be as one where they are."""
+    assert told in said(step(problem, f"I_body{body}").why, problem)
+
+
+def test_why_matrices_stand_in_their_order_is_said_once() -> None:
+    """With the first product, of three joints; with the last frame where no other is shown."""
+    assert everything_said("elbow-3r").count("so it multiplies from the right") == 1
+    assert "so it multiplies from the right" in said(step("planar-2r", "H2").why, "planar-2r")
 
 
 def test_a_table_without_a_row_for_the_tool_does_not_reach_the_end_of_the_arm() -> None:

@@ -1,0 +1,145 @@
+"""What an exercise takes for granted and its solution rests on: where mass centres are, gravity, friction.
+
+A drawing or the text of an exercise says it; here it is said in the words of the problem file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.document import Prose
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
+from dynsolve.explain.potential import leads_with_minus
+from dynsolve.explain.roles import roles
+from dynsolve.explain.shapes import SHAPES
+from dynsolve.explain.writing import and_joined, listed, measured, name_of, side_by_side
+from dynsolve.notation.tree import Letter, Negative, Node, Number, Row, Symbol, Words, equation
+from dynsolve.quantities import letters
+from dynsolve.robot import units
+from dynsolve.robot.model import Body, JointType, Robot
+
+_KINDS = {JointType.REVOLUTE: "revolute", JointType.PRISMATIC: "prismatic"}
+
+# -- the joints ------------------------------------------------------------------------------------
+
+
+def joints(robot: Robot) -> str:
+    """with revolute joints; with a revolute and a prismatic joint; nothing of a table without joints."""
+    types = [joint.type for joint in robot.joints if joint.type]
+    found = [word for kind, word in _KINDS.items() if kind in types]
+    if len(types) == len(found):
+        return f" with {' and '.join(f'a {word}' for word in found)} joint" if found else ""
+    return f" with {' and '.join(found)} joints"
+
+
+# -- the bodies ------------------------------------------------------------------------------------
+
+
+def of_body(forms: Forms, body: Body) -> Prose:
+    """body 2 in link 2, a uniform slender rod of mass m₂, its mass centre half-way along the link"""
+    told: Prose = (f"{name_of(body)} in link {body.link},",)
+    if body.density is not None:
+        return (*told, " a rod whose density varies")
+    if body.is_point:
+        return (*told, " a point", *_mass(forms, body), " ", *_center(forms, body))
+    if body.shape is not None and body.shape.formulas:
+        told += (f" a uniform {SHAPES[body.shape.kind]}",)
+    return (*told, *_mass(forms, body), ", its mass centre ", *_center(forms, body))
+
+
+def _mass(forms: Forms, body: Body) -> Prose:
+    if body.mass.is_zero:
+        return (" without mass",)
+    return (" of mass ", measured(forms.of(body.mass), "kg"))
+
+
+def _center(forms: Forms, body: Body) -> Prose:
+    """at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁"""
+    near, far = ends(forms.robot, body)
+    if body.center_written == "tip":
+        return ("at ", letters.o(far))
+    if body.center.is_zero:
+        return ("at ", letters.o(body.link))
+    if body.center_written == "midpoint":
+        return ("half-way along the link",)
+    fraction = part_of_the_way(body) if is_given_by(body, "along") else None
+    if fraction is not None:
+        return (fraction, " of the way from ", letters.o(near), " to ", letters.o(far))
+    start, place = body.link, body.center
+    end = other_end(forms.robot, body)
+    if end is not None:  # it is given from there
+        start, place = end[0], body.center - end[1]
+    return _place(forms, place.entries, start, body.link)
+
+
+def _place(forms: Forms, entries: Sequence[Expr], start: int, frame: int) -> Prose:
+    """Where a vector leads from an origin: along an axis of a frame, or by its coordinates there."""
+    along = [(axis, entry) for axis, entry in zip("xyz", entries, strict=True) if not entry.is_zero]
+    if not along:
+        return ("at ", letters.o(start))
+    if len(along) > 1:
+        at = Row((Words("("), side_by_side([forms.of(entry) for entry in entries]), Words(")")))
+        return ("at ", at, " from ", letters.o(start), f" along the axes of frame {frame}")
+    ((axis, entry),) = along
+    unit: Node = Letter(axis, Number(frame), style="bold")
+    shown = forms.of(entry)
+    if isinstance(shown, Negative):
+        shown, unit = shown.argument, Negative(unit)
+    return ("at ", measured(shown, "m"), " from ", letters.o(start), " along ", unit)
+
+
+# -- what acts -------------------------------------------------------------------------------------
+
+
+def of_forces(forms: Forms) -> Prose:
+    """Gravity g acts along -𝐲₀, and there is no friction; what else the problem gives."""
+    kinds = forms.robot.actions.kinds
+    also = [words for kind, words in _ALSO.items() if kind in kinds]
+    told = _gravity(forms)
+    if "friction" not in kinds:
+        told += (" and no friction." if forms.robot.gravity.is_zero else "; there is no friction.",)
+    else:
+        told += (".",)
+    return (*told, f" {and_joined(also).capitalize()} are given too.") if also else told
+
+
+_ALSO = {"friction": "coefficients of friction", "springs": "springs", "motors": "the rotors of motors"}
+"""What may act beside gravity, by the kinds of `Actions`."""
+
+
+def _gravity(forms: Forms) -> Prose:
+    robot = forms.robot
+    entries = zip("xyz", robot.gravity.entries, strict=True)
+    along = [(axis, entry) for axis, entry in entries if not entry.is_zero]
+    if not along:
+        return ("There is no gravity",)
+    if len(along) > 1:
+        return (letters.GRAVITY, ", the acceleration of gravity, is along no axis of ", _ground(robot))
+    ((axis, entry),) = along
+    opposite = leads_with_minus(entry)
+    size = -entry if opposite else entry
+    unit: Node = Words(axis) if letters.has_base(robot) else Letter(axis, Number(0), style="bold")
+    named: Prose = (", ", measured(forms.of(size), "m/s²"), ",") if size.is_number else (" ", forms.of(size))
+    told: Prose = ("Gravity", *named, " acts along ", Negative(unit) if opposite else unit)
+    return (*told, " of the world") if letters.has_base(robot) else told
+
+
+def _ground(robot: Robot) -> str:
+    return "the world" if letters.has_base(robot) else "frame 0"
+
+
+# -- numbers ---------------------------------------------------------------------------------------
+
+
+def of_values(robot: Robot, written: Mapping[str, str], own_units: Mapping[str, str]) -> Prose:
+    """In numbers: a₂ = 0.4318 m; nothing where the problem has no values."""
+    known = {name: unit for name, (_, unit) in roles(robot).items()}
+    given: list[Prose] = []
+    for name, text in written.items():
+        unit = own_units.get(name, known.get(name, ""))
+        value = text.replace(" deg", "°").replace("deg", "°")
+        measured = (" ", units.node(unit)) if unit and not value.endswith("°") else ()
+        given.append((equation(Symbol(name), Words(value)), *measured))
+    return (" In numbers: ", *listed(given), ".") if given else ()
