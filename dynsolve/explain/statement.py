@@ -72,8 +72,7 @@ def _given(forms: Forms) -> Prose:
     robot = forms.robot
     what = f"the table of the {machine(robot)}{hypotheses.joints(robot)} (1.1)"
     if len(robot.bodies) > MOST_BODIES:
-        count = len(robot.bodies)
-        return (f"{what}, and mass, mass centre and inertia tensor of {count} rigid bodies",)
+        return (f"{what}, and mass, mass centre and inertia tensor of {len(robot.bodies)} rigid bodies",)
     told = [hypotheses.of_body(forms, body) for body in robot.bodies]
     count = "one rigid body" if len(told) == 1 else f"{_COUNTS[len(told)]} rigid bodies"
     parts: Prose = told[0]

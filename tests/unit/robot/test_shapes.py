@@ -57,7 +57,7 @@ def integrals() -> dict[str, tuple[sp.Expr, ...]]:
 def test_the_moments_are_the_integrals(kind: str) -> None:
     shape = Shape(kind, (), "z" if KINDS[kind].has_axis else "")
     expected = integrals()[kind]
-    letters = {"x": a, "y": b, "z": c, "m": m, "r": r, "ro": ro, "ri": ri, "l": length}
+    letters = {"l_x": a, "l_y": b, "l_z": c, "m": m, "r": r, "ro": ro, "ri": ri, "l": length}
     for (_, formula), integral in zip(shape.formulas, expected, strict=True):
         ours = sp.sympify(to_python(formula), locals=letters)
         assert sp.simplify(ours - integral) == 0
