@@ -68,7 +68,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
 def _of_gravity(context: Context) -> Prose:
     """What the vector of gravity is, and which axis points up where one does."""
     why: Prose = (
-        equation(letters.GRAVITY, _gravity(context)),
+        equation(letters.GRAVITY, gravity_row(context)),
         " is the acceleration of gravity, which points down (",
         spong("7.2.3"),
         " writes a plus: its vector points up). ",
