@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 
 from dynsolve.algebra import matrix as algebra
-from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Prose
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.working.identities import said
-from dynsolve.explain.working.products import used_in_product
-from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import block_of, is_small, name_of, spong
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import (
     Letter,
     Matrix,
-    Negative,
     Node,
     Number,
     Parenthesized,
     Product,
+    Row,
     Sum,
-    Transpose,
+    Words,
     equation,
 )
 from dynsolve.quantities import letters
@@ -36,43 +33,70 @@ STAGE = Stage.INERTIA
 
 def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
     """r_c = R r + o; with `tells` it warns that the mass centre is not the frame's origin."""
-    link = body.link
-    r, H = letters.rc(body), letters.H(context.robot, link)
-    local = context.show(body.center)
-    frame = Letter("r", letters.rc(body).sub, Number(link), "bold")
-    at_origin = body.center.is_zero
+    r, way = letters.rc(body), _way(context, body)
     why: Prose = (f"The mass centre of {name_of(body)} ", *_where(context, body), ".")
-    if not any(joint.type for joint in context.robot.path(link)):
+    if not any(joint.type for joint in context.robot.path(body.link)):
         why += (" No joint comes before that link, so the body belongs to the ground and does not move.",)
-    formula: Node = equation(r, Sum((Product((letters.R(context.robot, link), frame)), letters.o(link))))
-    working: tuple[Node, ...] = ()
-    back = None if at_origin else _between_the_ends(context, body)
-    if at_origin:
-        formula = equation(r, letters.o(link))
-    else:
-        working = (equation(frame, *_measured(context, body), local),)
-        if is_small(local, block_of(context.matrix(f"H{link}"), 3, 0, 4)):
-            rotation, origin = _parts(context, link)
-            working += (equation(r, Sum((Product((rotation, local)), origin))),)
     return Step(
         id=f"rc{body.name}",
         stage=STAGE,
         title=f"Mass centre of {name_of(body)}",
         why=why,
-        formula=formula,
+        formula=equation(r, way.named),
         source=spong("2.6"),
-        working=() if back else working,
-        lines=(back, *(Line((), (each,)) for each in working)) if back else (),
+        further=way.given,
+        working=(equation(r, way.values),) if way.values else (),
         result=(equation(r, context.form(f"rc{body.name}")),),
-        notes=(_not_the_origin(body, H),) if tells else (),
+        notes=(_not_the_origin(body, letters.H(context.robot, body.link)),) if tells else (),
         detail=Detail.BRIEF,
-        uses=(f"H{link}", "axes") if back else None,
+        uses=way.uses,
     )
 
 
-def _parts(context: Context, link: int) -> tuple[Matrix, Matrix]:
-    H = context.matrix(f"H{link}")
-    return block_of(H, 3, 0, 3), block_of(H, 3, 3, 4)
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """A mass centre in letters and, where these are short, in values; what is given for it; its inputs."""
+
+    named: Node
+    values: Node | None = None
+    given: tuple[Node, ...] = ()
+    uses: tuple[str, ...] | None = None
+
+
+def _way(context: Context, body: Body) -> _Way:
+    """From the ends of the link, where the problem gives it from there; else by its coordinates."""
+    if body.center.is_zero:
+        return _Way(letters.o(body.link))
+    other = other_end(context.robot, body)
+    if other is None:
+        own = Letter("r", letters.rc(body).sub, Number(body.link), "bold")
+        return _from(context, body, body.link, own, body.center)
+    if body.center_written == "midpoint":
+        both = ends(context.robot, body)
+        between = _half(*map(letters.o, both))
+        values = [_origin(context, end) for end in both]
+        return _Way(between, _half(*values) if is_small(*values) else None, uses=("axes",))
+    end, back = other
+    index = Row((Number(end), Words(","), letters.rc(body).sub))
+    lever = letters.bold("r", index, Number(body.link))
+    return _from(context, body, end, lever, body.center - back)
+
+
+def _from(context: Context, body: Body, start: int, lever: Letter, value: algebra.Matrix) -> _Way:
+    """R r + o: the lever r from origin `start`, given along the axes of the link's frame."""
+    link, shown = body.link, context.show(value)
+    rotation, origin = block_of(context.matrix(f"H{link}"), 3, 0, 3), _origin(context, start)
+    values = Sum((Product((rotation, shown)), origin)) if is_small(shown, rotation, origin) else None
+    named = Sum((Product((letters.R(context.robot, link), lever)), letters.o(start)))
+    return _Way(named, values, (equation(lever, shown),), None if start == link else (f"H{link}", "axes"))
+
+
+def _origin(context: Context, frame: int) -> Matrix:
+    return block_of(context.matrix(f"H{frame}"), 3, 3, 4)
+
+
+def _half(near: Node, far: Node) -> Node:
+    return Product((letters.HALF, Parenthesized(Sum((near, far)))))
 
 
 def _where(context: Context, body: Body) -> Prose:
@@ -83,25 +107,14 @@ def _where(context: Context, body: Body) -> Prose:
     if written == "origin":
         return ("is at the origin ", letters.o(link), f" of frame {link}")
     if written == "midpoint":
-        direction = "back" if context.standard else "on"
-        return (
-            f"is half-way along link {link}, between ",
-            letters.o(near),
-            " and ",
-            letters.o(far),
-            ": from ",
-            letters.o(link),
-            f", half the way {direction}",
-        )
+        return (f"is half-way along link {link}, between ", letters.o(near), " and ", letters.o(far))
     if body.center.is_zero:
         return ("is at the origin ", letters.o(link), f" of frame {link}")
     if is_given_by(body, "near") and context.standard:
         return (
             f"is given from the near end of link {link}, ",
             letters.o(near),
-            f", along the axes of frame {link}. The origin of that frame is at the far end, ",
-            letters.o(far),
-            ", so the vector back from there is added",
+            f", along the axes of frame {link}, which is fixed in the link",
         )
     if is_given_by(body, "along"):
         way: Prose = ("from ", letters.o(near), " to ", letters.o(far))
@@ -123,18 +136,6 @@ def part_of_the_way(body: Body) -> Node | None:
         return read(re.sub(r"^\W*along\W*:|[{}'\"]", "", body.center_written).strip()).tree
     except ReadError:
         return None
-
-
-def _measured(context: Context, body: Body) -> tuple[Node, ...]:
-    """A centre in its frame, from the ends of the link where it is given so: in letters, then in values."""
-    found = other_end(context.robot, body)
-    if found is None:
-        return ()
-    way, length = _way(context, body, found[0]), found[1]
-    if body.center_written == "midpoint":
-        return Product((letters.HALF, *way.factors)), Product((letters.HALF, context.show(length)))
-    given = context.show(body.center - length)
-    return Sum((way, given)), Sum((context.show(length), given))
 
 
 def ends(robot: Robot, body: Body) -> tuple[int, int]:
@@ -162,30 +163,6 @@ def other_end(robot: Robot, body: Body) -> tuple[int, algebra.Matrix] | None:
         return (row.parent, back) if is_near or body.center_written == "midpoint" else None
     onward = algebra.Matrix.column(ring, (row.a, -(row.d * sine), row.d * cosine))
     return (row.index, onward) if body.center_written == "midpoint" else None
-
-
-def _way(context: Context, body: Body, other: int) -> Product:
-    """Rᵀ (o_j - o_i), in letters."""
-    between = Parenthesized(Sum((letters.o(other), Negative(letters.o(body.link)))))
-    return Product((Transpose(letters.R(context.robot, body.link)), between))
-
-
-def _between_the_ends(context: Context, body: Body) -> Line | None:
-    """Rᵀ (o_j - o_i) with this robot's values, of short arms; None where no centre is given from there."""
-    found = other_end(context.robot, body)
-    if found is None or context.robot.n > MOST_JOINTS:
-        return None
-    other, length = found
-    R, end, own = (
-        context.values[f"H{body.link}"].block(0, 3, 0, 3),
-        origin(context.values[f"H{other}"]),
-        origin(context.values[f"H{body.link}"]),
-    )
-    used = used_in_product(context, R.T, end - own, length)
-    by: Prose = (f"Along the axes of frame {body.link}",)
-    by += (", with ", *said(used), ":") if used else (":",)
-    values = Product((Transpose(context.show(R)), context.show(end - own)))
-    return Line(by, (equation(_way(context, body, other), values, context.show(length)),))
 
 
 def _not_the_origin(body: Body, H: Letter) -> Prose:

@@ -188,6 +188,11 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     yield _line(_body("m"), "mass of body i", "kg")
     yield _line(Letter("r", center, None, "bold"), "mass centre of body i", "m")
     yield _line(Letter("r", center, _I, "bold"), "mass centre of body i, in its link's frame", "m")
+    if Stage.NEWTON_EULER not in asked_stages(
+        robot.questions
+    ):  # the recursions tell it with their other levers
+        lever = letters.bold("r", Row((letters.BEFORE, Words(","), center)), _I)
+        yield _line(lever, "mass centre of body i from the near end of its link, in the link's frame", "m")
     yield _line(_own_tensors(robot), "tensor of body i about its mass centre, along its own axes", "kg m^2")
     yield _line(letters.base_tensor(_I), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
     yield _line(_numbered("R"), f"axes of body i, seen from {ground}")
