@@ -109,9 +109,11 @@ _BY_MINORS = {
 
 
 def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[balance.Zero]) -> Line:
-    what = "The second derivative of " if len(names) == 1 else "The last second derivative of "
-    rest = " there:" if len(names) == 1 else " there, and the determinant of all of them:"
-    return Line((what, letters.P, rest), tuple(curvature.shown(context, names, rows)))
+    derivatives = tuple(curvature.shown(context, names, rows))
+    if len(names) == 1:
+        return Line(("The second derivative of ", letters.P, " there:"), derivatives)
+    by = (" by ", Symbol(names[-1]), " there, and the determinant of the matrix of all second derivatives:")
+    return Line(("The second derivative of ", letters.P, *by), derivatives)
 
 
 def _header(context: Context, names: Sequence[str]) -> tuple[Inline, ...]:
