@@ -146,7 +146,7 @@ def _left_out(context: Context, body: Body) -> Prose:
     return (
         " It turns about ",
         *axes,
-        f" alone, so only what belongs to {what} enters; all else is left out, as 0.",
+        f" alone, so only what belongs to {what} enters; the other entries are set to 0.",
     )
 
 

@@ -77,7 +77,7 @@ def _way(context: Context, body: Body) -> _Way:
         values = [_origin(context, end) for end in both]
         return _Way(between, _half(*values) if is_small(*values) else None, uses=("axes",))
     end, back = other
-    index = Row((Number(end), Words(","), letters.rc(body).sub))
+    index = Row((Number(end), Words(","), Words("c"), letters.index_of(body.name)))
     lever = letters.bold("r", index, Number(body.link))
     return _from(context, body, end, lever, body.center - back)
 
