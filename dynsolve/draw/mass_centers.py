@@ -12,7 +12,7 @@ from dataclasses import replace
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.floats import evaluate
 from dynsolve.draw.drawn_lengths import RobotNumbers, finite
-from dynsolve.draw.skeleton import MassCenter, Skeleton, near_and_far
+from dynsolve.draw.skeleton import MassCenter, Skeleton, is_open, near_and_far
 from dynsolve.draw.vectors import (
     NEAR,
     Vector,
@@ -34,6 +34,9 @@ _SHARES = (1.0, 0.7, 1.3)
 _APART = 0.12
 _OFF_AXIS = 0.2
 """How far a mass centre lies off its frame where the table gives its link no length."""
+
+_ON_OPEN, _AT_END = 0.6, 1.0
+"""How far along a link the table says no end of, and how far out a point mass at the end of such a link."""
 
 
 def with_masses(robot: Robot, numbers: RobotNumbers, bare: Skeleton) -> Skeleton:
@@ -108,6 +111,9 @@ def _local_center(
         return x, y, z
 
     middle = between(near, far, 0.5)
+    usual = 0.3 if distance(near, far) < NEAR else _OFF_AXIS
+    if is_open(robot, body.link):
+        usual = _AT_END if body.is_point else _ON_OPEN
     try:
         start = center()
         for name in free:
@@ -115,7 +121,7 @@ def _local_center(
             twice = subtract(center(**{name: 2.0}), start)
             straight = distance(twice, scale(step, 2.0)) < NEAR
             rate = length(step) * numbers.unit if straight else 0.0
-            values[name] = share * _best(step, subtract(middle, start), distance(near, far), len(free))
+            values[name] = share * _best(step, subtract(middle, start), distance(near, far), usual, len(free))
         found = center()
     except (ValueError, ZeroDivisionError, OverflowError):
         return middle, None, 0.0, ()
@@ -123,8 +129,8 @@ def _local_center(
     return found, start if measured else None, rate, tuple((name, values[name]) for name in free)
 
 
-def _best(direction: Vector, wanted: Vector, size: float, symbols: int) -> float:
-    """The multiple of a direction that comes nearest to a wanted vector, and is not zero."""
+def _best(direction: Vector, wanted: Vector, size: float, usual: float, symbols: int) -> float:
+    """The multiple of a direction that comes nearest to a wanted vector; were it 0, one of `usual` length."""
     square = length(direction) ** 2
     if square < NEAR:
         return 0.5
@@ -133,7 +139,7 @@ def _best(direction: Vector, wanted: Vector, size: float, symbols: int) -> float
         return amount
     if symbols > 1:
         return (_OFF_AXIS if size < NEAR else _OFF_AXIS / 2) / length(direction)
-    return (0.3 if size < NEAR else _OFF_AXIS) / length(direction)
+    return usual / length(direction)
 
 
 def free_symbols(robot: Robot, body: Body) -> list[str]:

@@ -13,6 +13,7 @@ from random import Random
 
 from dynsolve.draw.bodies import drawn_bodies, sleeves
 from dynsolve.draw.drawn_lengths import RobotNumbers
+from dynsolve.draw.last_links import last_links
 from dynsolve.draw.loops import closing_links
 from dynsolve.draw.mass_centers import with_masses
 from dynsolve.draw.orientation import Orientation
@@ -34,6 +35,9 @@ _MORE = 1.35
 
 _FEW, _SOME = 5, 1.2
 """With more rows and bodies than that, a robot is drawn that much larger."""
+
+_BEYOND = 24.0
+"""How far beyond its mass centre a link reaches whose end the table does not say, in picture units."""
 
 _TURNS = tuple(math.radians(15 * k) for k in range(-11, 13))
 _SLIDES = (0.6, 0.75, 0.9, 1.05)
@@ -65,7 +69,8 @@ def best_pose(
     best = min((improved(start, options, cost) for start in starts), key=lambda c: (cost(c), c))
     pose = pose_of(robot, numbers, orientation, best, slid_in)
     body = with_masses(robot, numbers, pose.skeleton)
-    parts = replace(pose.parts, links=(*pose.parts.links, *closing_links(robot, body)))
+    more = (*closing_links(robot, body), *last_links(robot, body, pose.view.space(_BEYOND)))
+    parts = replace(pose.parts, links=(*pose.parts.links, *more))
     return replace(pose, skeleton=body, parts=parts, bodies=drawn_bodies(robot, numbers, body))
 
 

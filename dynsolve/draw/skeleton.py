@@ -168,6 +168,11 @@ def _leg(
     return leg, DrawnFrame(head, axes)
 
 
+def is_open(robot: Robot, link: int) -> bool:
+    """Whether the table does not say where a link ends: the last of a chain in the modified convention."""
+    return robot.convention is Convention.MODIFIED and all(joint.parent != link for joint in robot.joints)
+
+
 def near_and_far(robot: Robot, bare: Skeleton, link: int) -> tuple[Vector, Vector]:
     """The two ends of a link: its start and o_i, in the modified convention o_i and o_{i+1}."""
     last = len(bare.frames) - 1
