@@ -12,11 +12,11 @@ from dynsolve.draw.labels import Label, Wanted, place
 from dynsolve.draw.occupied import Box
 from dynsolve.draw.paths import Path
 from dynsolve.draw.pose import Pose
-from dynsolve.draw.vectors import NEAR, Point, Vector, distance, moved, scaled
+from dynsolve.draw.vectors import NEAR, Point, Vector, distance, moved, scaled, segment_distance
 from dynsolve.notation.tree import Negative, Node
 from dynsolve.robot.model import JointType, Robot
 
-_AWAY = (24.0, 36.0, 48.0, 62.0, 78.0, 94.0)
+_AWAY = (24.0, 36.0, 48.0, 62.0, 78.0, 94.0, 110.0)
 """How far beside what it measures a line may run, in picture units."""
 
 _SLANTS = (0.0, math.radians(35), math.radians(-35))
@@ -27,7 +27,7 @@ _SHORT = 20.0
 """What is shorter has no room for two heads."""
 
 _LABEL = 60.0
-"""What it costs to run through the place of a label."""
+"""What it costs to run through the place of a label, or its line."""
 
 _UNDER, _ACROSS, _HEAD = 12.0, 4.0, 8.0
 """What each cell costs that is taken under a length's line, under those to its ends, and under a head."""
@@ -75,20 +75,40 @@ def unsigned(node: Node) -> Node:
 def dimensions(found: Sequence[Length], pose: Pose, notes: Notes) -> None:
     """Draw lengths, the shortest nearest to what it measures, beside the places of the labels so far.
 
-    The labels of mass centres may stand on any side, so they make way.
+    The labels of mass centres may stand on any side, so they make way; that of a length has its place
+    before the next is drawn.
     """
 
     def on_paper(measured: Length) -> float:
         return round(math.dist(pose.view.point(measured.start), pose.view.point(measured.end)), 6)
 
     wanted = [wanted for wanted in notes.wanted if wanted.kind != "mass"]
-    placed = place(wanted, notes.taken)
-    reserved = [_reserved(label, named) for label, named in zip(placed, wanted, strict=True)]
+    reserved = _reserved(wanted, notes)
     for measured in sorted(found, key=on_paper):
-        dimension(measured, pose, notes, reserved)
+        before = len(notes.wanted)
+        _dimension(measured, pose, notes, reserved)
+        reserved += _reserved(notes.wanted[before:], notes)
 
 
-def _reserved(label: Label, wanted: Wanted) -> Box:
+@dataclass(frozen=True, slots=True)
+class _Reserved:
+    """The place of a label with the way to what it names, or with the line that leads there from afar."""
+
+    box: Box
+    lead: tuple[Point, Point] | None
+
+    def meets(self, line: tuple[Point, Point]) -> bool:
+        """Whether a line runs through it."""
+        return self.box.meets(*line) or bool(self.lead and segment_distance(self.lead, line) < _CLOSE)
+
+
+def _reserved(wanted: Sequence[Wanted], notes: Notes) -> list[_Reserved]:
+    """The places that labels have so far."""
+    placed = zip(place(wanted, notes.taken), wanted, strict=True)
+    return [_Reserved(_with_way(label, named), label.lead) for label, named in placed]
+
+
+def _with_way(label: Label, wanted: Wanted) -> Box:
     """The place of a label with the way to what it names, which no line is to run between."""
     box = label.box.grown(_CLOSE)
     if label.lead:
@@ -96,7 +116,7 @@ def _reserved(label: Label, wanted: Wanted) -> Box:
     return box.holding(min(wanted.anchors, key=lambda anchor: math.dist(anchor, box.nearest(anchor))))
 
 
-def dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[Box] = ()) -> None:
+def _dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[_Reserved]) -> None:
     """Draw a length where least is in its way, and ask for its label."""
     a, b = pose.view.point(measured.start), pose.view.point(measured.end)
     reach = math.dist(a, b)
@@ -123,7 +143,9 @@ def dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[Box
     notes.label(measured.node, anchors, shift, colour, kind)
 
 
-def _shift(a: Point, b: Point, along: Point, notes: Notes, reserved: Sequence[Box]) -> tuple[Point, float]:
+def _shift(
+    a: Point, b: Point, along: Point, notes: Notes, reserved: Sequence[_Reserved]
+) -> tuple[Point, float]:
     """How far beside a length its line runs best, and how much of it then runs over other things."""
     taken = notes.taken
 
@@ -134,7 +156,7 @@ def _shift(a: Point, b: Point, along: Point, notes: Notes, reserved: Sequence[Bo
     def cost(shift: Point) -> float:
         p, q = moved(a, shift, 1.0), moved(b, shift, 1.0)
         from_ends = _from_ends(a, b, shift)
-        in_labels = sum(box.meets(*line) for box in reserved for line in ((p, q), *from_ends))
+        in_labels = sum(place.meets(line) for place in reserved for line in ((p, q), *from_ends))
         under = _UNDER * taken.cells_on(p, q) + _ACROSS * sum(taken.cells_on(*line) for line in from_ends)
         heads = sum(taken.inside(Box.around(at, 6.0, 6.0)) for at in (p, q))
         on_link = _ON_LINK if notes.solid.cells_on(p, q) else 0.0

@@ -6,6 +6,7 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 
 import pytest
@@ -18,7 +19,7 @@ from dynsolve.draw.parts import HALF_HEIGHT
 from dynsolve.draw.paths import BLACK, FRAME, VARIABLE, flattened, line
 from dynsolve.draw.paths import Path as Drawn
 from dynsolve.draw.pose_search import best_pose
-from dynsolve.draw.scene import OFF_LINKS, scene
+from dynsolve.draw.scene import OFF_LINKS, Scene, scene
 from dynsolve.draw.solids import solids
 from dynsolve.draw.svg import to_svg
 from dynsolve.draw.typography import SIZE
@@ -308,10 +309,23 @@ def test_lengths_are_drawn_clear_of_links_and_joints(name: str) -> None:
     pose = best_pose(problem.robot, values, world)
     body = Taken()
     body.add(solids(pose.parts, pose.view, world.up, pose.bodies))
-    shafts = [
-        p for p in drawn(path).paths if (p.stroke, p.width, p.fill, p.dashed) == (BLACK, 1.0, None, False)
-    ]
+    shafts = _shafts(drawn(path))
     assert shafts
-    for shaft in shafts:
-        (line_of,) = flattened(shaft.commands)
-        assert body.cells_on(*line_of) == 0
+    assert all(body.cells_on(*shaft) == 0 for shaft in shafts)
+
+
+@pytest.mark.parametrize("name", ["planar-2r-friction", "numeric-2r"])
+def test_a_length_beside_another_leaves_room_for_its_label(name: str) -> None:
+    picture = drawn(next(path for path in LIBRARY if path.stem == name))
+    room = min(segment_distance(a, b) for a, b in combinations(_shafts(picture), 2))
+    assert room > max(label.line.height for label in picture.labels if label.kind == "length")
+
+
+def _shafts(picture: Scene) -> list[tuple[Point, Point]]:
+    """The lines of the lengths that do not vary."""
+    pieces = (
+        flattened(p.commands)
+        for p in picture.paths
+        if (p.stroke, p.width, p.fill, p.dashed) == (BLACK, 1.0, None, False)
+    )
+    return [piece for (piece,) in pieces]
