@@ -46,7 +46,7 @@ _AROUND = 11.0
 class Notes:
     """Paths and labels as they are collected; `taken` is what is drawn so far, `solid` the robot's body.
 
-    `behind` are the paths that the body of the robot is drawn over.
+    `behind` are the paths that the body of the robot is drawn over, `lengths` the lines of lengths.
     """
 
     style: Style
@@ -55,6 +55,7 @@ class Notes:
     behind: list[Path] = field(default_factory=list)
     wanted: list[Wanted] = field(default_factory=list)
     solid: Taken = field(default_factory=Taken)
+    lengths: Taken = field(default_factory=Taken)
 
     def draw(self, *paths: Path, behind: bool = False) -> None:
         """Add paths."""

@@ -56,6 +56,9 @@ _BEYOND = 12.0
 _SQUARE, _INNER = 19.0, 24.0
 """The side of a right angle's mark, and the radius of the arc of another angle that the table adds."""
 
+_CLEAR = 28.0
+"""The side of that mark in space, which is not to lie on its joint's body alone."""
+
 _ALIKE = 1 - 1e-6
 """The cosine from which two directions are one."""
 
@@ -157,8 +160,9 @@ def _offset(center: Vector, leg: Leg, pose: Pose, notes: Notes) -> None:
         return
     if abs(size - math.pi / 2) < NEAR:
         corners = (leg.turned, add(leg.turned, leg.after), leg.after)
-        square = [moved(at, view.direction(corner), _SQUARE) for corner in corners]
-        notes.draw(Path(paths.line(*square), paths.GREY, 1.0))
+        wide = _SQUARE if view.flat else _CLEAR
+        square = paths.line(*(moved(at, view.direction(corner), wide) for corner in corners))
+        notes.draw(Path(square, paths.WHITE, 3.6), Path(square, paths.GREY, 1.2))
         return
     side = cross(leg.axis, leg.turned)
     p, q = scaled(view.direction(leg.turned), _INNER), scaled(view.direction(side), _INNER)

@@ -22,7 +22,7 @@ _ORDERS = 24
 _SEED = 1955
 _DIRECTIONS = tuple(2 * math.pi * k / 16 for k in range(16))
 _DISTANCES = (4.0, 8.0, 13.0, 19.0, 27.0, 36.0, 46.0, 60.0, 76.0, 95.0)
-_FAR = 22.0
+_FAR = 16.0
 """The distance from which a thin line leads from a label to what it names."""
 
 _STRUCK = 80.0
@@ -33,6 +33,9 @@ _NEAR, _ROOM = 6.0, 2.5
 
 _CLOSE, _BARRED = 5.0, 8.0
 """What each cell costs that bars the way from a label to what it names."""
+
+_OVER = 60.0
+"""What each cell costs of another length's line that the line of a label runs over."""
 
 _CLASH = 5000.0
 """What it costs that two labels, or a label and the line of another, do not keep off each other."""
@@ -88,9 +91,9 @@ class _Place:
         )
 
 
-def place(wanted: Sequence[Wanted], taken: Taken) -> tuple[Label, ...]:
-    """Place labels: in several orders, of which the best is taken."""
-    options = [_options(label, taken) for label in wanted]
+def place(wanted: Sequence[Wanted], taken: Taken, lengths: Taken | None = None) -> tuple[Label, ...]:
+    """Place labels: in several orders, of which the best is taken; their lines keep off those of lengths."""
+    options = [_options(label, taken, lengths or Taken()) for label in wanted]
     random = Random(_SEED)  # noqa: S311 - the same orders every time are wanted
     order = list(range(len(wanted)))
     tried = []
@@ -130,7 +133,7 @@ def _best(places: Sequence[_Place], others: Sequence[_Place]) -> _Place:
     return min(places, key=lambda option: sum(not option.is_clear_of(other) for other in others))
 
 
-def _options(label: Wanted, taken: Taken) -> list[_Place]:
+def _options(label: Wanted, taken: Taken, lengths: Taken) -> list[_Place]:
     """All places of a label, the cheapest first."""
     wide, high = label.line.width, label.line.height
     preferred = math.atan2(label.toward[1], label.toward[0]) if label.toward != (0.0, 0.0) else None
@@ -144,7 +147,9 @@ def _options(label: Wanted, taken: Taken) -> list[_Place]:
                 barred = taken.cells_on(*way) if away > _CLOSE else 0
                 cost = _STRUCK * taken.inside(box) + _NEAR * taken.inside(box.grown(_ROOM)) + _BARRED * barred
                 cost += 0.6 * away + 2.2 * turn + 1.5 * rank
-                places.append(_Place(box, way if away >= _FAR else None, round(cost, 6)))
+                lead = way if away >= _FAR else None
+                cost += _OVER * lengths.cells_on(*lead) if lead else 0.0
+                places.append(_Place(box, lead, round(cost, 6)))
     places.sort(key=lambda option: option.cost)
     return places
 

@@ -131,14 +131,17 @@ def _dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[_R
     if measured.optional and crowded > _CROWDED:
         return
     p, q = moved(a, shift, 1.0), moved(b, shift, 1.0)
+    from_ends = _from_ends(a, b, shift)
     shaft = paths.line(moved(p, along, 5.0), moved(q, along, -5.0))
     notes.draw(
-        *(Path(paths.line(*line), paths.GREY, 0.7) for line in _from_ends(a, b, shift)),
+        *(Path(paths.line(*line), paths.GREY, 0.7) for line in from_ends),
         Path(shaft, paths.WHITE, 3.4),
         Path(shaft, colour, 1.0),
         Path(paths.head(p, scaled(along, -1.0), 7.5), None, fill=colour),
         Path(paths.head(q, along, 7.5), None, fill=colour),
     )
+    for line in ((p, q), *from_ends):
+        notes.lengths.add_line(*line)
     anchors = [moved(p, along, reach * part) for part in (0.5, 0.35, 0.65, 0.2, 0.8)]
     notes.label(measured.node, anchors, shift, colour, kind)
 

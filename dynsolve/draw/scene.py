@@ -77,7 +77,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     annotate.axes_end_on(pose, notes)
     dimensions([*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values)], pose, notes)
     _gravity(world, pose, [*under, *body], notes)
-    labels = place(notes.wanted, notes.taken)
+    labels = place(notes.wanted, notes.taken, notes.lengths)
     paths = (*under, *notes.behind, *body, *notes.paths, *leads(labels))
     return Scene(
         problem.title or "Manipulator",

@@ -16,7 +16,7 @@ from dynsolve.draw.latex import font_size
 from dynsolve.draw.occupied import Taken, bounds
 from dynsolve.draw.orientation import orientation
 from dynsolve.draw.parts import HALF_HEIGHT
-from dynsolve.draw.paths import BLACK, FRAME, VARIABLE, flattened, line
+from dynsolve.draw.paths import BLACK, FRAME, GREY, VARIABLE, flattened, line
 from dynsolve.draw.paths import Path as Drawn
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.scene import OFF_LINKS, Scene, scene
@@ -189,6 +189,24 @@ def test_a_number_along_one_axis_is_a_distance(center: str, said: str) -> None:
 def test_lines_of_labels_do_not_cross(name: str) -> None:
     leads = [label.lead for label in drawn(next(p for p in LIBRARY if p.stem == name)).labels if label.lead]
     assert all(segment_distance(a, b) > 0.0 for k, a in enumerate(leads) for b in leads[k + 1 :])
+
+
+def test_lines_of_labels_keep_off_those_of_lengths() -> None:
+    """The mass centre of link 2 and z₂ stand where its length is measured."""
+    picture = drawn(next(path for path in LIBRARY if path.stem == "spherical-rrp"))
+    leads = [label.lead for label in picture.labels if label.lead]
+    own = [line(*lead) for lead in leads]
+    thin = [p for p in picture.paths if (p.stroke, p.width) == (GREY, 0.7) and p.commands not in own]
+    lengths = [*_shafts(picture), *(piece for p in thin for piece in flattened(p.commands))]
+    assert leads
+    assert thin
+    assert min(segment_distance(a, b) for a in leads for b in lengths) > 1.0
+
+
+def test_a_line_leads_from_a_label_that_is_not_beside_what_it_names() -> None:
+    picture = drawn(next(path for path in LIBRARY if path.stem == "spherical-rrp"))
+    x1 = next(label for label in picture.labels if names(replace(picture, labels=(label,))) == ["x₁"])
+    assert x1.lead
 
 
 def test_mass_centres_of_a_branch_are_half_way_along_its_own_link() -> None:
