@@ -277,7 +277,15 @@ class FormulaPrinter(Printer):
         return self._scripted(self._one(self.parenthesized(self.text(node.of))), self._index(node.index), "")
 
     def _row(self, node: Row) -> str:
-        return self._joined(list(map(self.text, node.parts)))
+        texts = list(map(self.text, node.parts))
+        for place, (before, text) in enumerate(zip(node.parts, texts[1:], strict=False), 1):
+            if isinstance(before, Words) and text.startswith(self.minus):
+                texts[place] = self._behind_words(text)
+        return self._joined(texts)
+
+    def _behind_words(self, text: str) -> str:
+        """What begins with a minus, behind words: a negative, no difference."""
+        return text
 
     def _joined(self, texts: Sequence[str]) -> str:
         """Parts side by side."""

@@ -121,6 +121,9 @@ class LatexPrinter(FormulaPrinter):
         text = decimal_text(node.p, node.q)
         return rf"{text}^{{\circ}}" if text else rf"\left( \frac{{{node.p}}}{{{node.q}}} \right)^{{\circ}}"
 
+    def _behind_words(self, text: str) -> str:
+        return f"{{{text}}}"
+
     def _words(self, node: Words) -> str:
         return rf"\text{{{escaped(node.text)}}}"
 

@@ -103,6 +103,9 @@ class TypstPrinter(FormulaPrinter):
         text = decimal_text(node.p, node.q)
         return f"{text}°" if text else f"(frac({node.p}, {node.q}))°"
 
+    def _behind_words(self, text: str) -> str:
+        return f'class("unary", {self.minus}) {text.removeprefix(self.minus)}'
+
     def _words(self, node: Words) -> str:
         """Upright words; a comma that separates formulas is punctuation."""
         if node.text.strip() == ",":

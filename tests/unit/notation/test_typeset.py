@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
+from dynsolve.notation.latex import to_latex
 from dynsolve.notation.mathml import MathMLPrinter, to_mathml
 from dynsolve.notation.printing import Style
 from dynsolve.notation.text import read
@@ -14,9 +15,11 @@ from dynsolve.notation.tree import (
     Function,
     Letter,
     Matrix,
+    Negative,
     Node,
     Number,
     Power,
+    Row,
     Symbol,
     Transpose,
     Words,
@@ -60,6 +63,12 @@ def test_mathml(node: Node, mathml: str) -> None:
 def test_a_minus_between_terms_is_not_the_one_before_a_term() -> None:
     assert to_mathml(read("a - b").tree) == "<mi>a</mi><mo>−</mo><mi>b</mi>"
     assert to_mathml(read("-b").tree).startswith('<mo form="prefix">')
+
+
+def test_a_minus_behind_words_is_that_of_a_negative() -> None:
+    either = Row((Symbol("a"), Words(" or "), Negative(Symbol("b"))))
+    assert to_latex(either) == r"a \text{ or } {-b}"
+    assert to_typst(either) == 'a" or "class("unary", -) b'
 
 
 def test_shorthands_and_stars() -> None:
