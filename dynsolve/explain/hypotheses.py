@@ -90,6 +90,43 @@ def _place(forms: Forms, entries: Sequence[Expr], start: int, frame: int) -> Pro
     return ("at ", measured(shown, "m"), " from ", letters.o(start), " along ", unit)
 
 
+def of_tensors(robot: Robot) -> Prose:
+    """The inertia tensors of bodies 1 and 2 are given, too; nothing where shapes tell them."""
+    given = [
+        body
+        for body in robot.bodies
+        if not (body.is_point or body.density or (body.shape is not None and body.shape.formulas))
+    ]
+    if not given:
+        return ()
+    if len(given) == 1:
+        return (f"The inertia tensor of {name_of(given[0])} is given, too. ",)
+    return (f"The inertia tensors of bodies {and_joined([body.name for body in given])} are given, too. ",)
+
+
+# -- the base --------------------------------------------------------------------------------------
+
+
+def of_base(forms: Forms) -> Prose:
+    """Frame 0 is moved by h₀ along z and turned by 30° about x; nothing where it is the world."""
+    robot = forms.robot
+    if not letters.has_base(robot):
+        return ()
+    moves = zip("xyz", robot.base_position.entries, strict=True)
+    told: list[Prose] = [
+        ("moved by ", measured(forms.of(far), "m"), f" along {axis}")
+        for axis, far in moves
+        if not far.is_zero
+    ]
+    told += [("turned by ", angle, f" about {axis}") for axis, angle in robot.base_turns]
+    turned = robot.base_rotation != robot.base_rotation.identity(robot.ring, 3)
+    if len(told) > 2 or (turned and not robot.base_turns):
+        return ("How frame 0 is placed in the world is given (1.2). ",)
+    first, *others = told
+    rest: Prose = (" and ", *others[0]) if others else ()
+    return ("Frame 0 is ", *first, *rest, " of the world. ")
+
+
 # -- what acts -------------------------------------------------------------------------------------
 
 

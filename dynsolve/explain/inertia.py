@@ -117,7 +117,7 @@ def _tensor(context: Context, body: Body) -> Step:
     elif body.shape is None or not body.shape.formulas:
         axes = f"the axes of frame {body.link}" if _in_frame(context, body) else "its own axes"
         why = (f"The tensor of {name_of(body)} is given, about {about}, along {axes}.",)
-        why += _left_out(context, body) or _principal(body)
+        why += _left_out(context, body) or _principal(context, body)
     return Step(
         id=f"I_given{body.name}" if is_moved(body) else f"I_body{body.name}",
         stage=STAGE,
@@ -150,12 +150,20 @@ def _left_out(context: Context, body: Body) -> Prose:
     )
 
 
-def _principal(body: Body) -> Prose:
+def _principal(context: Context, body: Body) -> Prose:
     """That the axes of a given tensor are principal, where its products of inertia are zero."""
     assert body.inertia is not None
     if any(not body.inertia[i, j].is_zero for i in range(3) for j in range(3) if i != j):
         return ()
-    return (" They are principal axes: there are no products of inertia.",)
+    told: Prose = (" They are principal axes: there are no products of inertia.",)
+    slender = [name for i, name in enumerate("xyz") if body.inertia[i, i].is_zero]
+    if len(slender) == 1:
+        told += (
+            " The moment about ",
+            *_axis(context, body, slender[0], f"its {slender[0]}"),
+            " is given as 0: the body is slender.",
+        )
+    return told
 
 
 def _in_frame(context: Context, body: Body) -> bool:

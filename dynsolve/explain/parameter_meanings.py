@@ -197,13 +197,13 @@ def _center(robot: Robot, body: Body) -> Iterator[tuple[Role, str, Meaning]]:
     """Where a mass centre is: so far from an end of its link, or by coordinates in its frame."""
     near = _from_near_end(robot, body)
     for name in dict.fromkeys(name for entry in body.center.entries for name in names_in(entry)):
-        if near is not None and _is_distance(near, name):
+        if _is_distance(body.center, name):
+            words = "distance from o{link} to the mass centre of body {body}"
+            yield Role.CENTER, name, Meaning(words, body.link, body.name)
+        elif near is not None and _is_distance(near, name):
             words = "distance from o{before} to the mass centre of body {body}"
             before = robot.joints[body.link - 1].parent
             yield Role.CENTER, name, Meaning(words, body.link, body.name, before)
-        elif _is_distance(body.center, name):
-            words = "distance from o{link} to the mass centre of body {body}"
-            yield Role.CENTER, name, Meaning(words, body.link, body.name)
         else:
             for axis, entry in zip(AXES, body.center.entries, strict=True):
                 if _is(entry, name):

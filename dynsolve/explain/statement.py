@@ -59,6 +59,8 @@ def statement(forms: Forms, problem: Problem) -> Iterator[Prose]:
             "Given: ",
             *_given(forms),
             ". ",
+            *(hypotheses.of_tensors(forms.robot) if len(forms.robot.bodies) <= MOST_BODIES else ()),
+            *hypotheses.of_base(forms),
             *hypotheses.of_forces(forms),
             *values,
         )

@@ -16,7 +16,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.pose import Pose, at, turning_in, written
 from dynsolve.explain.sanity.sign import is_nonnegative, with_lengths
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import listed, measured, side_by_side, spong, sum_of
+from dynsolve.explain.writing import and_joined, listed, measured, side_by_side, spong, sum_of
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import Node, Number, Power, Product, equation
 from dynsolve.quantities import letters
@@ -39,8 +39,9 @@ def inertia_poses_step(context: Context) -> Step | None:
     joints = [letters.z(joint_frame(context.robot, _joint(context, q))) for q in shown]
     one = len(shown) == 1
     why: Prose = (*listed(names), f" {'is the moment' if one else 'are the moments'} of inertia about ")
-    why += (*listed(joints), " of all that this joint moves, the joints after it held: " if one else
-            " of all that these joints move, the joints after them held: ")  # fmt: skip
+    numbers = [str(_joint(context, q).index) for q in shown]
+    why += (*listed(joints), f" of all that joint {numbers[0]} moves, the joints after it held: " if one else
+            f" of all that joints {and_joined(numbers)} move, the joints after them held: ")  # fmt: skip
     why += ("each mass times the square of its distance from the axis, and the moments of the bodies",)
     why += (" and rotors. " if context.robot.actions.motors else ". ",)
     why += ("In simple poses:",)
