@@ -39,6 +39,7 @@ FRAGMENT_PAGE = 32.8
 
 _NUMBER = 3.4
 _MOST_ROWS = 18
+_MOST_LINES = 26
 _COLUMN_SPACE = 1.3  # around a column of a table, in em
 _NARROWEST = 7.0
 _MARGIN = 0.8
@@ -298,7 +299,8 @@ class _Page(TypesetPage):
     def table(self, table: Table) -> Iterator[str]:
         """A tabular, which stays on one page; a long one in several, the first with the header."""
         head, *body = [self.row(row) for row in (table.header, *table.rows)]
-        parts = ceil(len(body) / _MOST_ROWS) or 1
+        lines = self.lines_of_table(table) if len(body) > _MOST_ROWS else 0
+        parts = max(ceil(len(body) / _MOST_ROWS), ceil(lines / _MOST_LINES)) or 1
         columns = self.column_kinds(table, parts > 1)
         size = ceil(len(body) / parts)
         yield "\\par\\medskip"
@@ -329,7 +331,7 @@ class _Page(TypesetPage):
         if prose := prose_columns(table):
             widths = [width + _MARGIN for width in widths]
             others = sum(width for k, width in enumerate(widths) if k not in prose)
-            room = min((self.width - others) / len(prose) - _COLUMN_SPACE, self.width / 2)
+            room = self.room_of_prose(others, len(prose))
             own = [f"p{{{width - _COLUMN_SPACE:.1f}em}}" if fixed else "l" for width in widths]
             return "".join(f"p{{{room:.1f}em}}" if k in prose else kind for k, kind in enumerate(own))
         kinds = ["c"] * len(widths)
@@ -338,6 +340,18 @@ class _Page(TypesetPage):
             room = self.width - sum(widths) + widths[widest] - _COLUMN_SPACE
             kinds[widest] = f"p{{{max(room, _NARROWEST):.1f}em}}"
         return "".join(kinds)
+
+    def room_of_prose(self, others: float, columns: int) -> float:
+        """The width of a column of words, beside columns that are so wide together."""
+        return min((self.width - others) / columns - _COLUMN_SPACE, self.width / 2)
+
+    def lines_of_table(self, table: Table) -> int:
+        """How many lines its rows take, where words are broken."""
+        prose = prose_columns(table)
+        columns = list(zip(*(table.header, *table.rows), strict=True))
+        plain = [max(map(self.cell_width, column)) for k, column in enumerate(columns) if k not in prose]
+        room = self.room_of_prose(sum(plain) + len(plain) * (_COLUMN_SPACE + _MARGIN), len(prose) or 1)
+        return sum(max([1, *(ceil(self.cell_width(row[k]) / room) for k in prose)]) for row in table.rows)
 
     def cell_width(self, cell: Inline) -> float:
         """The width of a cell of a table, in em."""
