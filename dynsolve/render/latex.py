@@ -69,20 +69,24 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 \renewcommand\section{\@startsection{section}{1}{0pt}{-14pt plus -4pt}{5pt}{\Large\bfseries}}
 \renewcommand\subsection{\@startsection{subsection}{2}{0pt}{-9pt plus -3pt}{2pt}{\normalsize\bfseries}}
 \newcommand\contentsrow[2]{\@dottedtocline{1}{0pt}{1.6em}{#1}{\pageref{#2}}}
+% A reference that the first run does not know yet is as wide as a number, so that pages stay where they are.
+\def\@setref#1#2#3{\ifx#1\relax\G@refundefinedtrue 00\@latex@warning{Reference `#3' undefined}%
+  \else\expandafter#2#1\null\fi}
 \makeatother
 \pagestyle{myheadings}
 """
 
 # The source of a formula; equations in columns: a row, a cell of a width with its name and the rest;
-# what closes a document, on a page of its own where it fits that but not what is left of one.
+# what closes a document, on a page of its own where it fills enough of that and not what is left of one.
 _MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
 \providecommand{\equationrow}[1]{\par\noindent\strut#1}
 \providecommand{\equationcell}[4]{\makebox[#1\dimexpr\linewidth-3.4em\relax][l]{%
   \makebox[#2em][r]{$\displaystyle #3$}$\displaystyle {}#4$}}
 \providecommand{\equationnumber}[1]{\hfill\refstepcounter{equation}(\theequation)#1}
 \ifdefined\closingpage\else\newsavebox\closingpage\fi
-\providecommand{\putclosingpage}{\penalty0 \ifdim\ht\closingpage>\textheight\else
-  \ifdim\ht\closingpage>\dimexpr\pagegoal-\pagetotal\relax\newpage\fi\fi\unvbox\closingpage}
+\providecommand{\putclosingpage}{\nobreak \ifdim\ht\closingpage>\textheight\else
+  \ifdim\ht\closingpage>.25\textheight
+  \ifdim\ht\closingpage>\dimexpr\pagegoal-\pagetotal\relax\newpage\fi\fi\fi\unvbox\closingpage}
 """
 
 
