@@ -113,18 +113,20 @@ def of_base(forms: Forms) -> Prose:
     if not letters.has_base(robot):
         return ()
     moves = zip("xyz", robot.base_position.entries, strict=True)
-    told: list[Prose] = [
-        ("moved by ", measured(forms.of(far), "m"), f" along {axis}")
+    told: list[tuple[str, Prose]] = [
+        ("moved ", ("by ", measured(forms.of(far), "m"), f" along {axis}"))
         for axis, far in moves
         if not far.is_zero
     ]
-    told += [("turned by ", angle, f" about {axis}") for axis, angle in robot.base_turns]
+    told += [("turned ", ("by ", angle, f" about {axis}")) for axis, angle in robot.base_turns]
     turned = robot.base_rotation != robot.base_rotation.identity(robot.ring, 3)
     if len(told) > 2 or (turned and not robot.base_turns):
         return ("How frame 0 is placed in the world is given (1.2). ",)
-    first, *others = told
-    rest: Prose = (" and ", *others[0]) if others else ()
-    return ("Frame 0 is ", *first, *rest, " of the world. ")
+    (first, how), *others = told
+    rest: Prose = ()
+    for verb, by in others:
+        rest += (" and ", *((verb,) if verb != first else ()), *by)
+    return ("Frame 0 is ", first, *how, *rest, " of the world. ")
 
 
 # -- what acts -------------------------------------------------------------------------------------

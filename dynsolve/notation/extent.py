@@ -70,6 +70,7 @@ BINARY = 1.23
 RELATION = 1.34
 PARENTHESIS = 0.46
 TALL_PARENTHESIS = 0.80
+_BUILT_PARENTHESIS = 0.88  # put together of pieces
 BRACKETS = 1.35
 COLUMN_SPACE = 1.0
 _FRACTION_SPACE = 0.24
@@ -80,6 +81,7 @@ _DOT = 0.73
 
 _LINE = 1.0
 FLAT = 1.3
+_LARGEST = 3.0  # the height of the largest parenthesis of one piece
 """Brackets around what is no taller have the size of letters."""
 _BAR = 0.3
 _EXPONENT, _RAISED = 0.2, 0.6  # above a letter, above brackets that are taller
@@ -195,7 +197,8 @@ class Ruler:
                 bounds = max(self.index(lower), self.index(upper))
                 return _SUM_SIGN + bounds + self._factor(body) + 2 * _THIN + 0.6 + self.width(variable)
             case Parenthesized(argument):
-                return self.width(argument) + 2 * TALL_PARENTHESIS
+                tall = self.height(argument) > _LARGEST
+                return self.width(argument) + 2 * (_BUILT_PARENTHESIS if tall else TALL_PARENTHESIS)
             case Relation(parts):
                 return sum(map(self.width, parts)) + RELATION * (len(parts) - 1)
         raise TypeError(f"{type(node).__name__} has no width")

@@ -18,7 +18,8 @@ CASES = [
         "in3140-rp",
         "Given: the table of the arm with a revolute and a prismatic joint (1.1) and two rigid bodies: "
         "body 1 in link 1, of mass m₁, its mass centre half-way along the link; body 2 in link 2, a point of "
-        "mass m₂ at 𝐨₂. Gravity g acts along -𝐳₀; there is no friction.",
+        "mass m₂ at 𝐨₂. The inertia tensor of body 1 is given, too. Gravity g acts along -𝐳₀; there is no "
+        "friction.",
         "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and centrifugal "
         "terms 𝐂 and the gravity terms 𝐠.",
     ),
@@ -82,6 +83,27 @@ def test_the_statement_says_where_a_mass_centre_is(center: str, told: str) -> No
     (given, _) = stated(solved(ARM % center))
     assert "its mass centre at e from 𝐨₀ along -𝐲₁" in given
     assert told in given
+
+
+PLACED = [
+    (
+        "base: {rotate: Rx(30deg), move: [0, 0, h0]}",
+        "Frame 0 is moved by h₀ along z and turned by 30° about x of ",
+    ),
+    ("base: Rz(90deg) Rx(30deg)", "Frame 0 is turned by 90° about z and by 30° about x of the world."),
+    ("base: [[0, -1, 0], [1, 0, 0], [0, 0, 1]]", "How frame 0 is placed in the world is given (1.2)."),
+]
+
+
+@pytest.mark.parametrize(("base", "told"), PLACED)
+def test_the_statement_says_how_the_base_is_placed(base: str, told: str) -> None:
+    (given, _) = stated(solved(f"{base}\n{ARM % 'tip'}"))
+    assert told in given
+
+
+def test_the_statement_says_which_tensors_are_given() -> None:
+    assert "The inertia tensors of bodies 1 and 2 are given, too." in stated(solved("planar-2r"))[0]
+    assert "given, too" not in stated(solved("crustcrawler-2r"))[0], "shapes tell them"
 
 
 ACTING = [
