@@ -43,7 +43,7 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
         title=f"Mass centre of {name_of(body)}",
         why=why,
         formula=equation(r, way.named),
-        source=way.source,
+        source=spong("2.6"),
         further=way.given,
         working=(equation(r, way.values),) if way.values else (),
         result=(equation(r, context.form(f"rc{body.name}")),),
@@ -61,7 +61,6 @@ class _Way:
     values: Node | None = None
     given: tuple[Node, ...] = ()
     uses: tuple[str, ...] | None = None
-    source: str = spong("2.6")
 
 
 def _way(context: Context, body: Body) -> _Way:
@@ -76,7 +75,7 @@ def _way(context: Context, body: Body) -> _Way:
         both = ends(context.robot, body)
         between = _half(*map(letters.o, both))
         values = [_origin(context, end) for end in both]
-        return _Way(between, _half(*values) if is_small(*values) else None, uses=("axes",), source="")
+        return _Way(between, _half(*values) if is_small(*values) else None, uses=("axes",))
     end, back = other
     index = Row((Number(end), Words(","), Words("c"), letters.index_of(body.name)))
     lever = letters.bold("r", index, Number(body.link))
