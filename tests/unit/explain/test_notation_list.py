@@ -172,7 +172,7 @@ MEANINGS = [
     ("planar-2r", "I₁, I₂", "moment of inertia of body i about its axis z through its mass centre", "kg m²"),
     ("planar-2r", "l₁, l₂", "length of link i, from 𝐨ᵢ₋₁ to 𝐨ᵢ", "m"),
     ("planar-2r", "l_c1, l_c2", "distance from 𝐨ᵢ₋₁ to the mass centre of body i", "m"),
-    ("spherical-rrp", "l_c2", "distance from 𝐨₁ to the mass centre of body 2", "m"),
+    ("spherical-rrp", "l_c2", "distance from 𝐨₂ to the mass centre of body 2", "m"),
     ("planar-2r", "𝐃, dᵢⱼ", "inertia matrix, its entries", "kg m²"),
     ("planar-2r", "𝛕", "column of the generalized forces", "N m"),
     ("cartesian-pp", "𝐠, gₖ", "column of the gravity terms, its entries", "N"),
