@@ -16,24 +16,30 @@ from dynsolve.draw.vectors import NEAR, Point, Vector, distance, moved, scaled, 
 from dynsolve.notation.tree import Negative, Node
 from dynsolve.robot.model import JointType, Robot
 
-_AWAY = (24.0, 36.0, 48.0, 62.0, 78.0, 94.0, 110.0)
+_AWAY = (24.0, 36.0, 48.0, 62.0, 78.0, 94.0, 110.0, 128.0)
 """How far beside what it measures a line may run, in picture units."""
 
 _SLANTS = (0.0, math.radians(35), math.radians(-35))
-_SLANTED = 80.0
+_SLANTED = 110.0
 """By how much the way to it may lean, where links on both sides are in its way, and what that costs."""
 
 _SHORT = 20.0
 """What is shorter has no room for two heads."""
 
-_LABEL = 60.0
-"""What it costs to run through the place of a label, or its line."""
+_RESERVED = 60.0
+"""What it costs to run through the place of a label, or its line, or the line of another length."""
 
 _UNDER, _ACROSS, _HEAD = 12.0, 4.0, 8.0
 """What each cell costs that is taken under a length's line, under those to its ends, and under a head."""
 
 _ON_LINK = 150.0
 """What it costs to run over a link or a joint."""
+
+_OVER = 30.0
+"""What each cell costs of another length, or of the lines to its ends, that a length's line runs over."""
+
+_BESIDE_END = 8.0
+"""How near to the end of a length's line the lines to the ends of another may cross it."""
 
 _CLOSE = 2.0
 """How near to a label a line may run."""
@@ -86,20 +92,23 @@ def dimensions(found: Sequence[Length], pose: Pose, notes: Notes) -> None:
     reserved = _reserved(wanted, notes)
     for measured in sorted(found, key=on_paper):
         before = len(notes.wanted)
-        _dimension(measured, pose, notes, reserved)
+        line = _dimension(measured, pose, notes, reserved)
         reserved += _reserved(notes.wanted[before:], notes)
+        if line:
+            reserved.append(_Reserved(None, line))
 
 
 @dataclass(frozen=True, slots=True)
 class _Reserved:
-    """The place of a label with the way to what it names, or with the line that leads there from afar."""
+    """The place of a label with the way to what it names, or with the line from afar; or a length's line."""
 
-    box: Box
-    lead: tuple[Point, Point] | None
+    box: Box | None
+    line: tuple[Point, Point] | None
 
     def meets(self, line: tuple[Point, Point]) -> bool:
         """Whether a line runs through it."""
-        return self.box.meets(*line) or bool(self.lead and segment_distance(self.lead, line) < _CLOSE)
+        in_box = self.box is not None and self.box.meets(*line)
+        return in_box or (self.line is not None and segment_distance(self.line, line) < _CLOSE)
 
 
 def _reserved(wanted: Sequence[Wanted], notes: Notes) -> list[_Reserved]:
@@ -116,8 +125,10 @@ def _with_way(label: Label, wanted: Wanted) -> Box:
     return box.holding(min(wanted.anchors, key=lambda anchor: math.dist(anchor, box.nearest(anchor))))
 
 
-def _dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[_Reserved]) -> None:
-    """Draw a length where least is in its way, and ask for its label."""
+def _dimension(
+    measured: Length, pose: Pose, notes: Notes, reserved: Sequence[_Reserved]
+) -> tuple[Point, Point] | None:
+    """Draw a length where least is in its way, and ask for its label; its line, but for its ends."""
     a, b = pose.view.point(measured.start), pose.view.point(measured.end)
     reach = math.dist(a, b)
     colour, kind = (paths.VARIABLE, "variable") if measured.varies else (paths.BLACK, "length")
@@ -125,11 +136,11 @@ def _dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[_R
         if not measured.optional:
             middle = (a[0] + b[0]) / 2, (a[1] + b[1]) / 2
             notes.label(measured.node, [middle], (0.0, 0.0), colour, kind)
-        return
+        return None
     along = (b[0] - a[0]) / reach, (b[1] - a[1]) / reach
     shift, crowded = _shift(a, b, along, notes, reserved)
     if measured.optional and crowded > _CROWDED:
-        return
+        return None
     p, q = moved(a, shift, 1.0), moved(b, shift, 1.0)
     from_ends = _from_ends(a, b, shift)
     shaft = paths.line(moved(p, along, 5.0), moved(q, along, -5.0))
@@ -144,6 +155,7 @@ def _dimension(measured: Length, pose: Pose, notes: Notes, reserved: Sequence[_R
         notes.lengths.add_line(*line)
     anchors = [moved(p, along, reach * part) for part in (0.5, 0.35, 0.65, 0.2, 0.8)]
     notes.label(measured.node, anchors, shift, colour, kind)
+    return moved(p, along, _BESIDE_END), moved(q, along, -_BESIDE_END)
 
 
 def _shift(
@@ -159,11 +171,12 @@ def _shift(
     def cost(shift: Point) -> float:
         p, q = moved(a, shift, 1.0), moved(b, shift, 1.0)
         from_ends = _from_ends(a, b, shift)
-        in_labels = sum(place.meets(line) for place in reserved for line in ((p, q), *from_ends))
+        in_places = sum(place.meets(line) for place in reserved for line in ((p, q), *from_ends))
         under = _UNDER * taken.cells_on(p, q) + _ACROSS * sum(taken.cells_on(*line) for line in from_ends)
         heads = sum(taken.inside(Box.around(at, 6.0, 6.0)) for at in (p, q))
         on_link = _ON_LINK if notes.solid.cells_on(p, q) else 0.0
-        return 250.0 * crowded(shift) + _LABEL * in_labels + under + _HEAD * heads + on_link
+        over = _OVER * notes.lengths.cells_on(p, q)
+        return 250.0 * crowded(shift) + _RESERVED * in_places + under + _HEAD * heads + on_link + over
 
     tried = [(round(cost(shift) + price, 6), k, shift) for k, (shift, price) in enumerate(_shifts(along))]
     best = min(tried)[-1]
