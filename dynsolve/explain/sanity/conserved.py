@@ -83,7 +83,7 @@ def _of_energy(context: Context) -> Line | None:
     kinetic = equation(letters.K, Product((half, letters.transposed_product(letters.QD, letters.D))))
     slope = equation(letters.G, letters.partial_derivative(letters.P, letters.Q))
     by: Prose = (
-        "The energy, by ",
+        "By ",
         kinetic,
         " and ",
         slope,
@@ -92,7 +92,7 @@ def _of_energy(context: Context) -> Line | None:
     by += (
         equation(letters.transposed_product(letters.QD, N), Number(0)),
         Reference(("skew-2",)),
-        ":",
+        " the rate of the energy is:",
     )
     return Line(by, (equation(rate, *map(_power, powers)),))
 
@@ -112,7 +112,7 @@ def _power(force: Node) -> Product:
 def _of_power(context: Context) -> Prose:
     """What changes the energy."""
     driving = driving_side(context)
-    said: Prose = ("It changes by the power of ", driving)
+    said: Prose = ("The energy changes by the power of ", driving)
     if has_friction(context):
         return (*said, " and of friction, which takes energy away. ")
     zero = equation(driving, letters.bold("0"))

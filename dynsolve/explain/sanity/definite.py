@@ -111,7 +111,7 @@ def _diagonal(context: Context, places: Sequence[int]) -> Prose:
     why: Prose = ("Where ", equation(rate, Number(1)), " and the other rates are 0, ")
     why += (
         equation(entry, Product((Number(2), letters.K))),
-        ", so no body takes anything away from ",
+        ", so each body adds something positive or zero to ",
         entry,
         ". ",
     )
@@ -148,12 +148,11 @@ def _by_bodies(context: Context) -> _Shown | None:
     power = letters.transposed_product(letters.QD, letters.D)
     why: Prose = (
         equation(power, Product((Number(2), letters.K))),
-        " is the sum of what the bodies have, none ",
+        ", and no body has a negative kinetic energy: where their sum is 0, each of them is 0. ",
     )
     why += (
-        "of it negative: where it is 0, that of each body is. In each line the rates of the lines before ",
+        "In each line the rates of the lines before are 0, so that it is 0 only where its own rate is:",
     )
-    why += ("are 0, so that it is 0 only where its own rate is:",)
     concluding: Prose = (
         "So ",
         equation(power, ZERO),

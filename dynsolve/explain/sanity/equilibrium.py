@@ -111,8 +111,9 @@ _BY_MINORS = {
 def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[balance.Zero]) -> Line:
     derivatives = tuple(curvature.shown(context, names, rows))
     if len(names) == 1:
-        return Line(("The second derivative of ", letters.P, " there:"), derivatives)
-    by = (" by ", Symbol(names[-1]), " there, and the determinant of the matrix of all second derivatives:")
+        return Line(("The second derivative of ", letters.P, ":"), derivatives)
+    by: Prose = (" with respect to ", Symbol(names[-1]))
+    by += (", and the determinant of the matrix of all second derivatives:",)
     return Line(("The second derivative of ", letters.P, *by), derivatives)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import chain
@@ -18,7 +19,7 @@ from dynsolve.explain.sanity.sign import is_nonnegative, with_lengths
 from dynsolve.explain.step import Step
 from dynsolve.explain.writing import and_joined, listed, measured, side_by_side, spong, sum_of
 from dynsolve.notation.build import cost
-from dynsolve.notation.tree import Node, Number, Power, Product, equation
+from dynsolve.notation.tree import Node, Number, Power, Product, Sum, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, Coordinate, Joint, JointType
@@ -92,20 +93,30 @@ def _rows(context: Context, q: Coordinate) -> Iterator[tuple[Inline, ...]]:
     if max(map(cost, forms)) > LONGEST:
         return
     for form, (there, pose) in zip(forms, found, strict=True):
-        is_all_numbers = there.is_number and not context.robot.parameters
-        summed = (_summed(context, q, pose),) if is_all_numbers else ()
-        entry = equation(letters.entry("d", q.index, q.index), *summed, measured(form, "kg m²"))
+        name = letters.entry("d", q.index, q.index)
+        if there.is_number and not context.robot.parameters:
+            entry = equation(name, _summed(context, q, pose), measured(form, "kg m²"))
+        else:
+            entry = equation(name, _body_by_body(context, q, pose, form))
         yield side_by_side(written(pose)), _shape(context, pose), entry
 
 
+def _body_by_body(context: Context, q: Coordinate, pose: Pose, collected: Node) -> Node:
+    """An entry in letters as what each body adds to it; collected where that has these terms already."""
+    terms = _summed(context, q, pose)
+    alike = [Counter(form.terms if isinstance(form, Sum) else (form,)) for form in (terms, collected)]
+    return collected if alike[0] == alike[1] or cost(terms) > LONGEST else terms
+
+
 def _summed(context: Context, q: Coordinate, pose: Pose) -> Node:
-    """An entry in numbers as what is added to it: masses times squared distances, moments of inertia."""
+    """An entry as what is added to it: masses times squared distances, moments of inertia."""
     values, k = context.values, q.index - 1
     terms: list[Node] = []
     for body in context.robot.bodies:
         linear, angular = (at(context.robot.ring, values[f"D{part}{body.name}"][k, k], pose) for part in "vw")
         if not linear.is_zero:
-            terms.append(_mass_at_a_distance(context, body, linear))
+            in_numbers = linear.is_number and body.mass.is_number
+            terms.append(_mass_at_a_distance(context, body, linear) if in_numbers else context.show(linear))
         terms += [] if angular.is_zero else [context.show(angular)]
     rotors = at(context.robot.ring, values["Dm"][k, k], pose) if context.robot.actions.motors else None
     return sum_of([*terms, *([] if rotors is None or rotors.is_zero else [context.show(rotors)])])

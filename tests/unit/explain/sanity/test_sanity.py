@@ -92,6 +92,13 @@ def test_an_upright_elbow_has_no_mass_away_from_its_waist() -> None:
     )
 
 
+def test_a_moment_of_inertia_in_letters_is_told_body_by_body() -> None:
+    assert [row[-1] for row in rows("box-cylinder-rod-sphere", "inertia_poses")] == [
+        "d₁₁ = m₁ r₁²/2 + m₂ l₂²/4 + m₂ (l₂² + b²)/12 + m₃ (d₃ - l₃/2)² + m₃ l₃²/12 + m₄ d₃² + 2m₄ r₄²/5",
+        "d₁₁ = m₁ r₁²/2 + m₂ b²/6 + 2m₄ r₄²/5",
+    ]
+
+
 def test_where_the_planar_arm_hangs_and_where_it_stands() -> None:
     assert said("planar-2r", "equilibrium") == (
         "Let all parameters be positive. The rows of g, from the last on, each zero put into the row before:"
@@ -164,8 +171,8 @@ def test_a_counterweight() -> None:
         ("in3140-rp", "the momentum ∂ℒ/∂θ̇₁, the angular momentum about z₀ of the arm, is conserved."),
         ("scara-rrpr", "∂ℒ/∂θ̇₄, the angular momentum about z₃ of all that joint 4 moves, are conserved."),
         ("cart-pole", ", the total linear momentum, is conserved."),
-        ("planar-2r", "It changes by the power of τ alone: as long as τ = 0 it is conserved. "),
-        ("planar-2r-friction", "It changes by the power of τ and of friction, which takes energy away. "),
+        ("planar-2r", "The energy changes by the power of τ alone: as long as τ = 0 it is conserved. "),
+        ("planar-2r-friction", "The energy changes by the power of τ and of friction, which takes energy away. "),
     ],
 )
 def test_what_is_conserved(problem: str, told: str) -> None:
