@@ -150,9 +150,7 @@ def _by_bodies(context: Context) -> _Shown | None:
         equation(power, Product((Number(2), letters.K))),
         ", and no body has a negative kinetic energy: where their sum is 0, each of them is 0. ",
     )
-    why += (
-        "In each line the rates of the lines before are 0, so that it is 0 only where its own rate is:",
-    )
+    why += ("In each line the rates of the lines before are 0, so that it is 0 only where its own rate is:",)
     concluding: Prose = (
         "So ",
         equation(power, ZERO),

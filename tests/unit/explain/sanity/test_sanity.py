@@ -172,7 +172,10 @@ def test_a_counterweight() -> None:
         ("scara-rrpr", "∂ℒ/∂θ̇₄, the angular momentum about z₃ of all that joint 4 moves, are conserved."),
         ("cart-pole", ", the total linear momentum, is conserved."),
         ("planar-2r", "The energy changes by the power of τ alone: as long as τ = 0 it is conserved. "),
-        ("planar-2r-friction", "The energy changes by the power of τ and of friction, which takes energy away. "),
+        (
+            "planar-2r-friction",
+            "The energy changes by the power of τ and of friction, which takes energy away. ",
+        ),
     ],
 )
 def test_what_is_conserved(problem: str, told: str) -> None:
