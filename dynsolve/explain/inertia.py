@@ -144,7 +144,7 @@ def _left_out(context: Context, body: Body) -> Prose:
     )
     what = "that axis" if len(still) == 2 else "these axes"
     return (
-        " It turns about ",
+        " The body turns about ",
         *axes,
         f" alone, so only what belongs to {what} enters; the other entries are set to 0.",
     )
@@ -360,7 +360,9 @@ def _turning(context: Context, body: Body, R: Letter) -> _Turning:
         why: Prose = (" The tensor is a multiple of the identity matrix, and ", equation(turned, one), ".")
         return _Turning((Product((shown, *turned.factors)), Product((shown, one))), why)
     if axis is not None:
-        why = (f" Here it turns about {axis}, and the tensor is the same about all axes across {axis}.",)
+        why = (
+            f" Here it turns about {axis}, and the tensor is the same about all axes perpendicular to {axis}.",
+        )
         return _Turning((), why, same=letters.tensor(context.robot, body))
     lines = tuple(_turned(context, body))
     is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")

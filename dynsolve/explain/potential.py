@@ -38,7 +38,8 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
     P, pull = letters.of_body("P", body), Product((Transpose(letters.GRAVITY), letters.rc(body)))
     parts: tuple[Node, ...] = (P, Negative(Product((context.mass(body), pull))))
     working: tuple[Node, ...] = ()
-    if context.robot.gravity.is_zero:
+    is_pulled = not context.robot.gravity.is_zero
+    if not is_pulled:
         why: Prose = ("There is no gravity.",)
     elif body.mass.is_zero:
         why = (f"{name_of(body).capitalize()} has inertia but no mass, so gravity does not act on it.",)
@@ -60,6 +61,7 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
         why=why,
         formula=equation(*parts),
         source=spong("7.2.3"),
+        further=(equation(letters.GRAVITY, gravity_row(context)),) if tells and is_pulled else (),
         working=working,
         result=(equation(P, context.form(f"P{body.name}")),),
     )
@@ -68,10 +70,10 @@ def _potential(context: Context, body: Body, tells: bool) -> Step:
 def _of_gravity(context: Context) -> Prose:
     """What the vector of gravity is, and which axis points up where one does."""
     why: Prose = (
-        equation(letters.GRAVITY, gravity_row(context)),
+        letters.GRAVITY,
         " is the acceleration of gravity, which points down (",
         spong("7.2.3"),
-        " writes a plus: its vector points up). ",
+        " writes a plus, for which the vector must point up). ",
     )
     along = _along(context)
     if along is None:

@@ -28,6 +28,7 @@ _SAME: dict[Kind, Kind] = {
     ("o", "bold", ""): ("o", "bold", "#"),
     ("A", "bold", ""): ("A", "bold", "#"),
     ("H", "bold", ""): ("H", "bold", "#^"),
+    ("R", "bold", ""): ("R", "bold", "#^"),
     ("r", "bold", "c"): ("r", "bold", "c#"),
     ("I", "bold", "#^"): ("I", "bold", "#"),
     ("I", "bold", "#given"): ("I", "bold", "#"),

@@ -178,9 +178,11 @@ def _inertia_direct(context: Context) -> Step:
         stage=STAGE,
         title="The inertia matrix, assembled from the Jacobians",
         why=(
-            "Without the Lagrangian: ",
+            "Without the Lagrangian: with ",
+            *listed([_of_velocities("v"), _of_velocities("omega")]),
+            " the kinetic energy is ",
             equation(letters.K, Product((letters.HALF, letters.transposed_product(letters.QD, letters.D)))),
-            ", so ",
+            ", where ",
             letters.D,
             f" is a sum over the bodies{_named_otherwise(robot)}.",
             " What each adds follows." if robot.n <= MOST_JOINTS and _is_short(context) else "",
@@ -212,6 +214,12 @@ def _sum(context: Context) -> tuple[Step, ...]:
         return ()
     step = sum_step(context)
     return () if step is None else (step,)
+
+
+def _of_velocities(part: str) -> Node:
+    """v_i = J_{v_i} q̇, or ω_i = J_{ω_i} q̇."""
+    i = Symbol("i")
+    return equation(letters.bold(part, i), Product((letters.bold("J", Letter(part, i)), letters.QD)))
 
 
 def _named_otherwise(robot: Robot) -> str:
