@@ -360,9 +360,10 @@ def _turning(context: Context, body: Body, R: Letter) -> _Turning:
         why: Prose = (" The tensor is a multiple of the identity matrix, and ", equation(turned, one), ".")
         return _Turning((Product((shown, *turned.factors)), Product((shown, one))), why)
     if axis is not None:
-        why = (
-            f" Here it turns about {axis}, and the tensor is the same about all axes perpendicular to {axis}.",
-        )
+        tensor = context.values[f"I_body{body.name}"]
+        alone = sum(not entry.is_zero for entry in tensor.entries) == 1
+        kept = f"the moment about {axis} alone enters" if alone else f"the moments across {axis} are equal"
+        why = (f" Here it turns about {axis}, and {kept}, so the tensor stays as it is.",)
         return _Turning((), why, same=letters.tensor(context.robot, body))
     lines = tuple(_turned(context, body))
     is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")
