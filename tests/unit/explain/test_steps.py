@@ -205,7 +205,7 @@ def test_the_axis_that_points_up_is_named() -> None:
 
 
 def test_of_a_given_tensor_it_is_said_what_does_not_enter() -> None:
-    told = "The body turns about 𝐳₁ alone, so only what belongs to that axis enters; the other entries are set to"
+    told = "The body turns about 𝐳₁ alone, so only what belongs to that axis enters; the other entries"
     assert told in said(step("planar-2r", "I_body1").why, "planar-2r")
     assert "turns about" not in said(step("elbow-3r", "I_body2").why, "elbow-3r")  # about all of its axes
     assert "turns about" not in said(step("rp-vertical", "I_body1").why, "rp-vertical")  # all are given
