@@ -180,7 +180,9 @@ def _of_abbreviations(robot: Robot, short: Abbreviated | None) -> Iterator[Line]
     if short is not None and short.sums:
         names = [d.name.name for d in short.sums]
         if short.at_symbols:
-            yield _named(names, "values of Christoffel symbols", of_entries(robot, "kg m^2", "kg"))
+            unit = of_entries(robot, "kg m^2", "kg")
+            meaning = "abbreviations, defined with the Christoffel symbols"
+            yield _named(names, meaning, "various" if unit == BY_ENTRY else unit)
         else:
             yield _named(names, "recurring terms, see Abbreviations", BY_ENTRY)
 

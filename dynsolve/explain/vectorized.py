@@ -92,6 +92,7 @@ def _inertia(context: Context) -> Step:
             ". ",
             letters.D,
             " is symmetric, and may depend on the coordinates, but on no rate.",
+            " Here it is diagonal: there is no coupling inertia." if _is_diagonal(context) else "",
         ),
         formula=equation(_d(_I, _J), letters.partial_derivative(Letter("tau", _I), Letter("q", _J, dots=2))),
         source=spong("7.3"),
@@ -100,6 +101,12 @@ def _inertia(context: Context) -> Step:
         entries=_names(context, "d"),
         detail=Detail.BRIEF,
     )
+
+
+def _is_diagonal(context: Context) -> bool:
+    """Whether several coordinates move, none of which is coupled with another."""
+    n, D = context.robot.n, context.values["D"]
+    return n > 1 and all(D[i, j].is_zero for i in range(n) for j in range(n) if i != j)
 
 
 def _entries_of_forces(robot: Robot) -> Prose:

@@ -52,7 +52,7 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
         yield Text(("The matrices of this robot", found, ":"))
         yield from _results(by_id, [name for name in _MATRICES if name in by_id])
     if short is not None and short.at_symbols:
-        yield Text(("In ", letters.C, ":"))
+        yield Text(("In ", letters.C, " and in the rows below:"))
         yield Equations(tuple(equation(one.name, one.meaning) for one in short.sums))
     for line in model.lines:
         yield Text(line.by)
