@@ -26,6 +26,14 @@ def test_a_step_is_named_once_and_says_why(problem: str) -> None:
         assert said(each.why, problem).strip().endswith((".", ":")), each.id
 
 
+@pytest.mark.parametrize(
+    ("problem", "is_diagonal"), [("in3140-rp", True), ("box-cylinder-rod-sphere", True), ("planar-2r", False)]
+)
+def test_an_inertia_matrix_without_coupling_is_called_diagonal(problem: str, is_diagonal: bool) -> None:
+    why = said(step(problem, "D").why, problem)
+    assert why.endswith(" Here it is diagonal: there is no coupling inertia.") is is_diagonal
+
+
 @pytest.mark.parametrize("problem", SMALL)
 def test_every_quantity_of_the_course_has_its_step(problem: str) -> None:
     robot = solved(problem).robot
