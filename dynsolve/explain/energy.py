@@ -234,7 +234,7 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
     return Step(
         id=f"Kv{b}",
         stage=STAGE,
-        title=f"Linear kinetic energy of {name_of(body)}",
+        title=f"Translational kinetic energy of {name_of(body)}",
         why=why,
         formula=equation(Kv, Product((letters.HALF, context.mass(body), letters.transposed_product(v)))),
         source=spong("7.2"),

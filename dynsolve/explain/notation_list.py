@@ -166,8 +166,9 @@ def _told(line: Line, style: Style) -> Line:
         return replace(line, meaning=_meaning_of_shorthands(sines))
     changed = [sign for sign in line.signs if isinstance(sign, Letter) and style.base(sign) != sign.base]
     if changed:
-        spong, here = (GREEK.get(base, base) for base in (changed[0].base, style.base(changed[0])))
-        return replace(line, meaning=f"{line.meaning}; Spong writes {spong} for {here}")
+        spong = GREEK.get(changed[0].base, changed[0].base)
+        what = f"{spong} for the entries" if len(line.signs) > 1 else spong
+        return replace(line, meaning=f"{line.meaning}; Spong writes {what}")
     return line
 
 

@@ -193,7 +193,9 @@ def _bodies(robot: Robot, ground: str) -> Iterator[Line]:
     ):  # the recursions tell it with their other levers
         lever = letters.bold("r", Row((letters.BEFORE, Words(","), center)), _I)
         yield _line(lever, "mass centre of body i from the near end of its link, in the link's frame", "m")
-    yield _line(_own_tensors(robot), "tensor of body i about its mass centre, along its own axes", "kg m^2")
+    yield _line(
+        _own_tensors(robot), "inertia tensor of body i about its mass centre, along its axes", "kg m^2"
+    )
     yield _line(letters.base_tensor(_I), f"inertia tensor of body i, along the axes of {ground}", "kg m^2")
     yield _line(_numbered("R"), f"axes of body i, seen from {ground}")
     yield _line(Letter("R", Row((_I, Words(","), _J)), None, "bold"), "turn j of body i")

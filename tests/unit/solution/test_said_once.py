@@ -29,8 +29,8 @@ ELBOW = [
     ("Potential energy of body 1", "g₀ is the acceleration of gravity"),
     ("Potential energy of body 3", "h₃ is the third entry"),  # as short as a reference
     ("Column 2 of the Jacobian", "As for column 1."),  # about z₁ and o₁ in place of z₀ and o₀
-    ("Linear kinetic energy of body 2", "Half the mass"),  # the mass centre of body 1 does not move
-    ("Linear kinetic energy of body 3", "As for body 2."),
+    ("Translational kinetic energy of body 2", "Half the mass"),  # the mass centre of body 1 does not move
+    ("Translational kinetic energy of body 3", "As for body 2."),
     ("Coordinate 3: generalized momentum", "As for coordinate 1."),
     ("Coordinate 2: time derivative of the momentum", "Everything that changes"),  # other rates than for 1
     ("Coordinate 3: time derivative of the momentum", "As for coordinate 2."),
