@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from dynsolve.document import Block, Equations, Formula, Heading, Reference, Text
+from dynsolve.document import Block, Equations, Formula, Heading, Prose, Reference, Text
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.step import Step
@@ -39,8 +39,8 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
     yield Formula(model.formula, source=model.source)
     if robot.n > MOST_JOINTS:
         number = list(stages_of(robot)).index(model.stage) + 1
-        named = zip((letters.D, letters.C, letters.G), ("D", "C", "g"), strict=True)
-        matrices = listed([(letter, Reference((id,))) for letter, id in named])
+        symbols: Prose = ("the Christoffel symbols of ", letters.C, Reference(("christoffel",)))
+        matrices = listed([(letters.D, Reference(("D",))), symbols, (letters.G, Reference(("g",)))])
         yield Text((*matrices, f" are those of section {number}."))
         return
     found = Reference(_MATRICES, ", ")
