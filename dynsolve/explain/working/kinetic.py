@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
 
+from flint import fmpq_mpoly
+
 from dynsolve.algebra.angles import angle_node
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -16,7 +18,7 @@ from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
-from dynsolve.explain.writing import sum_of
+from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated, split_sign, times, total
 from dynsolve.notation.tree import (
@@ -165,7 +167,7 @@ def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | No
     lines: list[tuple[Prose, Node]] = []
     if velocity != context.values[f"v{body.name}"]:
         lines.append((("Its squares:",), _sum_of_squares(context, components)))
-    while (found := squares.turned(ring, components)) is not None:
+    while (found := squares.turned(ring, components)) is not None and not _is_plain(found):
         components = squares.exchanged(components, found)
         lines.append((_turn(context, found), _sum_of_squares(context, components)))
     if any(squares.has_roots(x) for x in components):
@@ -192,6 +194,12 @@ def _chain(context: Context, body: Body, lines: list[tuple[Prose, Node]], conclu
         lambda tree: equation(name, tree),
         concluding,
     )
+
+
+def _is_plain(found: squares.Turned) -> bool:
+    """Whether a turned vector is of two products without angles: (V c - U s)² is soon multiplied out."""
+    angular = [g.index for g in found.parts[0].ring.generators if g.kind in ("sin", "cos")]
+    return all(len(part) == 1 and not any(part.poly.degrees()[i] for i in angular) for part in found.parts)
 
 
 def _turn(context: Context, found: squares.Turned) -> Prose:
@@ -244,11 +252,24 @@ def _multiplied(context: Context, components: Sequence[Expr]) -> list[tuple[Pros
     multiplied = sum_of([*first, *(group.multiplied for group in found)])
     reduced = sum_of([*first, *(group.reduced for group in found)])
     which = _which(len(together), alone == list(components[: len(alone)])) if alone else "The"
-    lines: list[tuple[Prose, Node]] = [((f"{which} squares multiplied out, and sorted:",), multiplied)]
+    by: Prose = (f"{which} squares multiplied out, and sorted", *_cancelled(context, together, poly), ":")
+    lines: list[tuple[Prose, Node]] = [(by, multiplied)]
     used = identities(ring, multiplied, reduced)
     if used:
         lines.append((("By ", *said(used), ":"), reduced))
     return lines
+
+
+def _cancelled(context: Context, components: Sequence[Expr], total: fmpq_mpoly) -> Prose:
+    """Which products of two rates stand in single squares, and no longer in their sum."""
+    ring = context.robot.ring
+    left = squares.products_of_rates(ring, total)
+    gone = {one for x in components for one in squares.products_of_rates(ring, x.poly * x.poly)} - left
+    found = [
+        Product(tuple(Symbol(name, 1) for name, power in zip(ring.names, one, strict=True) if power))
+        for one in sorted(gone, reverse=True)
+    ]
+    return ("; the terms with ", *listed(found), " cancel") if found else ()
 
 
 def _which(count: int, come_last: bool) -> str:

@@ -69,7 +69,7 @@ def factor_of_rate(x: Expr, coordinate: str) -> Expr:
 
 def separate(ring: Ring, components: Sequence[Expr]) -> tuple[list[Expr], list[Expr]]:
     """(components whose squares share no product of rates with the others, all others)"""
-    rates = [_rates(ring, x.poly * x.poly) for x in components]
+    rates = [products_of_rates(ring, x.poly * x.poly) for x in components]
     alone: list[Expr] = []
     together: list[Expr] = []
     for k, x in enumerate(components):
@@ -78,7 +78,7 @@ def separate(ring: Ring, components: Sequence[Expr]) -> tuple[list[Expr], list[E
     return alone, together
 
 
-def _rates(ring: Ring, poly: fmpq_mpoly) -> set[tuple[int, ...]]:
+def products_of_rates(ring: Ring, poly: fmpq_mpoly) -> set[tuple[int, ...]]:
     """The products of rates that occur, as exponents."""
     places = [ring.symbol_indices[(name, 1)] for name in ring.names]
     return {tuple(e[i] for i in places) for e in poly.to_dict()}
