@@ -48,6 +48,8 @@ _STAYS = r"\begingroup\postdisplaypenalty=10000"
 _STRUT = r"\rule[-1.7ex]{0pt}{4.7ex}"
 _FENCES = ((FLAT, ""), (1.8, "Big"), (2.4, "bigg"))
 """The sizes of parentheses, each up to a height in em."""
+_ROW_SPACES = ((r"\left", r"\\[9pt]"), (r"\dfrac", r"\\[6pt]"))
+"""How a row of a matrix ends that holds high parentheses, or fractions; counted from the foot of a line."""
 _NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.? (.*)", re.DOTALL)
 
 _PREAMBLE = r"""\documentclass[a4paper]{article}
@@ -143,13 +145,20 @@ def latex_notation(printer: LatexPrinter) -> Notation:
     )
 
 
+def _row_end(line: str) -> str:
+    """The end of a row of a matrix, with room below what is high."""
+    return next((f" {end} " for sign, end in _ROW_SPACES if sign in line), r" \\ ")
+
+
 class _Printer(LatexPrinter):
-    """LaTeX for a page: what stands side by side has room, fractions in a matrix are as large as others."""
+    """LaTeX for a page: what stands side by side has room, fractions in a matrix are as large as others.
+
+    Rows of a matrix with fractions or high parentheses do not touch the rows beside them.
+    """
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
         lines = [" & ".join(row).replace(r"\frac", r"\dfrac") for row in rows]
-        ends = [r" \\[6pt] " if r"\dfrac" in line else r" \\ " for line in lines[:-1]]
-        body = "".join(chain.from_iterable(zip(lines, [*ends, ""], strict=True)))
+        body = "".join(chain.from_iterable(zip(lines, [*map(_row_end, lines[:-1]), ""], strict=True)))
         return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
 
     def _words(self, node: Words) -> str:
