@@ -73,6 +73,8 @@ def _worked_out(context: Context, body: Body, step: Step) -> Step:
         is_same = bool(last[1]) and set(last[1]) <= set(products.used)
         second = ("multiplied out, with the same:",) if is_same else _by("multiplied out", last[1])
         by += ("; the second product ", *second)
+    if products.frame is not None:
+        step = replace(step, working=(), uses=(f"H{products.frame}", f"Jv{body.name}#1"))
     return replace(step, lines=(*products.lines, *angular), concluding=by if turns else (*by, ":"))
 
 

@@ -238,9 +238,10 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         why=why,
         formula=equation(Kv, Product((letters.HALF, context.mass(body), letters.transposed_product(v)))),
         source=spong("7.2"),
-        working=working,
+        working=working if way.frame is None else (),
         lines=way.lines,
         concluding=way.concluding,
+        uses=None if way.frame is None else (f"H{way.frame}", f"v{b}"),
         result=(equation(Kv, form),),
         notes=tuple(_cancelling(context, body)) if working and tells else (),
         hint=(

@@ -23,6 +23,7 @@ from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.expansion import is_trigonometric
 from dynsolve.explain.working.identities import Identity, identities, pythagoras, said
 from dynsolve.explain.working.kinetic import MOST_GROUPS, without_signs
+from dynsolve.explain.working.other_axes import turned_name, turning_line
 from dynsolve.explain.working.proved import MOST_JOINTS, equals
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
@@ -37,7 +38,6 @@ from dynsolve.notation.tree import (
     Product,
     Row,
     Sum,
-    Transpose,
     equation,
 )
 from dynsolve.notation.walk import walk
@@ -50,10 +50,14 @@ WIDEST = 60
 
 @dataclass(frozen=True, slots=True)
 class Products:
-    """The lines from m J_vᵀ J_v with its matrices to the result, and the identities of the last operation."""
+    """The lines from m J_vᵀ J_v with its matrices to the result, and the identities of the last operation.
+
+    With a `frame` they begin afresh from J_v, along the axes of that frame.
+    """
 
     lines: tuple[Line, ...]
     used: tuple[Identity, ...]
+    frame: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,11 +84,22 @@ def of_columns(context: Context, body: Body) -> Products | None:
         R = rotation(context.values[f"H{i}"])
         found = _along(context, body, R.T @ velocity)
         if found is not None:
-            name = Product((Transpose(letters.R(context.robot, i)), letters.jv(body)))
-            shown = context.show(R.T @ context.values[f"Jv{body.name}"])
-            by: Prose = (f"The products are the same along the axes of frame {i}:",)
-            return Products((Line(by, (equation(name, shown),), (f"H{i}",)), *found.lines), found.used)
+            return Products((*_begun_along(context, body, i), *found.lines), found.used, frame=i)
     return None
+
+
+def _begun_along(context: Context, body: Body, i: int) -> Iterator[Line]:
+    """J_v along the axes of another frame, and the products of its columns there."""
+    J, value, written = letters.jv(body), context.values[f"Jv{body.name}"], context.matrix(f"Jv{body.name}")
+    yield turning_line(context, i, J, value, written, ("the products of the columns",))
+    turned = context.show(rotation(context.values[f"H{i}"]).T @ value)
+    mass, name = context.mass(body), Parenthesized(turned_name(context, i, J))
+    members = (
+        Product((mass, letters.transposed_product(J))),
+        Product((mass, letters.transposed_product(name))),
+        Product((context.show(body.mass), letters.transposed_product(turned))),
+    )
+    yield Line(("Their products:",), (equation(*dict.fromkeys(members)),))
 
 
 def _along(context: Context, body: Body, velocity: Matrix) -> Products | None:

@@ -14,9 +14,9 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
-from dynsolve.explain.step import Line
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.identities import Identity, identities, said
+from dynsolve.explain.working.other_axes import turning_line
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation import tree
@@ -31,7 +31,6 @@ from dynsolve.notation.tree import (
     Product,
     Sum,
     Symbol,
-    Transpose,
     equation,
 )
 from dynsolve.notation.walk import walk
@@ -103,15 +102,16 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
         turned = rotation(context.values[f"H{i}"]).T @ velocity
         way = _from_components(context, body, turned)
         if way is not None:
-            return Way((_along(context, body, i, turned), *way.lines), way.concluding)
-    squared = _squared(context, body, turned)
-    return Way((_along(context, body, body.link, turned), *squared.lines), squared.concluding)
+            return _begun_along(context, body, i, way)
+    return _begun_along(context, body, body.link, _squared(context, body, turned))
 
 
 def _squared(context: Context, body: Body, velocity: Matrix) -> Way:
     """The squares of some components, and these by the products of the rates, which become the result."""
     components = [x for x in velocity.entries if not x.is_zero]
-    lines: list[tuple[Prose, Node]] = [(("Its squares:",), _sum_of_squares(context, components))]
+    lines: list[tuple[Prose, Node]] = [
+        (("The squares of its entries:",), _sum_of_squares(context, components))
+    ]
     brackets = list(_by_rates(context, components))
     used: dict[Identity, None] = {}
     for bracket in brackets:
@@ -153,11 +153,11 @@ def _by_rates(context: Context, components: Sequence[Expr]) -> Iterator[_Bracket
             yield _Bracket(tree, value, times(2, [(tree, 1), (first, 1), (second, 1)]))
 
 
-def _along(context: Context, body: Body, i: int, turned: Matrix) -> Line:
-    """v along the axes of another frame, in which its square is the same."""
-    v, R = letters.of_body("v", body, "bold"), letters.R(context.robot, i)
-    why: Prose = (f"The speed is the same along the axes of frame {i}.",)
-    return Line(why, (equation(Product((Transpose(R), v)), context.show(turned)),))
+def _begun_along(context: Context, body: Body, i: int, way: Way) -> Way:
+    """The lines from v along the axes of another frame, with v brought there before them."""
+    v, value = letters.of_body("v", body, "bold"), context.values[f"v{body.name}"]
+    line = turning_line(context, i, v, value, velocity(context, body), ("the length of ", v))
+    return Way((line, *way.lines), way.concluding, frame=i)
 
 
 def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | None:
@@ -166,7 +166,7 @@ def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | No
     components = [x for x in velocity.entries if not x.is_zero]
     lines: list[tuple[Prose, Node]] = []
     if velocity != context.values[f"v{body.name}"]:
-        lines.append((("Its squares:",), _sum_of_squares(context, components)))
+        lines.append((("The squares of its entries:",), _sum_of_squares(context, components)))
     while (found := squares.turned(ring, components)) is not None and not _is_plain(found):
         components = squares.exchanged(components, found)
         lines.append((_turn(context, found), _sum_of_squares(context, components)))

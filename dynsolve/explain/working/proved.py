@@ -22,10 +22,14 @@ MOST_JOINTS = 3
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """The lines to a result, and what is said of the last operation."""
+    """The lines to a result, and what is said of the last operation.
+
+    With a `frame` they begin afresh from the formula, along the axes of that frame.
+    """
 
     lines: tuple[Line, ...] = ()
     concluding: Prose = ()
+    frame: int | None = None
 
 
 SILENT = Way()

@@ -214,20 +214,45 @@ masses: [{mass: m, link: 2}]
 
 def test_a_velocity_is_squared_along_the_axes_in_which_that_is_plain() -> None:
     found = lines(TILTED, "Kv1")
-    assert found[0] == "The speed is the same along the axes of frame 0."
-    assert found[2] == "Its squares:"
+    assert found[0] == "A rotation leaves the length of 𝐯₁ unchanged; along the axes of frame 0:"
+    assert found[1].startswith("(𝐑₀^w)ᵀ 𝐯₁ = [[1, 0, 0], [0, √3/2, -½], [0, ½, √3/2]]ᵀ [[")
+    assert found[2] == "The squares of its entries:"
+    assert not step(TILTED, "Kv1").working
     assert found[4].startswith("By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with U = ")
-    assert "√" not in "".join(found)
+    assert "√" not in found[1].rpartition(" = ")[2] and "√" not in "".join(found[2:])
 
 
 def test_the_columns_of_a_leaning_arm_are_multiplied_along_axes_in_which_that_is_plain() -> None:
     found = lines(TILTED, "D_direct1")
-    assert found[0] == "The products are the same along the axes of frame 0:"
-    assert (
-        found[1] == "(𝐑₀^w)ᵀ 𝐉_v1 = [[-s₁ (l₁ + l₂ c₂), -l₂ c₁ s₂], [c₁ (l₁ + l₂ c₂), -l₂ s₁ s₂], [0, l₂ c₂]]"
-    )
-    assert found[2] == "With s₁² + c₁² = 1:" and found[-1] == "By s₂² + c₂² = 1:"
-    assert "√" not in "".join(found)
+    turned = "[[-s₁ (l₁ + l₂ c₂), -l₂ c₁ s₂], [c₁ (l₁ + l₂ c₂), -l₂ s₁ s₂], [0, l₂ c₂]]"
+    assert found[0] == "A rotation leaves the products of the columns unchanged; along the axes of frame 0:"
+    assert found[1].startswith("(𝐑₀^w)ᵀ 𝐉_v1 = [[1, 0, 0], [0, √3/2, -½], [0, ½, √3/2]]ᵀ [[")
+    assert found[1].endswith(f" = {turned}")
+    assert found[2] == "Their products:"
+    assert found[3] == f"m 𝐉_v1ᵀ 𝐉_v1 = m ((𝐑₀^w)ᵀ 𝐉_v1)ᵀ ((𝐑₀^w)ᵀ 𝐉_v1) = m {turned}ᵀ {turned}"
+    assert found[4] == "With s₁² + c₁² = 1:" and found[-1] == "By s₂² + c₂² = 1:"
+    assert not step(TILTED, "D_direct1").working
+    assert "√" not in "".join(found[2:])
+
+
+def test_every_line_of_a_leaning_arm_is_true() -> None:
+    assert_true(solved(TILTED))
+
+
+@pytest.mark.parametrize(
+    ("base", "is_told"),
+    [("Rx(30deg)", True), ("Rz(30deg)", False), ("{move: [0, 0, h]}", False)],
+)
+def test_what_a_turned_base_changes_is_told_where_it_is_turned_against_gravity(
+    base: str, is_told: bool
+) -> None:
+    """The kinetic energy of a leaning arm is that of the upright one (a rotation keeps lengths)."""
+    leaning = TILTED.replace("Rx(30deg)", base)
+    told = [said(note, leaning) for note in step(leaning, "g").notes]
+    assert any(note.startswith("How the base is turned matters to 𝒫 and 𝐠 alone") for note in told) is is_told
+    upright = TILTED.replace("base: Rx(30deg)", "base: {move: [0, 0, 0]}")
+    for name in ("K", "D", "C"):
+        assert step(leaning, name).result == step(upright, name).result
 
 
 def test_squares_of_sums_of_lengths_are_multiplied_out_by_the_rates() -> None:
