@@ -33,6 +33,7 @@ from dynsolve.notation.tree import (
     Symbol,
     equation,
 )
+from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body
@@ -182,7 +183,15 @@ def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | No
         lines += multiplied
         before = lines[-1][1] if lines else _sum_of_squares(context, components)
         concluding = collected(before, context.form(f"Kv{body.name}"))
+        if lines and _is_printed(context, body, lines[-1][1]):
+            concluding = lines.pop()[0]
     return _chain(context, body, lines, concluding)
+
+
+def _is_printed(context: Context, body: Body, squared: Node) -> bool:
+    """Whether ½ m times a sum of squares is printed as the result is."""
+    energy = Product((letters.HALF, context.show(body.mass), squared))
+    return to_unicode(energy) == to_unicode(context.form(f"Kv{body.name}"))
 
 
 def _chain(context: Context, body: Body, lines: list[tuple[Prose, Node]], concluding: Prose) -> Way:

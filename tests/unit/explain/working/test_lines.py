@@ -138,8 +138,16 @@ def test_what_a_line_needs_is_referred_to_where_it_goes_in() -> None:
 
 def test_where_one_identity_does_all_it_is_named_and_no_line_is_spent() -> None:
     assert lines("planar-2r", "Kv1") == ["By s₁² + c₁² = 1:"]
-    turned = "By (V c₁ - U s₁)² + (U c₁ + V s₁)² = U² + V² with U = L₂ θ̇₁ and V = L̇₂:"
-    assert lines("in3140-rp", "Kv2") == [turned]
+    turned = "By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with U = L₂ c₂ θ̇₁ and V = L₂ s₂ θ̇₂:"
+    assert lines("crustcrawler-2r", "Kvp")[0] == turned
+
+
+def test_a_turned_vector_of_two_products_is_multiplied_out() -> None:
+    assert lines("in3140-rp", "Kv2") == [
+        "The squares multiplied out, and sorted; the terms with θ̇₁ L̇₂ cancel:",
+        "K_v2 = ½ m₂ (L₂² (s₁² + c₁²) θ̇₁² + (s₁² + c₁²) L̇₂²)",
+        "By s₁² + c₁² = 1:",
+    ]
 
 
 def test_the_rotation_along_the_axes_of_the_body_where_that_is_shorter() -> None:
