@@ -25,6 +25,8 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     forms       the compact form of every value; how long ones are put together from parts
     placed_bodies
                 bodies that are given by their positions: r_c, turns, Jacobians by differentiation
+    turned_tensors
+                R I Rᵀ of a body, or why the rotation keeps the tensor
     rotational_energy
                 K_ω of a body, along its own axes where these make it short
     jacobian_columns

@@ -1,15 +1,13 @@
 """Steps of the bodies: inertia tensor, its orientation, and the tensor in the base frame.
 
-The first step of a body, its mass centre, is in `mass_centers`.
+The first step of a body, its mass centre, is in `mass_centers`, how R I Rᵀ comes about in `turned_tensors`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from dynsolve.algebra import matrix as algebra
-from dynsolve.algebra.expr import Expr
 from dynsolve.derivation import inertia
 from dynsolve.document import Prose
 from dynsolve.explain import given_axes
@@ -20,7 +18,7 @@ from dynsolve.explain.mass_centers import mass_center_step
 from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.shapes import SHAPES
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.working.products import product_named
+from dynsolve.explain.turned_tensors import turning_of
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.working.rotational import along_own_axes
 from dynsolve.explain.writing import is_small, listed, measured, name_of, side_by_side, spong
@@ -316,7 +314,7 @@ def _right_frame(context: Context, link: int) -> Iterator[Prose]:
 
 def _base_tensor(context: Context, body: Body) -> Step:
     name, R = letters.base_tensor(letters.index_of(body.name)), letters.of_body("R", body, "bold")
-    turning, base = _turning(context, body, R), context.form(f"I{body.name}")
+    turning, base = turning_of(context, body, R), context.form(f"I{body.name}")
     return Step(
         id=f"I{body.name}",
         stage=STAGE,
@@ -338,77 +336,8 @@ def _base_tensor(context: Context, body: Body) -> Step:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Turning:
-    """How R I Rᵀ comes about: what is said of it, its lines, and the identities that lead to the result.
-
-    `same` is the tensor that it is equal to, where the rotation does not change it.
-    """
-
-    lines: tuple[Node, ...]
-    why: Prose = ()
-    concluding: Prose = ()
-    notes: tuple[Prose, ...] = ()
-    same: Letter | None = None
-
-
-def _turning(context: Context, body: Body, R: Letter) -> _Turning:
-    """By the factor of the identity, by an axis of symmetry, or by two products of matrices."""
-    factor, axis = _factor_of_identity(context.values[f"I_body{body.name}"]), _axis_of_symmetry(context, body)
-    if factor is not None:
-        shown, turned, one = context.show(factor), Product((R, Transpose(R))), letters.bold("E")
-        why: Prose = (" The tensor is a multiple of the identity matrix, and ", equation(turned, one), ".")
-        return _Turning((Product((shown, *turned.factors)), Product((shown, one))), why)
-    if axis is not None:
-        tensor = context.values[f"I_body{body.name}"]
-        alone = sum(not entry.is_zero for entry in tensor.entries) == 1
-        kept = f"the moment about {axis} alone enters" if alone else f"the moments across {axis} are equal"
-        why = (f" Here it turns about {axis}, and {kept}, so the tensor stays as it is.",)
-        return _Turning((), why, same=letters.tensor(context.robot, body))
-    lines = tuple(_turned(context, body))
-    is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")
-    notes: tuple[Prose, ...] = (("This rotation does not change the tensor.",),) if is_kept else ()
-    return _Turning(lines, (), _turned_named(context, body) if lines else (), notes)
-
-
-def _factor_of_identity(tensor: algebra.Matrix) -> Expr | None:
-    """a where a tensor is a E, the same about every axis; None for others."""
-    a = tensor[0, 0]
-    return a if tensor == algebra.Matrix.identity(a.ring, 3).scale(a) else None
-
-
-def _axis_of_symmetry(context: Context, body: Body) -> str | None:
-    """The axis of the body that R turns about, where the tensor is the same about all axes across it."""
-    R, tensor = context.values[f"R{body.name}"], context.values[f"I_body{body.name}"]
-    one, unturned = R[0, 0].ring.one, algebra.Matrix.identity(R[0, 0].ring, 3)
-    if R @ tensor @ R.T != tensor or unturned == R:
-        return None
-    return next((name for k, name in enumerate("xyz") if R[k, k] == one), None)
-
-
 def _detail(context: Context, body: Body, base: Node) -> Detail:
     """Where the energy is worked out along the body's own axes, 𝓘 is shown only if it is asked for."""
     if along_own_axes(context, body) and f"I{body.name}" not in context.wanted:
         return Detail.FULL
     return Detail.BRIEF if is_small(base) else Detail.NORMAL
-
-
-def _turned(context: Context, body: Body) -> Iterator[Node]:
-    """R I Rᵀ with their entries, then R (I Rᵀ): one product of matrices from a line to the next."""
-    b = body.name
-    rotation, given = context.form(f"R{b}"), context.form(f"I_body{b}")
-    if not is_small(rotation, rotation, given):
-        return
-    yield Product((rotation, given, Transpose(rotation)))
-    R, tensor, base = (context.values[name] for name in (f"R{b}", f"I_body{b}", f"I{b}"))
-    half = tensor @ R.T
-    if context.robot.n <= MOST_JOINTS and half not in (tensor, R.T, base):
-        shown = context.show(half)
-        if is_small(rotation, shown):
-            yield Product((rotation, shown))
-
-
-def _turned_named(context: Context, body: Body) -> Prose:
-    """The identities by which R (I Rᵀ) becomes what is printed."""
-    R, given, base = (context.values[f"{letter}{body.name}"] for letter in ("R", "I_body", "I"))
-    return product_named(context, R, given @ R.T, base)
