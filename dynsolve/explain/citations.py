@@ -125,6 +125,12 @@ KHALIL_DOMBRE = Book(
     sections={"9.4": "Determination of the Base Inertial Parameters"},
 )
 
+GAUTIER_KHALIL = (
+    "M. Gautier, W. Khalil, Direct calculation of minimum set of inertial parameters of serial robots, "
+    "IEEE Transactions on Robotics and Automation 6, 1990"
+)
+"""How base parameters of serial arms are found; cited in full where they are told of."""
+
 SLOTINE_LI = Book(
     name="Slotine and Li",
     full="J.-J. E. Slotine, W. Li, Applied Nonlinear Control, Prentice Hall, 1991",

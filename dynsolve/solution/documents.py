@@ -29,7 +29,7 @@ from dynsolve.explain.abbreviations import (
     Abbreviated,
     Definition,
 )
-from dynsolve.explain.citations import KHALIL_DOMBRE, cited
+from dynsolve.explain.citations import GAUTIER_KHALIL, KHALIL_DOMBRE, cited
 from dynsolve.explain.notation_list import notation
 from dynsolve.explain.statement import statement
 from dynsolve.explain.step import Detail, Line, Step
@@ -201,11 +201,11 @@ def _constant_blocks(short: Abbreviated, what: str) -> Iterator[Block]:
         f"The {what} has {count} base parameter{'s' if count > 1 else ''}: the fewest combinations of "
         "masses, mass centres, moments of inertia and lengths of which ",
         *listed([letters.D, letters.G]),
-        " are made (",
-        KHALIL_DOMBRE.section("9.4"),
-        "). They are the constants below",
+        f" are made ({KHALIL_DOMBRE.section('9.4')}; {GAUTIER_KHALIL}). Only these can be determined from "
+        "the motions and forces of the joints. Their number is fixed, their choice is not: as many "
+        "independent linear combinations of them serve as well. Chosen here are the constants below",
         *own,
-        ". Only these can be determined from the motions and forces of the joints.",
+        ".",
     ))  # fmt: skip
     yield Equations(tuple(map(_defined, short.constants)), in_columns=True, label=CONSTANTS_LIST)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.closing import driving_row
 from dynsolve.explain.entry_formulas import pairs
 from dynsolve.explain.long_model.model import QUADRATIC, Change, LongModel, with_result
@@ -41,7 +41,7 @@ def potential(model: LongModel, step: Step) -> Step:
         return step
     if model.short.P is None:
         return left_out(step)
-    note: Prose = ("It is written out in the abbreviations below, where ", letters.G, " is derived.")
+    note: Prose = ("It is written out in abbreviations where ", letters.G, Reference(("g",)), " is derived.")
     return replace(step, result=(), notes=(*step.notes, note))
 
 
@@ -50,8 +50,9 @@ def kinetic(model: LongModel, step: Step) -> Step:
     return with_result(
         step,
         equation(letters.K, QUADRATIC, model.formulas.kinetic_energy()),
-        " It is a quadratic form in the rates; its coefficients are the entries of ",
+        " It is a quadratic form in the rates; its coefficients are the entries of the inertia matrix ",
         letters.D,
+        Reference(("D",)),
         ", which the vectorized form gives as sums over the bodies.",
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
@@ -10,15 +11,17 @@ from operator import itemgetter
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
 from dynsolve.explain.kinematics import OUTWARDS
+from dynsolve.explain.long_model.halves import halves, product
 from dynsolve.explain.long_model.model import Change, LongModel
-from dynsolve.explain.step import Step
-from dynsolve.explain.working.identities import Identity, said
+from dynsolve.explain.step import Line, Step
+from dynsolve.explain.working.identities import said
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.writing import column_of, side_by_side
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost
-from dynsolve.notation.tree import Letter, Product, Relation, Symbol, Words, equation
+from dynsolve.notation.tree import Letter, Node, Number, Product, Relation, Symbol, Words, equation
 from dynsolve.quantities import letters
+from dynsolve.robot.model import Joint
 
 LONGEST_ENTRY = 40
 """The operations in an entry of the Jacobian up to which three columns stand on a line or two."""
@@ -35,10 +38,41 @@ def changes(model: LongModel) -> dict[str, Change]:
 
 
 def last_frame(model: LongModel, step: Step) -> Step:
-    """The last frame by the matrices of the rows, without the frames on the way to it."""
-    used = _identities_outwards(model.context)
-    why = step.why if step.why[: len(OUTWARDS)] == OUTWARDS else (*OUTWARDS, " ", *step.why)
-    return replace(step, why=why, working=(), concluding=("With ", *said(used), ":") if used else ())
+    """The last frame by the matrices of the rows: the products of two halves, and the product of these."""
+    context = model.context
+    robot = context.robot
+    assert isinstance(step.formula, Relation)
+    inner, outer = halves(robot)
+    end, half = outer[-1].index, inner[-1].index
+    names = letters.H(robot, half), replace(letters.H(robot, end), sup=Number(half))
+    (first, before), (second, after) = product(context, inner), product(context, outer)
+    used = list(dict.fromkeys((*before, *after)))
+    told = f"the two halves of the product, the second being frame {end} seen from frame {half}:"
+    whole = used_in_product(context, first, second, context.values[f"H{end}"])
+    return replace(
+        step,
+        why=step.why if step.why[: len(OUTWARDS)] == OUTWARDS else (*OUTWARDS, " ", *step.why),
+        formula=equation(*step.formula.parts, Product(names)),
+        working=(),
+        lines=(
+            Line(
+                ("With ", *said(used), f", {told}") if used else (told.capitalize(),),
+                (
+                    equation(names[0], _rows(context, inner), context.show(first)),
+                    equation(names[1], _rows(context, outer), context.show(second)),
+                ),
+            ),
+        ),
+        concluding=("With ", *said(whole), ", their product:") if whole else ("Their product:",),
+    )
+
+
+def _rows(context: Context, rows: Sequence[Joint]) -> Node:
+    """A_4 A_5 A_6, from the base on with the frame of the base before them."""
+    matrices = [letters.A(row.index) for row in rows]
+    if rows[0].parent == 0 and letters.has_base(context.robot):
+        matrices = [letters.H(context.robot, 0), *matrices]
+    return Product(tuple(matrices))
 
 
 def axes(model: LongModel, step: Step) -> Step:
@@ -70,14 +104,3 @@ def jacobian(model: LongModel, step: Step) -> Step:
         concluding=("The columns of ", letters.JV, " from the first to the last, and ", letters.JW, ":"),
         result=(side_by_side(shown), *angular),
     )
-
-
-def _identities_outwards(context: Context) -> list[Identity]:
-    """The identities by which the products of the frames become what is printed, each once."""
-    used: dict[Identity, None] = {}
-    for joint in context.robot.path(len(context.robot.joints)):
-        before, A, H = (
-            context.values[name] for name in (f"H{joint.parent}", f"A{joint.index}", f"H{joint.index}")
-        )
-        used |= dict.fromkeys(used_in_product(context, before, A, H))
-    return list(used)

@@ -16,6 +16,7 @@ from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.jacobian_columns import ZERO
+from dynsolve.explain.long_model.body_jacobians import kinetic_step
 from dynsolve.explain.potential import gravity_row
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, side_by_side, spong
@@ -66,7 +67,7 @@ def general_steps(context: Context) -> Iterator[GeneralStep]:
         if solid:
             names = [body.name for body in solid]
             yield GeneralStep(_tensors(context, solid), _ids(["I_body", "R", "I"], names))
-        yield GeneralStep(_kinetic(context), _ids(["Jv", "v", "Kv", "Kw", "K"], bodies))
+        yield GeneralStep(kinetic_step(context), _ids(["Jv", "v", "Kv", "Kw", "K"], bodies))
     if bodies:
         yield GeneralStep(_potential(context), _ids(["P"], bodies))
     if robot.has_dynamics and robot.questions.method is Method.LAGRANGE:
@@ -211,31 +212,6 @@ def _potential(context: Context) -> Step:
         further=(equation(letters.GRAVITY, gravity_row(context)),),
         result=tuple(equation(letters.of_body("P", body), context.form(f"P{body.name}")) for body in bodies),
         listed=True,
-        detail=Detail.BRIEF,
-        uses=(),
-    )
-
-
-def _kinetic(context: Context) -> Step:
-    v, w = (Letter(base, _I, style="bold") for base in ("v", "omega"))
-    center = Letter("r", Row((Words("c"), _I)), style="bold")
-    Jv, Jw = (letters.bold("J", Letter(base, _I)) for base in ("v", "omega"))
-    velocities = [equation(v, Product((Jv, letters.QD))), equation(w, Product((Jw, letters.QD)))]
-    linear = Product((letters.HALF, Letter("m", _I), letters.transposed_product(v)))
-    tensor = letters.base_tensor(_I)
-    rotational = Product((letters.HALF, letters.transposed_product(w, tensor)))
-    return Step(
-        id="kinetics",
-        stage=Stage.ENERGY,
-        title="Kinetic energy of each body",
-        why=(
-            "The Jacobians of a mass centre are like those of the arm, with ",
-            center,
-            f" in place of {context.end}; the columns of the joints after the body's link are zero.",
-        ),
-        formula=side_by_side(velocities),
-        source=spong("7.2.2"),
-        result=(equation(Letter("K", _I), Sum((linear, rotational))),),
         detail=Detail.BRIEF,
         uses=(),
     )

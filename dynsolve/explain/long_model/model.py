@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
-from dynsolve.document import Prose
+from dynsolve.document import Inline, Prose
 from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import EntryFormulas, Factor
@@ -65,7 +65,7 @@ def _with_number_in_front(coefficient: Fraction | int, factors: Iterable[Factor]
     return Product((Number(coefficient.numerator, coefficient.denominator), *inner))
 
 
-def with_result(step: Step, result: Node, *more: str | Node) -> Step:
+def with_result(step: Step, result: Node, *more: Inline) -> Step:
     """The step with a result in names, and what there is to say about it."""
     why: Prose = (*step.why, *more)
     return replace(step, result=(result,), why=why)

@@ -12,7 +12,7 @@ from dynsolve.explain.entry_formulas import coriolis_matrix
 from dynsolve.explain.long_model.inertia_entry import worked_row
 from dynsolve.explain.long_model.model import QUADRATIC, Change, LongModel
 from dynsolve.explain.long_model.slopes import christoffel_example, gravity_example
-from dynsolve.explain.sanity.dependence import is_carried_along
+from dynsolve.explain.sanity.dependence import is_carried_along, on_last_entry
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed
 from dynsolve.notation import tree
@@ -40,6 +40,7 @@ def changes(model: LongModel) -> dict[str, Change]:
         "christoffel": partial(christoffel, model),
         "C": partial(coriolis, model),
         "g": partial(gravity, model),
+        "dependence": partial(last_entry, model),
     }
 
 
@@ -184,6 +185,12 @@ def gravity(model: LongModel, step: Step) -> Step:
     example = gravity_example(model)
     after: Prose = ("All entries:",) if example else ("Differentiated:",)
     return replace(step, why=why, lines=(potential, *example), concluding=after, result=result)
+
+
+def last_entry(model: LongModel, step: Step) -> Step:
+    """The last entry of D alone: on what D does not depend was said of the Christoffel symbols."""
+    title = "Check: the last entry of the inertia matrix"
+    return replace(step, title=title, why=on_last_entry(model.context))
 
 
 def _with_indices(letter: str, indices: str) -> Letter:

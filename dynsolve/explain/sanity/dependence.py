@@ -23,10 +23,24 @@ def dependence_step(context: Context) -> Step | None:
         return None
     last = robot.coordinates[-1]
     entry = letters.entry("d", last.index, last.index)
+    value = context.values["D"][last.index - 1, last.index - 1]
+    form = context.show(value)
+    return Step(
+        id="dependence",
+        stage=Stage.VECTORIZED,
+        title="Check: on what the inertia matrix depends",
+        why=(*on_carried_links(), *on_last_entry(context)),
+        source=spong("7.2"),
+        result=(equation(entry, form),) if cost(form) <= LONGEST else (),
+        is_task=False,
+    )
+
+
+def on_carried_links() -> Prose:
+    """Which entries do not depend on which coordinates, and why."""
     j, k, i = (Symbol(name) for name in "jki")
     within = (Relation((i, other), ("≤",)) for other in (j, k))
-    what = "moment of inertia about its axis" if turns(last) else "mass"
-    why: Prose = (
+    return (
         "Joint i moves the links from ",
         i,
         " on like one body. So no ",
@@ -36,20 +50,15 @@ def dependence_step(context: Context) -> Step | None:
         " where ",
         *listed(list(within)),
         ". ",
-        entry,
-        f" is constant: of all that joint {last.index} moves, it is the {what}.",
     )
-    value = context.values["D"][last.index - 1, last.index - 1]
-    form = context.show(value)
-    return Step(
-        id="dependence",
-        stage=Stage.VECTORIZED,
-        title="Check: on what the inertia matrix depends",
-        why=why,
-        source=spong("7.2"),
-        result=(equation(entry, form),) if cost(form) <= LONGEST else (),
-        is_task=False,
-    )
+
+
+def on_last_entry(context: Context) -> Prose:
+    """What the last entry of the diagonal is."""
+    last = context.robot.coordinates[-1]
+    what = "moment of inertia about its axis" if turns(last) else "mass"
+    entry = letters.entry("d", last.index, last.index)
+    return (entry, f" is constant: of all that joint {last.index} moves, it is the {what}.")
 
 
 def is_carried_along(context: Context) -> bool:

@@ -8,6 +8,8 @@ from unicodedata import normalize
 import pytest
 
 import dynsolve
+from dynsolve.algebra import matrix as algebra
+from dynsolve.document import Reference
 from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Letter, Matrix, Relation, Row, Symbol
 from dynsolve.notation.unicode import to_unicode
@@ -28,7 +30,8 @@ def said(step: Step, problem: str) -> str:
     style = solved(problem).style
     lines = [part for line in step.lines for part in (*line.by, *line.formulas)]
     parts = [*step.why, *lines, *step.concluding, *(part for note in step.notes for part in note)]
-    return "".join(part if isinstance(part, str) else to_unicode(part, style) for part in parts)
+    told = (part for part in parts if not isinstance(part, Reference))  # as on a page without numbers
+    return "".join(part if isinstance(part, str) else to_unicode(part, style) for part in told)
 
 
 def shown(problem: str, name: str) -> list[str]:
@@ -121,6 +124,43 @@ def test_the_jacobian_by_its_columns(problem: str) -> None:
             assert evaluated(solution.robot.ring, column) == J.column_at(k)
         else:
             assert J.column_at(k).is_zero and column == Letter("0", style="bold")
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_the_last_frame_by_two_halves(problem: str) -> None:
+    """Spong, Hutchinson, Vidyasagar, section 3.1: H_6^0 = H_3^0 H_6^3."""
+    solution, step = solved(problem), steps(problem)["H6"]
+    assert step.formula is not None and to_unicode(step.formula).endswith("= H₃⁰ H₆³")
+    (line,) = step.lines
+    assert [to_unicode(half)[:14] for half in line.formulas] == ["H₃⁰ = A₁ A₂ A₃", "H₆³ = A₄ A₅ A₆"]
+    first, second = (
+        evaluated(solution.robot.ring, half.parts[-1]) for half in line.formulas if isinstance(half, Relation)
+    )
+    assert first == solution.values["H3"] and first @ second == solution.values["H6"]
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_the_jacobian_of_one_body(problem: str) -> None:
+    """Spong, Hutchinson, Vidyasagar, section 7.2.2: the columns are those of the mass centre's velocity."""
+    solution, step = solved(problem), steps(problem)["kinetics"]
+    ring, center = solution.robot.ring, solution.values["rc3"]
+    place, beside = step.lines[0].formulas
+    assert isinstance(place, Relation) and evaluated(ring, place.parts[-1]) == center
+    assert isinstance(beside, Row)
+    columns = [part.parts[-1] for part in beside.parts if isinstance(part, Relation)]
+    for q, column in zip(solution.robot.coordinates, columns, strict=False):
+        slopes = [ring.diff(entry, q.index - 1) for entry in center.entries]
+        value = evaluated(ring, column)
+        assert isinstance(value, algebra.Matrix) and list(value.entries) == slopes
+    assert len(columns) == 3
+
+
+@pytest.mark.parametrize("problem", LONG)
+def test_the_last_entry_of_the_inertia_matrix(problem: str) -> None:
+    """On what D does not depend stands with the Christoffel symbols, and is not said again."""
+    told = steps(problem)
+    assert "like one body" in said(told["christoffel"], problem)
+    assert "like one body" not in said(told["dependence"], problem)
 
 
 @pytest.mark.parametrize("problem", LONG)
