@@ -90,6 +90,7 @@ Long models are written in names (`--abbreviate`):
     recurring_multiples  sums that are multiples of each other
     abbreviated_steps    the steps of a derivation in these names
     symbol_names         names for the Christoffel symbols of a short model, and its steps in these
+    inertia_names        names for its long sums of masses and lengths, from the kinetic energy on
     long_model           those of a long model, which stay in d_ij, c_ijk and g_k where they can
 
 And hints (`--hint`), made of the same steps:

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
 from itertools import count
+from typing import TYPE_CHECKING
 
 from dynsolve.algebra.compact.compactor import Compactor
 from dynsolve.algebra.expr import Expr
@@ -34,6 +35,9 @@ from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, times, total
 from dynsolve.notation.tree import Negative, Node, Product, Sum, Symbol
 from dynsolve.notation.walk import with_children
+
+if TYPE_CHECKING:
+    from dynsolve.explain.inertia_names import InertiaNames
 
 __all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "expanded", "is_long"]
 
@@ -64,7 +68,8 @@ class Abbreviated:
     `kept` are the base parameters that are a symbol of the problem already, and need no name.
     A `long` model is one whose constants have names, or would have if they were no numbers; `P` is its
     potential energy.
-    With `at_symbols` the names are those of Christoffel symbols (`explain.symbol_names`).
+    With `at_symbols` the names are those of Christoffel symbols (`explain.symbol_names`), after those of
+    `inertias`, from the kinetic energy on (`explain.inertia_names`).
     """
 
     constants: tuple[Definition, ...]
@@ -76,6 +81,7 @@ class Abbreviated:
     long: bool = False
     kept: tuple[Symbol, ...] = ()
     at_symbols: bool = False
+    inertias: InertiaNames | None = None
     P: Node | None = None
 
     def symbol(self, i: int, j: int, k: int) -> Node:

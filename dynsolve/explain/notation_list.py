@@ -182,7 +182,7 @@ def _of_abbreviations(robot: Robot, short: Abbreviated | None) -> Iterator[Line]
         names = [d.name.name for d in short.sums]
         if short.at_symbols:
             unit = of_entries(robot, "kg m^2", "kg")
-            meaning = "abbreviations, defined with the Christoffel symbols"
+            meaning = "abbreviations, defined where they first occur"
             yield _named(names, meaning, "various" if unit == BY_ENTRY else unit)
         else:
             yield _named(names, "recurring terms, see Abbreviations", BY_ENTRY)

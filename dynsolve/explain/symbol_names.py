@@ -1,5 +1,7 @@
 """Names for the Christoffel symbols of an arm whose C would fill half a page: σ₁, σ₂, ...
 
+What recurs in the energies already is named there (`inertia_names`), and the symbols are written by that.
+
 Symbols are equal, or opposite, again and again: c_112 = -c_121.  A textbook names such a value
 once, as h of the planar elbow in Spong, Hutchinson, Vidyasagar, section 7.4; C, Ḋ and
 N = Ḋ - 2C are short sums of names and rates.
@@ -8,7 +10,7 @@ N = Ḋ - 2C are short sums of names and rates.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import gcd
 
@@ -19,6 +21,7 @@ from dynsolve.explain.closing import rows_in_names
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import coriolis_matrix
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.inertia_names import InertiaNames, name_inertias
 from dynsolve.explain.recurring import Definition
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import Kind, Term, name_of_term, rates_of, terms_of
@@ -39,40 +42,54 @@ SHORTEST = 4
 
 
 def name_symbols(forms: Forms) -> Abbreviated | None:
-    """The model with names for its Christoffel symbols; None where C is short without, or the arm longer."""
-    C = forms("C")
-    if forms.robot.n > MOST_JOINTS or not isinstance(C, Matrix):
+    """The model with names for its Christoffel symbols, and for long sums of masses and lengths in it.
+
+    None where it is short without, or the arm longer.
+    """
+    robot, C = forms.robot, forms("C")
+    if robot.n > MOST_JOINTS or not isinstance(C, Matrix):
         return None
-    if sum(cost(entry) for row in C.rows for entry in row) < LONG:
+    free = free_names(RECURRING, {*robot.ring.parameters, *robot.ring.names})
+    inertias = name_inertias(forms, free)
+    is_long = sum(cost(inertias.put(entry)) for row in C.rows for entry in row) >= LONG
+    definitions, symbols = _named(forms, inertias, free) if is_long else ((), _written(forms, inertias))
+    if not (inertias.definitions or definitions):
         return None
-    definitions, symbols = _named(forms)
-    if not definitions:
-        return None
-    D, g = forms("D"), forms("g")
+    D, g = inertias.put(forms("D")), inertias.put(forms("g"))
     assert isinstance(D, Matrix) and isinstance(g, Matrix)
-    C = coriolis_matrix(forms.robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
-    return Abbreviated((), definitions, D, C, g, symbols, at_symbols=True)
+    C = coriolis_matrix(robot.ring.names, lambda i, j, k: symbols[min(i, j), max(i, j), k])
+    sums = (*inertias.definitions, *definitions)
+    return Abbreviated((), sums, D, C, g, symbols, at_symbols=True, inertias=inertias)
 
 
-def _named(forms: Forms) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
+def _written(forms: Forms, inertias: InertiaNames) -> dict[Index, Node]:
+    """The symbols without names of their own."""
+    return {ijk: inertias.put(forms.christoffel(*ijk)) for ijk in forms.values["christoffel"]}
+
+
+def _named(
+    forms: Forms, inertias: InertiaNames, free: Iterator[tree.Symbol]
+) -> tuple[tuple[Definition, ...], dict[Index, Node]]:
     """The definitions, in the order in which the symbols are shown, and every symbol by them."""
     values: Mapping[Index, Expr] = forms.values["christoffel"]
-    namer = _Namer(forms, values)
-    symbols = {key: namer.written(values[key]) for key in namer.order}
+    order = sorted(values, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
+    namer = _Namer(lambda value: inertias.put(forms.of(value)), [values[key] for key in order], free)
+    symbols = {key: namer.written(values[key]) for key in order}
     return tuple(namer.definitions), {key: symbols[key] for key in values}
 
 
 class _Namer:
     """Gives a name to each symbol worth one; what has another one as factor or part is written by that."""
 
-    def __init__(self, forms: Forms, values: Mapping[Index, Expr]) -> None:
-        self.order = sorted(values, key=lambda ijk: (ijk[2], ijk[0], ijk[1]))
+    def __init__(
+        self, form: Callable[[Expr], Node], values: Sequence[Expr], names: Iterator[tree.Symbol]
+    ) -> None:
         self.forms: dict[Expr, Node] = {}
-        for value in (values[key] for key in self.order):
+        for value in values:
             if value not in self.forms and -value not in self.forms:
-                self.forms[value] = forms.of(value)
+                self.forms[value] = form(value)
         self.definitions: list[Definition] = []
-        self._names = free_names(RECURRING, {*forms.robot.ring.parameters, *forms.robot.ring.names})
+        self._names = names
         self._done: dict[Expr, Node] = {}
 
     def written(self, value: Expr) -> Node:
@@ -133,7 +150,7 @@ def _starts_with_minus(node: Node) -> bool:
 
 
 def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abbreviated) -> Iterator[Step]:
-    """The steps from the Christoffel symbols on, where the names are defined, with C, Ḋ, N and the terms."""
+    """The steps in names: those of inertias from the kinetic energy on, those of symbols where these are."""
     changes: dict[str, Callable[[Step], Step]] = {
         "christoffel": lambda step: _christoffel(step, context, short),
         "C": lambda step: _result_exchanged(step, {context.form("C"): short.C}),
@@ -142,19 +159,26 @@ def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abb
         "skew": lambda step: _skew(step, context, short),
         "terms": lambda step: _terms(step, context, short),
     }
-    for step in steps:
-        change = changes.get(step.id)
-        yield step if change is None else change(step)
+    changed = (changes.get(step.id, _unchanged)(step) for step in steps)
+    return changed if short.inertias is None else short.inertias.in_steps(changed)
+
+
+def _unchanged(step: Step) -> Step:
+    return step
 
 
 def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:
     """The symbols by their names, which are defined first."""
     named = {context.forms.christoffel(*ijk): symbol for ijk, symbol in short.christoffel.items()}
+    step = _result_exchanged(step, named)
+    early = () if short.inertias is None else short.inertias.definitions
+    own = short.sums[len(early) :]
+    if not own:
+        return step
     line = Line(
         ("What comes up several times below is named once:",),
-        tuple(equation(definition.name, definition.meaning) for definition in short.sums),
+        tuple(equation(definition.name, definition.meaning) for definition in own),
     )
-    step = _result_exchanged(step, named)
     return replace(step, lines=(*step.lines, line), concluding=("Put into the formula:",))
 
 

@@ -35,6 +35,7 @@ from dynsolve.explain.statement import statement
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.writing import listed, machine
 from dynsolve.notation.tree import Number, Power, Relation, equation
+from dynsolve.notation.walk import walk
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import stages_of
 from dynsolve.quantities.stages import Stage
@@ -144,6 +145,8 @@ def _stages(
     """Stages and their steps, numbered as in the whole derivation."""
     inputs = {rule.name: rule.inputs for rule in course_rules(solution.robot)}
     numbers = {stage: number for number, stage in enumerate(stages_of(solution.robot), 1)}
+    steps = tuple(steps)
+    named_from = _first_in_names(steps, short)
     earlier, said = EarlierResults(), SaidOnce()
     stage: Stage | None = None
     place, extra = 0, 0
@@ -152,7 +155,7 @@ def _stages(
         if step.id == closing.ID:  # it stands in the summary
             continue
         if step.stage != stage:
-            if short is not None and step.stage is Stage.VECTORIZED and _defined_first(short, detail):
+            if short is not None and step.stage is named_from and _defined_first(short, detail):
                 yield from definition_blocks(short, machine(solution.robot))
             stage, place, extra = step.stage, 0, 0
             heading = Heading(f"{numbers[stage]}. {stage.heading}", 2)
@@ -178,8 +181,15 @@ def _referring(step: Step, earlier: EarlierResults) -> Iterator[Line]:
     return (replace(line, uses=earlier.used(step, line.uses)) for line in step.lines)
 
 
+def _first_in_names(steps: Iterable[Step], short: Abbreviated | None) -> Stage:
+    """The stage before which names are defined: that of C, or an earlier one in which there are some."""
+    names = frozenset() if short is None or short.inertias is None else short.inertias.symbols
+    found = (step.stage for step in steps if not names.isdisjoint(walk(*step.result)))
+    return next(found, Stage.VECTORIZED)
+
+
 def _defined_first(short: Abbreviated, detail: Detail) -> bool:
-    """Whether names are defined in a section: those of Christoffel symbols are where these are shown."""
+    """Whether names are defined in a section: those of a short model are where they are first used."""
     return not short.at_symbols or detail is Detail.BRIEF
 
 

@@ -26,8 +26,8 @@ _MATRICES = ("D", "C", "friction", "g")
 def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | None = None) -> Iterator[Block]:
     """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
 
-    Of more than three coordinates D, C, g and the forces are not written again.  The names in C of
-    Christoffel symbols are repeated beside it, and the rows are in these.
+    Of more than three coordinates D, C, g and the forces are not written again.  The names in C, or in
+    all of them, are repeated beside them, and the rows are in these.
     """
     by_id = {step.id: step for step in steps}
     model = by_id.get(closing.ID)
@@ -52,7 +52,8 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
         yield Text(("The matrices of this robot", found, ":"))
         yield from _results(by_id, [name for name in _MATRICES if name in by_id])
     if short is not None and short.at_symbols:
-        yield Text(("In ", letters.C, " and in the rows below:"))
+        where: Prose = ("these",) if short.inertias else (letters.C,)
+        yield Text(("In ", *where, " and in the rows below:"))
         yield Equations(tuple(equation(one.name, one.meaning) for one in short.sums))
     for line in model.lines:
         yield Text(line.by)

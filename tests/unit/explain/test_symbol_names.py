@@ -57,11 +57,19 @@ def test_the_elbow_has_three_names() -> None:
     )
 
 
-def test_a_multiple_of_a_symbol_is_written_by_it() -> None:
-    """c_131 of the box and the rod is c_232 times c₂², and gets no name of its own."""
+def test_a_part_of_a_symbol_is_written_by_its_name() -> None:
+    """c_221 of the first joints of a Puma is a sum of which c_231 is a part."""
+    style, short = solved("puma560-first3").style, named("puma560-first3")
+    own = {to_unicode(one.name, style): to_unicode(one.meaning, style) for one in short.definitions}
+    assert own["σ₇"] == "(m₂ y₂ z₂ - I_2yz) s₂ - σ₃ c₂ + σ₆"
+    assert [to_unicode(short.symbol(*ijk), style) for ijk in ((1, 2, 0), (1, 1, 0))] == ["σ₆", "σ₇"]
+
+
+def test_what_is_named_in_the_energies_is_in_the_symbols() -> None:
+    """c_131 of the box and the rod is c_232 times c₂²; both are short by the names of `inertia_names`."""
     style, short = solved("box-cylinder-rod-sphere").style, named("box-cylinder-rod-sphere")
-    assert [to_unicode(one.meaning, style) for one in short.definitions[1:]] == ["m₃ (d₃ - l₃/2) + m₄ d₃"]
-    assert [to_unicode(short.symbol(*ijk), style) for ijk in ((0, 2, 0), (1, 2, 1))] == ["σ₂ c₂²", "σ₂"]
+    symbols = [to_unicode(short.symbol(*ijk), style) for ijk in ((0, 2, 0), (1, 2, 1), (0, 1, 0))]
+    assert symbols == ["σ₃ c₂²", "σ₃", "-σ₁ s₂ c₂"]
 
 
 @pytest.mark.parametrize("problem", NAMED)

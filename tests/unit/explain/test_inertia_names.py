@@ -1,0 +1,87 @@
+"""Names for long sums of masses and lengths: defined at the kinetic energy, the same values from there on."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from dynsolve.explain.inertia_names import InertiaNames
+from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.tree import Node, Relation
+from dynsolve.notation.tree_values import evaluate
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.notation.walk import walk
+from dynsolve.solution.documents import solution_document
+from tests.support import solved
+from tests.unit.explain.test_abbreviated_steps import displayed
+from tests.unit.explain.test_symbol_names import assert_same, known, last, named
+
+BOX = "box-cylinder-rod-sphere"
+NAMED = (BOX, "spherical-rrp", "puma560-first3")
+
+
+def inertias(problem: str) -> InertiaNames:
+    found = named(problem).inertias
+    assert found is not None
+    return found
+
+
+@cache
+def steps(problem: str) -> dict[str, Step]:
+    return {step.id: step for step in solved(problem).explain(short=named(problem))}
+
+
+def shown(problem: str, node: Node) -> str:
+    return to_unicode(node, solved(problem).style)
+
+
+@pytest.mark.parametrize(("problem", "definitions"), [
+    (BOX, ["m₂ (4l₂² - b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12) + m₄ d₃²",
+           "m₂ (4l₂² + b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12) + m₄ (2r₄²/5 + d₃²)",
+           "m₃ (d₃ - l₃/2) + m₄ d₃"]),
+    ("spherical-rrp", ["m₂ l_c2² + m₃ d₃² + I₂"]),
+    ("elbow-3r", []),  # the longest sum would save 48 operations
+])  # fmt: skip
+def test_what_is_named(problem: str, definitions: list[str]) -> None:
+    assert [shown(problem, one.meaning) for one in inertias(problem).definitions] == definitions
+
+
+@pytest.mark.parametrize(("problem", "slopes"), [
+    (BOX, ["∂σ₁/∂d₃ = ∂σ₂/∂d₃ = 2σ₃"]),
+    ("spherical-rrp", ["∂σ₁/∂d₃ = 2m₃ d₃"]),
+    ("puma560-first3", []),  # of an arm that only turns they are constant
+])  # fmt: skip
+def test_their_derivatives(problem: str, slopes: list[str]) -> None:
+    assert [shown(problem, slope) for slope in inertias(problem).slopes] == slopes
+
+
+@pytest.mark.parametrize("problem", NAMED)
+@pytest.mark.parametrize(
+    "name", ["K", "L", "tau1", "tau2", "tau3", "ddt1", "dLdqd2", "dLdq2", "D", "Cqd", "g"]
+)
+def test_results_in_names_mean_the_same(problem: str, name: str) -> None:
+    values, step = known(problem), steps(problem)[name]
+    wanted = evaluate(solved(problem).forms(name), values)
+    lines = [line.formulas[0] for line in step.lines if name != "K"]
+    for node in (*lines, step.result[0]):
+        found = evaluate(last(node), values)
+        assert_same(found, wanted) if isinstance(found, list) else assert_same([found], [wanted])
+
+
+def test_a_line_that_only_sorts_is_left_out() -> None:
+    """d/dt (σ₂ θ̇₂) is one look, where the sum that σ₂ stands for took two lines."""
+    step = steps(BOX)["ddt2"]
+    assert not step.lines and not step.concluding
+    assert shown(BOX, last(step.result[0])) == "σ₂ θ̈₂ + 2σ₃ θ̇₂ d\u0307₃"
+
+
+@pytest.mark.parametrize(
+    ("detail", "stages"), [(Detail.NORMAL, None), (Detail.BRIEF, None), (Detail.NORMAL, ["torque"]),
+                           (Detail.BRIEF, ["torque"]), (Detail.NORMAL, ["vectorized"])],
+)  # fmt: skip
+def test_they_are_defined_before_they_are_used(detail: Detail, stages: list[str] | None) -> None:
+    names = inertias(BOX).symbols
+    nodes = list(displayed(solution_document(solved(BOX), detail, stages).blocks))
+    uses = [node for node in nodes if not names.isdisjoint(walk(node))]
+    assert isinstance(uses[0], Relation) and uses[0].parts[0] in names
