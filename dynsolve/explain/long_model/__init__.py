@@ -12,7 +12,9 @@ links stay the products they are, which would fill pages written out.
     body_jacobians  the kinetic energy of a body, and the Jacobian of one worked out
     energies    the energies, the Lagrangian and the forces
     inertia_entry  one entry of D worked out in full
+    body_share  what a body adds to an entry of D, by vectors along its axes
     slopes      one Christoffel symbol and one gravity term worked out in full
+    name_slopes the derivatives of the names in a formula
     vectorized  D, the Christoffel symbols, C and g
     sizes       which results would fill pages, and what stands in their place
 """

@@ -10,7 +10,7 @@ from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.context import Context
 from dynsolve.explain.long_model import energies, frames, vectorized
 from dynsolve.explain.long_model.general import GeneralStep, general_steps
-from dynsolve.explain.long_model.inertia_entry import inertia_entry
+from dynsolve.explain.long_model.inertia_entry import worked_entry
 from dynsolve.explain.long_model.model import LongModel
 from dynsolve.explain.long_model.sizes import is_too_long, left_out
 from dynsolve.explain.step import Detail, Step
@@ -50,8 +50,8 @@ def of_long_model(steps: Iterable[Step], context: Context, short: Abbreviated) -
             yield replace(step, detail=Detail.FULL)
         else:
             yield replace(step, uses=tuple(dict.fromkeys(_source(name, general) for name in uses)))
-        if step.id == "D" and (entry := inertia_entry(model)):
-            yield entry
+        if step.id == "D" and (entry := worked_entry(model)):
+            yield entry.step()
         if step.id == "C":
             yield vectorized.coriolis_entries(model, step)
 

@@ -9,7 +9,7 @@ from itertools import chain
 
 from dynsolve.document import Prose
 from dynsolve.explain.entry_formulas import coriolis_matrix
-from dynsolve.explain.long_model.inertia_entry import worked_row
+from dynsolve.explain.long_model.inertia_entry import worked_entry
 from dynsolve.explain.long_model.model import QUADRATIC, Change, LongModel
 from dynsolve.explain.long_model.slopes import christoffel_example, gravity_example
 from dynsolve.explain.sanity.dependence import is_carried_along, on_last_entry
@@ -109,12 +109,12 @@ def christoffel(model: LongModel, step: Step) -> Step:
         _ordered("i", "j"),
         "; of these, all others are zero." if zero else ".",
     )
-    row = worked_row(model)
-    example = None if row is None else christoffel_example(model, row)
+    entry = worked_entry(model)
+    example = () if entry is None else christoffel_example(model, entry.row, entry.column)
     return replace(
         step,
         why=_on_symbols(model),
-        lines=(example,) if example else (),
+        lines=example,
         concluding=("The others in the same way:",) if example else (),
         result=rows,
         listed=True,

@@ -10,9 +10,10 @@ from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.kinematics import axis, origin, rotation
 from dynsolve.explain.abbreviations import Abbreviated, expanded
 from dynsolve.explain.step import Step
-from dynsolve.notation.tree import Cross, Derivative, Letter, Matrix, Node, Relation, Row
+from dynsolve.notation.tree import Cross, Derivative, Letter, Matrix, Node, Relation, Row, Symbol
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.notation.walk import walk
+from dynsolve.quantities import letters
 from tests.support import solved
 from tests.unit.explain.working.evaluated import evaluated
 
@@ -42,56 +43,103 @@ def values(problem: str, equation: Node) -> list[Expr]:
     return [value_of(ring, part) for part in expanded(names(problem).definitions, plain)]
 
 
-@pytest.mark.parametrize(
-    ("problem", "i"), [("stanford-6", 4), pytest.param("puma560", 5, marks=pytest.mark.slow)]
-)
-def test_an_entry_of_D(problem: str, i: int) -> None:
+ENTRY = [("stanford-6", 2), pytest.param("puma560", 4, marks=pytest.mark.slow)]
+"""j of the entry d_j5 that is worked out."""
+
+
+@pytest.mark.parametrize(("problem", "j"), ENTRY)
+def test_an_entry_of_D(problem: str, j: int) -> None:
     solution, step = solved(problem), told(problem, "D_entry")
     (result,) = step.result
     found = values(problem, result)
-    assert found and set(found) == {solution.values["D"][i - 1, 5]}
+    assert found and set(found) == {solution.values["D"][j - 1, 4]}
 
 
-@pytest.mark.parametrize(
-    ("problem", "i"), [("stanford-6", 4), pytest.param("puma560", 5, marks=pytest.mark.slow)]
-)
-def test_its_vectors_are_those_of_the_base_turned_into_the_last_frame(problem: str, i: int) -> None:
-    """z and r_c - o of the two joints, from H as the report derives it; and z × (r_c - o)."""
+@pytest.mark.parametrize(("problem", "j"), ENTRY)
+def test_its_vectors_are_those_of_the_base_turned_into_the_link(problem: str, j: int) -> None:
+    """z and r_c - o of the two joints, from H as the report derives it; and z × (r_c - o), of both bodies."""
     solution, step = solved(problem), told(problem, "D_entry")
     H, ring = solution.values, solution.robot.ring
-    back, center = rotation(H["H6"]).T, H["rc6"]
-    axes = [back @ axis(H[f"H{k}"]) for k in (i - 1, 5)]
-    levers = [back @ (center - origin(H[f"H{k}"])) for k in (i - 1, 5)]
-    vectors, products = step.lines
-    beside, *rest = vectors.formulas
-    assert isinstance(beside, Row)
-    shown = [part.parts[-1] for part in (*beside.parts, *rest) if isinstance(part, Relation)]
-    assert levers[0] == levers[1]
-    assert [evaluated(ring, vector) for vector in shown] == [*axes, levers[0]]
-    for formula, z, lever in zip(products.formulas, axes, levers, strict=True):
-        assert isinstance(formula, Relation)
-        put_in, value = formula.parts[1:]
-        assert isinstance(put_in, Cross) and isinstance(value, Matrix)
-        assert evaluated(ring, value) == cross(z, lever)
+    lines = iter(step.lines)
+    for body in (5, 6):
+        back, center = rotation(H[f"H{body}"]).T, H[f"rc{body}"]
+        axes = [back @ axis(H[f"H{k}"]) for k in (j - 1, 4)]
+        levers = [back @ (center - origin(H[f"H{k}"])) for k in (j - 1, 4)]
+        vectors, products = next(lines), next(lines)
+        beside = [part for row in vectors.formulas if isinstance(row, Row) for part in row.parts]
+        shown = [part.parts[-1] for part in beside if isinstance(part, Relation)]
+        assert [evaluated(ring, vector) for vector in shown] == [*axes, *levers]
+        for formula, z, lever in zip(products.formulas, axes, levers, strict=True):
+            assert isinstance(formula, Relation)
+            put_in, value = formula.parts[1:]
+            assert isinstance(put_in, Cross) and isinstance(value, Matrix)
+            assert evaluated(ring, value) == cross(z, lever)
+    assert not list(lines)
+
+
+@pytest.mark.parametrize(("problem", "j"), ENTRY)
+def test_several_bodies_and_both_parts_contribute(problem: str, j: int) -> None:
+    step = told(problem, "D_entry")
+    assert step.formula is not None
+    formula = to_unicode(step.formula, solved(problem).style)
+    for term in ("m₅ (", "m₆ (", "𝓘₅", "𝓘₆"):
+        assert term in formula
 
 
 @pytest.mark.parametrize(
     ("problem", "shown", "ijk"),
     [
-        ("stanford-6", "c₄₅₆ = ½ (∂d₅₆/∂θ₄ + ∂d₄₆/∂θ₅ - ∂d₄₅/∂θ₆) = ½ (∂d₄₆/∂θ₅ - ∂d₄₅/∂θ₆) =", (3, 4, 5)),
+        ("stanford-6", "c₂₆₅ = ½ (∂d₅₆/∂θ₂ + ∂d₂₅/∂θ₆ - ∂d₂₆/∂θ₅) = ½ (∂d₂₅/∂θ₆ - ∂d₂₆/∂θ₅)", (1, 5, 4)),
         pytest.param(
             "puma560",
-            "c₆₆₅ = ½ (∂d₅₆/∂θ₆ + ∂d₅₆/∂θ₆ - ∂d₆₆/∂θ₅) = ∂d₅₆/∂θ₆ = -(κ₇ c₆ - κ₈ s₆) = -σ₁₂",
-            (5, 5, 4),
+            "c₄₆₅ = ½ (∂d₅₆/∂θ₄ + ∂d₄₅/∂θ₆ - ∂d₄₆/∂θ₅) = ½ (∂d₄₅/∂θ₆ - ∂d₄₆/∂θ₅)",
+            (3, 5, 4),
             marks=pytest.mark.slow,
         ),
     ],
 )
 def test_a_christoffel_symbol(problem: str, shown: str, ijk: tuple[int, int, int]) -> None:
     solution, step = solved(problem), told(problem, "christoffel")
-    (formula,) = step.lines[0].formulas
-    assert to_unicode(formula, solution.style).startswith(shown)
-    assert set(values(problem, formula)) == {solution.values["christoffel"][ijk]}
+    first, names, entries, last = step.lines
+    assert to_unicode(first.formulas[0], solution.style) == shown
+    for formula in (*names.formulas, *entries.formulas):
+        assert slope_of(problem, formula) in values(problem, formula)
+        assert len(set(values(problem, formula))) == 1
+    found = values(problem, last.formulas[0])
+    assert len(found) > 2 and set(found) == {solution.values["christoffel"][ijk]}
+
+
+def slope_of(problem: str, formula: Node) -> Expr:
+    """What the derivative on the left of an equation is: of a name, or of an entry of D."""
+    solution = solved(problem)
+    ring = solution.robot.ring
+    assert isinstance(formula, Relation)
+    slope = formula.parts[0]
+    assert isinstance(slope, Derivative) and isinstance(slope.by, Symbol)
+    by = next(q.index - 1 for q in solution.robot.coordinates if q.name == slope.by.name)
+    entries = {
+        letters.entry("d", i + 1, j + 1): solution.values["D"][i, j] for i in range(6) for j in range(6)
+    }
+    if slope.of in entries:
+        return ring.diff(entries[slope.of], by)
+    assert slope.of is not None
+    (value,) = expanded(names(problem).definitions, [slope.of])
+    return ring.diff(value_of(ring, value), by)
+
+
+@pytest.mark.slow
+def test_the_names_that_a_christoffel_symbol_needs() -> None:
+    _, found, entries, last = told("puma560", "christoffel").lines
+    style = solved("puma560").style
+    shown = [to_unicode(formula, style) for line in (found, entries, last) for formula in line.formulas]
+    assert shown == [
+        "∂σ₈/∂θ₆ = κ₇ c₆ - κ₈ s₆ = σ₁₂",
+        "∂σ₉/∂θ₆ = κ₁₇ s₆² - 2κ₆ sin(2θ₆) - κ₁₇ c₆² = -2σ₂₇",
+        "∂σ₁₆/∂θ₆ = s₅ ∂σ₉/∂θ₆ + c₅ ∂σ₈/∂θ₆ = c₅ σ₁₂ - 2s₅ σ₂₇",
+        "∂d₄₅/∂θ₆ = -∂σ₁₆/∂θ₆ = -(c₅ σ₁₂ - 2s₅ σ₂₇)",
+        "∂d₄₆/∂θ₅ = σ₁₂ c₅ - κ₁₆ s₅",
+        "c₄₆₅ = ½ (2s₅ σ₂₇ - c₅ σ₁₂ - σ₁₂ c₅ + κ₁₆ s₅) = -(c₅ σ₁₂ - s₅ (κ₁₆/2 + σ₂₇)) = -σ₃₃",
+    ]
 
 
 @pytest.mark.parametrize("problem", LONG)

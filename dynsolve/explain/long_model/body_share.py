@@ -1,0 +1,161 @@
+"""What one body adds to an entry of D, by vectors along the axes of its own link.
+
+Along these the tensor and the mass centre are constant, and the axes of the joints are rows of short
+products of the table's matrices, so that a person can follow with a pencil.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, reduce
+
+from dynsolve.algebra import matrix as algebra
+from dynsolve.algebra.expr import Expr
+from dynsolve.derivation.jacobian import joint_frame
+from dynsolve.derivation.kinematics import dh_matrix, origin, rotation
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.jacobian_columns import column_letters
+from dynsolve.explain.step import Line
+from dynsolve.explain.writing import listed, side_by_side
+from dynsolve.notation.tree import Cross, Negative, Node, Parenthesized, Product, Sum, Transpose, equation
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body, Joint, JointType
+
+
+@dataclass(frozen=True)
+class BodyShare:
+    """m (J_v)_jᵀ (J_v)_k + (J_ω)_jᵀ I (J_ω)_k of one body and two joints that move it."""
+
+    context: Context
+    body: Body
+    first: Joint
+    last: Joint
+
+    @property
+    def joints(self) -> tuple[Joint, Joint]:
+        """The two joints, the one nearer to the base first."""
+        return self.first, self.last
+
+    # -- exactly -----------------------------------------------------------------------------------
+
+    @cached_property
+    def value(self) -> Expr:
+        """Both parts together."""
+        return self.linear + self.angular
+
+    @cached_property
+    def linear(self) -> Expr:
+        """m (J_v)_jᵀ (J_v)_k"""
+        left, right = map(self._column, self.joints)
+        return self.context.robot.ring.dot(left.entries, right.entries) * self.body.mass
+
+    @cached_property
+    def angular(self) -> Expr:
+        """(J_ω)_jᵀ I (J_ω)_k, zero where one of the joints slides."""
+        if not self._turns:
+            return self.context.robot.ring.zero
+        left, right = map(self._axis, self.joints)
+        tensor: algebra.Matrix = self.context.values[f"I_body{self.body.name}"]
+        return (left.T @ tensor @ right)[0, 0]
+
+    @property
+    def _turns(self) -> bool:
+        return all(joint.type is JointType.REVOLUTE for joint in self.joints)
+
+    def _way(self, joint: Joint) -> tuple[Joint, ...]:
+        """The rows from the joint's axis to the body's frame."""
+        robot = self.context.robot
+        return robot.joints[joint_frame(robot, joint) : self.body.link]
+
+    def _along(self, joint: Joint) -> algebra.Matrix:
+        """The body's frame seen from that of the joint's axis, 4×4."""
+        robot = self.context.robot
+        matrices = (dh_matrix(robot, row) for row in self._way(joint))
+        return reduce(lambda left, right: left @ right, matrices, algebra.Matrix.identity(robot.ring, 4))
+
+    def _axis(self, joint: Joint) -> algebra.Matrix:
+        """Rᵀ z"""
+        return rotation(self._along(joint)).T.column_at(2)
+
+    def _lever(self, joint: Joint) -> algebra.Matrix:
+        """Rᵀ (r_c - o)"""
+        way = self._along(joint)
+        return self.body.center + rotation(way).T @ origin(way)
+
+    def _column(self, joint: Joint) -> algebra.Matrix:
+        """The column of J_v."""
+        axis = self._axis(joint)
+        return algebra.cross(axis, self._lever(joint)) if joint.type is JointType.REVOLUTE else axis
+
+    # -- in letters --------------------------------------------------------------------------------
+
+    @property
+    def in_letters(self) -> tuple[Node, ...]:
+        """m (J_v)_jᵀ (J_v)_k and (J_ω)_jᵀ 𝓘 (J_ω)_k in axes and levers."""
+        left, right = map(self._letters, self.joints)
+        mass = self.context.mass(self.body)
+        linear = Product((mass, Transpose(_bracketed(left[0])), _bracketed(right[0])))
+        tensor = letters.base_tensor(letters.index_of(self.body.name))
+        return (linear, Product((Transpose(left[1]), tensor, right[1]))) if self._turns else (linear,)
+
+    def _letters(self, joint: Joint) -> tuple[Node, Node]:
+        return column_letters(self.context, joint, letters.rc(self.body))
+
+    @property
+    def _turned(self) -> Node:
+        return Transpose(letters.of_body("R", self.body, "bold"))
+
+    def lines(self) -> Iterator[Line]:
+        """The vectors along the axes of the body, and their cross products."""
+        yield Line(self._on_the_axes(), self._vectors())
+        crosses = tuple(map(self._cross, (j for j in self.joints if j.type is JointType.REVOLUTE)))
+        if crosses:
+            yield Line(("The cross products of these:",), crosses)
+
+    def _on_the_axes(self) -> Prose:
+        """Along which axes the vectors are written, and where those of the joints are read off."""
+        tensor = letters.tensor(self.context.robot, self.body)
+        why: Prose = (f"Along the axes of frame {self.body.link} the tensor is ", tensor)
+        rows = [(joint, product) for joint in self.joints if (product := self._product(joint))]
+        if not rows:
+            return (*why, ":")
+        be = "are the third rows of the rotations" if len(rows) > 1 else "is the third row of the rotation"
+        axes = listed([self._turned_axis(joint) for joint, _ in rows])
+        return (*why, "; ", *axes, f" {be} in ", *listed([each for _, each in rows]), ":")
+
+    def _product(self, joint: Joint) -> Node | None:
+        """The matrices of the rows from the joint's axis to the body's frame."""
+        matrices = tuple(letters.A(row.index) for row in self._way(joint))
+        return Product(matrices) if len(matrices) > 1 else next(iter(matrices), None)
+
+    def _turned_axis(self, joint: Joint) -> Node:
+        return Product((self._turned, letters.z(joint_frame(self.context.robot, joint))))
+
+    def _vectors(self) -> tuple[Node, ...]:
+        """The axes and levers along the axes of the body."""
+        context = self.context
+        axes, levers = [], []
+        for joint in self.joints:
+            frame = joint_frame(context.robot, joint)
+            axes.append(equation(self._turned_axis(joint), context.show(self._axis(joint))))
+            if joint.type is JointType.REVOLUTE:
+                arm = Parenthesized(Sum((letters.rc(self.body), Negative(letters.o(frame)))))
+                levers.append((Product((self._turned, arm)), context.show(self._lever(joint))))
+        if len(levers) == 2 and levers[0][1] == levers[1][1]:
+            return side_by_side(axes), equation(*(name for name, _ in levers), levers[0][1])
+        return side_by_side(axes), *([side_by_side([equation(*each) for each in levers])] if levers else [])
+
+    def _cross(self, joint: Joint) -> Node:
+        """The column of J_v of a joint that turns, as a cross product."""
+        show = self.context.show
+        return equation(
+            Product((self._turned, _bracketed(self._letters(joint)[0]))),
+            Cross(show(self._axis(joint)), show(self._lever(joint))),
+            show(self._column(joint)),
+        )
+
+
+def _bracketed(node: Node) -> Node:
+    return Parenthesized(node) if isinstance(node, Cross) else node
