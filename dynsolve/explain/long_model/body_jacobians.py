@@ -101,7 +101,7 @@ def _example(context: Context) -> Iterator[Line]:
             letters.jv(body),
             f", with the mass centre of body {body.name}:",
         ),
-        (center, side_by_side(shown)),
+        (center, *shown),
     )
 
 

@@ -18,10 +18,24 @@ from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import column_letters
 from dynsolve.explain.step import Line
+from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.writing import listed, side_by_side
-from dynsolve.notation.tree import Cross, Negative, Node, Parenthesized, Product, Sum, Transpose, equation
+from dynsolve.notation.tree import (
+    Cross,
+    Matrix,
+    Negative,
+    Node,
+    Parenthesized,
+    Product,
+    Sum,
+    Transpose,
+    equation,
+)
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Joint, JointType
+
+BESIDE = 30
+"""The characters that two levers may have to stand side by side."""
 
 
 @dataclass(frozen=True)
@@ -142,10 +156,14 @@ class BodyShare:
             axes.append(equation(self._turned_axis(joint), context.show(self._axis(joint))))
             if joint.type is JointType.REVOLUTE:
                 arm = Parenthesized(Sum((letters.rc(self.body), Negative(letters.o(frame)))))
-                levers.append((Product((self._turned, arm)), context.show(self._lever(joint))))
+                lever = context.show(self._lever(joint))
+                assert isinstance(lever, Matrix)
+                levers.append((Product((self._turned, arm)), lever))
         if len(levers) == 2 and levers[0][1] == levers[1][1]:
             return side_by_side(axes), equation(*(name for name, _ in levers), levers[0][1])
-        return side_by_side(axes), *([side_by_side([equation(*each) for each in levers])] if levers else [])
+        shown = [equation(*each) for each in levers]
+        beside = len(levers) == 2 and sum(matrix_width(context, value) for _, value in levers) <= BESIDE
+        return side_by_side(axes), *([side_by_side(shown)] if beside else shown)
 
     def _cross(self, joint: Joint) -> Node:
         """The column of J_v of a joint that turns, as a cross product."""

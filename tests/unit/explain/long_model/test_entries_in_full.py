@@ -66,8 +66,8 @@ def test_its_vectors_are_those_of_the_base_turned_into_the_link(problem: str, j:
         axes = [back @ axis(H[f"H{k}"]) for k in (j - 1, 4)]
         levers = [back @ (center - origin(H[f"H{k}"])) for k in (j - 1, 4)]
         vectors, products = next(lines), next(lines)
-        beside = [part for row in vectors.formulas if isinstance(row, Row) for part in row.parts]
-        shown = [part.parts[-1] for part in beside if isinstance(part, Relation)]
+        each = [part for row in vectors.formulas for part in (row.parts if isinstance(row, Row) else [row])]
+        shown = [part.parts[-1] for part in each if isinstance(part, Relation)]
         assert [evaluated(ring, vector) for vector in shown] == [*axes, *levers]
         for formula, z, lever in zip(products.formulas, axes, levers, strict=True):
             assert isinstance(formula, Relation)

@@ -144,10 +144,8 @@ def test_the_jacobian_of_one_body(problem: str) -> None:
     """Spong, Hutchinson, Vidyasagar, section 7.2.2: the columns are those of the mass centre's velocity."""
     solution, step = solved(problem), steps(problem)["kinetics"]
     ring, center = solution.robot.ring, solution.values["rc3"]
-    place, beside = step.lines[0].formulas
-    assert isinstance(place, Relation) and evaluated(ring, place.parts[-1]) == center
-    assert isinstance(beside, Row)
-    columns = [part.parts[-1] for part in beside.parts if isinstance(part, Relation)]
+    place, *columns = (part.parts[-1] for part in step.lines[0].formulas if isinstance(part, Relation))
+    assert evaluated(ring, place) == center
     for q, column in zip(solution.robot.coordinates, columns, strict=False):
         slopes = [ring.diff(entry, q.index - 1) for entry in center.entries]
         value = evaluated(ring, column)
