@@ -13,9 +13,10 @@ from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.column_products import of_columns
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import Identity, said
+from dynsolve.explain.working.own_axes import turned
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS
-from dynsolve.explain.working.rotational import along_own_axes, turned
+from dynsolve.explain.working.rotational import along_own_axes
 from dynsolve.explain.writing import spong, sum_of
 from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, equation
 from dynsolve.quantities import letters
@@ -179,13 +180,9 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
         yield Line((), (equation(name, product),))
         return
     own = turned(context, body, "Jw", letters.jw(body))
-    R, w = letters.of_body("R", body, "bold"), letters.of_body("omega", body, "bold")
-    along: Prose = ("Along the body's own axes", *own.why, ":")
-    yield Line(
-        (R, " turns about the axis of ", w, ":") if own.is_same else along,
-        (own.working,),
-        (f"Jv{b}#2", f"R{b}"),
-    )
+    first, *others = own.lines
+    yield replace(first, uses=(f"Jv{b}#2", own.uses))
+    yield from others
     in_letters = letters.transposed_product(Parenthesized(own.name), letters.tensor(context.robot, body))
     product = letters.transposed_product(context.show(own.value), context.show(given))
     put_in: Prose = ("The tensor along the same axes put in:",)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.working import rotational
+from dynsolve.explain.working import own_axes, rotational
 from dynsolve.explain.writing import is_small, name_of, spong
 from dynsolve.notation.tree import Parenthesized, Product, Relation, Transpose, equation
 from dynsolve.quantities import letters
@@ -45,7 +45,7 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
     """K_ω along the axes of the body: ω is brought there, and the tensor is the given one."""
     b, w = body.name, letters.of_body("omega", body, "bold")
     R, tensor = letters.of_body("R", body, "bold"), letters.tensor(context.robot, body)
-    own = rotational.turned(context, body, "w", w)
+    own = own_axes.turned(context, body, "w", w)
     half = Product((letters.HALF, Transpose(Parenthesized(own.name)), tensor, Parenthesized(own.name)))
     assert isinstance(step.formula, Relation)
     why: Prose = (
@@ -56,16 +56,12 @@ def _turned(context: Context, body: Body, step: Step) -> Step:
         own.name,
         ".",
     )
-    along: Prose = ("Along the body's own axes", *own.why, ":")
-    lines = (
-        Line((R, " turns about the axis of ", w, ":") if own.is_same else along, (own.working,)),
-        Line(("The tensor along the same axes put in:",), step.working, (f"I_body{b}",)),
-    )
+    put_in = Line(("The tensor along the same axes put in:",), step.working, (f"I_body{b}",))
     return replace(
         step,
         why=why,
         formula=equation(*step.formula.parts, half),
         working=(),
-        lines=(*lines, *step.lines) if step.working else (lines[0], *step.lines),
-        uses=(f"v{b}", f"R{b}"),
+        lines=(*own.lines, *((put_in,) if step.working else ()), *step.lines),
+        uses=(f"v{b}", own.uses),
     )

@@ -7,6 +7,7 @@ The stages take their lines from here, a function for each kind of step:
     column_products  from m J_vᵀ J_v to what a body adds to D
     products         the identities by which a product of matrices becomes what is printed
     other_axes       a velocity, or J_v, along the axes of another frame, for these two
+    own_axes         ω, or J_ω, along a body's own axes, where `rotational` takes these
     sums             those by which a sum of earlier results does
     derivatives      d/dt of a momentum, ∂L/∂q, the slopes of D, the entries of C, Ḋ
 

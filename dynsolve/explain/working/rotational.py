@@ -1,27 +1,24 @@
 """The lines from ½ ωᵀ 𝓘 ω to the kinetic energy of rotation, along the axes in which they are short.
 
 𝓘 = R I Rᵀ is the tensor along the axes of the base.  Where it varies with the configuration, ω is
-brought to the body's own axes instead, along which the tensor is the constant one that is given:
+brought to the body's own axes instead (`own_axes`), along which the tensor is the constant one that is given:
 ωᵀ 𝓘 ω = (Rᵀ ω)ᵀ I (Rᵀ ω), and in the same way J_ωᵀ 𝓘 J_ω.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.working.identities import identities, said
 from dynsolve.explain.working.kinetic import collected, without_signs
-from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation.build import times
-from dynsolve.notation.tree import Letter, Node, Product, Transpose, equation
+from dynsolve.notation.tree import Node, Product, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body
 
@@ -60,35 +57,6 @@ def _is_constant(context: Context, tensor: Matrix) -> bool:
     """Whether a tensor is the same in every configuration."""
     ring, count = context.robot.ring, context.robot.n
     return all(ring.diff(entry, k).is_zero for entry in tensor.entries for k in range(count))
-
-
-@dataclass(frozen=True, slots=True)
-class Turned:
-    """ω, or the columns of J_ω, along a body's own axes: the value, its name Rᵀ ω, and how it comes about.
-
-    It `is_same` where the rotation is about its axis.
-    """
-
-    value: Matrix
-    name: Node
-    working: Node
-    why: Prose
-    is_same: bool = False
-
-
-def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turned:
-    """Rᵀ ω or Rᵀ J_ω of a body: the quantity is `w` or `Jw`, the letter its name."""
-    b = body.name
-    R, base = context.values[f"R{b}"], context.values[f"{quantity}{b}"]
-    own = R.T @ base
-    rotation = letters.of_body("R", body, "bold")
-    name = Product((Transpose(rotation), letter))
-    if own == base:
-        return Turned(own, name, equation(name, letter), (), is_same=True)
-    product = Product((Transpose(context.form(f"R{b}")), context.form(f"{quantity}{b}")))
-    used = used_in_product(context, R.T, base, own)
-    why: Prose = (", with ", *said(used)) if used else ()
-    return Turned(own, name, equation(name, product, context.show(own)), why)
 
 
 def multiplied_out(context: Context, body: Body) -> tuple[Node, Way]:

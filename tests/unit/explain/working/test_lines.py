@@ -243,8 +243,36 @@ def test_the_columns_of_a_leaning_arm_are_multiplied_along_axes_in_which_that_is
     assert "√" not in "".join(found[2:])
 
 
-def test_every_line_of_a_leaning_arm_is_true() -> None:
-    assert_true(solved(TILTED))
+TILTED_BODIES = """
+convention: modified
+base: Rx(30deg)
+dh: [{theta: q1*, d: d1}, {theta: q2*, alpha: 90deg}]
+masses:
+  - {mass: m1, link: 1, center: [0, 0, 0], inertia: {xx: Ixx1, yy: Iyy1, zz: Izz1}}
+  - {mass: m2, link: 2, center: [lc2, 0, 0], inertia: {xx: Ixx2, yy: Iyy2, zz: Izz2}}
+"""
+
+
+def test_the_rotation_of_a_leaning_base_is_taken_out_before_that_of_the_body() -> None:
+    first, shown, by, second = lines(TILTED_BODIES, "Kw2")[:4]
+    assert first == "Along the axes of frame 0:"
+    assert shown.startswith("(𝐑₀^w)ᵀ 𝛚₂ = [[1, 0, 0], [0, √3/2, -½], [0, ½, √3/2]]ᵀ [[")
+    assert shown.endswith(" = [[s₁ q̇₂], [-c₁ q̇₂], [q̇₁]]")
+    assert by == (
+        "From there along the body's own axes, by (𝐑₀^w)ᵀ 𝐑₂, the rotation of 𝐀₁ 𝐀₂, with s₁² + c₁² = 1:"
+    )
+    assert second == (
+        "𝐑₂ᵀ 𝛚₂ = ((𝐑₀^w)ᵀ 𝐑₂)ᵀ (𝐑₀^w)ᵀ 𝛚₂ = [[c₁ c₂, -c₁ s₂, s₁], [s₁ c₂, -s₁ s₂, -c₁], [s₂, c₂, 0]]ᵀ"
+        " [[s₁ q̇₂], [-c₁ q̇₂], [q̇₁]] = [[s₂ q̇₁], [c₂ q̇₁], [q̇₂]]"
+    )
+    whole = lines(TILTED_BODIES, "Kw1")
+    assert whole[0].endswith("so along the body's own, as (𝐑₀^w)ᵀ 𝐑₁ turns about the same axis:")
+    assert whole[1].startswith("𝐑₁ᵀ 𝛚₁ = (𝐑₀^w)ᵀ 𝛚₁ = [[") and whole[1].endswith(" = [[0], [0], [q̇₁]]")
+
+
+@pytest.mark.parametrize("problem", [TILTED, TILTED_BODIES])
+def test_every_line_of_a_leaning_arm_is_true(problem: str) -> None:
+    assert_true(solved(problem))
 
 
 @pytest.mark.parametrize(

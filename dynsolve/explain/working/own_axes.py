@@ -1,0 +1,97 @@
+"""ω, or the columns of J_ω, brought to a body's own axes: Rᵀ ω, by one product of matrices a line.
+
+Where the base leans, its rotation is taken out first, as of a velocity: Rᵀ ω = ((R_0^w)ᵀ R)ᵀ (R_0^w)ᵀ ω,
+where (R_0^w)ᵀ R, the body's axes seen from frame 0, is made of the matrices of the table alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dynsolve.algebra.matrix import Matrix
+from dynsolve.derivation.kinematics import rotation
+from dynsolve.document import Prose
+from dynsolve.explain.context import Context
+from dynsolve.explain.step import Line
+from dynsolve.explain.working.identities import said
+from dynsolve.explain.working.other_axes import turned_name
+from dynsolve.explain.working.products import used_in_product
+from dynsolve.explain.writing import block_of
+from dynsolve.notation.tree import Letter, Node, Parenthesized, Product, Transpose, equation
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body, Robot
+
+
+@dataclass(frozen=True, slots=True)
+class Turned:
+    """ω, or the columns of J_ω, along a body's own axes: the value, its name Rᵀ ω, how it comes about.
+
+    `uses` names the rotation that the first line turns by.
+    """
+
+    value: Matrix
+    name: Product
+    lines: tuple[Line, ...]
+    uses: str
+
+
+def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turned:
+    """Rᵀ ω or Rᵀ J_ω of a body: the quantity is `w` or `Jw`, the letter its name."""
+    R, value = context.values[f"R{body.name}"], context.values[f"{quantity}{body.name}"]
+    written, own = context.form(f"{quantity}{body.name}"), R.T @ value
+    name = letters.of_body("R", body, "bold")
+    whole, by_rotation = Product((Transpose(name), letter)), f"R{body.name}"
+    if own == value:
+        by: Prose = (name, " turns about the axis of ", letters.of_body("omega", body, "bold"), ":")
+        lines = (Line(by, (equation(whole, letter),)),)
+    elif leans(context.robot):
+        by_rotation = "H0"
+        lines = tuple(_by_frame_0(context, body, letter, value, written))
+    else:
+        by = ("Along the body's own axes", *_with(context, R, value), ":")
+        product = Product((Transpose(context.form(f"R{body.name}")), written))
+        lines = (Line(by, (equation(whole, product, context.show(own)),)),)
+    return Turned(own, whole, lines, by_rotation)
+
+
+def leans(robot: Robot) -> bool:
+    """Whether frame 0 is turned in the world by more than quarter turns."""
+    ring = robot.ring
+    plain = (ring.zero, ring.one, -ring.one)
+    return robot.has_table and any(entry not in plain for entry in robot.base_rotation.entries)
+
+
+def _by_frame_0(context: Context, body: Body, letter: Letter, value: Matrix, written: Node) -> Iterator[Line]:
+    """(R_0^w)ᵀ ω with both matrices, and from there along the body's own axes."""
+    base, R = rotation(context.values["H0"]), letters.of_body("R", body, "bold")
+    seen, along = base.T @ context.values[f"R{body.name}"], base.T @ value
+    own = context.show(seen.T @ along)
+    axes, in_frame = (turned_name(context, 0, each) for each in (R, letter))
+    whole = Product((Transpose(R), letter))
+    first = Product((Transpose(block_of(context.matrix("H0"), 3, 0, 3)), written))
+    by: Prose = ("Along the axes of frame 0", *_with(context, base, value))
+    if seen.T @ along == along:
+        by += (", and so along the body's own, as ", axes, " turns about the same axis:")
+        yield Line(by, (equation(whole, in_frame, first, own),))
+        return
+    yield Line((*by, ":"), (equation(in_frame, first, context.show(along)),))
+    by = ("From there along the body's own axes, by ", axes, *_made_of(context, body, seen))
+    in_letters = Product((Transpose(Parenthesized(axes)), in_frame))
+    second = Product((Transpose(context.show(seen)), context.show(along)))
+    yield Line((*by, *_with(context, seen, along), ":"), (equation(whole, in_letters, second, own),))
+
+
+def _made_of(context: Context, body: Body, seen: Matrix) -> Prose:
+    """That the body's axes, seen from frame 0, are the rotation of A_1 A_2, where that is so."""
+    base, H = rotation(context.values["H0"]), context.values[f"H{body.link}"]
+    factors = tuple(letters.A(joint.index) for joint in context.robot.path(body.link))
+    if not factors or seen != base.T @ rotation(H):
+        return ()
+    return (", the rotation of ", Product(factors) if len(factors) > 1 else factors[0])
+
+
+def _with(context: Context, R: Matrix, value: Matrix) -> Prose:
+    """, with s₁² + c₁² = 1"""
+    used = used_in_product(context, R.T, value, R.T @ value)
+    return (", with ", *said(used)) if used else ()
