@@ -44,7 +44,7 @@ def turned(context: Context, body: Body, quantity: str, letter: Letter) -> Turne
     whole, by_rotation = Product((Transpose(name), letter)), f"R{body.name}"
     if own == value:
         by: Prose = (name, " turns about the axis of ", letters.of_body("omega", body, "bold"), ":")
-        lines = (Line(by, (equation(whole, letter),)),)
+        lines: tuple[Line, ...] = (Line(by, (equation(whole, letter),)),)
     elif leans(context.robot):
         by_rotation = "H0"
         lines = tuple(_by_frame_0(context, body, letter, value, written))
