@@ -56,7 +56,7 @@ def agreement_step(context: Context) -> Step:
         why=why,
         source=spong("7.3"),
         lines=coriolis_rows(context) if agreed.coriolis else (),
-        uses=("christoffel",),
+        uses=("christoffel", "C"),
         is_task=False,
     )
 
@@ -138,6 +138,7 @@ def skew_step(context: Context) -> Step:
         why=(
             "With this ",
             letters.C,
+            Reference(("C",)),
             " the matrix ",
             name,
             " must be skew-symmetric",
@@ -148,6 +149,7 @@ def skew_step(context: Context) -> Step:
         ),
         formula=equation(name, SKEW),
         lines=rate or general,
+        uses=() if rate or general else ("D",),
         concluding=_exchanged() if general else (),
         entries=letters.entries("n", robot.n, robot.n) if robot.n > 1 else (),
         source=spong("7.5.1"),

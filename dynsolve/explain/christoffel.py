@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
 from dynsolve.explain.working import derivatives
@@ -68,6 +68,15 @@ def christoffel_step(context: Context) -> Step:
             "first two indices may be swapped, which halves the work.",
         ),
         notes=tuple(_zero_note(context, zero)) if nonzero else (),
+    )
+
+
+def equal_symbols(context: Context) -> Reference:
+    """The equations of the symbols that are equal by twos: c_121 = c_211, a number each."""
+    nonzero, _ = _sorted_symbols(context)
+    labels = ("christoffel", *(f"christoffel-{place}" for place in range(2, len(nonzero) + 1)))
+    return Reference(
+        tuple(label for label, (i, j, _) in zip(labels, nonzero, strict=True) if i != j), ", as in "
     )
 
 

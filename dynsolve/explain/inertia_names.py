@@ -10,6 +10,7 @@ its derivative where a joint that slides changes it; what follows is written wit
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -39,6 +40,13 @@ _AFTER = (Stage.LAGRANGIAN, Stage.TORQUE, Stage.VECTORIZED)
 
 _BODY_BY_BODY = frozenset({"inertia_poses", "point_masses"})
 """The checks that ask what each body adds, and so show it."""
+
+
+INERTIAS = "inertia-names"
+"""The label of the names' definitions."""
+
+_DIFFERENTIATED = re.compile(r"ddt\d|dLdq\d|christoffel")
+"""The steps in which a named sum is differentiated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +86,7 @@ class InertiaNames:
     def line(self) -> Line:
         """Where the names are defined."""
         defined = (equation(one.name, one.meaning) for one in self.definitions)
-        return Line(("What comes up again and again below is named once:",), (*defined, *self.slopes))
+        return Line(("What comes up again and again below is named once:",), (*defined, *self.slopes), label=INERTIAS)
 
     def in_steps(self, steps: Iterable[Step]) -> Iterator[Step]:
         """The steps from the total kinetic energy on with the names, defined in the first that has one."""
@@ -86,6 +94,8 @@ class InertiaNames:
         for step in steps:
             named = step.id == "K" or (step.stage in _AFTER and step.id not in _BODY_BY_BODY)
             written = self._in_step(step) if named else step
+            if written != step and self.slopes and _DIFFERENTIATED.match(step.id):
+                written = replace(written, names=(*written.names, INERTIAS))
             if written != step and not defined:
                 defined = True
                 written = replace(written, lines=(*written.lines, self.line()))

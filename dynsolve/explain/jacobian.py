@@ -8,7 +8,7 @@ from itertools import pairwise
 from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation.jacobian import joint_frame
 from dynsolve.derivation.kinematics import axis, origin
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian_columns import (
     BESIDE,
@@ -54,8 +54,8 @@ def steps(context: Context) -> Iterator[Step]:
 
 def _axes(context: Context) -> Step:
     robot = context.robot
-    moving = sorted({joint_frame(robot, joint) for joint in robot.joints if joint.type})
-    last = len(robot.joints)
+    moving, told = _moving_frames(robot), told_frames(robot)
+    last = told[-1]
     pairs: list[Node] = []
     for i in moving:
         z = equation(letters.z(i), frame_parts(context, i)[0])
@@ -69,6 +69,7 @@ def _axes(context: Context) -> Step:
         why=(
             "In the first three rows of ",
             Letter("H", style="bold"),
+            Reference(tuple(f"H{i}" for i in told if i), " in "),
             " the first three columns are the rotation ",
             Letter("R", style="bold"),
             ", the third of these is ",
@@ -84,6 +85,17 @@ def _axes(context: Context) -> Step:
         result=tuple(pairs),
         uses=(),
     )
+
+
+def _moving_frames(robot: Robot) -> list[int]:
+    """The frames about or along whose axes joints move."""
+    return sorted({joint_frame(robot, joint) for joint in robot.joints if joint.type})
+
+
+def told_frames(robot: Robot) -> tuple[int, ...]:
+    """The frames whose origins the step of axes and origins tells: those of the joints, and the last."""
+    moving, last = _moving_frames(robot), len(robot.joints)
+    return (*moving, *(() if last in moving else (last,)))
 
 
 def _origin(context: Context, i: int, moving: Sequence[int]) -> Node:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dynsolve.document import Prose, Table
+from dynsolve.document import Prose, Reference, Table
 from dynsolve.explain.base_frame import base_step, motion
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Step
@@ -217,8 +217,8 @@ def _general(context: Context) -> Step:
         ),
         formula=equation(name, product),
         source=spong("3.2") if context.standard else craig("3.5"),
-        working=(equation(name, matrix),),
         task=equation(name, product, matrix),
+        result=(equation(name, matrix),),
         detail=Detail.BRIEF,
     )
 
@@ -227,13 +227,14 @@ def _row(context: Context, joint: Joint) -> Step:
     i = joint.index
     columns = letters.columns(context.robot, Number(i))
     given = side_by_side([equation(*pair) for pair in zip(columns, joint.written, strict=True)])
+    general = Reference(("A",), " in ")
     match joint.type:
         case JointType.REVOLUTE:
-            why: Prose = ("Only ", columns[0], " varies: a revolute joint.")
+            why: Prose = ("Only ", columns[0], " varies", general, ": a revolute joint.")
         case JointType.PRISMATIC:
-            why = ("Only ", columns[1], " varies: a prismatic joint.")
+            why = ("Only ", columns[1], " varies", general, ": a prismatic joint.")
         case None:
-            why = ("Nothing varies: a fixed frame.",)
+            why = ("Nothing varies", general, ": a fixed frame.")
     return Step(
         id=f"A{i}",
         stage=STAGE,

@@ -9,6 +9,7 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Prose
 from dynsolve.errors import ReadError
 from dynsolve.explain.context import Context
+from dynsolve.explain.jacobian import told_frames
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.writing import block_of, is_small, name_of, spong
 from dynsolve.notation.text import read
@@ -66,7 +67,7 @@ class _Way:
 def _way(context: Context, body: Body) -> _Way:
     """From the ends of the link, where the problem gives it from there; else by its coordinates."""
     if body.center.is_zero:
-        return _Way(letters.o(body.link))
+        return _Way(letters.o(body.link), uses=_told_at(context.robot, body.link))
     other = other_end(context.robot, body)
     if other is None:
         own = Letter("r", letters.rc(body).sub, Number(body.link), "bold")
@@ -93,6 +94,11 @@ def _from(context: Context, body: Body, start: int, lever: Letter, value: algebr
 
 def _origin(context: Context, frame: int) -> Matrix:
     return block_of(context.matrix(f"H{frame}"), 3, 3, 4)
+
+
+def _told_at(robot: Robot, frame: int) -> tuple[str, ...]:
+    """The step that tells the origin of a frame: that of axes and origins, else the frame's own."""
+    return ("axes",) if frame in told_frames(robot) else (f"H{frame}",)
 
 
 def _half(near: Node, far: Node) -> Node:

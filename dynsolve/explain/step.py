@@ -29,12 +29,14 @@ class Line:
     """A line between the formula and the result: the operation, in words, and the formulas it gives.
 
     Words that end in a colon lead on; where what goes in is put in without more, there are none.
-    `uses` names the earlier steps whose results go in here, and not before.
+    `uses` names the earlier steps whose results go in here, and not before.  Formulas that are referred
+    to later have a `label`, and so one number.
     """
 
     by: Prose
     formulas: tuple[Node, ...]
     uses: tuple[str, ...] = ()
+    label: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +48,8 @@ class Step:
     letters that belong to it; `working` is the same with this robot's quantities; `lines` lead on
     from there to the `result`, what comes out, one operation after the other, the last one being
     said in `concluding`.  `uses` names the earlier steps that it is computed from, unless these are
-    the inputs of its rule; `x#2` is the second result of x alone.
+    the inputs of its rule; `x#2` is the second result of x alone.  `names` are the labels of lines that
+    define what it is written in.
 
     How it is shown: `entries` names the entries of a result that is a matrix too wide for
     the page; an `optional` result says nothing new, and is left out where it does not fit;
@@ -81,6 +84,7 @@ class Step:
     detail: Detail = Detail.NORMAL
     also: tuple[str, ...] = ()
     uses: tuple[str, ...] | None = None
+    names: tuple[str, ...] = ()
     hint: Prose = ()
     hint_title: str = ""
     task: Node | None = None

@@ -37,6 +37,9 @@ from dynsolve.quantities import letters
 LONG = 50
 """The operations of C from which on its symbols get names: it would not fit the page as a matrix."""
 
+NAMES = "symbol-names"
+"""The label of the names' definitions."""
+
 SHORTEST = 4
 """The operations from which on a symbol is worth a name."""
 
@@ -153,9 +156,9 @@ def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abb
     """The steps in names: those of inertias from the kinetic energy on, those of symbols where these are."""
     changes: dict[str, Callable[[Step], Step]] = {
         "christoffel": lambda step: _christoffel(step, context, short),
-        "C": lambda step: _result_exchanged(step, {context.form("C"): short.C}),
+        "C": lambda step: _by_names(_result_exchanged(step, {context.form("C"): short.C})),
         "model": lambda step: _model(step, context, short),
-        "agreement": lambda step: replace(step, lines=coriolis_rows(context, short.symbol)),
+        "agreement": lambda step: _by_names(replace(step, lines=coriolis_rows(context, short.symbol))),
         "skew": lambda step: _skew(step, context, short),
         "terms": lambda step: _terms(step, context, short),
     }
@@ -165,6 +168,11 @@ def steps_with_symbols_named(steps: Iterable[Step], context: Context, short: Abb
 
 def _unchanged(step: Step) -> Step:
     return step
+
+
+def _by_names(step: Step) -> Step:
+    """The step with the equation of the names among what it uses."""
+    return replace(step, names=(NAMES,))
 
 
 def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:
@@ -178,6 +186,7 @@ def _christoffel(step: Step, context: Context, short: Abbreviated) -> Step:
     line = Line(
         ("What comes up several times below is named once:",),
         tuple(equation(definition.name, definition.meaning) for definition in own),
+        label=NAMES,
     )
     return replace(step, lines=(*step.lines, line), concluding=("Put into the formula:",))
 
@@ -214,7 +223,7 @@ def _skew(step: Step, context: Context, short: Abbreviated) -> Step:
         )
 
     rows = tuple(tuple(entry((-1, 1), k, j) for j in range(n)) for k in range(n))
-    lines = inertia_rate(context, lambda i, j: entry((1, 1), i, j))
+    lines = inertia_rate(context, lambda i, j: entry((1, 1), i, j), (NAMES, "christoffel"))
     return replace(step, lines=lines, result=(equation(letters.bold("N"), Matrix(rows)), *step.result[-1:]))
 
 

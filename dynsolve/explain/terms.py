@@ -17,7 +17,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from dynsolve.algebra.expr import Expr
-from dynsolve.document import Inline, Prose, Table
+from dynsolve.document import Inline, Prose, Reference, Table
+from dynsolve.explain.christoffel import equal_symbols
 from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import pairs
@@ -50,7 +51,7 @@ class Kind(StrEnum):
 
 
 _MEANINGS: dict[Kind, str] = {
-    Kind.INERTIAL: "A term with the acceleration of its own coordinate is inertial.",
+    Kind.INERTIAL: " with the acceleration of its own coordinate is inertial.",
     Kind.COUPLING: "With that of another coordinate it is coupling inertia.",
     Kind.CENTRIFUGAL: "With the square of a rate it is centrifugal: it remains where that coordinate alone "
     "moves.",
@@ -131,6 +132,7 @@ def terms_step(context: Context) -> Iterator[Step]:
     known = Dimensions(robot.ring, robot)
     units_known = _fit(context, known, found)
     holds = "the joint" if context.robot.has_table else "the force of the coordinate"
+    forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), " of ")
     why = [_MEANINGS[kind].format(holds=holds) for kind in Kind if kind in _told(kinds)]
     checked = _said_of_units(robot.coordinates) if units_known else ()
     header = ("force", "term", "what it is", *(("unit",) if units_known else ()))
@@ -139,7 +141,7 @@ def terms_step(context: Context) -> Iterator[Step]:
         id="terms",
         stage=Stage.VECTORIZED,
         title="What the terms of the forces are",
-        why=(" ".join(why), *(_twice() if Kind.CORIOLIS in kinds else ()), *checked),
+        why=("A term", forces, " ".join(why), *(_twice(context) if Kind.CORIOLIS in kinds else ()), *checked),
         source=spong("7.3"),
         table=Table(header, tuple(rows)),
         is_task=False,
@@ -153,12 +155,12 @@ def _told(kinds: Iterable[Kind]) -> frozenset[Kind]:
     return frozenset(kinds) - held | {Kind.HELD} if several else frozenset(kinds)
 
 
-def _twice() -> Prose:
+def _twice(context: Context) -> Prose:
     """Where the 2 of a Coriolis term comes from."""
     i, j, k = map(Symbol, "ijk")
     one, other = (Letter("c", Row(indices)) for indices in ((i, j, k), (j, i, k)))
     both = equation(Sum((one, other)), Product((Number(2), one)))
-    return (" The 2 of a Coriolis term comes from two equal symbols: ", both, ".")
+    return (" The 2 of a Coriolis term comes from two equal symbols", equal_symbols(context), ": ", both, ".")
 
 
 def _rows(

@@ -171,7 +171,7 @@ def _stages(
                 heading = None
             uses = inputs.get(step.id, ()) if step.uses is None else step.uses
             told = replace(step, why=said.why(step), lines=tuple(_referring(step, earlier)))
-            blocks = tuple(step_blocks(told, detail, earlier.used(step, uses), drawn))
+            blocks = tuple(step_blocks(told, detail, earlier.used(step, (*uses, *step.names)), drawn))
             yield Fold(f"{number} {step.title}", blocks, step.detail)
         earlier.add(step)
 
@@ -277,7 +277,9 @@ def _leading_on(step: Step) -> Iterator[Block]:
         lead_in = (Text(line.by),) if line.by else ()
         yield from _with_uses(lead_in, line.uses) if line.uses else lead_in
         yield (
-            Formula(line.formulas[0], optional=True) if len(line.formulas) == 1 else Equations(line.formulas)
+            Formula(line.formulas[0], optional=not line.label, label=line.label)
+            if len(line.formulas) == 1
+            else Equations(line.formulas, label=line.label)
         )
     if step.concluding:
         yield Text(step.concluding)

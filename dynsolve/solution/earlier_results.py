@@ -37,6 +37,9 @@ class EarlierResults:
 
     def add(self, step: Step) -> None:
         """Remember a step."""
+        for line in step.lines:
+            if line.label:
+                self._results[line.label] = [(formula, line.label) for formula in line.formulas]
         if not (step.listed or step.together):
             self._results[step.id] = list(labelled_results(step))
             return

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from dynsolve.document import Inline
-from dynsolve.explain.step import Line, Step
+from dynsolve.explain.step import Step
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Matrix, Node, Number, Relation, Row, Words
 from dynsolve.notation.unicode import UnicodePrinter, width
@@ -78,7 +78,10 @@ def _step(step: Step, style: Style) -> Step:
         step,
         why=tuple(map(inline, step.why)),
         working=formulas(step.working),
-        lines=tuple(Line(tuple(map(inline, line.by)), formulas(line.formulas)) for line in step.lines),
+        lines=tuple(
+            replace(line, by=tuple(map(inline, line.by)), formulas=formulas(line.formulas))
+            for line in step.lines
+        ),
         result=formulas(step.result),
         notes=tuple(tuple(map(inline, note)) for note in step.notes),
         table=table,

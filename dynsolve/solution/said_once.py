@@ -10,7 +10,7 @@ import re
 from collections import defaultdict
 from dataclasses import dataclass
 
-from dynsolve.document import Prose
+from dynsolve.document import Inline, Prose, Reference
 from dynsolve.explain.step import Detail, Step
 from dynsolve.notation.latex import to_latex
 from dynsolve.notation.tree import Node
@@ -38,7 +38,7 @@ class SaidOnce:
 
     def why(self, step: Step) -> Prose:
         """Why a step is taken; where the same is said of another body: As for body 1."""
-        text = "".join(to_latex(part) if isinstance(part, Node) else str(part) for part in step.why)
+        text = "".join(map(_words, step.why))
         of = _OF.search(step.title)
         if of is None or len(text) <= _SHORT:
             return step.why
@@ -49,6 +49,13 @@ class SaidOnce:
                 return (f"As for {kind} {said.name}{':' if leads_on(step.why) else '.'}",)
         before.append(_Said(name, step.detail, text))
         return step.why
+
+
+def _words(part: Inline) -> str:
+    """A piece of a sentence as it is compared; of references what leads to them, their numbers being few."""
+    if isinstance(part, Node):
+        return to_latex(part)
+    return part.before if isinstance(part, Reference) else str(part)
 
 
 def _is_the_same(text: str, name: str, other: str, other_name: str) -> bool:

@@ -10,7 +10,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dynsolve.document import Block, Equations, Formula, Heading, Prose, Reference, Text
 from dynsolve.explain import closing
 from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.explain.inertia_names import INERTIAS
 from dynsolve.explain.step import Step
+from dynsolve.explain.symbol_names import NAMES
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import equation
@@ -53,7 +55,7 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
         yield from _results(by_id, [name for name in _MATRICES if name in by_id])
     if short is not None and short.at_symbols:
         where: Prose = ("these",) if short.inertias else (letters.C,)
-        yield Text(("In ", *where, " and in the rows below:"))
+        yield Text(("In ", *where, " and in the rows below", Reference((INERTIAS, NAMES), ", "), ":"))
         yield Equations(tuple(equation(one.name, one.meaning) for one in short.sums))
     for line in model.lines:
         yield Text(line.by)

@@ -147,7 +147,10 @@ def _of_momenta(context: Context, free: list[Coordinate]) -> Prose:
         ", the Euler-Lagrange equation",
     )
     why += (" says" if one else "s say", f" that the {'momentum' if one else 'momenta'} ")
-    why += (*listed([(_momentum(q), *_named(context, q)) for q in free]), " is" if one else " are")
+    why += (
+        *listed([(_momentum(q), Reference((f"dLdqd{q.index}",)), *_named(context, q)) for q in free]),
+        " is" if one else " are",
+    )
     return (*why, " conserved.")
 
 

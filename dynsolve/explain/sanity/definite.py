@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.sanity.determinant import MULTIPLIED_OUT, Determinant, determinant_of_two, said_of
@@ -104,6 +104,7 @@ def _diagonal(context: Context, places: Sequence[int]) -> Prose:
         seen = "no term of it can be negative, and not all are zero"
         return (
             *listed(names),
+            Reference(("D",)),
             f" {'is' if one else 'are'} positive: {seen if one else seen.replace('it', 'them', 1)}.",
         )
     i = Symbol("i")
@@ -115,7 +116,7 @@ def _diagonal(context: Context, places: Sequence[int]) -> Prose:
         entry,
         ". ",
     )
-    why += (*listed(names), f" {'is' if one else 'are'} positive: ")
+    why += (*listed(names), Reference(("D",)), f" {'is' if one else 'are'} positive: ")
     return (*why, *listed(tuple(_adding(context, k) for k in places)), ".")
 
 

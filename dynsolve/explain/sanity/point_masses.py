@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dynsolve.algebra.matrix import Matrix
-from dynsolve.document import Prose
+from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.inertia_poses import inertia_poses_step
 from dynsolve.explain.step import Step
@@ -63,7 +63,10 @@ def _why(context: Context) -> Prose:
         letters.D_POINTS,
         ", the sum of the ",
         Product((Letter("m", Symbol("i")), Transpose(jv), jv)),
-        ". What is left over has a moment of inertia in each term",
+        ". What is left over of ",
+        letters.D,
+        Reference(("D",)),
+        " has a moment of inertia in each term",
     )
     sliding = [Symbol(q.name) for q in robot.coordinates if q.type is JointType.PRISMATIC]
     if robot.has_table and sliding and not robot.actions.motors:

@@ -154,8 +154,10 @@ def _varying(context: Context) -> Iterator[tuple[int, int, Coordinate]]:
                     yield i, j, q
 
 
-def inertia_rate(context: Context, written: Callable[[int, int], Node] | None = None) -> tuple[Line, ...]:
-    """ḋ_ij = Σ_k ∂d_ij/∂q_k q̇_k, for the entries of D that vary; `written` writes its value otherwise."""
+def inertia_rate(
+    context: Context, written: Callable[[int, int], Node] | None = None, used: tuple[str, ...] = ("D",)
+) -> tuple[Line, ...]:
+    """ḋ_ij = Σ_k ∂d_ij/∂q_k q̇_k, for the entries of D that vary; `written` writes its value."""
     if context.robot.n > MOST_JOINTS:
         return ()
     ring, D = context.robot.ring, context.values["D"]
@@ -169,7 +171,7 @@ def inertia_rate(context: Context, written: Callable[[int, int], Node] | None = 
     count = context.robot.n * (context.robot.n + 1) // 2
     by: Prose = ("The rate of ", letters.D, " by the chain rule, entry by entry")
     by += ("; the other entries are constant:",) if len(rates) < count else (":",)
-    return (Line(by, tuple(shown)),)
+    return (Line(by, tuple(shown), used),)
 
 
 def _rate_names(i: int, j: int) -> tuple[Node, ...]:

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
 import pytest
 
-from dynsolve.document import Block, Equations, Fold, Formula, Uses
+from dynsolve.document import Block, Equations, Fold, Formula, Note, Prose, Reference, Text, Uses
+from dynsolve.explain.step import Detail, Step
+from dynsolve.notation.tree import Function, Letter, Node, Number, Relation, Row, Sum, Symbol
+from dynsolve.notation.unicode import to_unicode
+from dynsolve.notation.walk import children
 from dynsolve.render import markdown
 from dynsolve.render.references import numbered
 from dynsolve.solution.documents import solution_document
+from dynsolve.solution.earlier_results import labelled_results
 from tests.support import ALL_PROBLEMS, solved
 
 LONG = ["puma560", "stanford-6"]
@@ -70,9 +76,9 @@ def test_both_jacobians_are_defined_before_anything_is_put_in() -> None:
     assert isinstance(linear, Formula) and isinstance(angular, Formula) and isinstance(uses, Uses)
 
 
-def test_c_is_made_of_all_christoffel_symbols() -> None:
+def test_c_is_made_of_all_christoffel_symbols_and_of_their_names() -> None:
     labels = cited("elbow-3r", "The Coriolis matrix, from the Christoffel symbols")
-    assert labels == ("christoffel", *(f"christoffel-{k}" for k in range(2, 8)))
+    assert labels == ("christoffel", *(f"christoffel-{k}" for k in range(2, 8)), "symbol-names")
 
 
 @pytest.mark.parametrize("problem", PROBLEMS)
@@ -99,3 +105,77 @@ def test_a_reference_is_to_an_equation_before_it(problem: str) -> None:
 def test_what_is_lost_refers_to_its_own_case(case: int) -> None:
     own = {1: "singular", 2: "singular-2"}[case]
     assert cited("inf3480-rpr", f"What is lost in case {case}") == ("Jr", own)
+
+
+# -- every result that is used is referred to --------------------------------------------------------
+
+
+def left_sides(node: Node) -> Iterator[Node]:
+    """What an equation tells the value of, or several on one line; q_1 = 90°, sin q_1 = 1 is one of many."""
+    for part in node.parts if isinstance(node, Row) else (node,):
+        if isinstance(part, Relation) and not isinstance(part.parts[0], Symbol | Function | Sum):
+            yield part.parts[0]
+
+
+def right_sides(node: Node) -> Iterator[Node]:
+    for part in node.parts if isinstance(node, Row) else (node,):
+        yield from part.parts[1:] if isinstance(part, Relation) else (part,)
+
+
+def references(prose: Prose) -> set[str]:
+    return {label for part in prose if isinstance(part, Reference) for label in part.labels}
+
+
+def cited_anywhere(step: Step, problem: str) -> set[str]:
+    """The labels that a step refers to, in its sentences and before its formulas."""
+    (fold,) = (fold for fold in folds(problem) if fold.title.split(" ", 1)[1] == step.title)
+    labels: set[str] = set()
+    for block in fold.blocks:
+        match block:
+            case Uses(uses, parts):
+                labels.update(uses, references(parts))
+            case Text(parts) | Note(parts):
+                labels |= references(parts)
+    return labels
+
+
+def worked_with(step: Step) -> Iterator[Node]:
+    """The formulas with this robot's quantities: right sides, those in letters left out."""
+    for node in (*step.working, *(node for line in step.lines for node in line.formulas), *step.result):
+        yield from right_sides(node)
+
+
+def quantities_in(node: Node, told: Mapping[Node, object]) -> Iterator[Node]:
+    """The quantities with a value of their own in a formula, the largest: ∂L/∂q̇, and not the L in it."""
+    if node in told:
+        yield node
+    else:
+        for child in children(node):
+            yield from quantities_in(child, told)
+
+
+IN_LETTERS = ("conserved",)
+"""The steps whose lines hold of every robot: no value goes into them."""
+
+
+@pytest.mark.parametrize("problem", SHORT)
+def test_whatever_a_line_uses_has_its_equation_named(problem: str) -> None:
+    told: dict[Node, set[str]] = {}
+    missing: list[str] = []
+    own_entries = {Letter("d", Row((Number(i), Number(j)))): "D" for i in (1, 2, 3) for j in (1, 2, 3)}
+    for step in solved(problem).steps:
+        if step.detail > Detail.NORMAL or step.id == "model":
+            continue
+        results = [*labelled_results(step)]
+        results += [(node, line.label) for line in step.lines if line.label for node in line.formulas]
+        own = {left for node, _ in results for left in left_sides(node)}
+        labels = cited_anywhere(step, problem)
+        if step.id not in IN_LETTERS:
+            for node in (part for formula in worked_with(step) for part in quantities_in(formula, told)):
+                wanted = {own_entries[node]} if node in own_entries else told[node]
+                if node not in own and not wanted & labels:
+                    missing.append(f"{step.title}: {to_unicode(node)}")
+        for node, label in results:
+            for left in left_sides(node):
+                told.setdefault(left, set()).add(label)
+    assert missing == []

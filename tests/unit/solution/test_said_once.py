@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dynsolve.document import Document, Fold, Text
+from dynsolve.document import Document, Fold, Reference, Text
 from dynsolve.explain.step import Detail
 from dynsolve.notation.unicode import to_unicode
 from dynsolve.solution.documents import solution_document
@@ -20,6 +20,7 @@ def said(document: Document) -> dict[str, str]:
             found[fold.title.partition(" ")[2]] = "".join(
                 part if isinstance(part, str) else to_unicode(part)  # type: ignore[arg-type]
                 for part in parts
+                if not isinstance(part, Reference)  # as on a page without numbers
             )
     return found
 
