@@ -69,17 +69,17 @@ def _by_entries(n: int) -> Prose:
     return (", ", equation(Letter("n", Row((i, j))), Negative(Letter("n", Row((j, i))))))
 
 
-_I, _J, _K, _N = (Symbol(name) for name in "ijkn")
+_I, _J, _K = (Symbol(name) for name in "ijk")
 
 
-def _in_general() -> Line:
+def _in_general(n: int) -> Line:
     """n_kj from the derivatives of D, of which half cancel: what is left changes its sign with k and j."""
 
     def slope(row: Node, column: Node, by: Node) -> Node:
         return letters.partial_derivative(Letter("d", Row((row, column))), Letter("q", by))
 
     def over_rates(factor: Node) -> Node:
-        return BigSum(Product((factor, Letter("q", _I, dots=1))), _I, Number(1), _N)
+        return BigSum(Product((factor, Letter("q", _I, dots=1))), _I, Number(1), Number(n))
 
     place = Row((_K, _J))
     spread = Sum((slope(_K, _J, _I), Negative(SLOPES)))
@@ -127,7 +127,7 @@ def skew_step(context: Context) -> Step:
     name = letters.bold("N")
     if C.is_zero:
         return _nothing_to_check(name)
-    general = () if result or robot.n == 1 else (_in_general(),)
+    general = () if result or robot.n == 1 else (_in_general(robot.n),)
     passive = (
         " Passivity follows from this." if robot.n > MOST_JOINTS else ""
     )  # of short arms the energy does

@@ -9,34 +9,35 @@ from dynsolve.explain.writing import spong
 from dynsolve.notation.tree import Letter, Node, Product, Row, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
-from dynsolve.robot.model import AxisTurns
 
 
 def motion(axis: str, amount: Node, turns: bool) -> Node:
     """Rot_{z,θ} or Trans_{z,d}: how far is a value, and set as values are, not as what names an index."""
-    return Letter(
-        "Rot" if turns else "Trans", Row((Words(axis), Words(","), Row((amount,)))), style="upright"
-    )
+    return Letter("Rot" if turns else "Trans", _along(axis, amount), style="upright")
 
 
-def rotations(turns: AxisTurns) -> tuple[Node, ...]:
-    """The factors of a rotation: Rot_{z,90°}, Rot_{x,30°}."""
-    return tuple(motion(axis, angle, True) for axis, angle in turns)
+def rotation(axis: str, angle: Node) -> Node:
+    """R_{z,θ}: the 3×3 part of Rot_{z,θ}."""
+    return Letter("R", _along(axis, angle), style="bold")
+
+
+def _along(axis: str, amount: Node) -> Row:
+    return Row((Words(axis), Words(","), Row((amount,))))
 
 
 def base_step(context: Context) -> Step:
     """H_0, the product of how frame 0 is moved and turned, as the problem writes it."""
     robot = context.robot
-    H, rotation = letters.H(robot, 0), robot.base_rotation
+    H, turned = letters.H(robot, 0), robot.base_rotation
     moved = tuple(
         motion(axis, context.show(entry), False)
         for axis, entry in zip("xyz", robot.base_position.entries, strict=True)
         if not entry.is_zero
     )
-    is_turned = rotation != rotation.identity(robot.ring, 3)
+    is_turned = turned != turned.identity(robot.ring, 3)
     how = " and ".join([*["turned"] * is_turned, *["moved"] * bool(moved)])
     why: Prose = (f"Gravity is given in the world w, in which frame 0 is {how}. ",)
-    factors = (*moved, *rotations(robot.base_turns))
+    factors = (*moved, *(motion(axis, angle, True) for axis, angle in robot.base_turns))
     is_whole = bool(robot.base_turns) or not is_turned
     if not is_whole:
         why += ("Its axes are the columns of the rotation that the problem gives. ",)

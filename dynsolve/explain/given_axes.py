@@ -8,7 +8,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation import inertia
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
-from dynsolve.explain.base_frame import rotations
+from dynsolve.explain import base_frame
 from dynsolve.explain.context import Context
 from dynsolve.explain.writing import listed, name_of
 from dynsolve.notation.tree import Letter, Node, Product
@@ -20,7 +20,8 @@ def product(context: Context, body: Body) -> Node | None:
     """The rotation as the problem writes it, behind that of the base where there is one; None of a matrix."""
     robot = context.robot
     base = (letters.R(robot, 0),) if letters.has_base(robot) else ()
-    turns = rotations(body.axes.turns) or ((context.show(body.axes.rotation),) if base else ())
+    turns = tuple(base_frame.rotation(axis, angle) for axis, angle in body.axes.turns)
+    turns = turns or ((context.show(body.axes.rotation),) if base else ())
     factors = (*base, *turns)
     return None if not factors else Product(factors) if len(factors) > 1 else factors[0]
 

@@ -15,7 +15,7 @@ from dynsolve.explain.parameter_meanings import meanings, told_together
 from dynsolve.explain.roles import Role
 from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.signs import shorthands
-from dynsolve.explain.textbook_letters import BY_ENTRY, SHAPES, Line, of_entries, textbook
+from dynsolve.explain.textbook_letters import BY_ENTRY, SHAPES, Line, of_inertias, textbook
 from dynsolve.explain.writing import listed, side_by_side
 from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import PLAIN, Style
@@ -181,9 +181,8 @@ def _of_abbreviations(robot: Robot, short: Abbreviated | None) -> Iterator[Line]
     if short is not None and short.sums:
         names = [d.name.name for d in short.sums]
         if short.at_symbols:
-            unit = of_entries(robot, "kg m^2", "kg")
             meaning = "abbreviations, defined where they first occur"
-            yield _named(names, meaning, "various" if unit == BY_ENTRY else unit)
+            yield _named(names, meaning, of_inertias(robot))
         else:
             yield _named(names, "recurring terms, see Abbreviations", BY_ENTRY)
 

@@ -30,10 +30,13 @@ _SAME: dict[Kind, Kind] = {
     ("H", "bold", ""): ("H", "bold", "#^"),
     ("R", "bold", ""): ("R", "bold", "#^"),
     ("r", "bold", "c"): ("r", "bold", "c#"),
+    ("R", "bold", "ztheta"): ("R", "bold", "z#"),
+    ("R", "bold", "x#"): ("R", "bold", "z#"),
+    ("R", "bold", "y#"): ("R", "bold", "z#"),
     ("I", "bold", "#^"): ("I", "bold", "#"),
     ("I", "bold", "#given"): ("I", "bold", "#"),
 }
-"""Kinds that mean the same: an axis or a matrix without its number."""
+"""Kinds that mean the same: an axis or a matrix without its number, a rotation about another axis."""
 
 MOTIONS = ("Rot", "Trans")
 """The names of the motions of a row of the table."""

@@ -146,7 +146,7 @@ def _rate(context: Context, name: str, letter: Letter) -> Step:
     changed = letters.rate(letter)
     k = Symbol("k")
     term = Product((Derivative(letter, Letter("q", k)), Letter("q", k, dots=1)))
-    total = BigSum(term, k, Number(1), Symbol("n"))
+    total = BigSum(term, k, Number(1), Number(context.robot.n))
     moved = Product((letter, letters.QDD))
     return Step(
         id=f"{name}_dot",

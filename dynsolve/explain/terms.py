@@ -31,7 +31,7 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot import units
 from dynsolve.robot.dimensions import Dimensions
-from dynsolve.robot.model import Coordinate, JointType
+from dynsolve.robot.model import Coordinate, JointType, Robot
 
 LONGEST = 14
 """The operations up to which the value of a term stands beside its name."""
@@ -135,7 +135,7 @@ def terms_step(context: Context) -> Iterator[Step]:
     forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), " of ")
     why = [_MEANINGS[kind].format(holds=holds) for kind in Kind if kind in _told(kinds)]
     checked = _said_of_units(robot.coordinates) if units_known else ()
-    header = ("force", "term", "what it is", *(("unit",) if units_known else ()))
+    header = (_named(robot), "term", "what it is", *(("unit",) if units_known else ()))
     rows = [row for q, terms in found for row in _rows(context, q, terms, known if units_known else None)]
     yield Step(
         id="terms",
@@ -146,6 +146,14 @@ def terms_step(context: Context) -> Iterator[Step]:
         table=Table(header, tuple(rows)),
         is_task=False,
     )
+
+
+def _named(robot: Robot) -> str:
+    """What the forces are called together."""
+    kinds = {q.type for q in robot.coordinates}
+    if len(kinds) > 1:
+        return "torque or force"
+    return "torque" if JointType.REVOLUTE in kinds else "force"
 
 
 def _told(kinds: Iterable[Kind]) -> frozenset[Kind]:

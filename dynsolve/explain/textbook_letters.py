@@ -13,7 +13,7 @@ from dynsolve.explain.signs import CONSTANTS_OF_SOLUTIONS
 from dynsolve.explain.writing import machine, side_by_side
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Letter, Node, Number, Row, Symbol, Words
+from dynsolve.notation.tree import Function, Letter, Node, Number, Row, Symbol, Words
 from dynsolve.notation.unicode import UnicodePrinter
 from dynsolve.quantities import letters
 from dynsolve.quantities.robot_stages import asked_stages
@@ -47,6 +47,9 @@ class Line:
         if len(shown) == 1:
             return shown[0]
         together = side_by_side(shown)
+        if isinstance(shown[0], Function):  # sines, each with its cosine
+            pairs = (*side_by_side(shown[:2]).parts, Words(", …, "), *side_by_side(shown[-2:]).parts)
+            return together if len(shown) <= 4 else Row(pairs)
         if len(shown) > 3 and not self.each and Ruler().width(together) > WIDEST:
             return Row((*side_by_side(shown[:2]).parts, Words(", …, "), shown[-1]))
         return together
@@ -82,7 +85,7 @@ SHAPES = {
 def textbook(robot: Robot, style: Style) -> Iterator[Line]:
     """The lines of the textbook's letters, in the order of the derivation."""
     ground = "the world w" if letters.has_base(robot) else "frame 0" if robot.has_table else "the world"
-    yield from _kinematics(letters.columns(robot, _I), ground, letters.H(robot, 0).sup)
+    yield from _kinematics(robot, ground)
     yield from _questions(robot)
     yield from _bodies(robot, ground)
     if Stage.NEWTON_EULER in asked_stages(robot.questions):
@@ -106,11 +109,16 @@ def _kinds(signs: Iterable[Node]) -> Iterator[Kind]:
     return (kind for sign in signs if (kind := kind_of(sign, PLAIN)))
 
 
-def _kinematics(columns: Sequence[Node], ground: str, above: Node | None) -> Iterator[Line]:
-    yield _line(columns, "columns of the Denavit-Hartenberg table")
+def _kinematics(robot: Robot, ground: str) -> Iterator[Line]:
+    above = letters.H(robot, 0).sup
+    columns = letters.columns(robot, _I)
+    yield _line(columns, "columns of the Denavit-Hartenberg table", "rad, m, m, rad")
     yield _line(
-        [Letter(name, style="upright") for name in MOTIONS], "rotation about, translation along an axis"
+        [Letter(name, style="upright") for name in MOTIONS],
+        "rotation about, translation along an axis: 4×4 matrix",
     )
+    about_z = Letter("R", Row((Words("z"), Words(","), Row((Symbol("theta"),)))), style="bold")
+    yield _line(about_z, "rotation by an angle about an axis: 3×3 matrix")
     yield _line([Symbol("U"), Symbol("V")], "expressions of an identity, given where they stand")
     yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
@@ -118,11 +126,13 @@ def _kinematics(columns: Sequence[Node], ground: str, above: Node | None) -> Ite
     yield _each([(_numbered(axis), f"axis {axis}") for axis in "xyz"], " of frame i")
     yield _line(_numbered("o"), "origin of frame i", "m")
     yield _line(letters.bold("0"), "zero vector or matrix")
-    yield _each([(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")])
-    yield _each([
+    coordinates = [(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")]
+    yield _each(coordinates, "", of_entries(robot, "rad", "m"))
+    jacobians = [
         (letters.J, "Jacobian of the last frame"), (letters.JV, "its linear part"),
         (letters.JW, "its angular part"), (_numbered("J"), "its column i"),
-    ])  # fmt: skip
+    ]  # fmt: skip
+    yield _each(jacobians, "", of_jacobian(robot))
     velocities = [(letters.bold("v"), "velocity"), (letters.bold("omega"), "angular velocity")]
     yield _each(velocities, " of the last frame", "m/s, rad/s")
 
@@ -159,7 +169,8 @@ def _questions(robot: Robot) -> Iterator[Line]:
     yield _line(_numbered("F"), "force from outside", "N")
     yield _line([_numbered("M"), _body("M")], "moment from outside, its size", "N m")
     of_forces = [letters.Q_FORCES, Letter("Q", _I)]
-    yield _line(of_forces, "generalized forces of these, their entries", "", ("Q", "bold", "F#"))
+    forces = of_entries(robot, "N m", "N")
+    yield _line(of_forces, "generalized forces of these, their entries", forces, ("Q", "bold", "F#"))
     held = [(letters.H_C, "what the constraints keep at 0"), (letters.A_C, "constraint matrix"),
             (letters.LAMBDA, "multipliers")]  # fmt: skip
     yield _each(held)
@@ -167,7 +178,7 @@ def _questions(robot: Robot) -> Iterator[Line]:
     if robot.questions.constraints:
         yield _each(free)
     yield _line(Letter("Delta", _K), "leading minor k of a matrix: the determinant of its first k rows")
-    yield _line(letters.TAU_STATIC, "forces and torques that hold the arm at rest")
+    yield _line(letters.TAU_STATIC, "forces and torques that hold the arm at rest", forces)
 
 
 def _pose(robot: Robot) -> Iterator[Line]:
@@ -252,7 +263,7 @@ def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     yield _each(totals, f" of the {machine(robot)}", "J")
     yield from _forces(robot, style)
     yield from _actions()
-    inertia, rate = of_entries(robot, "kg m^2", "kg"), of_entries(robot, "kg m^2/s", "kg/s")
+    inertia, rate = of_inertias(robot), of_inertias(robot, "/s")
     yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")], "", inertia)
     yield _line(letters.D_POINTS, "inertia matrix of the masses alone, as points", inertia)
     yield _line(_entry("c", _I, _J, _K), "Christoffel symbol", inertia)
@@ -261,7 +272,7 @@ def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     gravity = letters.G, "column of the gravity terms"
     yield _each([gravity, (_entry("g", _K), "its entries")], "", of_entries(robot, "N m", "N"))
     yield from _linear()
-    skew = letters.bold("N"), "matrix that is skew-symmetric"
+    skew = letters.bold("N"), "skew-symmetric matrix"
     yield _each([skew, (_entry("n", _I, _J), "its entries")], "", rate)
 
 
@@ -273,7 +284,8 @@ def _motions(robot: Robot) -> Iterator[Line]:
         *(["a point"] if points else []),
     ]
     of = f" of the Jacobian of {' or '.join(what)}"
-    yield _each([(_sub("J", "v"), "linear part"), (_sub("J", "omega"), "angular part")], of)
+    parts = [(_sub("J", "v"), "linear part"), (_sub("J", "omega"), "angular part")]
+    yield _each(parts, of, of_jacobian(robot))
     if any(point.axes is not None for point in points):
         turned = [_sub("J", "v", _K), _sub("J", "omega", _K), letters.bold("v", _I, _K)]
         yield _line(turned, "of a point: the same along the axes of frame k")
@@ -305,11 +317,22 @@ def _forces(robot: Robot, style: Style) -> Iterator[Line]:
 
 
 def of_entries(robot: Robot, turning: str, sliding: str) -> str:
-    """The unit of the entries of a matrix: that of angles or of lengths, where there are no others."""
+    """The unit of the entries of a matrix: that of angles or of lengths, or one of both."""
     kinds = {q.type for q in robot.coordinates}
     if len(kinds) > 1:
-        return BY_ENTRY
+        return f"{turning} or {sliding}"
     return turning if JointType.REVOLUTE in kinds else sliding
+
+
+def of_jacobian(robot: Robot) -> str:
+    """The units of a Jacobian's entries: of velocities by rates."""
+    return "m or 1" if any(q.type is JointType.REVOLUTE for q in robot.coordinates) else "1"
+
+
+def of_inertias(robot: Robot, per: str = "") -> str:
+    """The units of the entries of D, those that couple an angle with a length too; of D `per` s."""
+    coupled = len({q.type for q in robot.coordinates}) > 1
+    return of_entries(robot, f"kg m^2{per}{f', kg m{per}' * coupled}", f"kg{per}")
 
 
 def _actions() -> Iterator[Line]:

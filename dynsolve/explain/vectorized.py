@@ -42,7 +42,7 @@ STAGE = Stage.VECTORIZED
 LONGEST_IN_PARTS = 150
 """Up to this number of terms in D its parts are shown too."""
 
-_I, _J, _K, _N = (Symbol(name) for name in "ijkn")
+_I, _J, _K = (Symbol(name) for name in "ijk")
 
 
 def steps(context: Context) -> Iterator[Step]:
@@ -245,8 +245,9 @@ def _is_short(context: Context) -> bool:
 
 def _coriolis(context: Context) -> Step:
     entry, rate = Letter("c", Row((_K, _J))), Letter("q", _I, dots=1)
-    by_symbols = BigSum(Product((Letter("c", Row((_I, _J, _K))), rate)), _I, Number(1), _N)
-    by_slopes = Product((letters.HALF, BigSum(Product((SLOPES, rate)), _I, Number(1), _N)))
+    n = Number(context.robot.n)
+    by_symbols = BigSum(Product((Letter("c", Row((_I, _J, _K))), rate)), _I, Number(1), n)
+    by_slopes = Product((letters.HALF, BigSum(Product((SLOPES, rate)), _I, Number(1), n)))
     Cqd = Product((letters.C, letters.QD))
     none = context.values["C"].is_zero
     why: Prose = ("Row ", _K, ", column ", _J, ". ", Cqd, " holds the centrifugal terms (a rate squared)")

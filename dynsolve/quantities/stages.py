@@ -33,7 +33,7 @@ class Stage(StrEnum):
     LAGRANGIAN = "lagrangian", "The Lagrangian"
     TORQUE = "torque", "The Euler-Lagrange equations"
     NEWTON_EULER = "newton_euler", "The Newton-Euler recursions", True
-    VECTORIZED = "vectorized", "The vectorized form"
+    VECTORIZED = "vectorized", "The matrix form"
     PARAMETERS = "parameters", "Linear in the parameters", True
     EQUILIBRIA = "equilibria", "Equilibria and linearization", True
     FORWARD_DYNAMICS = "forward_dynamics", "Forward dynamics", True

@@ -53,7 +53,7 @@ def kinetic(model: LongModel, step: Step) -> Step:
         " It is a quadratic form in the rates; its coefficients are the entries of the inertia matrix ",
         letters.D,
         Reference(("D",)),
-        ", which the vectorized form gives as sums over the bodies.",
+        ", which the matrix form gives as sums over the bodies.",
     )
 
 

@@ -42,7 +42,7 @@ from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, JointType
 from dynsolve.robot.questions import Method
 
-_I, _J, _K, _N = (Symbol(name) for name in "ijkn")
+_I, _J, _K = (Symbol(name) for name in "ijk")
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,14 +219,15 @@ def _potential(context: Context) -> Step:
 
 def _forces(context: Context) -> Step:
     """τ_k from ∂L/∂q̇_k, d/dt of it and ∂L/∂q_k, the products of rates collected; and friction."""
+    n = context.robot.n
     coordinate, qk = Letter("q", _K), Letter("q", _K, dots=1)
     momentum = letters.partial_derivative(letters.L, qk)
     by_coordinate = letters.partial_derivative(letters.L, coordinate)
     height = letters.partial_derivative(letters.P, coordinate)
-    accelerated = _sum_over(_J, Product((_d(_K, _J), Letter("q", _J, dots=2))))
-    moving = _sum_over(_J, Product((_d(_K, _J, dots=1), Letter("q", _J, dots=1))))
-    squares = _over_rates(letters.partial_derivative(_d(_I, _J), coordinate))
-    coriolis = _over_rates(Letter("c", Row((_I, _J, _K))))
+    accelerated = _sum_over(n, _J, Product((_d(_K, _J), Letter("q", _J, dots=2))))
+    moving = _sum_over(n, _J, Product((_d(_K, _J, dots=1), Letter("q", _J, dots=1))))
+    squares = _over_rates(n, letters.partial_derivative(_d(_I, _J), coordinate))
+    coriolis = _over_rates(n, Letter("c", Row((_I, _J, _K))))
     resisted = (Letter("tau", Row((Words("f"), _K))),) if "friction" in context.values.rules else ()
     return Step(
         id="forces",
@@ -239,11 +240,11 @@ def _forces(context: Context) -> Step:
             Sum((letters.time_derivative(momentum), Negative(by_coordinate), *resisted)),
         ),
         working=(
-            equation(momentum, _sum_over(_J, Product((_d(_K, _J), Letter("q", _J, dots=1))))),
+            equation(momentum, _sum_over(n, _J, Product((_d(_K, _J), Letter("q", _J, dots=1))))),
             equation(letters.time_derivative(momentum), Sum((accelerated, moving))),
             equation(by_coordinate, Sum((Product((letters.HALF, squares)), Negative(height)))),
         ),
-        lines=(_rates_of_entries(),),
+        lines=(_rates_of_entries(n),),
         concluding=(
             "Put in, and collected in the Christoffel symbols ",
             equation(Letter("c", Row((_I, _J, _K))), Product((letters.HALF, SLOPES))),
@@ -257,10 +258,10 @@ def _forces(context: Context) -> Step:
     )
 
 
-def _rates_of_entries() -> Line:
+def _rates_of_entries(n: int) -> Line:
     """Σ_j ḋ_kj q̇_j as a sum over pairs of rates, the two slopes of each pair in one bracket."""
     slopes = [letters.partial_derivative(_d(_K, a), Letter("q", b)) for a, b in ((_J, _I), (_I, _J))]
-    moving = _sum_over(_J, Product((_d(_K, _J, dots=1), Letter("q", _J, dots=1))))
+    moving = _sum_over(n, _J, Product((_d(_K, _J, dots=1), Letter("q", _J, dots=1))))
     by: Prose = (
         "The chain rule gives the rates of ",
         _d(_K, _J),
@@ -268,19 +269,19 @@ def _rates_of_entries() -> Line:
         *listed([_I, _J]),
         " exchanged, so each derivative may be replaced by half the sum of the two:",
     )
-    both = Product((letters.HALF, _over_rates(Parenthesized(Sum(tuple(slopes))))))
-    return Line(by, (equation(moving, _over_rates(slopes[0]), both),))
+    both = Product((letters.HALF, _over_rates(n, Parenthesized(Sum(tuple(slopes))))))
+    return Line(by, (equation(moving, _over_rates(n, slopes[0]), both),))
 
 
 def _d(row: Node, col: Node, dots: int = 0) -> Letter:
     return Letter("d", Row((row, col)), dots=dots)
 
 
-def _over_rates(factor: Node) -> BigSum:
+def _over_rates(n: int, factor: Node) -> BigSum:
     """Σ_i Σ_j factor · q̇_i q̇_j"""
     rates = (Letter("q", index, dots=1) for index in (_I, _J))
-    return _sum_over(_I, _sum_over(_J, Product((factor, *rates))))
+    return _sum_over(n, _I, _sum_over(n, _J, Product((factor, *rates))))
 
 
-def _sum_over(index: Symbol, body: Node) -> BigSum:
-    return BigSum(body, index, Number(1), _N)
+def _sum_over(n: int, index: Symbol, body: Node) -> BigSum:
+    return BigSum(body, index, Number(1), Number(n))

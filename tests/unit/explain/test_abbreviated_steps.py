@@ -179,7 +179,7 @@ def test_definitions_come_before_what_uses_them() -> None:
     solution = solved("stanford-6")
     blocks = solution_document(solution).blocks
     headings = [block.text for block in blocks if hasattr(block, "text")]
-    assert headings.index("Abbreviations") + 1 == headings.index("7. The vectorized form")
+    assert headings.index("Abbreviations") + 1 == headings.index("7. The matrix form")
     assert [b for b in blocks if b in list(definition_blocks(short("stanford-6"), "arm"))]
 
 

@@ -162,6 +162,8 @@ def lines(problem: str, detail: Detail = Detail.NORMAL) -> dict[str, tuple[str, 
     return {cell(row[0]): (cell(row[1]), cell(row[2])) for row in table.rows}
 
 
+JACOBIANS = "Jacobian of the last frame, its linear part, its angular part, its column i"
+
 # problem, sign -> meaning, unit
 MEANINGS = [
     ("in3140-rp", "θ₁", "joint angle: generalized coordinate", "rad"),
@@ -176,7 +178,13 @@ MEANINGS = [
     ("planar-2r", "𝐃, dᵢⱼ", "inertia matrix, its entries", "kg m²"),
     ("planar-2r", "𝛕", "column of the generalized forces", "N m"),
     ("cartesian-pp", "𝐠, gₖ", "column of the gravity terms, its entries", "N"),
-    ("in3140-rp", "𝐃, dᵢⱼ", "inertia matrix, its entries", "by entry"),
+    ("in3140-rp", "𝐪, qᵢ", "column of the coordinates, coordinate i", "rad or m"),
+    ("in3140-rp", "Rot, Trans", "rotation about, translation along an axis: 4×4 matrix", ""),
+    ("in3140-rp", "𝐑_{z,θ}", "rotation by an angle about an axis: 3×3 matrix", ""),
+    ("elbow-3r", "𝐪, qᵢ", "column of the coordinates, coordinate i", "rad"),
+    ("cartesian-pp", "𝐉, 𝐉_v, 𝐉_ω, 𝐉ᵢ", JACOBIANS, "1"),
+    ("planar-2r", "𝐉, 𝐉_v, 𝐉_ω, 𝐉ᵢ", JACOBIANS, "m or 1"),
+    ("in3140-rp", "𝐃, dᵢⱼ", "inertia matrix, its entries", "kg m², kg m or kg"),
     ("planar-2r", "Kᵢ, K_vi, K_ωi, Pᵢ",
      "kinetic energy, its part of translation, its part of rotation, potential energy of body i", "J"),
     ("planar-2r", "𝐈ᵢ^b", "inertia tensor of body i about its mass centre, along its axes", "kg m²"),
@@ -188,14 +196,14 @@ MEANINGS = [
     ("planar-2r", "τᵢ", "generalized force i, a torque", "N m"),
     ("cartesian-pp", "τᵢ, fᵢ", "generalized force i, a force", "N"),
     ("elbow-3r", "𝐃_points", "inertia matrix of the masses alone, as points", "kg m²"),
-    ("in3140-rp", "θ, d, a, α", "columns of the Denavit-Hartenberg table", ""),
-    ("inf3480-rrp-drawn", "θ, d, a, α", "columns of the Denavit-Hartenberg table", ""),
-    ("elbow-3r", "s₁, c₁, …, c₂₃", "s₁ = sin θ₁, c₁ = cos θ₁, s₂₃ = sin(θ₂ + θ₃)", ""),
+    ("in3140-rp", "θ, d, a, α", "columns of the Denavit-Hartenberg table", "rad, m, m, rad"),
+    ("inf3480-rrp-drawn", "θ, d, a, α", "columns of the Denavit-Hartenberg table", "rad, m, m, rad"),
+    ("elbow-3r", "s₁, c₁, …, s₂₃, c₂₃", "s₁ = sin θ₁, c₁ = cos θ₁, s₂₃ = sin(θ₂ + θ₃)", ""),
     ("cartesian-pp", "𝐂, cₖⱼ", "matrix of the Coriolis and centrifugal terms, its entries", "kg/s"),
     ("elbow-3r", "𝐂, Cₖⱼ",
      "matrix of the Coriolis and centrifugal terms, its entries; Spong writes c for the entries", "kg m²/s"),
     ("elbow-3r", "𝐠, gₖ", "column of the gravity terms, its entries", "N m"),
-    ("planar-2r-remote", "s₁, c₁, …, c₂", "s₁ = sin p₁, c₁ = cos p₁", ""),
+    ("planar-2r-remote", "s₁, c₁, s₂, c₂", "s₁ = sin p₁, c₁ = cos p₁", ""),
     ("box-cylinder-rod-sphere", "r₁, r₄", "radius of body i", "m"),
     ("box-cylinder-rod-sphere", "b", "side of body 2 along its axes x and y", "m"),
     ("box-cylinder-rod-sphere", "m", "mass of a uniform shape", "kg"),

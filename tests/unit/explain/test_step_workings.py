@@ -155,7 +155,7 @@ def test_fixed_rows_scaled_joints_and_the_world() -> None:
     assert "the body belongs to the ground and does not move." in said(step(ODD, "rc1").why, ODD)
     assert "belongs to the ground" not in said(step(ODD, "rc2").why, ODD)
     assert "world coordinates" in text and "base coordinates" not in text
-    assert formula(ODD, "R2") == "𝐑₂ = 𝐑₀^w Rot_{z,q₁/2}"
+    assert formula(ODD, "R2") == "𝐑₂ = 𝐑₀^w 𝐑_{z,q₁/2}"
     assert formula(ODD, "H0") == "𝐇₀^w = Rot_{x,90°}"
     assert "frame 0 is turned." in text
     assert formula(ODD, "J2") == "𝐉₂ = [[2𝐳₃], [𝟎]]"  # J is a moment of inertia here

@@ -195,7 +195,7 @@ def test_axes_given_from_the_base_are_held_to_the_frame_of_the_link() -> None:
     assert "𝐱₂ lies along the body's y, 𝐲₂ along its z and 𝐳₂ along its x, so 𝐑₂ is not 𝐑₂⁰." in said(
         step("rp-vertical", "R2").why, "rp-vertical"
     )
-    assert formula("rp-vertical", "R2") == "𝐑₂ = Rot_{z,θ1}"
+    assert formula("rp-vertical", "R2") == "𝐑₂ = 𝐑_{z,θ1}"
     for turn, told in {"0": "They are those of frame 1.", "30deg": "They are turned in frame 1"}.items():
         axes = f"{{base: Rz(q1) Rx({turn})}}"
         body = f"{{mass: m, link: 1, center: tip, inertia: {{zz: I}}, axes: {axes}}}"
