@@ -86,7 +86,9 @@ class InertiaNames:
     def line(self) -> Line:
         """Where the names are defined."""
         defined = (equation(one.name, one.meaning) for one in self.definitions)
-        return Line(("What comes up again and again below is named once:",), (*defined, *self.slopes), label=INERTIAS)
+        return Line(
+            ("What comes up again and again below is named once:",), (*defined, *self.slopes), label=INERTIAS
+        )
 
     def in_steps(self, steps: Iterable[Step]) -> Iterator[Step]:
         """The steps from the total kinetic energy on with the names, defined in the first that has one."""
