@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
 from dynsolve.explain.closing import WIDEST
 from dynsolve.explain.context import Context
@@ -16,9 +17,10 @@ from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.own_axes import turned
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS
-from dynsolve.explain.working.rotational import along_own_axes
+from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
 from dynsolve.explain.writing import spong, sum_of
-from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, equation
+from dynsolve.notation.build import number_in_front
+from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, Symbol, equation
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body
@@ -27,10 +29,35 @@ BESIDE = 2
 """Up to this number of coordinates the results of a body stand side by side."""
 
 
-def part_step(context: Context, body: Body) -> Step:
-    """The contribution of one body to D; of short arms the products are shown, at the normal detail."""
-    is_short = context.robot.n <= MOST_JOINTS
-    step = Step(
+def part_steps(context: Context, body: Body) -> Iterator[Step]:
+    """What one body adds to D; of short arms the products are shown, at the normal detail.
+
+    A product along the body's own axes is a step of its own, after that of the linear part.
+    """
+    step = _step(context, body)
+    if context.robot.n > MOST_JOINTS:
+        yield replace(step, uses=(), detail=Detail.FULL)
+    elif _is_in_two(context, body):
+        linear, angular = step.result
+        i, j = Symbol("i"), Symbol("j")
+        columns: Prose = ("Entry ", i, ", ", j, " is the mass times the scalar product of columns ", i)
+        columns += (" and ", j, " of ", letters.jv(body), ".")
+        yield _worked_out(context, body, _named_part(step, "linear", columns, linear), turns=False)
+        own: Prose = ("As for its kinetic energy, along the body's own axes.",)
+        step = replace(_named_part(step, "rotational", own, angular), id=f"Dw{body.name}", uses=())
+        yield _turned(context, body, step)
+    else:
+        yield _worked_out(context, body, step, turns=_turns(context, body))
+
+
+def _is_in_two(context: Context, body: Body) -> bool:
+    """Whether the rotational part is a step of its own."""
+    return not context.values[f"Jv{body.name}"].is_zero and along_own_axes(context, body)
+
+
+def _step(context: Context, body: Body) -> Step:
+    """The contribution of one body, without the way there."""
+    return Step(
         id=f"D_direct{body.name}",
         stage=Stage.VECTORIZED,
         title=f"What body {body.name} adds to the inertia matrix",
@@ -38,41 +65,51 @@ def part_step(context: Context, body: Body) -> Step:
         source=spong("7.2.2"),
         result=tuple(_results(context, body)),
         together=context.robot.n <= BESIDE,
-        uses=_uses(context, body) if is_short else (),
-        detail=Detail.NORMAL if is_short else Detail.FULL,
+        uses=_uses(context, body),
         is_task=False,
     )
-    return _worked_out(context, body, step) if is_short else step
+
+
+def _named_part(step: Step, part: str, why: Prose, result: Node) -> Step:
+    return replace(step, title=f"{step.title}: the {part} part", why=why, result=(result,), together=False)
+
+
+def _turns(context: Context, body: Body) -> bool:
+    return not (body.is_point or context.values[f"Jw{body.name}"].is_zero)
 
 
 def _uses(context: Context, body: Body) -> tuple[str, ...]:
     """What goes into the first product; into both, where the second needs nothing but matrices put in."""
     b = body.name
-    turns = not (body.is_point or context.values[f"Jw{b}"].is_zero)
-    if turns and not along_own_axes(context, body):
+    if _turns(context, body) and not along_own_axes(context, body):
         return f"Jv{b}", f"I{b}"
     return () if context.values[f"Jv{b}"].is_zero else (f"Jv{b}#1",)
 
 
-def _worked_out(context: Context, body: Body, step: Step) -> Step:
+def _turned(context: Context, body: Body, step: Step) -> Step:
+    """The step with the product of the rotational part."""
+    concluding = _by("Multiplied out", _angular_used(context, body))
+    return replace(step, lines=tuple(_angular_lines(context, body)), concluding=concluding)
+
+
+def _worked_out(context: Context, body: Body, step: Step, turns: bool) -> Step:
     """The step with the products of this robot's matrices: the linear part, then the rotational one."""
-    turns = not (body.is_point or context.values[f"Jw{body.name}"].is_zero)
-    angular = tuple(_angular_lines(context, body)) if turns else ()
-    last = ("Multiplied out", _angular_used(context, body)) if turns else ("Multiplied out", ())
-    if context.values[f"Jv{body.name}"].is_zero:
-        return replace(step, lines=angular, concluding=_by(*last)) if turns else step
     J = context.values[f"Jv{body.name}"]
+    if J.is_zero:
+        return _turned(context, body, step) if turns else step
+    angular = tuple(_angular_lines(context, body)) if turns else ()
+    angular_used = _angular_used(context, body) if turns else ()
     shown = Product((context.mass(body), letters.transposed_product(context.show(J))))
     step = replace(step, working=(equation(linear_name(context, body), shown),))
     products = of_columns(context, body)
     if products is None:
-        used = dict.fromkeys((*used_in_product(context, J.T, J, J.T @ J), *last[1]))
+        used = dict.fromkeys((*used_in_product(context, J.T, J, J.T @ J), *angular_used))
         return replace(step, lines=angular, concluding=_by("Multiplied out", list(used)))
     by: Prose = ("By ", *said(products.used))
     by += (", and the numbers multiplied",) if body.mass.is_number else ()
     if turns:
-        is_same = bool(last[1]) and set(last[1]) <= set(products.used)
-        second = ("multiplied out, with the same:",) if is_same else _by("multiplied out", last[1])
+        is_same = bool(angular_used) and set(angular_used) <= set(products.used)
+        second = ("multiplied out, with the same:",) if is_same else _by("multiplied out", angular_used)
         by += ("; the second product ", *second)
     if products.frame is not None:
         step = replace(step, working=(), uses=(f"H{products.frame}", f"Jv{body.name}#1"))
@@ -110,9 +147,17 @@ def sum_step(context: Context) -> Step | None:
         source=spong("7.2.2"),
         result=(equation(letters.D, sum_of(forms)),) if fits else tuple(_summed_entries(context, parts)),
         listed=not fits,
-        uses=(*(f"D_direct{body.name}" for body in context.robot.bodies), "Dm"),
+        uses=tuple(_added_in(context)),
         is_task=False,
     )
+
+
+def _added_in(context: Context) -> Iterator[str]:
+    """The steps of what is added."""
+    for body in context.robot.bodies:
+        yield f"D_direct{body.name}"
+        yield from (f"Dw{body.name}",) * _is_in_two(context, body)
+    yield "Dm"
 
 
 def _summands(context: Context) -> list[str]:
@@ -176,7 +221,7 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     J, tensor, given = values[f"Jw{b}"], values[f"I{b}"], values[f"I_body{b}"]
     name = angular_name(body)
     if not along_own_axes(context, body):
-        product = letters.transposed_product(context.show(J), context.show(tensor))
+        product = _with_tensor(context, J, tensor)
         yield Line((), (equation(name, product),))
         return
     own = turned(context, body, "Jw", letters.jw(body))
@@ -187,6 +232,14 @@ def _angular_lines(context: Context, body: Body) -> Iterator[Line]:
     product = letters.transposed_product(context.show(own.value), context.show(given))
     put_in: Prose = ("The tensor along the same axes put in:",)
     yield Line(put_in, (equation(name, in_letters, product),), (f"I_body{b}",))
+
+
+def _with_tensor(context: Context, J: Matrix, tensor: Matrix) -> Node:
+    """Jᵀ 𝓘 J with the matrices put in; of a multiple of the identity its factor before Jᵀ J."""
+    factor = factor_of_identity(tensor)
+    if factor is None:
+        return letters.transposed_product(context.show(J), context.show(tensor))
+    return Product((number_in_front(context.show(factor)), letters.transposed_product(context.show(J))))
 
 
 def _angular_used(context: Context, body: Body) -> tuple[Identity, ...]:

@@ -20,7 +20,7 @@ from dynsolve.explain.shapes import SHAPES
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.turned_tensors import turning_of
 from dynsolve.explain.working.proved import MOST_JOINTS
-from dynsolve.explain.working.rotational import along_own_axes
+from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
 from dynsolve.explain.writing import is_small, listed, measured, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
     Letter,
@@ -241,6 +241,7 @@ def has_link_axes(body: Body) -> bool:
 def _rotation(context: Context, body: Body, tells: bool) -> Step:
     rotation = letters.of_body("R", body, "bold")
     why, formula, notes = _orientation(context, body)
+    is_unneeded = _is_kept(context, body) and f"R{body.name}" not in context.wanted
     if tells:
         notes = tuple(_right_frame(context, body.link))
     return Step(
@@ -254,7 +255,13 @@ def _rotation(context: Context, body: Body, tells: bool) -> Step:
         result=(equation(rotation, context.form(f"R{body.name}")),),
         notes=notes,
         uses=(),
+        detail=Detail.FULL if is_unneeded else Detail.NORMAL,
     )
+
+
+def _is_kept(context: Context, body: Body) -> bool:
+    """Whether every rotation leaves the tensor of a body as it is."""
+    return factor_of_identity(context.values[f"I_body{body.name}"]) is not None
 
 
 def _orientation(context: Context, body: Body) -> tuple[Prose, Node | None, tuple[Prose, ...]]:
@@ -332,6 +339,7 @@ def _base_tensor(context: Context, body: Body) -> Step:
         concluding=turning.concluding,
         result=(equation(name, *((turning.same,) if turning.same else ()), base),),
         notes=turning.notes,
+        uses=(f"I_body{body.name}",) if _is_kept(context, body) else None,
         detail=_detail(context, body, base),
     )
 

@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dynsolve.algebra import matrix as algebra
-from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.working.products import product_named
 from dynsolve.explain.working.proved import MOST_JOINTS
+from dynsolve.explain.working.rotational import factor_of_identity
 from dynsolve.explain.writing import is_small
-from dynsolve.notation.tree import Letter, Node, Product, Transpose, equation
+from dynsolve.notation.build import number_in_front
+from dynsolve.notation.tree import Letter, Node, Product, Transpose
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body
 
@@ -33,11 +34,11 @@ class Turning:
 
 def turning_of(context: Context, body: Body, R: Letter) -> Turning:
     """By the factor of the identity, by an axis of symmetry, or by two products of matrices."""
-    factor, axis = _factor_of_identity(context.values[f"I_body{body.name}"]), _axis_of_symmetry(context, body)
+    factor, axis = factor_of_identity(context.values[f"I_body{body.name}"]), _axis_of_symmetry(context, body)
     if factor is not None:
-        shown, turned, one = context.show(factor), Product((R, Transpose(R))), letters.bold("E")
-        why: Prose = (" The tensor is a multiple of the identity matrix, and ", equation(turned, one), ".")
-        return Turning((Product((shown, *turned.factors)), Product((shown, one))), why)
+        line = Product((number_in_front(context.show(factor)), R, Transpose(R)))
+        why: Prose = (" The tensor is a multiple of the identity matrix, so every rotation keeps it.",)
+        return Turning((line,), why, same=letters.tensor(context.robot, body))
     if axis is not None:
         tensor = context.values[f"I_body{body.name}"]
         alone = sum(not entry.is_zero for entry in tensor.entries) == 1
@@ -48,12 +49,6 @@ def turning_of(context: Context, body: Body, R: Letter) -> Turning:
     is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")
     notes: tuple[Prose, ...] = (("This rotation does not change the tensor.",),) if is_kept else ()
     return Turning(lines, (), _turned_named(context, body) if lines else (), notes)
-
-
-def _factor_of_identity(tensor: algebra.Matrix) -> Expr | None:
-    """a where a tensor is a E, the same about every axis; None for others."""
-    a = tensor[0, 0]
-    return a if tensor == algebra.Matrix.identity(a.ring, 3).scale(a) else None
 
 
 def _axis_of_symmetry(context: Context, body: Body) -> str | None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dynsolve.document import Prose
 from dynsolve.explain.agreement import SKEW, agreement_step, skew_step
-from dynsolve.explain.body_parts import angular_name, linear_name, part_step, sum_step
+from dynsolve.explain.body_parts import angular_name, linear_name, part_steps, sum_step
 from dynsolve.explain.christoffel import SLOPES, christoffel_step
 from dynsolve.explain.closing import closing_step, driving_side
 from dynsolve.explain.context import Context
@@ -54,7 +54,7 @@ def steps(context: Context) -> Iterator[Step]:
         given = context.robot.given
         yield _inertia_direct(context) if given is None else inertia_step(context, given)
         if _is_short(context):
-            parts = (part_step(context, body) for body in context.robot.bodies)
+            parts = (step for body in context.robot.bodies for step in part_steps(context, body))
             yield from with_factors_in_front(parts, context)
         if context.robot.actions:
             from dynsolve.explain.actions import rotor_part_step

@@ -7,7 +7,7 @@ brought to the body's own axes instead (`own_axes`), along which the tensor is t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -17,7 +17,7 @@ from dynsolve.explain.working.identities import identities, said
 from dynsolve.explain.working.kinetic import collected, without_signs
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
-from dynsolve.notation.build import times
+from dynsolve.notation.build import number_in_front, times
 from dynsolve.notation.tree import Node, Product, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body
@@ -27,14 +27,24 @@ def along_own_axes(context: Context, body: Body) -> bool:
     """Whether the energy of a body is worked out along its own axes, without 𝓘; not of long arms.
 
     All bodies of an arm are treated alike: along their own axes, if that is the shorter way for one.
+    Where the moments about all axes are equal, 𝓘 is known without any rotation.
     """
-    if context.robot.n > MOST_JOINTS or not _turns(context, body):
+    if context.robot.n > MOST_JOINTS or not _is_turned(context, body):
         return False
-    return any(_is_shorter(context, each) for each in context.robot.bodies if _turns(context, each))
+    return any(_is_shorter(context, each) for each in context.robot.bodies if _is_turned(context, each))
 
 
-def _turns(context: Context, body: Body) -> bool:
-    return not (body.is_point or context.values[f"w{body.name}"].is_zero)
+def _is_turned(context: Context, body: Body) -> bool:
+    """Whether a body turns, and the moments about its axes are not all equal."""
+    if body.is_point or context.values[f"w{body.name}"].is_zero:
+        return False
+    return factor_of_identity(context.values[f"I_body{body.name}"]) is None
+
+
+def factor_of_identity(tensor: Matrix) -> Expr | None:
+    """a where a tensor is a E, the same about every axis; None for others."""
+    a = tensor[0, 0]
+    return a if tensor == Matrix.identity(a.ring, 3).scale(a) else None
 
 
 def _is_shorter(context: Context, body: Body) -> bool:
@@ -67,28 +77,25 @@ def multiplied_out(context: Context, body: Body) -> tuple[Node, Way]:
         w, tensor = values[f"R{b}"].T @ base, values[f"I_body{b}"]
     else:
         w, tensor = base, values[f"I{b}"]
-    row, middle, column = (context.show(matrix) for matrix in (w.T, tensor, w))
-    product = equation(letters.energy_part("omega", body), Product((letters.HALF, row, middle, column)))
+    row, column, factor = context.show(w.T), context.show(w), factor_of_identity(tensor)
+    product = Product((letters.HALF, row, context.show(tensor), column))
+    if factor is not None:
+        product = Product((letters.HALF, number_in_front(context.show(factor)), row, column))
+    name = letters.energy_part("omega", body)
     is_long = context.robot.n > MOST_JOINTS
-    return product, SILENT if is_long else _lines(context, body, w, tensor)
+    return equation(name, product), SILENT if is_long else _lines(context, body, w, tensor)
 
 
 def _lines(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:
     """½ Σ I_ij ω_i ω_j, and how it becomes the result."""
     value, result = context.values[f"Kw{body.name}"], context.form(f"Kw{body.name}")
-    ring, components = value.ring, w.entries
-    terms = []
-    for i in range(3):
-        for j in range(i, 3):
-            if not (tensor[i, j].is_zero or components[i].is_zero or components[j].is_zero):
-                square = i == j
-                first, second = context.show(components[i]), context.show(components[j])
-                rates = [(without_signs(first), 2)] if square else [(first, 1), (second, 1)]
-                terms.append(_term(context, 1 if square else 2, tensor[i, j], rates))
+    terms = tuple(_terms(context, w, tensor))
     if len(terms) < 2:
         return SILENT
-    form = Product((letters.HALF, sum_of(terms)))
-    used = identities(ring, form, result)
+    factor = factor_of_identity(tensor)
+    shared = () if factor is None else (number_in_front(context.show(factor)),)
+    form = Product((letters.HALF, *shared, sum_of(terms)))
+    used = identities(value.ring, form, result)
     name = letters.energy_part("omega", body)
     return chain(
         value,
@@ -96,6 +103,18 @@ def _lines(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:
         lambda tree: equation(name, tree),
         ("By ", *said(used), ":") if used else collected(form, result),
     )
+
+
+def _terms(context: Context, w: Matrix, tensor: Matrix) -> Iterator[Node]:
+    """I_ij ω_i ω_j; of a multiple of the identity the squares alone, its factor standing before them."""
+    components, of_all = w.entries, factor_of_identity(tensor)
+    for i in range(3):
+        for j in range(i, 3):
+            if not (tensor[i, j].is_zero or components[i].is_zero or components[j].is_zero):
+                first, second = context.show(components[i]), context.show(components[j])
+                rates = [(without_signs(first), 2)] if i == j else [(first, 1), (second, 1)]
+                moment = tensor[i, j] if of_all is None else of_all.ring.one
+                yield _term(context, 1 if i == j else 2, moment, rates)
 
 
 def _term(context: Context, count: int, moment: Expr, rates: Sequence[tuple[Node, int]]) -> Node:

@@ -220,9 +220,13 @@ def test_of_a_given_tensor_it_is_said_what_does_not_enter() -> None:
 
 
 def test_a_multiple_of_the_identity_is_not_turned_by_its_entries() -> None:
-    assert shown_working("box-cylinder-rod-sphere", "I4") == [
-        "𝓘₄ = (2m₄ r₄²/5) 𝐑₄ 𝐑₄ᵀ", "𝓘₄ = (2m₄ r₄²/5) 𝐄",
-    ]  # fmt: skip
+    """Of a sphere R is not needed at all."""
+    box = "box-cylinder-rod-sphere"
+    assert shown_working(box, "I4") == ["𝓘₄ = (2/5) m₄ r₄² 𝐑₄ 𝐑₄ᵀ"]
+    assert step(box, "R4").detail is Detail.FULL and step(box, "R3").detail is Detail.NORMAL
+    ((energy,),) = (line.formulas for line in step(box, "Kw4").lines)
+    assert to_unicode(energy, solved(box).style) == ("K_ω4 = ½ (2/5) m₄ r₄² ((s₁ θ̇₂)² + (c₁ θ̇₂)² + θ̇₁²)")
+    assert "𝐑₄" not in "".join(shown_working(box, "D_direct4"))
 
 
 def test_a_frame_that_does_not_turn_is_said_to_be_harmless() -> None:

@@ -326,14 +326,15 @@ def test_the_products_that_make_up_the_inertia_matrix_are_shown() -> None:
     part, style = step("elbow-3r", "D_direct3"), solved("elbow-3r").style
     (linear,) = (to_unicode(node, style) for node in part.working)
     assert linear.startswith("m₃ 𝐉_v3ᵀ 𝐉_v3 = m₃ [[")
-    along, turned, put_in, angular, _ = lines("elbow-3r", "D_direct3")[-5:]
+    along, turned, put_in, angular, concluding = lines("elbow-3r", "Dw3")
     assert along == "Along the body's own axes, with s₁² + c₁² = 1:"
     assert turned.endswith(" = [[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]")
     assert put_in == "The tensor along the same axes put in:"
     in_letters, product = "𝐉_ω3ᵀ 𝓘₃ 𝐉_ω3 = (𝐑₃ᵀ 𝐉_ω3)ᵀ 𝐈₃ (𝐑₃ᵀ 𝐉_ω3)", "[[s₂₃, 0, 0], [c₂₃, 0, 0], [0, 1, 1]]"
     assert angular.startswith(f"{in_letters} = {product}ᵀ [[I_3xx, ")
+    assert concluding == "Multiplied out:"
     assert part.uses == ("Jv3#1",)
-    assert [line.uses for line in part.lines] == [(), ("Jv3#2", "R3"), ("I_body3",)]
+    assert [line.uses for line in step("elbow-3r", "Dw3").lines] == [("Jv3#2", "R3"), ("I_body3",)]
     assert not step("scara-rrpr", "D_direct1").working
 
 
@@ -353,8 +354,7 @@ def test_the_columns_of_a_jacobian_are_multiplied_by_one_identity_after_the_othe
         "(𝐉_v3ᵀ 𝐉_v3)₃₃ = l_c3² s₂₃² + l_c3² c₂₃²",
     ]
     assert lines("elbow-3r", "D_direct3")[-1] == (
-        "By s₂² + c₂² = 1, s₂₃² + c₂₃² = 1 and the cosine of a difference, c₂ c₂₃ + s₂ s₂₃ = c₃; "
-        "the second product multiplied out:"
+        "By s₂² + c₂² = 1, s₂₃² + c₂₃² = 1 and the cosine of a difference, c₂ c₂₃ + s₂ s₂₃ = c₃:"
     )
 
 
