@@ -14,6 +14,7 @@ They are made of
     determinant   the determinant of two coupled coordinates, line by line
     sign          a formula that is positive for positive masses, moments and lengths
     balance       how g = 0 is solved, row by row
+    cases         how it is solved where a row has two factors
     curvature     what P has there, by the minors of its second derivatives
 
 Of longer arms those are done that read off a result what its pages hide: a coordinate that is

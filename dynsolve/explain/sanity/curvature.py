@@ -18,6 +18,7 @@ from dynsolve.explain.sanity.pose import Pose, at
 from dynsolve.explain.sanity.sign import is_positive, with_lengths
 from dynsolve.notation.build import cost
 from dynsolve.notation.tree import (
+    Matrix,
     Negative,
     Node,
     Number,
@@ -90,6 +91,12 @@ def shown(context: Context, names: Sequence[str], known: Sequence[Zero]) -> Iter
         values = [[[context.show(entry * sign) for entry in row] for row in second] for sign in (1, -1)]
         shorter = min(values, key=lambda rows: cost(Sum((*rows[0], *rows[1]))))  # (-a)(-c) is a c
         yield equation(_determinant(letters_of), _determinant(shorter), *others)
+
+
+def matrix_shown(context: Context, names: Sequence[str]) -> Node:
+    """∂g/∂q, the matrix of all second derivatives of P, whatever the pose."""
+    rows = tuple(tuple(map(context.show, row)) for row in _second(context, names, ()))
+    return equation(letters.partial_derivative(letters.G, letters.Q), Matrix(rows))
 
 
 def slope_of_last(context: Context, names: Sequence[str]) -> Node:

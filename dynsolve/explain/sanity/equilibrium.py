@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.explain.context import Context
-from dynsolve.explain.sanity import balance, curvature
+from dynsolve.explain.sanity import balance, cases, curvature
 from dynsolve.explain.sanity.curvature import Kind
 from dynsolve.explain.sanity.pose import Pose, at, poses, turning_in, written
 from dynsolve.explain.step import Line, Step
@@ -67,10 +67,24 @@ def _everywhere(context: Context) -> Prose:
 
 def _all_poses(context: Context, zero: Sequence[Pose]) -> Step | None:
     """All poses in which g is zero, by its rows; None where these do not give them, or what P has there."""
-    rows, names = balance.zeros(context), list(zero[0])
-    if rows is None or len(rows) != len(names):  # each row leaves two quarter turns of an angle
-        return None
-    minors = curvature.minors(context, names, rows)
+    names = list(zero[0])
+    rows = balance.zeros(context)
+    if rows is not None and len(rows) == len(names):  # each row leaves two quarter turns of an angle
+        lines = (Line((), tuple(balance.written(context, row) for row in rows)),)
+        return _told_of_all(context, zero, lines, rows)
+    by_cases = cases.cases(context, names) if rows is None else None
+    return None if by_cases is None else _told_of_all(context, by_cases.poses, by_cases.lines, None)
+
+
+def _told_of_all(
+    context: Context, zero: Sequence[Pose], lines: Sequence[Line], rows: Sequence[balance.Zero] | None
+) -> Step | None:
+    """What P has in each of the poses, by its second derivatives; None where a sign is not seen.
+
+    `rows` are the zeros that are put into these, None where they differ from case to case.
+    """
+    names = list(zero[0])
+    minors = curvature.minors(context, names, rows or ())
     signs = [curvature.signs_of(context, minors, pose) for pose in zero]
     kinds = [kind for each in signs if (kind := curvature.kind_of(each)) is not None]
     if len(kinds) != len(zero):
@@ -81,39 +95,47 @@ def _all_poses(context: Context, zero: Sequence[Pose]) -> Step | None:
         for pose, each, kind in zip(zero, signs, kinds, strict=True)
     )
     table = tuple((side_by_side(written(pose)), *row) for pose, row in zip(zero, told, strict=True))
-    lines = [Line((), tuple(balance.written(context, row) for row in rows))]
-    if shows:
-        lines.append(_second_derivatives(context, names, rows))
-    concluding: Prose = (_all(zero), *_free(context, zero[0]), ". ", _BY_MINORS[min(len(names), 3)])
-    why: Prose = (
-        *_assumed(context),
-        "The rows of " if len(rows) > 1 else "Of ",
+    shown = (_second_derivatives(context, names, rows),) if shows else ()
+    concluding: Prose = (_all(zero), *_free(context, zero[0]), ". ", *_by_minors(context, names))
+    why = (*_assumed(context), *_rows_of(rows))
+    return _step(why, (*lines, *shown), concluding, Table(_header(context, names), table))
+
+
+def _rows_of(rows: Sequence[balance.Zero] | None) -> Prose:
+    """How the rows of g are gone through."""
+    if rows is None:
+        return ("A row of ", letters.G, Reference(("g",)), " is 0 where one of its factors is:")
+    if len(rows) == 1:
+        return ("Of ", letters.G, Reference(("g",)), " one row varies:")
+    return (
+        "The rows of ",
         letters.G,
         Reference(("g",)),
+        ", from the last on, each zero put into the row before:",
     )
-    why += (
-        (", from the last on, each zero put into the row before:",)
-        if len(rows) > 1
-        else (" one row varies:",)
-    )
-    return _step(why, lines, concluding, Table(_header(context, names), table))
 
 
-_BY_MINORS = {
-    1: "𝒫 has a minimum where the second derivative is positive, a maximum where it is negative:",
-    2: "𝒫 has a minimum where both are positive, a maximum where the determinant alone is, and a saddle "
-    "point where the determinant is negative:",
-    3: "What 𝒫 has there follows from the minors of its second derivatives (Sylvester's criterion):",
-}
-"""How what P has in a pose is found, by the number of angles."""
+def _by_minors(context: Context, names: Sequence[str]) -> Prose:
+    """How what P has in a pose is found, by the number of angles."""
+    if len(names) == 1:
+        where: Prose = ("a minimum where the second derivative is positive, a maximum where it is negative:",)
+    elif len(names) == 2:
+        where = ("a minimum where ", curvature.slope_of_last(context, names), " and det are positive, ")
+        where += ("a maximum where det alone is (Sylvester's criterion), ",)
+        where += ("a saddle point where det is negative:",)
+    else:
+        where = ("there what the minors of its second derivatives tell (Sylvester's criterion):",)
+    return (letters.P, " has ", *where)
 
 
-def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[balance.Zero]) -> Line:
+def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[balance.Zero] | None) -> Line:
+    if rows is None:
+        by: Prose = ("The second derivatives of ", letters.P, ", with det their determinant:")
+        return Line(by, (curvature.matrix_shown(context, names),))
     derivatives = tuple(curvature.shown(context, names, rows))
     if len(names) == 1:
         return Line(("The second derivative of ", letters.P, ":"), derivatives)
-    by: Prose = (" with respect to ", Symbol(names[-1]))
-    by += (", and the determinant of the matrix of all second derivatives:",)
+    by = (" with respect to ", Symbol(names[-1]), ", and det, the determinant of the matrix of them all:")
     return Line(("The second derivative of ", letters.P, *by), derivatives)
 
 
@@ -128,7 +150,9 @@ def _signs(signs: Sequence[int], shows: bool) -> tuple[str, ...]:
 
 
 def _all(zero: Sequence[Pose]) -> str:
-    return f"Gravity is balanced in {'this pose' if len(zero) == 1 else 'these poses'} alone"
+    return (
+        f"Gravity is balanced in {'this pose' if len(zero) == 1 else 'these poses'} alone (up to full turns)"
+    )
 
 
 def _assumed(context: Context) -> Prose:

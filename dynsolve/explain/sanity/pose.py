@@ -1,4 +1,4 @@
-"""Poses: some joint angles at multiples of a right angle, everything else as it was."""
+"""Poses: some joint angles at so many degrees, mostly quarter turns, everything else as it was."""
 
 from __future__ import annotations
 
@@ -63,10 +63,11 @@ def poses(names: Iterable[str], values: tuple[int, ...]) -> Iterator[Pose]:
 
 def written(pose: Pose) -> list[Node]:
     """q₁ = -90°, q₂ = 0"""
-    return [equation(Symbol(name), _degrees(value)) for name, value in pose.items()]
+    return [equation(Symbol(name), degrees(value)) for name, value in pose.items()]
 
 
-def _degrees(value: int) -> Node:
+def degrees(value: int) -> Node:
+    """-90°; 0 without a sign of degrees."""
     if not value:
         return ZERO
     node = Degrees(abs(value))

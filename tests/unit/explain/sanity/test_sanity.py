@@ -15,10 +15,11 @@ from dynsolve.document import Prose, Reference
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import CHECKS, CHECKS_OF_LONGER_ARMS, Check, sanity_steps
 from dynsolve.explain.sanity.balance import zeros
+from dynsolve.explain.sanity.cases import cases
 from dynsolve.explain.sanity.curvature import Kind
 from dynsolve.explain.sanity.definite import blocks, definite_step, determinant
 from dynsolve.explain.sanity.equilibrium import balanced_poses
-from dynsolve.explain.sanity.pose import at
+from dynsolve.explain.sanity.pose import Pose, at
 from dynsolve.explain.sanity.sign import is_nonnegative, is_positive, masses_and_moments
 from dynsolve.explain.step import Step
 from dynsolve.notation.text import read
@@ -121,7 +122,9 @@ def test_where_the_planar_arm_hangs_and_where_it_stands() -> None:
 def test_a_waist_is_balanced_in_any_pose() -> None:
     step = check("elbow-3r", "equilibrium")
     assert step is not None
-    assert words(step.concluding).startswith("Gravity is balanced in these poses alone, whatever θ₁ is. ")
+    assert words(step.concluding).startswith(
+        "Gravity is balanced in these poses alone (up to full turns), whatever θ₁ is. "
+    )
     assert ["θ₂ = -90°, θ₃ = 0", "> 0", "> 0", "minimum", "stable in θ₂ and θ₃"] in rows(
         "elbow-3r", "equilibrium"
     )
@@ -142,11 +145,50 @@ base: Rx(30deg)
 dh: [{theta: q1*}, {theta: q2*, alpha: 90deg}]
 masses: [{mass: m2, link: 2, center: [lc2, 0, 0], inertia: {zz: I2}}]
 """
-"""Balanced upright at q1 = 90°, q2 = 60°, and at quarter turns only where P is no extremum."""
+"""Gravity lies in the plane of x_0 = 0, at 60° to y_0: the arm is upright along (0, 1/2, √3/2)."""
+
+
+def test_a_row_with_two_factors_is_zero_in_two_cases() -> None:
+    assert lines(TILTED_BASE, "equilibrium")[:5] == [
+        "g₁ = m₂ g l_c2 c₁ c₂/2 = 0, so c₁ = 0 or c₂ = 0",
+        "q₁ = 90°: g₂ = m₂ g l_c2 (√3 c₂ - s₂)/2 = 0, so tan(q₂) = √3, q₂ = 60° or -120°",
+        "q₁ = -90°: g₂ = m₂ g l_c2 (s₂ + √3 c₂)/2 = 0, so tan(q₂) = -√3, q₂ = -60° or 120°",
+        "q₂ = 90°: g₂ = -m₂ g l_c2 s₁/2 = 0, so s₁ = 0, q₁ = 0 or 180°",
+        "q₂ = -90°: g₂ = m₂ g l_c2 s₁/2 = 0, so s₁ = 0, q₁ = 0 or 180°",
+    ]
+    assert [(row[0], row[3]) for row in rows(TILTED_BASE, "equilibrium")] == [
+        ("q₁ = 90°, q₂ = 60°", "maximum: the arm stands upright"),
+        ("q₁ = 90°, q₂ = -120°", "minimum: the arm hangs"),
+        ("q₁ = -90°, q₂ = -60°", "minimum: the arm hangs"),
+        ("q₁ = -90°, q₂ = 120°", "maximum: the arm stands upright"),
+        ("q₁ = 0, q₂ = 90°", "saddle point"),
+        ("q₁ = 180°, q₂ = 90°", "saddle point"),
+        ("q₁ = 0, q₂ = -90°", "saddle point"),
+        ("q₁ = 180°, q₂ = -90°", "saddle point"),
+    ]
+
+
+def test_the_poses_of_all_cases_are_those_of_a_search() -> None:
+    """g changes its sign in both rows at 8 places of a fine grid of angles, and at these."""
+    found = context(TILTED_BASE)
+    solved_by_cases = cases(found, ["q1", "q2"])
+    assert solved_by_cases is not None
+    state, g = values_of(found, seed=4), found.values["g"].entries
+    steps = range(-180, 180, 15)
+    balanced = {
+        (q1, q2)
+        for q1 in steps
+        for q2 in steps
+        if all(
+            abs(evaluate(entry, {**state, "q1": np.radians(q1), "q2": np.radians(q2)})) < 1e-9 for entry in g
+        )
+    }
+    assert {((p["q1"] + 180) % 360 - 180, p["q2"]) for p in solved_by_cases.poses} == balanced
 
 
 def test_nothing_is_said_where_the_poses_are_not_all_known() -> None:
-    assert check(TILTED_BASE, "equilibrium") is None
+    """Upright at q2 = 70°, which has no tangent that a person knows."""
+    assert check(TILTED_BASE.replace("30deg", "20deg"), "equilibrium") is None
 
 
 def test_an_arm_in_the_horizontal_plane_needs_nothing_against_gravity() -> None:
@@ -332,32 +374,46 @@ def test_signs_that_can_be_seen(formula: str, nonnegative: bool, positive: bool)
 @settings(max_examples=5, deadline=None)
 @given(robots(max_joints=3, physical=True))
 def test_what_is_said_of_any_robot_is_true(problem: str) -> None:
+    """Each check gives a step or none, and what two of them claim holds in numbers at a random state."""
     found = context.__wrapped__(problem)
     state = values_of(found, seed=1)
-    list(sanity_steps(found))
-    _definite(found, state)
-    _balanced(found, state)
-
-
-def _definite(found: Context, state: dict[str, float]) -> None:
+    assert {step.id for step in sanity_steps(found)} <= {
+        record.id for record in (*CHECKS, *CHECKS_OF_LONGER_ARMS)
+    }
     if definite_step(found) is not None:
-        D = found.values["D"]
-        matrix = np.array([[evaluate(entry, state) for entry in row] for row in D.rows])
-        assert np.linalg.eigvalsh(matrix).min() > 0
-
-
-def _balanced(found: Context, state: dict[str, float]) -> None:
-    ring, g = found.robot.ring, found.values["g"]
+        assert is_definite(found, state)
     for kind, pose in balanced_poses(found).items():
-        there = {**state, **{name: np.radians(angle) for name, angle in pose.items()}}
-        assert all(abs(evaluate(entry, there)) < 1e-9 for entry in g.entries)
-        places = [ring.names.index(name) for name in pose]
-        second = [[evaluate(ring.diff(g[i, 0], j), there) for j in places] for i in places]
-        curvatures = np.linalg.eigvalsh(np.array(second))
-        rises, falls = bool((curvatures > 0).any()), bool((curvatures < 0).any())
-        assert (rises, falls) == {
-            Kind.MINIMUM: (True, False), Kind.MAXIMUM: (False, True), Kind.SADDLE: (True, True),
-        }[kind]  # fmt: skip
+        assert kinds_of(found, state, pose) == [kind]
+
+
+def is_definite(found: Context, state: dict[str, float]) -> bool:
+    """Whether all eigenvalues of D are positive."""
+    matrix = np.array([[evaluate(entry, state) for entry in row] for row in found.values["D"].rows])
+    return bool(np.linalg.eigvalsh(matrix).min() > 0)
+
+
+def kinds_of(found: Context, state: dict[str, float], pose: Pose) -> list[Kind]:
+    """What P has in a pose, by the eigenvalues of its second derivatives; nothing where g is not 0."""
+    ring, g = found.robot.ring, found.values["g"]
+    there = {**state, **{name: np.radians(angle) for name, angle in pose.items()}}
+    if any(abs(evaluate(entry, there)) > 1e-9 for entry in g.entries):
+        return []
+    places = [ring.names.index(name) for name in pose]
+    second = [[evaluate(ring.diff(g[i, 0], j), there) for j in places] for i in places]
+    curvatures = np.linalg.eigvalsh(np.array(second))
+    rises, falls = bool((curvatures > 0).any()), bool((curvatures < 0).any())
+    kinds = {(True, False): Kind.MINIMUM, (False, True): Kind.MAXIMUM, (True, True): Kind.SADDLE}
+    return [kinds[rises, falls]] if (rises, falls) in kinds else []
+
+
+def test_what_is_false_would_be_noticed() -> None:
+    """A singular D, a pose that is not balanced, and a minimum told from a maximum."""
+    points, arm = context(POINTS), context("planar-2r")
+    assert not is_definite(points, {**values_of(points, seed=1), "q2": 0.0})
+    state = values_of(arm, seed=1)
+    assert kinds_of(arm, state, {"q1": 0, "q2": 0}) == []
+    assert kinds_of(arm, state, {"q1": 90, "q2": 0}) == [Kind.MAXIMUM]
+    assert kinds_of(arm, state, {"q1": -90, "q2": 0}) == [Kind.MINIMUM]
 
 
 def test_a_row_is_zero_where_it_is_said_to_be() -> None:
