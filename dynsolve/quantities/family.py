@@ -157,6 +157,11 @@ class Family:
         return self.owner is Owner.BODY or name[len(stem) :].isdecimal()
 
     @property
+    def has_letter(self) -> bool:
+        """Whether it is ever printed by itself."""
+        return self.letter is not _no_letter
+
+    @property
     def is_vector(self) -> bool:
         """Whether it is a column vector by its nature, and no matrix that may have one column."""
         return self.shape is not None and self.shape[1] == 1

@@ -33,6 +33,12 @@ def shown(node: Node) -> str:
         ("K1", "K₁ ≈ 0.104167 q̇₁²"),
         ("D", "𝐃 ≈ [[0.862833 + 0.48 c₂, 0.167 + 0.24 c₂], [0.167 + 0.24 c₂, 0.167]] kg m²"),
         ("g", "𝐠 = [[15.696 c₁ + 4.7088 c₁₂], [4.7088 c₁₂]] N m"),
+        ("rc1", "𝐫_c1 = [[0.25 c₁], [0.25 s₁], [0]] m"),
+        ("v1", "𝐯₁ = [[-0.25 s₁ q̇₁], [0.25 c₁ q̇₁], [0]] m/s"),
+        ("Dw1", "𝐉_ω1ᵀ 𝓘₁ 𝐉_ω1 ≈ [[0.0520833, 0], [0, 0]] kg m²"),
+        ("Cqd", "𝐂 𝐪̇ = [[-0.24 s₂ (2q̇₁ q̇₂ + q̇₂²)], [0.24 s₂ q̇₁²]] N m"),
+        ("C", "𝐂 = [[-0.24 s₂ q̇₂, -0.24 s₂ (q̇₁ + q̇₂)], [0.24 s₂ q̇₁, 0]] kg m²/s"),
+        ("H1", "𝐇₁⁰ = 𝐀₁ = [[c₁, -s₁, 0, 0.5 c₁], [s₁, c₁, 0, 0.5 s₁], [0, 0, 1, 0], [0, 0, 0, 1]]"),
     ],
 )
 def test_results(step: str, printed: str) -> None:
@@ -43,6 +49,15 @@ def test_given_numbers_have_their_units() -> None:
     found = steps()
     assert shown(found["I_body1"].working[0]) == "m = 2.5 kg, l = 0.5 m"
     assert "m₁ = 2.5 kg, g = 9.81 m/s²" in map(shown, found["P1"].working)
+    assert shown(found["P1"].further[0]) == "𝐠₀ = [[0, -9.81, 0]]ᵀ m/s²"
+    assert shown(found["A1"].working[0]) == "θ = q₁⋆, d = 0, a = 0.5 m, α = 0"
+    assert shown(found["rc2"].further[0]) == "𝐫_{1,c2}² = [[0.15], [0], [0]] m"
+
+
+def test_of_a_sum_the_number_that_comes_out_has_its_unit() -> None:
+    printed = list(map(shown, steps()["D_sum"].result))
+    assert printed[1].endswith("= 0.167 + 0.24 c₂")
+    assert printed[2] == "d₂₂ = 0.027 + 0.02 + 0.12 = 0.167 kg m²"
 
 
 def test_equality_is_never_claimed_for_what_is_rounded() -> None:
