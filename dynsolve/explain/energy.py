@@ -32,7 +32,6 @@ from dynsolve.notation.tree import (
     Negative,
     Node,
     Number,
-    Power,
     Product,
     Row,
     Sum,
@@ -217,7 +216,6 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
     Kv, v = letters.energy_part("v", body), letters.of_body("v", body, "bold")
     velocity = kinetic.velocity(context, body)
     form = context.form(f"Kv{b}")
-    mass = context.show(body.mass)
     working: tuple[Node, ...] = ()
     still = all(row[0] == Number(0) for row in velocity.rows)
     if still:
@@ -226,10 +224,8 @@ def _linear(context: Context, body: Body, tells: bool) -> Step:
         why = ("The body has no mass, only inertia.",)
     else:
         why = ("Half the mass times the square of the speed of the mass centre.",)
-        squares = tuple(Power(row[0], Number(2)) for row in velocity.rows if row[0] != Number(0))
         if is_small(velocity, velocity):
-            total = squares[0] if len(squares) == 1 else Sum(squares)
-            working = (equation(Kv, Product((letters.HALF, mass, total))),)
+            working = (equation(Kv, kinetic.squared(context, body)),)
     way = kinetic.linear(context, body, squares_shown=bool(working))
     return Step(
         id=f"Kv{b}",

@@ -5,7 +5,7 @@ A line is spent where there is something to see: several factors vary, or an ide
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from dynsolve.algebra.expr import Expr
@@ -213,15 +213,24 @@ def coriolis_rows(context: Context, named: Callable[[int, int, int], Node] | Non
         pairs = [(i, j) for i in range(n) for j in range(i, n) if not _symbol(context, i, j, k).is_zero]
         if pairs:
             whole = Entry(product, Number(k + 1)) if n > 1 else product
+            value = rows[k][0]
+            if named is not None:
+                terms = {(i, j): _quadratic(robot, named(i, j, k), i, j) for i, j in pairs}
+                value = total(list(terms.values()))
+                pairs = _in_the_order_of(value, terms)
             by_symbols = total(
                 [_quadratic(robot, letters.entry("c", i + 1, j + 1, k + 1), i, j) for i, j in pairs]
             )
-            value = rows[k][0]
-            if named is not None:
-                value = total([_quadratic(robot, named(i, j, k), i, j) for i, j in pairs])
             shown.append(equation(whole, by_symbols, value))
     by = f"{'The rows of ' if n > 1 else ''}"
     return (Line((by, product, ", multiplied out:"), tuple(shown)),)
+
+
+def _in_the_order_of(value: Node, terms: Mapping[tuple[int, int], Node]) -> list[tuple[int, int]]:
+    """The places of the terms of a sum as they stand in it, so that both sides of = have one order."""
+    shown = value.terms if isinstance(value, Sum) else (value,)
+    is_whole = set(shown) == set(terms.values())
+    return sorted(terms, key=lambda place: shown.index(terms[place])) if is_whole else list(terms)
 
 
 def _quadratic(robot: Robot, symbol: Node, i: int, j: int) -> Node:

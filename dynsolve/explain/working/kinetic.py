@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import combinations_with_replacement
 
 from flint import fmpq_mpoly
@@ -14,13 +15,14 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.kinematics import rotation
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
+from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.other_axes import turning_line
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation import tree
-from dynsolve.notation.build import negated, split_sign, times, total
+from dynsolve.notation.build import negated, number_in_front, split_sign, times, total
 from dynsolve.notation.tree import (
     Function,
     Negative,
@@ -55,11 +57,40 @@ def _sums_of_rates(node: Node) -> set[Node]:
 
 
 def velocity(context: Context, body: Body) -> tree.Matrix:
-    """v of a mass centre, as U s + V c where two components are a vector turned by an angle.
+    """v of a mass centre, as U s + V c where two components are a vector turned by an angle."""
+    return _written(context, context.values[f"v{body.name}"], context.matrix(f"v{body.name}"))
+
+
+def squared(context: Context, body: Body) -> Node:
+    """½ m vᵀ v with the entries of v put in; what these share stands before the squares, squared."""
+    factor, value = _with_factor(context, body)
+    form = context.show(value)
+    assert isinstance(form, tree.Matrix)
+    entries = [row[0] for row in _written(context, value, form).rows if row[0] != Number(0)]
+    return _energy(context, body, factor, sum_of([Power(entry, Number(2)) for entry in entries]))
+
+
+def _with_factor(context: Context, body: Body) -> tuple[Expr, Matrix]:
+    """What the entries of v share, and what it is multiplied by; of decimals they share nothing."""
+    ring, value = context.robot.ring, context.values[f"v{body.name}"]
+    factor = ring.one if is_numeric(context.robot) else squares.shared_factor(ring, value.entries)
+    return factor, value.map(lambda entry: Expr(ring, entry.poly / factor.poly))
+
+
+def _energy(context: Context, body: Body, factor: Expr, squares: Node) -> Node:
+    """½ m a² (...), a being the factor that is taken out of the squares."""
+    mass = context.show(body.mass)
+    if factor == factor.ring.one:
+        return Product((letters.HALF, mass, squares))
+    front = number_in_front(times(Fraction(1, 2), [(mass, 1), (context.show(factor), 2)]))
+    return Product((*(front.factors if isinstance(front, Product) else (front,)), squares))
+
+
+def _written(context: Context, value: Matrix, form: tree.Matrix) -> tree.Matrix:
+    """A velocity as U s + V c where two components are a vector turned by an angle.
 
     Other forms stay where they hold that sine and that cosine once, and so show U and V too.
     """
-    form, value = context.matrix(f"v{body.name}"), context.values[f"v{body.name}"]
     places = [k for k, x in enumerate(value.entries) if not x.is_zero]
     found = squares.turned(context.robot.ring, [value[k, 0] for k in places])
     if found is None or context.robot.n > MOST_JOINTS or any(part.is_zero for part in found.parts):
@@ -94,7 +125,8 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
     velocity = context.values[f"v{body.name}"]
     if context.robot.n > MOST_JOINTS or velocity.is_zero or body.mass.is_zero:
         return SILENT
-    found = _from_components(context, body, velocity) if squares_shown else None
+    factor, shown = _with_factor(context, body)
+    found = _from_components(context, body, shown, factor) if squares_shown else None
     if found is not None:
         return found
     if not context.robot.has_table:
@@ -161,12 +193,17 @@ def _begun_along(context: Context, body: Body, i: int, way: Way) -> Way:
     return Way((line, *way.lines), way.concluding, frame=i)
 
 
-def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | None:
-    """The lines from the squares of some components on; None where these do not come apart plainly."""
+def _from_components(
+    context: Context, body: Body, velocity: Matrix, factor: Expr | None = None
+) -> Way | None:
+    """The lines from the squares of some components on; None where these do not come apart plainly.
+
+    With a `factor` that the components share the squares are shown already.
+    """
     ring = context.robot.ring
     components = [x for x in velocity.entries if not x.is_zero]
     lines: list[tuple[Prose, Node]] = []
-    if velocity != context.values[f"v{body.name}"]:
+    if factor is None and velocity != context.values[f"v{body.name}"]:
         lines.append((("The squares of its entries:",), _sum_of_squares(context, components)))
     while (found := squares.turned(ring, components)) is not None and not _is_plain(found):
         components = squares.exchanged(components, found)
@@ -183,23 +220,24 @@ def _from_components(context: Context, body: Body, velocity: Matrix) -> Way | No
         lines += multiplied
         before = lines[-1][1] if lines else _sum_of_squares(context, components)
         concluding = collected(before, context.form(f"Kv{body.name}"))
-        if lines and _is_printed(context, body, lines[-1][1]):
+        last = _energy(context, body, factor or ring.one, lines[-1][1]) if lines else None
+        if last is not None and to_unicode(last) == to_unicode(context.form(f"Kv{body.name}")):
             concluding = lines.pop()[0]
-    return _chain(context, body, lines, concluding)
+    return _chain(context, body, lines, concluding, factor)
 
 
-def _is_printed(context: Context, body: Body, squared: Node) -> bool:
-    """Whether ½ m times a sum of squares is printed as the result is."""
-    energy = Product((letters.HALF, context.show(body.mass), squared))
-    return to_unicode(energy) == to_unicode(context.form(f"Kv{body.name}"))
-
-
-def _chain(context: Context, body: Body, lines: list[tuple[Prose, Node]], concluding: Prose) -> Way:
-    mass = context.show(body.mass)
-    name = letters.energy_part("v", body)
+def _chain(
+    context: Context,
+    body: Body,
+    lines: list[tuple[Prose, Node]],
+    concluding: Prose,
+    factor: Expr | None = None,
+) -> Way:
+    """The lines, each of them squares, as energies."""
+    name, shared = letters.energy_part("v", body), factor or context.robot.ring.one
     return chain(
         context.values[f"Kv{body.name}"],
-        [(by, Product((letters.HALF, mass, tree))) for by, tree in lines],
+        [(by, _energy(context, body, shared, tree)) for by, tree in lines],
         lambda tree: equation(name, tree),
         concluding,
     )

@@ -12,7 +12,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import combinations
+from math import gcd, lcm
 from typing import Any
 
 from flint import fmpq_mpoly
@@ -54,6 +56,21 @@ def parts(x: Expr, pair: Pair) -> tuple[Expr, Expr] | None:
         return None
     s, c = x.ring.generator(pair.sine).poly, x.ring.generator(pair.cosine).poly
     return (Expr(x.ring, a), Expr(x.ring, b)) if poly == a * s + b * c else None
+
+
+def shared_factor(ring: Ring, components: Sequence[Expr]) -> Expr:
+    """The length, with its number, that all components share: ½ l₂ of l₂ s₁ q̇₁/2 and l₂ c₁ q̇₁/2; else 1."""
+    terms = [term for x in components for term in x.poly.to_dict().items()]
+    lengths = [g for g in ring.generators if g.kind == "symbol" and g.name in ring.parameters]
+    powers = {g.index: min((int(exponents[g.index]) for exponents, _ in terms), default=0) for g in lengths}
+    if not any(powers.values()):
+        return ring.one
+    numbers = [Fraction(int(c.p), int(c.q)) for _, c in terms]
+    number = Fraction(gcd(*(n.numerator for n in numbers)), lcm(*(n.denominator for n in numbers)))
+    factor = ring.one * number
+    for index, power in powers.items():
+        factor = factor * ring.generator(index) ** power
+    return factor
 
 
 def exchanged(components: Sequence[Expr], found: Turned) -> list[Expr]:

@@ -10,7 +10,7 @@ from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import identities, said
 from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
-from dynsolve.notation.tree import ZERO, Node, Power, Sum, equation
+from dynsolve.notation.tree import ZERO, Node, Number, Power, Sum, equation
 from dynsolve.notation.walk import walk
 
 
@@ -20,7 +20,7 @@ def summed(
     """The plain sum of scalar quantities, and what it takes to collect it.
 
     Silent of longer arms, and where the terms are only sorted.  Of terms that `stand_above`, just
-    before, the plain sum is shown where a square is opened or an identity used.
+    before, the plain sum is shown where a square is opened, an identity used, or numbers are added.
     """
     if context.robot.n > MOST_JOINTS:
         return SILENT
@@ -28,11 +28,17 @@ def summed(
     before, after = sum_of([form for form in forms if form != ZERO]), context.form(result)
     used = identities(context.robot.ring, before, after)
     opened = _squares_of_sums(before) - _squares_of_sums(after)
-    if not (used or opened) and (stand_above or are_alike(before, after)):
+    is_seen = are_alike(before, after) or (stand_above and _numbers(after) <= _numbers(before))
+    if is_seen and not (used or opened):
         return SILENT
     by: Prose = ("The square multiplied out, and collected",) if opened else ("Collected",)
     by += (", with ", *said(used), ":") if used else (":",)
     return chain(context.values[result], [((), before)], lambda tree: equation(name, tree), by)
+
+
+def _numbers(node: Node) -> set[Node]:
+    """The numbers that stand in a tree."""
+    return {part for part in walk(node) if isinstance(part, Number)}
 
 
 def _squares_of_sums(node: Node) -> set[Node]:

@@ -104,6 +104,16 @@ def test_C_and_N_mean_the_same(problem: str) -> None:
     assert_same(evaluate(N, values), evaluate(theirs, values))
 
 
+def test_both_sides_of_a_row_have_one_order() -> None:
+    style, (line,) = (
+        solved("box-cylinder-rod-sphere").style,
+        steps("box-cylinder-rod-sphere")["agreement"].lines,
+    )
+    assert to_unicode(line.formulas[0], style).endswith(
+        " = 2c₁₃₁ θ̇₁ d\u0307₃ + 2c₁₂₁ θ̇₁ θ̇₂ = 2σ₃ c₂² θ̇₁ d\u0307₃ - 2σ₁ s₂ c₂ θ̇₁ θ̇₂"
+    )
+
+
 @pytest.mark.parametrize("problem", NAMED)
 def test_the_rates_of_D_and_the_terms_mean_the_same(problem: str) -> None:
     values = known(problem)

@@ -108,7 +108,19 @@ def test_the_energies_of_the_bodies_are_added_before_they_are_collected() -> Non
     )
     assert concluding == "Collected:"
     assert lines("spherical-rrp", "K2") == [], "its terms stand just above"
+    crust = "K₂ = ⅛ m₂ L₂² (c₂² θ̇₁² + θ̇₂²) + (1/24) m₂ L₂² (c₂² θ̇₁² + θ̇₂²)"
+    assert lines("crustcrawler-2r", "K2") == ["", crust, "Collected:"], "numbers are added"
     assert lines("planar-2r", "P") == [], "it is the plain sum"
+
+
+def test_what_the_components_of_a_velocity_share_is_taken_out_of_the_squares() -> None:
+    crust, style = "crustcrawler-2r", solved("crustcrawler-2r").style
+    (squares,) = (to_unicode(node, style) for node in step(crust, "Kv2").working)
+    assert squares.startswith("K_v2 = ½ m₂ (L₂/2)² ((-s₁ c₂ θ̇₁ - c₁ s₂ θ̇₂)² + ")
+    (unshared,) = (to_unicode(node) for node in step("in3140-rp", "Kv2").working)
+    assert unshared.startswith("K_v2 = ½ m₂ ((-L₂ sin(θ₁)")
+    (decimal,) = (to_unicode(node) for node in step("numeric-2r", "Kv1").working)
+    assert decimal.startswith("K_v1 = ½·2.5 ((-0.25 sin(q₁)")
 
 
 def test_it_is_said_which_squares_are_multiplied_out() -> None:
@@ -138,7 +150,7 @@ def test_what_a_line_needs_is_referred_to_where_it_goes_in() -> None:
 
 def test_where_one_identity_does_all_it_is_named_and_no_line_is_spent() -> None:
     assert lines("planar-2r", "Kv1") == ["By s₁² + c₁² = 1:"]
-    turned = "By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with U = L₂ c₂ θ̇₁ and V = L₂ s₂ θ̇₂:"
+    turned = "By (U s₁ + V c₁)² + (U c₁ - V s₁)² = U² + V² with U = c₂ θ̇₁ and V = s₂ θ̇₂:"
     assert lines("crustcrawler-2r", "Kvp")[0] == turned
 
 
