@@ -24,6 +24,7 @@ What is drawn of it:
     joint_angles  the angles of the joints, from the line from which each is measured
     springs       springs at joints
     lengths       lengths with their heads
+    thicknesses   how thick bodies are
     labels        where labels stand; `typography` how wide they are
     scene         all of it together
 

@@ -34,7 +34,8 @@ class DrawnBody:
     """A body on a link: its centre and its axes in space, `main` the one (0, 1 or 2) that it is round about.
 
     `halves` are half its sides along its axes, where the longest length of the table is 1, or None where
-    the picture does not know one; `usual` are those that it then has on paper.
+    the picture does not know one; `usual` are those that it then has on paper.  `sides` are those that the
+    file gives, each with its axis: 2r of what is round.
     """
 
     link: int
@@ -44,6 +45,7 @@ class DrawnBody:
     main: int
     halves: tuple[float | None, ...]
     usual: tuple[float, ...]
+    sides: tuple[tuple[int, Expr], ...]
 
     def on_paper(self, size: float) -> tuple[float, ...]:
         """Half its sides on paper, where a length of 1 is that long; none is too thin to be seen."""
@@ -84,6 +86,7 @@ def drawn_bodies(robot: Robot, numbers: RobotNumbers, pose: Skeleton) -> tuple[D
                 main,
                 tuple(_halves(shape, main, known)),
                 tuple(lengthwise if k == main and shape.kind != "box" else across for k in range(3)),
+                tuple(_sides(shape, main)),
             )
         )
     return tuple(found)
@@ -136,6 +139,16 @@ def _halves(shape: Shape, main: int, known: dict[str, float | None]) -> Iterator
             yield known.get(round_)
         else:
             yield None
+
+
+def _sides(shape: Shape, main: int) -> Iterator[tuple[int, Expr]]:
+    """The whole sides that a shape has, each with its axis; those of what is round across its own axis."""
+    along_axes = {"length": main, **{axis: k for k, axis in enumerate(AXES)}}
+    for key, value in shape.dimensions:
+        if key in along_axes:
+            yield along_axes[key], value
+        elif key != "inner":
+            yield (main + 1) % 3, 2 * value
 
 
 def _length(written: Expr, robot: Robot, numbers: RobotNumbers, mass: MassCenter) -> float | None:

@@ -44,8 +44,8 @@ _ARC = 31.0
 _WIDER = 10.0
 """How much wider the arc of a further angle about the same point is."""
 
-_WIDE, _NARROW = 34.0, 27.0
-"""The radius of an arc in space, which its joint's body is not to hide, and where that stands elsewhere."""
+_WIDE = 34.0
+"""The radius of an arc in space, which its joint's body is not to hide."""
 
 _SMALL = 0.3
 """A smaller angle in space is shown by its sense alone."""
@@ -197,14 +197,13 @@ def _angle_in_space(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: No
     """θ_i around the joint's axis; what lies behind its middle is drawn before the joint."""
     view, middle = pose.view, _center(pose, part, leg)
     center = view.point(middle)
-    radius = _WIDE if distance(middle, part.center) < NEAR else _NARROW
     side = cross(leg.axis, leg.before)
     for direction in _unseen(leg, middle, pose):
-        tip = view.point(along(middle, direction, view.space(radius + _BEYOND)))
+        tip = view.point(along(middle, direction, view.space(_WIDE + _BEYOND)))
         line = Path(paths.line(center, tip), paths.GREY, 0.9, dashed=True)
         notes.draw(line, behind=dot(direction, view.toward) < 0)
     _offset(middle, leg, pose, notes)
-    p, q = scaled(view.direction(leg.before), radius), scaled(view.direction(side), radius)
+    p, q = scaled(view.direction(leg.before), _WIDE), scaled(view.direction(side), _WIDE)
     angle = leg.turn
     short = angle - min(0.25, angle / 2)
     for start, end, behind in _seen(leg.before, side, view.toward, short):

@@ -180,6 +180,7 @@ def _hidden_angle(leg: Leg, view: View) -> float:
         max(0.0, -dot(leg.before, view.toward) * math.cos(t) - dot(side, view.toward) * math.sin(t))
         for t in (0.0, angle / 2, angle)
     )
+    behind += max(0.0, -dot(leg.after, view.toward)) if leg.offset else 0.0
     flat = _shortfall(abs(dot(leg.axis, view.toward)), 0.6)  # an arc that is seen from its edge
     return (
         12.0 * _shortfall(angle, 0.7)

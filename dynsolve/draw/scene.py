@@ -19,6 +19,7 @@ from dynsolve.draw.pose import Pose
 from dynsolve.draw.pose_search import best_pose
 from dynsolve.draw.solids import ground, solids
 from dynsolve.draw.springs import SPRINGS, joint_springs, springs
+from dynsolve.draw.thicknesses import thicknesses
 from dynsolve.draw.vectors import NEAR, Point, dot
 from dynsolve.draw.world_frame import WORLD, has_world, moves, world_frame
 from dynsolve.notation.printing import Style
@@ -75,6 +76,7 @@ def scene(problem: Problem, star: bool = True) -> Scene:
     springs(robot, values, pose, notes)
     annotate.masses(pose, notes)
     annotate.axes_end_on(pose, notes)
+    thicknesses(robot, pose, notes)
     dimensions([*row_lengths(robot, pose), *_center_lengths(pose), *moves(robot, values)], pose, notes)
     _gravity(world, pose, [*under, *body], notes)
     labels = place(notes.wanted, notes.taken, notes.lengths)
@@ -166,8 +168,8 @@ def _unit(a: Point) -> Point:
 
 
 def leads(labels: Iterable[Label]) -> Iterable[Path]:
-    """Thin lines from labels that stand far away to what they name."""
-    return [Path(paths.line(*label.lead), paths.GREY, 0.7) for label in labels if label.lead]
+    """Thin lines from labels that stand far away to what they name, in the colour of both."""
+    return [Path(paths.line(*label.lead), label.colour, 0.7) for label in labels if label.lead]
 
 
 def framed(paths: Iterable[Path], labels: Iterable[Label]) -> Box:
