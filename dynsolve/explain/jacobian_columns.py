@@ -16,6 +16,7 @@ from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import block_of, column_of, is_small
+from dynsolve.notation.build import total
 from dynsolve.notation.tree import (
     Cross,
     Letter,
@@ -144,7 +145,8 @@ def column_shown(
 ) -> tuple[Node, ...]:
     """A column of J_v with this robot's axes and levers put in, where there is anything to work out.
 
-    Its value stands at the end; where an identity leads to that, the product as it is multiplied out.
+    Its value stands at the end, behind the products where terms of them add up; where an identity leads
+    to it, the product as it is multiplied out.
     """
     robot = context.robot
     if all(joint.type is JointType.PRISMATIC for _, joint in moved):
@@ -163,26 +165,54 @@ def column_shown(
         else:
             small.append(z)
             parts.append((rate, z))
-    value: Node | None = linear
+    values: list[Node] = [linear]
     if any(used_in_cross(context, joint, point) for _, joint in moved if joint.type is JointType.REVOLUTE):
-        value = _multiplied_out(context, moved[0][1], point) if len(moved) == 1 else None
-    members = [in_letters, _total(parts), *([] if value is None else [value])]
+        values = [_multiplied_out(context, moved[0][1], point)] if len(moved) == 1 else []
+    elif len(moved) == 1 and any(map(_adds_up, _products(context, moved[0][1], point))):
+        values.insert(0, _multiplied_out(context, moved[0][1], point))
+    members = [in_letters, _total(parts), *values]
     return (equation(*members),) if is_small(*small) else ()
 
 
-def _multiplied_out(context: Context, joint: Joint, point: algebra.Matrix) -> Matrix:
-    """z × (p - o) of a joint before s² + c² = 1 is used."""
-    ring = context.robot.ring
+_Factors = list[tuple[Expr, Expr]]
+"""What an entry of a cross product is the sum of: products of an entry of z and one of the lever, none 0."""
+
+
+def _products(context: Context, joint: Joint, point: algebra.Matrix) -> list[_Factors]:
+    """Of each entry of z × (p - o) the products that it is the sum of."""
     z, lever = axis(context.values[f"H{joint_frame(context.robot, joint)}"]), _lever(context, joint, point)
+    rows = algebra.skew(z).rows
+    pairs = [list(zip(row, lever.entries, strict=True)) for row in rows]
+    return [[(a, b) for a, b in row if not (a.is_zero or b.is_zero)] for row in pairs]
+
+
+def _adds_up(factors: _Factors) -> bool:
+    """Whether terms of several products are alike, so that their numbers are added: ¼ and ¾."""
+    products = [a * b for a, b in factors]
+    return bool(products) and sum(map(len, products)) > len(sum(products[1:], start=products[0]))
+
+
+def _multiplied_out(context: Context, joint: Joint, point: algebra.Matrix) -> Matrix:
+    """z × (p - o) of a joint before s² + c² = 1 is used, and before the numbers of like terms are added."""
+    ring = context.robot.ring
     entries: list[tuple[Node]] = []
-    for row in algebra.skew(z).rows:
-        terms = (a.poly * b.poly for a, b in zip(row, lever.entries, strict=True))
-        poly = ring.reduce_roots(sum(terms, start=ring.zero.poly))
+    for factors in _products(context, joint, point):
+        poly = ring.reduce_roots(sum((a.poly * b.poly for a, b in factors), start=ring.zero.poly))
         value = Expr(ring, ring.reduce(poly))
-        entries.append(
-            (context.show(value) if value.poly == poly else squares.factored(context.forms, poly),)
-        )
+        if value.poly != poly:
+            entries.append((squares.factored(context.forms, poly),))
+        elif _adds_up(factors):
+            entries.append((_in_factors(context, factors),))
+        else:
+            entries.append((context.show(value),))
     return Matrix(tuple(entries))
+
+
+def _in_factors(context: Context, factors: _Factors) -> Node:
+    """The sum of products, each as it stands."""
+    collector = context.forms.compactor.collector
+    products = (Product((context.show(a), context.show(b))) for a, b in factors)
+    return total([collector.product(*collector.decompose(each), ()) for each in products])
 
 
 def _lever(context: Context, joint: Joint, point: algebra.Matrix) -> algebra.Matrix:

@@ -282,6 +282,18 @@ def test_the_rotation_of_a_leaning_base_is_taken_out_before_that_of_the_body() -
     assert whole[1].startswith("𝐑₁ᵀ 𝛚₁ = (𝐑₀^w)ᵀ 𝛚₁ = [[") and whole[1].endswith(" = [[0], [0], [q̇₁]]")
 
 
+def test_the_numbers_that_add_up_in_a_cross_product_are_shown() -> None:
+    """¼ + ¾, the squares of sin 30° and cos 30°, stand before their sum; rows without such terms do not."""
+    style = solved(TILTED_BODIES).style
+    first, second = (to_unicode(node, style) for node in step(TILTED_BODIES, "Jv2").working)
+    *_, products, value = first.split(" = ")
+    assert products == (
+        "[[-√3 l_c2 (√3 s₁ c₂ - s₂)/4 - l_c2 (s₁ c₂ + √3 s₂)/4], [√3 l_c2 c₁ c₂/2], [l_c2 c₁ c₂/2]]"
+    )
+    assert value == "½ l_c2 [[-2s₁ c₂], [√3 c₁ c₂], [c₁ c₂]]"
+    assert "[[l_c2 c₁ (√3 s₁ c₂ - s₂)/4 - √3 l_c2 c₁ (s₁ c₂ + √3 s₂)/4], [" in second
+
+
 @pytest.mark.parametrize("problem", [TILTED, TILTED_BODIES])
 def test_every_line_of_a_leaning_arm_is_true(problem: str) -> None:
     assert_true(solved(problem))
