@@ -41,6 +41,7 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     hypotheses  what it rests on: joints, mass centres, gravity, friction, values
     shapes      what uniform shapes are called
     style       how a robot's formulas look: s_1 for sin θ_1
+    short_arms  which arms are worked out line by line
     widths      how wide formulas are as text
     signs       the style of a report, in which no sign stands for two things
     citations   the books and their sections that steps refer to

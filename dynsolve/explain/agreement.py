@@ -9,7 +9,6 @@ from dynsolve.explain.christoffel import SLOPES
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import is_small, listed, spong
 from dynsolve.notation.tree import (
     BigSum,
@@ -128,9 +127,7 @@ def skew_step(context: Context) -> Step:
     if C.is_zero:
         return _nothing_to_check(name)
     general = () if result or robot.n == 1 else (_in_general(robot.n),)
-    passive = (
-        " Passivity follows from this." if robot.n > MOST_JOINTS else ""
-    )  # of short arms the energy does
+    passive = " Passivity follows from this." if not context.is_short else ""  # of short arms the energy does
     return Step(
         id="skew",
         stage=STAGE,

@@ -16,7 +16,6 @@ from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.own_axes import turned
 from dynsolve.explain.working.products import used_in_product
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
 from dynsolve.explain.writing import spong, sum_of
 from dynsolve.notation.build import number_in_front
@@ -35,7 +34,7 @@ def part_steps(context: Context, body: Body) -> Iterator[Step]:
     A product along the body's own axes is a step of its own, after that of the linear part.
     """
     step = _step(context, body)
-    if context.robot.n > MOST_JOINTS:
+    if not context.is_short:
         yield replace(step, uses=(), detail=Detail.FULL)
     elif _is_in_two(context, body):
         linear, angular = step.result

@@ -13,7 +13,6 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import ChristoffelSymbols, collected_coriolis_force
 from dynsolve.explain.step import Detail, Line, Step
 from dynsolve.explain.widths import matrix_width
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import (
@@ -51,7 +50,7 @@ def closing_step(context: Context) -> Step:
     passive = robot.actions.passive
     forces = column(*(ZERO if k in passive else letters.force(q) for k, q in enumerate(robot.coordinates)))
     result: tuple[Node, ...] = ()
-    if robot.n <= MOST_JOINTS and all(matrix_width(context, part) <= WIDEST for part in parts):
+    if context.is_short and all(matrix_width(context, part) <= WIDEST for part in parts):
         left = Sum((Product((parts[0], qdd)), Product((parts[1], qd)), *parts[2:]))
         result = (equation(left, sum_of([forces, *_beside_motors(context)])),)
     return Step(

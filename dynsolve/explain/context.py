@@ -9,6 +9,7 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.agreement import Agreement
 from dynsolve.derivation.graph import Derivation
 from dynsolve.explain.forms import Forms
+from dynsolve.explain.short_arms import is_short
 from dynsolve.explain.writing import machine
 from dynsolve.notation import tree
 from dynsolve.notation.tree import Node, Symbol
@@ -39,6 +40,11 @@ class Context:
     def standard(self) -> bool:
         """Whether the table is in the standard convention."""
         return self.robot.convention is Convention.STANDARD
+
+    @property
+    def is_short(self) -> bool:
+        """Whether every line is shown; of longer arms they would fill pages."""
+        return is_short(self.robot, self.values)
 
     def form(self, name: str) -> Node:
         """The tree of a quantity."""

@@ -19,7 +19,6 @@ from dynsolve.explain.placed_bodies import center_step, orientation_step
 from dynsolve.explain.shapes import SHAPES
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.turned_tensors import turning_of
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
 from dynsolve.explain.writing import is_small, listed, measured, name_of, side_by_side, spong
 from dynsolve.notation.tree import (
@@ -131,7 +130,7 @@ def _tensor(context: Context, body: Body) -> Step:
 
 def _left_out(context: Context, body: Body) -> Prose:
     """That a given tensor is 0 about axes of the body where Rᵀ J_ω has a row of zeros: it never turns so."""
-    if context.robot.n > MOST_JOINTS or is_moved(body) or body.inertia is None:
+    if not context.is_short or is_moved(body) or body.inertia is None:
         return ()
     turning = context.values[f"R{body.name}"].T @ context.values[f"Jw{body.name}"]
     still = [i for i in range(3) if all(entry.is_zero for entry in turning.rows[i])]

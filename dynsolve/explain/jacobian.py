@@ -23,7 +23,6 @@ from dynsolve.explain.jacobian_columns import (
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.identities import said
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import column_of, craig, listed, side_by_side, spong, turns
 from dynsolve.notation.tree import (
     Letter,
@@ -208,7 +207,7 @@ def _still_column(context: Context, q: Coordinate) -> Step:
 
 def _turning_named(context: Context, joint: Joint | None) -> Prose:
     """The identities by which z × (o_n - o), worked out, becomes what is printed."""
-    if joint is None or joint.type is JointType.PRISMATIC or context.robot.n > MOST_JOINTS:
+    if joint is None or joint.type is JointType.PRISMATIC or not context.is_short:
         return ()
     used = used_in_cross(context, joint, end_of(context))
     return ("With ", *said(used), ":") if used else ()
@@ -254,7 +253,7 @@ def _column_why(context: Context, q: Coordinate, joint: Joint | None) -> Prose:
 def _whole(context: Context) -> Step:
     Jv, Jw = context.form("Jv"), context.form("Jw")
     in_letters: list[Node] = [letters.J, column(letters.JV, letters.JW)]
-    if context.robot.n <= MOST_JOINTS:
+    if context.is_short:
         in_letters.append(_columns_in_letters(context))
     return Step(
         id="J",

@@ -14,7 +14,6 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.products import used_in_product
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import block_of, column_of, is_small
 from dynsolve.notation.build import total
 from dynsolve.notation.tree import (
@@ -96,7 +95,7 @@ def crosses(
     The product is a look where z is an axis of the base and o a fixed point: two coordinates of p - o
     change places.
     """
-    if context.robot.n > MOST_JOINTS:
+    if not context.is_short:
         return (), ()
     shown: list[Node] = []
     for k in range(context.robot.n):

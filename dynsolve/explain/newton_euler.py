@@ -18,8 +18,8 @@ from dynsolve.explain.recursions.inwards import inwards
 from dynsolve.explain.recursions.links import links_step, source_of
 from dynsolve.explain.recursions.names import LinkNames
 from dynsolve.explain.recursions.outwards import outwards
+from dynsolve.explain.short_arms import MOST_JOINTS
 from dynsolve.explain.step import Detail, Step
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed, sum_of, turns
 from dynsolve.notation.tree import Negative, Node, Product, Transpose, equation, number
 from dynsolve.quantities import letters

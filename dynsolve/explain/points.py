@@ -11,7 +11,6 @@ from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.working.identities import said
 from dynsolve.explain.working.products import used_in_product
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import is_small, listed, spong
 from dynsolve.notation.tree import (
     Letter,
@@ -117,7 +116,7 @@ def _jacobians(context: Context, point: NamedPoint, wanted: frozenset[str]) -> S
 
 def _named(context: Context, names: Sequence[str], point: NamedPoint) -> Prose:
     """The identities by which what is turned gets shorter."""
-    if point.axes is None or context.robot.n > MOST_JOINTS:
+    if point.axes is None or not context.is_short:
         return ()
     R = rotation(context.values[f"H{point.axes}"])
     jacobians = [context.values[name] for name in names]

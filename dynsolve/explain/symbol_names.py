@@ -23,10 +23,10 @@ from dynsolve.explain.entry_formulas import coriolis_matrix
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.inertia_names import InertiaNames, name_inertias
 from dynsolve.explain.recurring import Definition
+from dynsolve.explain.short_arms import is_short
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.terms import Kind, Term, name_of_term, rates_of, terms_of
 from dynsolve.explain.working.derivatives import coriolis_rows, inertia_rate
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, split_sign, times, total
 from dynsolve.notation.printing import flat_factors
@@ -50,7 +50,7 @@ def name_symbols(forms: Forms) -> Abbreviated | None:
     None where it is short without, or the arm longer.
     """
     robot, C = forms.robot, forms("C")
-    if robot.n > MOST_JOINTS or not isinstance(C, Matrix):
+    if not is_short(robot, forms.values) or not isinstance(C, Matrix):
         return None
     free = free_names(RECURRING, {*robot.ring.parameters, *robot.ring.names})
     inertias = name_inertias(forms, free)

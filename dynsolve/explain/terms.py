@@ -23,7 +23,6 @@ from dynsolve.explain.citations import spong
 from dynsolve.explain.context import Context
 from dynsolve.explain.entry_formulas import pairs
 from dynsolve.explain.step import Step
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed
 from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import Letter, Node, Number, Product, Row, Sum, Symbol, equation
@@ -121,7 +120,7 @@ def value_of_term(context: Context, term: Term) -> Expr:
 def terms_step(context: Context) -> Iterator[Step]:
     """The table of the terms of every force; none for longer arms, or where the terms are not all of τ."""
     robot = context.robot
-    if robot.n > MOST_JOINTS:
+    if not context.is_short:
         return
     found = [(q, list(terms_of(context, q.index - 1))) for q in robot.coordinates]
     for q, terms in found:

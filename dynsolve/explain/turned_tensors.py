@@ -9,7 +9,6 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.working.products import product_named
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.working.rotational import factor_of_identity
 from dynsolve.explain.writing import is_small
 from dynsolve.notation.build import number_in_front
@@ -69,7 +68,7 @@ def _turned(context: Context, body: Body) -> Iterator[Node]:
     yield Product((rotation, given, Transpose(rotation)))
     R, tensor, base = (context.values[name] for name in (f"R{b}", f"I_body{b}", f"I{b}"))
     half = tensor @ R.T
-    if context.robot.n <= MOST_JOINTS and half not in (tensor, R.T, base):
+    if context.is_short and half not in (tensor, R.T, base):
         shown = context.show(half)
         if is_small(rotation, shown):
             yield Product((rotation, shown))

@@ -16,7 +16,6 @@ from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
 from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import and_joined, are_counted, listed, spong, sum_of, turns
 from dynsolve.notation.tree import (
     BigSum,
@@ -192,7 +191,7 @@ def _inertia_direct(context: Context) -> Step:
             ", where ",
             letters.D,
             f" is a sum over the bodies{_named_otherwise(robot)}.",
-            " What each adds follows." if robot.n <= MOST_JOINTS and _is_short(context) else "",
+            " What each adds follows." if context.is_short and _is_short(context) else "",
             " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
             *((" The rotors add ", letters.DM, ".") if rotors else ()),
             *(
@@ -217,7 +216,7 @@ def _inertia_direct(context: Context) -> Step:
 
 def _sum(context: Context) -> tuple[Step, ...]:
     """The sum of the parts of D, of short arms whose parts are shown."""
-    if context.robot.given is not None or context.robot.n > MOST_JOINTS or not _is_short(context):
+    if context.robot.given is not None or not context.is_short or not _is_short(context):
         return ()
     step = sum_step(context)
     return () if step is None else (step,)

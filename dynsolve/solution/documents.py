@@ -73,7 +73,7 @@ def solution_document(
     derivation = (
         *_stages(solution, detail, steps, short, drawn),
         *_numbers(solution, detail, stages),
-        *summary_blocks(solution.robot, steps, short),
+        *summary_blocks(solution.robot, steps, short, is_short=solution.is_short),
     )
     return Document((
         *_opening(solution, _sources(steps, detail, short)),

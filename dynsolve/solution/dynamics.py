@@ -152,6 +152,11 @@ class Dynamics:
             steps = self._remarked(explain(self._context, stages), whole=False)
         return iter(steps) if short is None else in_names(steps, self._context, short)
 
+    @property
+    def is_short(self) -> bool:
+        """Whether a report shows every line: of longer arms they would fill pages."""
+        return self._context.is_short
+
     def abbreviated(self, abbreviate: Abbreviate | str = "always") -> Abbreviated | None:
         """D, C and g with constants and recurring terms named; compared with the independent computation.
 

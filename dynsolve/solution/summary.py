@@ -13,7 +13,6 @@ from dynsolve.explain.abbreviations import Abbreviated
 from dynsolve.explain.inertia_names import INERTIAS
 from dynsolve.explain.step import Step
 from dynsolve.explain.symbol_names import NAMES
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import listed
 from dynsolve.notation.tree import equation
 from dynsolve.quantities import letters
@@ -25,10 +24,12 @@ TITLE = "Summary"
 _MATRICES = ("D", "C", "friction", "g")
 
 
-def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | None = None) -> Iterator[Block]:
+def summary_blocks(
+    robot: Robot, steps: Sequence[Step], short: Abbreviated | None = None, *, is_short: bool = True
+) -> Iterator[Block]:
     """D q̈ + C q̇ + g = τ with D, C and g, then every force; nothing where the model was not asked for.
 
-    Of more than three coordinates D, C, g and the forces are not written again.  The names in C, or in
+    Of arms that are not short D, C, g and the forces are not written again.  The names in C, or in
     all of them, are repeated beside them, and the rows are in these.
     """
     by_id = {step.id: step for step in steps}
@@ -39,7 +40,7 @@ def summary_blocks(robot: Robot, steps: Sequence[Step], short: Abbreviated | Non
     yield Text(model.why)
     assert model.formula is not None
     yield Formula(model.formula, source=model.source)
-    if robot.n > MOST_JOINTS:
+    if not is_short:
         number = list(stages_of(robot)).index(model.stage) + 1
         symbols: Prose = ("the Christoffel symbols of ", letters.C, Reference(("christoffel",)))
         matrices = listed([(letters.D, Reference(("D",))), symbols, (letters.G, Reference(("g",)))])

@@ -38,7 +38,6 @@ from dynsolve.explain.sanity.inertia_poses import inertia_poses_step
 from dynsolve.explain.sanity.point_masses import point_masses_step
 from dynsolve.explain.sanity.unloaded import unloaded_step
 from dynsolve.explain.step import Step
-from dynsolve.explain.working.proved import MOST_JOINTS
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +68,7 @@ CHECKS_OF_LONGER_ARMS = (
 
 def sanity_steps(context: Context) -> Iterator[Step]:
     """The checks that speak of a robot."""
-    for check in CHECKS if context.robot.n <= MOST_JOINTS else CHECKS_OF_LONGER_ARMS:
+    for check in CHECKS if context.is_short else CHECKS_OF_LONGER_ARMS:
         step = check.step(context)
         if step is not None:
             yield step

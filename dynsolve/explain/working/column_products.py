@@ -24,7 +24,7 @@ from dynsolve.explain.working.expansion import is_trigonometric
 from dynsolve.explain.working.identities import Identity, identities, pythagoras, said
 from dynsolve.explain.working.kinetic import MOST_GROUPS, without_signs
 from dynsolve.explain.working.other_axes import turned_name, turning_line
-from dynsolve.explain.working.proved import MOST_JOINTS, equals
+from dynsolve.explain.working.proved import equals
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated, total
@@ -76,7 +76,7 @@ def of_columns(context: Context, body: Body) -> Products | None:
     Where the base leans, along the axes of the first frame in which they are plain.
     """
     velocity = context.values[f"v{body.name}"]
-    if context.robot.n > MOST_JOINTS:
+    if not context.is_short:
         return None
     if not any(map(squares.has_roots, velocity.entries)) or not context.robot.has_table:
         return _along(context, body, velocity)

@@ -16,7 +16,7 @@ from dynsolve.explain.step import Line
 from dynsolve.explain.working.differentiation import Rule, by_symbol, by_time, differentiated
 from dynsolve.explain.working.expansion import multiplied_out
 from dynsolve.explain.working.identities import Identity, identities, said
-from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain, equals
+from dynsolve.explain.working.proved import SILENT, Way, chain, equals
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation.build import times, total
 from dynsolve.notation.tree import Entry, Node, Number, Product, Sum, Symbol, equation
@@ -39,7 +39,7 @@ def coordinate_derivative(context: Context, q: Coordinate) -> Way:
 
 
 def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: str) -> Way:
-    if context.robot.n > MOST_JOINTS:
+    if not context.is_short:
         return SILENT
     value, form = context.values[result], context.form(result)
     found = differentiated(context.form(name), rule, decimal=is_numeric(context.robot))
@@ -55,7 +55,7 @@ def _way(context: Context, name: str, rule: Rule, result: str, left: Node, by: s
 
 def cancelling(context: Context, q: Coordinate) -> Prose:
     """Which products of rates stand in d/dt ∂L/∂q̇ and in ∂L/∂q, and no longer in the force."""
-    if context.robot.n > MOST_JOINTS:
+    if not context.is_short:
         return ()
     ring = context.robot.ring
     rate, slope = context.values[f"ddt{q.index}"], context.values[f"dLdq{q.index}"]
@@ -102,7 +102,7 @@ def _collected(used: Sequence[Identity]) -> Prose:
 
 def slopes(context: Context) -> Way:
     """The slopes ∂d_ij/∂q_k that are not zero, where one of them asks for more than a look."""
-    if context.robot.n > MOST_JOINTS:
+    if not context.is_short:
         return SILENT
     found = [_differentiated(context, *place) for place in _varying(context)]
     if not any(each.asks_for_more for each in found):
@@ -158,7 +158,7 @@ def inertia_rate(
     context: Context, written: Callable[[int, int], Node] | None = None, used: tuple[str, ...] = ("D",)
 ) -> tuple[Line, ...]:
     """ḋ_ij = Σ_k ∂d_ij/∂q_k q̇_k, for the entries of D that vary; `written` writes its value."""
-    if context.robot.n > MOST_JOINTS:
+    if not context.is_short:
         return ()
     ring, D = context.robot.ring, context.values["D"]
     rates: dict[tuple[int, int], list[Node]] = {}
@@ -186,7 +186,7 @@ def _rate_names(i: int, j: int) -> tuple[Node, ...]:
 def coriolis_sums(context: Context) -> tuple[Line, ...]:
     """C_kj = Σ_i c_ijk q̇_i, with the symbols that are not zero, for each entry that is not zero."""
     n, robot = context.robot.n, context.robot
-    if n > MOST_JOINTS or context.values["C"].is_zero:
+    if not context.is_short or context.values["C"].is_zero:
         return ()
     shown = []
     for k in range(n):
@@ -204,7 +204,7 @@ def coriolis_sums(context: Context) -> tuple[Line, ...]:
 def coriolis_rows(context: Context, named: Callable[[int, int, int], Node] | None = None) -> tuple[Line, ...]:
     """(C q̇)_k = Σ c_ijk q̇_i q̇_j, row by row, those that are not zero; `named` has other names for c_ijk."""
     n, robot = context.robot.n, context.robot
-    if n > MOST_JOINTS or context.values["C"].is_zero:
+    if not context.is_short or context.values["C"].is_zero:
         return ()
     rows = context.matrix("Cqd").rows
     product = Product((letters.C, letters.QD))

@@ -19,7 +19,7 @@ from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.working import squares
 from dynsolve.explain.working.identities import Identity, identities, said
 from dynsolve.explain.working.other_axes import turning_line
-from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
+from dynsolve.explain.working.proved import SILENT, Way, chain
 from dynsolve.explain.writing import listed, sum_of
 from dynsolve.notation import tree
 from dynsolve.notation.build import negated, number_in_front, split_sign, times, total
@@ -93,7 +93,7 @@ def _written(context: Context, value: Matrix, form: tree.Matrix) -> tree.Matrix:
     """
     places = [k for k, x in enumerate(value.entries) if not x.is_zero]
     found = squares.turned(context.robot.ring, [value[k, 0] for k in places])
-    if found is None or context.robot.n > MOST_JOINTS or any(part.is_zero for part in found.parts):
+    if found is None or not context.is_short or any(part.is_zero for part in found.parts):
         return form
     angle = angle_node(found.pair.angle, context.robot.ring.names)
     s, c = Function("sin", angle), Function("cos", angle)
@@ -123,7 +123,7 @@ def linear(context: Context, body: Body, squares_shown: bool) -> Way:
     Those along the base's axes are of use where they are shown before.
     """
     velocity = context.values[f"v{body.name}"]
-    if context.robot.n > MOST_JOINTS or velocity.is_zero or body.mass.is_zero:
+    if not context.is_short or velocity.is_zero or body.mass.is_zero:
         return SILENT
     factor, shown = _with_factor(context, body)
     found = _from_components(context, body, shown, factor) if squares_shown else None

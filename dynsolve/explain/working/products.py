@@ -6,7 +6,6 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.working.identities import Identity, identities, said
-from dynsolve.explain.working.proved import MOST_JOINTS
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation.tree import Product
 
@@ -26,7 +25,7 @@ def used_in_product(context: Context, left: Matrix, right: Matrix, result: Matri
 
 def product_named(context: Context, left: Matrix, right: Matrix, result: Matrix) -> Prose:
     """The sentence before the result of a product; nothing of longer arms, or where none is used."""
-    if context.robot.n > MOST_JOINTS:
+    if not context.is_short:
         return ()
     used = used_in_product(context, left, right, result)
     return ("With ", *said(used), ":") if used else ()

@@ -16,9 +16,6 @@ from dynsolve.errors import AlgebraError
 from dynsolve.explain.step import Line
 from dynsolve.notation.tree import Node
 
-MOST_JOINTS = 3
-"""Up to this number of coordinates every line is shown; longer arms would fill pages."""
-
 
 @dataclass(frozen=True, slots=True)
 class Way:

@@ -15,7 +15,7 @@ from dynsolve.explain.context import Context
 from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.working.identities import identities, said
 from dynsolve.explain.working.kinetic import collected, without_signs
-from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
+from dynsolve.explain.working.proved import SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation.build import number_in_front, times
 from dynsolve.notation.tree import Node, Product, equation
@@ -29,7 +29,7 @@ def along_own_axes(context: Context, body: Body) -> bool:
     All bodies of an arm are treated alike: along their own axes, if that is the shorter way for one.
     Where the moments about all axes are equal, 𝓘 is known without any rotation.
     """
-    if context.robot.n > MOST_JOINTS or not _is_turned(context, body):
+    if not context.is_short or not _is_turned(context, body):
         return False
     return any(_is_shorter(context, each) for each in context.robot.bodies if _is_turned(context, each))
 
@@ -82,7 +82,7 @@ def multiplied_out(context: Context, body: Body) -> tuple[Node, Way]:
     if factor is not None:
         product = Product((letters.HALF, number_in_front(context.show(factor)), row, column))
     name = letters.energy_part("omega", body)
-    is_long = context.robot.n > MOST_JOINTS
+    is_long = not context.is_short
     return equation(name, product), SILENT if is_long else _lines(context, body, w, tensor)
 
 

@@ -8,7 +8,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.context import Context
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import identities, said
-from dynsolve.explain.working.proved import MOST_JOINTS, SILENT, Way, chain
+from dynsolve.explain.working.proved import SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation.tree import ZERO, Node, Number, Power, Sum, equation
 from dynsolve.notation.walk import walk
@@ -22,7 +22,7 @@ def summed(
     Silent of longer arms, and where the terms are only sorted.  Of terms that `stand_above`, just
     before, the plain sum is shown where a square is opened, an identity used, or numbers are added.
     """
-    if context.robot.n > MOST_JOINTS:
+    if not context.is_short:
         return SILENT
     forms = [context.form(part) for part in parts]
     before, after = sum_of([form for form in forms if form != ZERO]), context.form(result)

@@ -303,4 +303,4 @@ def test_levels_of_detail() -> None:
     levels = {each.id: each.detail for each in solved("planar-2r").steps}
     assert levels["D"] is Detail.BRIEF and levels["Kv1"] is Detail.NORMAL
     assert levels["D_direct1"] is Detail.NORMAL  # the products of short arms alone
-    assert {each.id: each.detail for each in solved("scara-rrpr").steps}["D_direct1"] is Detail.FULL
+    assert "D_direct1" not in {each.id for each in solved("stanford-6").steps}

@@ -86,7 +86,7 @@ def test_every_solution_ends_with_its_model(problem: str, detail: Detail) -> Non
     for line in by_id["model"].lines:
         forces = list(line.formulas)
     matrices = by_id["model"].result or tuple(by_id[name].result[0] for name in "DCg")
-    wanted = [*matrices, *forces] if solved(problem).robot.n <= 3 else []
+    wanted = [*matrices, *forces] if solved(problem).is_short else []
     assert shown == [by_id["model"].formula, *wanted]
 
 

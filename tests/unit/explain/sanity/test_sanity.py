@@ -309,7 +309,7 @@ def test_of_a_matrix_that_may_be_singular_nothing_is_said() -> None:
 
 
 def test_longer_arms_have_checks_of_their_own() -> None:
-    assert [step.id for step in sanity_steps(context("scara-rrpr"))] == [
+    assert [step.id for step in sanity_steps(context("stanford-6"))] == [
         "conserved",
         "dependence",
         "unloaded",
