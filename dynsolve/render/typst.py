@@ -56,6 +56,10 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 #show heading.where(level: 2): it => block(above: 1.6em, below: .8em, sticky: true, text(13pt, it.body))
 #show heading.where(level: 3): it => block(above: 1.15em, below: .6em, sticky: true, text(10.5pt, it.body))
 #show link: set text(fill: rgb("#1a5a96"))
+#let contents = block(above: 1.6em, breakable: false, {
+  show outline.entry: set block(above: 0.5em)
+  outline(title: none, target: heading.where(level: 2))
+})
 #let source(body) = text(size: 8.5pt, fill: luma(90), body)
 #let displayed(body, ..options) = {
   set text(top-edge: "bounds", bottom-edge: "bounds")
@@ -204,7 +208,7 @@ class _Page(TypesetPage):
     def heading(self, heading: Heading) -> Iterator[str]:
         if heading.level == 2 and self.contents_are_due:
             self.contents_are_due = False
-            yield "#block(above: 1.6em, outline(title: none, target: heading.where(level: 2)))"
+            yield "#contents"
         yield f"#heading(level: {heading.level})[{self.words(heading.text)}]"
 
     def text(self, text: Text) -> Iterator[str]:
