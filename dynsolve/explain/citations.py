@@ -150,6 +150,9 @@ GOLDSTEIN = Book(
 
 BOOKS = (SPONG, CRAIG, SICILIANO, LYNCH_PARK, MURRAY_LI_SASTRY, KHALIL_DOMBRE, SLOTINE_LI, GOLDSTEIN)
 
+GIVEN, GEOMETRY = "given", "geometry"
+"""What stands in the place of a section where a formula is the problem's own, or needs no book."""
+
 _IN_A_LIST = "Spong et al."
 """What the course's own book is called where no report names it at its start."""
 

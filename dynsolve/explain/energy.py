@@ -278,7 +278,7 @@ def _kinetic(context: Context, body: Body) -> Step:
         id=f"K{body.name}",
         stage=STAGE,
         title=f"Kinetic energy of {name_of(body)}",
-        why=("The sum of the linear and the rotational part.",),
+        why=("The sum of the translational and the rotational part.",),
         formula=equation(K, parts),
         source=spong("7.2"),
         lines=way.lines,

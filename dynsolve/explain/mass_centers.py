@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from dynsolve.algebra import matrix as algebra
 from dynsolve.document import Prose
 from dynsolve.errors import ReadError
+from dynsolve.explain.citations import GEOMETRY, GIVEN
 from dynsolve.explain.context import Context
 from dynsolve.explain.jacobian import told_frames
 from dynsolve.explain.step import Detail, Step
@@ -44,7 +45,7 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
         title=f"Mass centre of {name_of(body)}",
         why=why,
         formula=equation(r, way.named),
-        source=spong("2.6"),
+        source=way.source,
         further=way.given,
         working=(equation(r, way.values),) if way.values else (),
         result=(equation(r, context.form(f"rc{body.name}")),),
@@ -56,18 +57,22 @@ def mass_center_step(context: Context, body: Body, tells: bool) -> Step:
 
 @dataclass(frozen=True, slots=True)
 class _Way:
-    """A mass centre in letters and, where these are short, in values; what is given for it; its inputs."""
+    """A mass centre in letters and, where these are short, in values; what is given for it; its inputs.
+
+    `source` is what the formula rests on: a rigid motion, unless the centre is a given point or between two.
+    """
 
     named: Node
     values: Node | None = None
     given: tuple[Node, ...] = ()
     uses: tuple[str, ...] | None = None
+    source: str = spong("2.6")
 
 
 def _way(context: Context, body: Body) -> _Way:
     """From the ends of the link, where the problem gives it from there; else by its coordinates."""
     if body.center.is_zero:
-        return _Way(letters.o(body.link), uses=_told_at(context.robot, body.link))
+        return _Way(letters.o(body.link), uses=_told_at(context.robot, body.link), source=GIVEN)
     other = other_end(context.robot, body)
     if other is None:
         own = Letter("r", letters.rc(body).sub, Number(body.link), "bold")
@@ -76,7 +81,8 @@ def _way(context: Context, body: Body) -> _Way:
         both = ends(context.robot, body)
         between = _half(*map(letters.o, both))
         values = [_origin(context, end) for end in both]
-        return _Way(between, _half(*values) if is_small(*values) else None, uses=("axes",))
+        shown = _half(*values) if is_small(*values) else None
+        return _Way(between, shown, uses=("axes",), source=GEOMETRY)
     end, back = other
     index = Row((Number(end), Words(","), Words("c"), letters.index_of(body.name)))
     lever = letters.bold("r", index, Number(body.link))

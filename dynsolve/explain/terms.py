@@ -230,4 +230,4 @@ def _said_of_units(coordinates: tuple[Coordinate, ...]) -> Prose:
         said.append((units.node("kg m^2/s^2 = N m"), " in a torque (an angle is a number)"))
     if JointType.PRISMATIC in kinds:
         said.append((units.node("kg m/s^2 = N"), " in a force"))
-    return (" Factor times rates or acceleration gives ", *listed(said), ".")
+    return (" The factor times the rates or the acceleration gives ", *listed(said), ".")

@@ -191,7 +191,6 @@ def _inertia_direct(context: Context) -> Step:
             ", where ",
             letters.D,
             f" is a sum over the bodies{_named_otherwise(robot)}.",
-            " What each adds follows." if context.is_short and _is_short(context) else "",
             " A point mass has no second term." if any(body.is_point for body in robot.bodies) else "",
             *((" The rotors add ", letters.DM, ".") if rotors else ()),
             *(

@@ -101,11 +101,12 @@ def _diagonal(context: Context, places: Sequence[int]) -> Prose:
     names: list[Node] = [letters.entry("d", k + 1, k + 1) for k in places]
     one = len(places) == 1
     if all(_is_positive(context, context.show(context.values["D"][k, k])) for k in places):
-        seen = "no term of it can be negative, and not all are zero"
+        whose, where = ("its", "") if one else ("their", " in either" if len(names) == 2 else " in any")
+        seen = f"none of {whose} terms is negative, and not all are zero{where}"
         return (
             *listed(names),
             Reference(("D",)),
-            f" {'is' if one else 'are'} positive: {seen if one else seen.replace('it', 'them', 1)}.",
+            f" {'is' if one else 'are'} positive: {seen}.",
         )
     i = Symbol("i")
     rate, entry = Letter("q", i, dots=1), Letter("d", Row((i, i)))

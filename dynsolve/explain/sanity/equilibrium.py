@@ -111,7 +111,7 @@ def _rows_of(rows: Sequence[balance.Zero] | None) -> Prose:
         "The rows of ",
         letters.G,
         Reference(("g",)),
-        ", from the last on, each zero put into the row before:",
+        ", from the last row up, each result put into the row above:",
     )
 
 

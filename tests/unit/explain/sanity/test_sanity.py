@@ -102,7 +102,8 @@ def test_a_moment_of_inertia_in_letters_is_told_body_by_body() -> None:
 
 def test_where_the_planar_arm_hangs_and_where_it_stands() -> None:
     assert said("planar-2r", "equilibrium") == (
-        "Let all parameters be positive. The rows of g, from the last on, each zero put into the row before:"
+        "Let all parameters be positive. The rows of g, from the last row up, each result put into the row "
+        "above:"
     )
     assert lines("planar-2r", "equilibrium") == [
         "g₂ = m₂ g l_c2 c₁₂ = 0, so c₁₂ = 0, q₁ + q₂ = 90° or -90°",
@@ -247,8 +248,8 @@ def test_the_determinant_of_the_planar_arm() -> None:
     assert to_unicode(shown, solved("planar-2r").style).startswith("d₁₁ d₂₂ - d₁₂² = ")
     assert "d₁₁ is positive: body 1 adds m₁ l_c1² + I₁ to d₁₁." in said("planar-2r", "definite")
     assert said("in3140-rp", "definite") == (
-        "Let all parameters be positive. d₁₁ and d₂₂ are positive: no term of them can be negative, and not "
-        "all are zero. All other entries are zero, so D is positive definite."
+        "Let all parameters be positive. d₁₁ and d₂₂ are positive: none of their terms is negative, and not "
+        "all are zero in either. All other entries are zero, so D is positive definite."
     )
 
 
