@@ -188,12 +188,12 @@ def _added(context: Context, parts: Sequence[str], i: int, j: int) -> list[Node]
 
 def _why(context: Context, body: Body) -> Prose:
     if body.is_point:
-        return ("Its translational part alone: it is a point.",)
+        return ("Its linear part alone: it is a point.",)
     if context.values[f"Jv{body.name}"].is_zero:
         return ("Its rotational part alone: its mass centre does not move.",)
     if context.values[f"Jw{body.name}"].is_zero:
-        return ("Its translational part alone: it does not turn.",)
-    return ("Its translational and its rotational part.",)
+        return ("Its linear part alone: it does not turn.",)
+    return ("Its linear and its rotational part.",)
 
 
 def linear_name(context: Context, body: Body) -> Node:

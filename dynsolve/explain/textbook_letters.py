@@ -263,7 +263,7 @@ def _dynamics(robot: Robot, style: Style) -> Iterator[Line]:
     yield _each(totals, f" of the {machine(robot)}", "J")
     yield from _forces(robot, style)
     yield from _actions()
-    inertia, rate = of_inertias(robot), of_inertias(robot, "/s")
+    inertia, rate = of_inertias(robot), of_entries(robot, "kg m^2/s", "kg/s", BY_ENTRY)
     yield _each([(letters.D, "inertia matrix"), (_entry("d", _I, _J), "its entries")], "", inertia)
     yield _line(letters.D_POINTS, "inertia matrix of the masses alone, as points", inertia)
     yield _line(_entry("c", _I, _J, _K), "Christoffel symbol", inertia)
@@ -316,11 +316,11 @@ def _forces(robot: Robot, style: Style) -> Iterator[Line]:
     yield _line(letters.TAU, "column of the generalized forces", of_entries(robot, "N m", "N"))
 
 
-def of_entries(robot: Robot, turning: str, sliding: str) -> str:
-    """The unit of the entries of a matrix: that of angles or of lengths, or one of both."""
+def of_entries(robot: Robot, turning: str, sliding: str, both: str = "") -> str:
+    """The unit of the entries of a matrix: that of angles or of lengths, or of `both`."""
     kinds = {q.type for q in robot.coordinates}
     if len(kinds) > 1:
-        return f"{turning} or {sliding}"
+        return both or f"{turning} or {sliding}"
     return turning if JointType.REVOLUTE in kinds else sliding
 
 
@@ -329,10 +329,9 @@ def of_jacobian(robot: Robot) -> str:
     return "m or 1" if any(q.type is JointType.REVOLUTE for q in robot.coordinates) else "1"
 
 
-def of_inertias(robot: Robot, per: str = "") -> str:
-    """The units of the entries of D, those that couple an angle with a length too; of D `per` s."""
-    coupled = len({q.type for q in robot.coordinates}) > 1
-    return of_entries(robot, f"kg m^2{per}{f', kg m{per}' * coupled}", f"kg{per}")
+def of_inertias(robot: Robot) -> str:
+    """The units of the entries of D, those that couple an angle with a length too."""
+    return of_entries(robot, "kg m^2", "kg", "kg m^2, kg m, kg")
 
 
 def _actions() -> Iterator[Line]:

@@ -48,7 +48,8 @@ USED = [
     ("Translational kinetic energy of body 2", ("v2",)),
     ("Rotational kinetic energy of body 1", ("w1", "R1", "I_body1")),  # along the axes of the body
     ("Rotational kinetic energy of body 2", ("w2", "R2", "I_body2")),
-    ("What body 2 adds to the inertia matrix", ("Jv2", "Jw2", "R2", "I_body2")),
+    ("What body 2 adds to the inertia matrix: the linear part", ("Jv2",)),
+    ("What body 2 adds to the inertia matrix: the rotational part", ("Jw2", "R2", "I_body2")),
     ("Coordinate 1: the torque", ("ddt1", "dLdq1")),
     ("Christoffel symbols", ("D",)),
     ("The gravity terms, from the potential energy", ("P",)),
