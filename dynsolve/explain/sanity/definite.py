@@ -10,6 +10,7 @@ and if all of these vanish, the rates vanish one by one.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -23,14 +24,19 @@ from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import (
     ZERO,
+    Function,
     Letter,
+    Negative,
     Node,
     Number,
+    Power,
     Product,
     Row,
+    Sum,
     Symbol,
     Words,
     equation,
+    number,
 )
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
@@ -110,13 +116,8 @@ def _diagonal(context: Context, places: Sequence[int]) -> Prose:
         )
     i = Symbol("i")
     rate, entry = Letter("q", i, dots=1), Letter("d", Row((i, i)))
-    why: Prose = ("Where ", equation(rate, Number(1)), " and the other rates are 0, ")
-    why += (
-        equation(entry, Product((Number(2), letters.K))),
-        ", so each body adds something positive or zero to ",
-        entry,
-        ". ",
-    )
+    why: Prose = ("No body adds anything negative to ", entry, ", which is ", Product((Number(2), letters.K)))
+    why += (" where ", equation(rate, Number(1)), " and the other rates are 0. ")
     why += (*listed(names), Reference(("D",)), f" {'is' if one else 'are'} positive: ")
     return (*why, *listed(tuple(_adding(context, k) for k in places)), ".")
 
@@ -196,14 +197,31 @@ def _minors(context: Context, block: Sequence[int]) -> list[Determinant] | None:
     for size in range(2, len(block) + 1):
         places = sorted(block[:size])
         value = determinant([[D[i, j] for j in places] for i in places])
-        form = context.show(value)
+        form = _by_sine(context.show(value))
         if cost(form) > LONGEST or not _is_positive(context, form):
             return None
         if size == 2:
-            found.append(determinant_of_two(context, (places[0], places[1]), value))
+            found.append(determinant_of_two(context, (places[0], places[1]), value, form))
         else:
             found.append(Determinant(equation(Row((Words("det "), letters.D)), form), (MULTIPLIED_OUT,)))
     return found
+
+
+def _by_sine(form: Node) -> Node:
+    """a - b c² in numbers as a - b + b s², which has no minus where a > b; any other form as it is.
+
+    >>> from dynsolve.notation.unicode import to_unicode
+    >>> cosine = Power(Function("cos", Symbol("q")), Number(2))
+    >>> to_unicode(_by_sine(Sum((Number(5), Negative(Product((Number(2), cosine)))))))
+    '3 + 2sin²(q)'
+    """
+    match form:
+        case Sum(
+            (Number() as a, Negative(Product((Number() as b, Power(Function("cos", angle), Number(2, 1))))))
+        ):
+            rest = Fraction(a.p, a.q) - Fraction(b.p, b.q)
+            return Sum((number(rest), Product((b, Power(Function("sin", angle), Number(2))))))
+    return form
 
 
 def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:

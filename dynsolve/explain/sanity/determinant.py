@@ -78,11 +78,10 @@ class _Written:
         return Sum((Product((p, q)), Negative(Power(without_signs(r), Number(2)))))
 
 
-def determinant_of_two(context: Context, places: tuple[int, int], value: Expr) -> Determinant:
-    """The lines from d_aa d_bb - d_ab² to its value."""
+def determinant_of_two(context: Context, places: tuple[int, int], value: Expr, form: Node) -> Determinant:
+    """The lines from d_aa d_bb - d_ab² to its value, in the form that shows its sign."""
     a, b = places
     plain, *others = _ways(context, a, b)
-    form = context.show(value)
     best = min((plain, *others), key=lambda way: cost(way.put_in(context)))
     before = best.put_in(context)
     members, operations = [plain.in_letters], list[str]()

@@ -253,6 +253,16 @@ def test_the_determinant_of_the_planar_arm() -> None:
     )
 
 
+def test_the_determinant_of_an_arm_in_numbers_is_written_without_a_minus() -> None:
+    """0.116204 is more than 0.0576, so the sign is seen once c₂² = 1 - s₂² is put in."""
+    step = check("numeric-2r", "definite")
+    assert step is not None
+    (shown,) = step.result
+    assert to_unicode(shown, solved("numeric-2r").style).endswith(
+        " = 0.116204 - 0.0576 c₂² = 0.0586042 + 0.0576 s₂²"
+    )
+
+
 def test_a_body_shows_that_an_entry_is_positive_where_its_terms_do_not() -> None:
     """m₂ (4l₂² - b²)/12 c₂² stands in d₁₁ of the box, and is negative where b > 2l₂."""
     assert "body 1 adds m₁ r₁²/2 to d₁₁" in said("box-cylinder-rod-sphere", "definite")
