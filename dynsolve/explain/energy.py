@@ -9,7 +9,7 @@ from dynsolve.document import Prose
 from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
-from dynsolve.explain.jacobian_columns import BESIDE, ZERO, coordinate_column, crosses, end_of
+from dynsolve.explain.jacobian_columns import BESIDE, ZERO, coordinate_column, crosses, end_of, read_off
 from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.potential import potential_steps
 from dynsolve.explain.rotational_energy import rotational_step
@@ -58,9 +58,12 @@ def steps(context: Context) -> Iterator[Step]:
     springs, rotors = acting_steps(context)
     yield from springs
     yield _total(context, "P", "potential", letters.P, [letters.PS] * len(springs))
-    told = False
+    told = read = False
     for body in bodies:
-        yield _jacobians(context, body) if context.robot.has_table else jacobians_step(context, body)
+        jacobians = _jacobians(context, body) if context.robot.has_table else jacobians_step(context, body)
+        if not read and (way := _read_off(context, body)):
+            read, jacobians = True, replace(jacobians, why=(*jacobians.why, *way))
+        yield jacobians
         yield _velocities(context, body)
         linear = _linear(context, body, tells=not told)
         told = told or bool(linear.notes)
@@ -149,6 +152,13 @@ def _jacobians(context: Context, body: Body) -> Step:
     return _at_the_end(context, body, step) if _is_at_the_end(context, body) else step
 
 
+def _read_off(context: Context, body: Body) -> Prose:
+    """How the columns of which no product is shown are read off."""
+    if not (context.is_short and context.robot.has_table) or _is_at_the_end(context, body):
+        return ()
+    return read_off(context, body.link, context.values[f"rc{body.name}"])
+
+
 def _jacobians_why(context: Context, late: Sequence[Node]) -> Prose:
     """Which joints move a mass centre; `late` are the coordinates that do not."""
     why = f"As for {context.end}, but for the mass centre"
@@ -191,7 +201,8 @@ def _velocities(context: Context, body: Body) -> Step:
         formulas.append(equation(w, Product((letters.jw(body), letters.QD))))
     qd = column(*(letters.velocity(q) for q in context.robot.coordinates))
     Jv = context.form(f"Jv{b}")
-    working = (equation(v, Product((Jv, qd))),) if is_small(Jv, qd) else ()
+    moves = not context.values[f"Jv{b}"].is_zero
+    working = (equation(v, Product((Jv, qd))),) if moves and is_small(Jv, qd) else ()
     return Step(
         id=f"v{b}",
         stage=STAGE,

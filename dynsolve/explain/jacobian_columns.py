@@ -111,6 +111,27 @@ def crosses(
     return tuple(shown), (words, *said(used), ":") if used else ()
 
 
+def read_off(context: Context, link: int, point: algebra.Matrix) -> Prose:
+    """How the columns that are a look are read off: z₀ × (x, y, z) is (-y, x, 0); nothing without any."""
+    for joint in context.robot.path(link):
+        lever = _lever(context, joint, point)
+        if joint.type is not JointType.REVOLUTE or not _is_fixed(context, joint) or lever.is_zero:
+            continue
+        i = joint_frame(context.robot, joint)
+        z = axis(context.values[f"H{i}"])
+        if not algebra.cross(z, lever).is_zero:
+            signs = [[entry.number for entry in row] for row in algebra.skew(z).rows]
+            turned = ", ".join(map(_signed_letter, signs))
+            return (" ", letters.z(i), f" × (x, y, z) is ({turned}).")
+    return ()
+
+
+def _signed_letter(row: Sequence[Fraction]) -> str:
+    """The coordinate that a row of 0 and one ±1 takes, as it is written: -y."""
+    found = (("-" if sign < 0 else "") + name for sign, name in zip(row, "xyz", strict=True) if sign)
+    return next(found, "0")
+
+
 def joints_moved(context: Context, k: int, link: int) -> list[tuple[Fraction, Joint]]:
     """The joints up to a link that coordinate k (from 0) moves, each with its rate."""
     return [(rate, joint) for joint in context.robot.path(link) for i, rate in joint.rates if i == k]

@@ -7,8 +7,9 @@ brought to the body's own axes instead (`own_axes`), along which the tensor is t
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
+from dynsolve.algebra.compact.matrix_factor import matrix_factor
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.explain.context import Context
@@ -17,8 +18,9 @@ from dynsolve.explain.working.identities import identities, said
 from dynsolve.explain.working.kinetic import collected, without_signs
 from dynsolve.explain.working.proved import SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
+from dynsolve.notation import tree
 from dynsolve.notation.build import number_in_front, times
-from dynsolve.notation.tree import Node, Product, equation
+from dynsolve.notation.tree import ONE, ZERO, Node, Product, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body
 
@@ -77,24 +79,34 @@ def multiplied_out(context: Context, body: Body) -> tuple[Node, Way]:
         w, tensor = values[f"R{b}"].T @ base, values[f"I_body{b}"]
     else:
         w, tensor = base, values[f"I{b}"]
-    row, column, factor = context.show(w.T), context.show(w), factor_of_identity(tensor)
-    product = Product((letters.HALF, row, context.show(tensor), column))
+    row, column, (front, inner) = context.show(w.T), context.show(w), _with_factor(context, tensor)
+    product = Product((letters.HALF, *front, row, *([] if inner is None else [inner]), column))
+    whole = equation(letters.energy_part("omega", body), product)
+    return whole, _lines(context, body, w, tensor) if context.is_short else SILENT
+
+
+def _with_factor(context: Context, tensor: Matrix) -> tuple[tuple[Node, ...], tree.Matrix | None]:
+    """The factors that the moments share, and what is left of the tensor: of a multiple of E, nothing."""
+    form, factor = context.show(tensor), factor_of_identity(tensor)
+    assert isinstance(form, tree.Matrix)
     if factor is not None:
-        product = Product((letters.HALF, number_in_front(context.show(factor)), row, column))
-    name = letters.energy_part("omega", body)
-    is_long = not context.is_short
-    return equation(name, product), SILENT if is_long else _lines(context, body, w, tensor)
+        return _factors(number_in_front(context.show(factor))), None
+    found = matrix_factor(context.forms.compactor.collector, form)
+    return ((), form) if found is None else (_factors(found[0]), found[1])
+
+
+def _factors(node: Node) -> tuple[Node, ...]:
+    return node.factors if isinstance(node, Product) else (node,)
 
 
 def _lines(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:
     """½ Σ I_ij ω_i ω_j, and how it becomes the result."""
     value, result = context.values[f"Kw{body.name}"], context.form(f"Kw{body.name}")
-    terms = tuple(_terms(context, w, tensor))
+    front, inner = _with_factor(context, tensor)
+    terms = tuple(_terms(context, w, inner))
     if len(terms) < 2:
         return SILENT
-    factor = factor_of_identity(tensor)
-    shared = () if factor is None else (number_in_front(context.show(factor)),)
-    form = Product((letters.HALF, *shared, sum_of(terms)))
+    form = Product((letters.HALF, *front, sum_of(terms)))
     used = identities(value.ring, form, result)
     name = letters.energy_part("omega", body)
     return chain(
@@ -105,19 +117,13 @@ def _lines(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:
     )
 
 
-def _terms(context: Context, w: Matrix, tensor: Matrix) -> Iterator[Node]:
-    """I_ij ω_i ω_j; of a multiple of the identity the squares alone, its factor standing before them."""
-    components, of_all = w.entries, factor_of_identity(tensor)
+def _terms(context: Context, w: Matrix, moments: tree.Matrix | None) -> Iterator[Node]:
+    """I_ij ω_i ω_j; without a tensor, the squares alone."""
     for i in range(3):
         for j in range(i, 3):
-            if not (tensor[i, j].is_zero or components[i].is_zero or components[j].is_zero):
-                first, second = context.show(components[i]), context.show(components[j])
+            moment = (ONE if i == j else ZERO) if moments is None else moments.rows[i][j]
+            if moment != ZERO and not (w[i, 0].is_zero or w[j, 0].is_zero):
+                first, second = context.show(w[i, 0]), context.show(w[j, 0])
                 rates = [(without_signs(first), 2)] if i == j else [(first, 1), (second, 1)]
-                moment = tensor[i, j] if of_all is None else of_all.ring.one
-                yield _term(context, 1 if i == j else 2, moment, rates)
-
-
-def _term(context: Context, count: int, moment: Expr, rates: Sequence[tuple[Node, int]]) -> Node:
-    """count · I_ij · rates"""
-    shown = context.show(moment)
-    return times(count, [(shown, 1), *rates], decimal=is_numeric(context.robot))
+                count = 1 if i == j else 2
+                yield times(count, [(moment, 1), *rates], decimal=is_numeric(context.robot))

@@ -279,3 +279,29 @@ def test_axes_of_frame_0_at_rest_are_worked_out() -> None:
     assert shown_working("spherical-rrp", "R1") == [
         "𝐑₁ = [[c₁, 0, s₁], [s₁, 0, -c₁], [0, 1, 0]] [[1, 0, 0], [0, 0, -1], [0, 1, 0]]ᵀ"
     ]
+
+
+@pytest.mark.parametrize(("problem", "body", "read_off"), [
+    ("box-cylinder-rod-sphere", "1", ""),  # on the axis: the column is zero
+    ("box-cylinder-rod-sphere", "2", "𝐳₀ × (x, y, z) is (-y, x, 0)."),
+    ("box-cylinder-rod-sphere", "3", ""),  # said once
+    ("rp-vertical", "1", "𝐳₁ × (x, y, z) is (-y, x, 0)."),
+])  # fmt: skip
+def test_how_a_product_with_an_axis_of_the_base_is_read_off_is_said_once(
+    problem: str, body: str, read_off: str
+) -> None:
+    why = said(step(problem, f"Jv{body}").why, problem)
+    assert why.endswith(read_off) and ("×" in why) is bool(read_off)
+
+
+def test_what_does_not_move_is_not_multiplied_by_the_rates() -> None:
+    box = "box-cylinder-rod-sphere"
+    assert not step(box, "v1").working and step(box, "v2").working
+
+
+def test_what_the_moments_share_stands_before_the_tensor() -> None:
+    box = "box-cylinder-rod-sphere"
+    ((put_in,), (multiplied,)) = (line.formulas for line in step(box, "Kw3").lines[1:])
+    style = solved(box).style
+    assert to_unicode(put_in, style).startswith("K_ω3 = ½ (1/12) m₃ l₃² [[c₂ θ̇₁, θ̇₂, s₂ θ̇₁]] [[1, 0, 0]")
+    assert to_unicode(multiplied, style) == "K_ω3 = ½ (1/12) m₃ l₃² ((c₂ θ̇₁)² + θ̇₂²)"
