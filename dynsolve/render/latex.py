@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, groupby, zip_longest
-from math import ceil
 
 from dynsolve.document import (
     Block,
@@ -39,7 +38,7 @@ FRAGMENT_PAGE = 32.8
 
 _NUMBER = 3.4
 _MOST_ROWS = 18
-_MOST_LINES = 26
+_ROWS_TOGETHER = 6  # of a longer table
 _COLUMN_SPACE = 1.3  # around a column of a table, in em
 _NARROWEST = 7.0
 _MARGIN = 0.8
@@ -79,7 +78,7 @@ _PREAMBLE = r"""\documentclass[a4paper]{article}
 """
 
 # The source of a formula; equations in columns: a row, a cell of a width with its name and the rest;
-# what closes a document, on a page of its own where it fills enough of that and not what is left of one.
+# what closes a document, on a page of its own where it fills enough of that and little is left of one.
 _MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
 \providecommand{\equationrow}[1]{\par\noindent\strut#1}
 \providecommand{\equationcell}[4]{\makebox[#1\dimexpr\linewidth-3.4em\relax][l]{%
@@ -88,7 +87,8 @@ _MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
 \ifdefined\closingpage\else\newsavebox\closingpage\fi
 \providecommand{\putclosingpage}{\nobreak \ifdim\ht\closingpage>\textheight\else
   \ifdim\ht\closingpage>.25\textheight
-  \ifdim\ht\closingpage>\dimexpr\pagegoal-\pagetotal\relax\newpage\fi\fi\fi\unvbox\closingpage}
+  \ifdim\ht\closingpage>\dimexpr\pagegoal-\pagetotal\relax
+  \ifdim\dimexpr\pagegoal-\pagetotal\relax<.2\textheight\newpage\fi\fi\fi\fi\unvbox\closingpage}
 """
 
 
@@ -312,15 +312,15 @@ class _Page(TypesetPage):
     def table(self, table: Table) -> Iterator[str]:
         """A tabular, which stays on one page; a long one in several, the first with the header."""
         head, *body = [self.row(row) for row in (table.header, *table.rows)]
-        lines = self.lines_of_table(table) if len(body) > _MOST_ROWS else 0
-        parts = max(ceil(len(body) / _MOST_ROWS), ceil(lines / _MOST_LINES)) or 1
-        columns = self.column_kinds(table, parts > 1)
-        size = ceil(len(body) / parts)
+        is_long = len(body) > _MOST_ROWS
+        columns = self.column_kinds(table, is_long)
+        size = _ROWS_TOGETHER if is_long else len(body)
         yield "\\par\\medskip"
         for start in range(0, len(body) or 1, size or 1):
             rows = "\n".join(body[start : start + size])
             above = "" if start else f"{head} \\hline\\rule{{0pt}}{{2.6ex}}%\n"
-            yield f"{{\\centering\\begin{{tabular}}{{{columns}}}\n{above}{rows}\n\\end{{tabular}}\\par}}"
+            tabular = f"\\begin{{tabular}}{{{columns}}}\n{above}{rows}\n\\end{{tabular}}"
+            yield f"{{\\parskip=0pt\\lineskip=0pt\\centering{tabular}\\par}}"
         yield "\\nopagebreak\\medskip" if self.closes(table) else "\\medskip"
 
     def row(self, cells: Sequence[Inline]) -> str:
@@ -357,14 +357,6 @@ class _Page(TypesetPage):
     def room_of_prose(self, others: float, columns: int) -> float:
         """The width of a column of words, beside columns that are so wide together."""
         return min((self.width - others) / columns - _COLUMN_SPACE, self.width / 2)
-
-    def lines_of_table(self, table: Table) -> int:
-        """How many lines its rows take, where words are broken."""
-        prose = prose_columns(table)
-        columns = list(zip(*(table.header, *table.rows), strict=True))
-        plain = [max(map(self.cell_width, column)) for k, column in enumerate(columns) if k not in prose]
-        room = self.room_of_prose(sum(plain) + len(plain) * (_COLUMN_SPACE + _MARGIN), len(prose) or 1)
-        return sum(max([1, *(ceil(self.cell_width(row[k]) / room) for k in prose)]) for row in table.rows)
 
     def cell_width(self, cell: Inline) -> float:
         """The width of a cell of a table, in em."""

@@ -1,8 +1,8 @@
 """Where a page may end, in what is set on pages: not at a few lines of a display, or of a document.
 
 Paragraphs stay with the display that they introduce, a long one not with a table, a formula of the
-textbook and a short one with what they lead to, but not a short one with a matrix, a note with what it
-is about, the last of several results with the one before.  The rows of an equation stay together, of a
+textbook with the display it leads to, a short one with its result, but not with a matrix, a note with what
+it is about, the last of several results with the one before.  The rows of an equation stay together, of a
 long one the first two and the last ones, as do those of a display.  So many rows at the end of a
 document are on one page that none is nearly empty.
 """
@@ -75,9 +75,10 @@ def introduces(block: Block, following: Block | None, closes: bool = False) -> b
         if block.label:
             return closes and isinstance(following, Formula)
         if block.source:
-            return isinstance(following, Formula | Equations | Text | Uses)
-        tall = isinstance(following, Formula) and holds_matrix(following.node)
-        return not (tall or holds_matrix(block.node)) and isinstance(following, Formula | Equations | Uses)
+            return isinstance(following, Formula | Equations | Uses)
+        if isinstance(following, Formula) and (not following.label or holds_matrix(following.node)):
+            return False
+        return not holds_matrix(block.node) and isinstance(following, Formula | Equations | Uses)
     return isinstance(block, Uses)
 
 

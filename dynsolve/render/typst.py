@@ -40,6 +40,9 @@ _STICKY = ", sticky: true"
 _MOST_ROWS = 12
 """The rows up to which a table stays on one page."""
 
+_HELD = 6
+"""The rows at both ends of a longer one that stay on one page each."""
+
 _LAST_KNOWN = 0x2C00
 _MATHEMATICAL = range(0x1D400, 0x1D800)
 
@@ -82,9 +85,16 @@ _PREAMBLE = """#set document(title: {title}, date: none)
 }
 #let columned(count, sticky: false, ..runs) = in-runs(runs.pos(), sticky, (1fr,) * count + (3em,),
   align: (x, y) => if x == count { right + horizon } else { left + horizon })
-#let on-one-page(body) = layout(size => {
-  let fits = measure(block(width: size.width, body)).height <= size.height
-  block(above: 1.6em, width: 100%, breakable: not fits, body)
+#let closing(body) = v(1.6em, weak: true) + layout(size => {
+  let needed = measure(block(width: size.width, body)).height
+  let begun = calc.min(needed, 0.2 * size.height)
+  block(breakable: false, spacing: 0pt, height: begun)
+  v(-begun)
+  body
+})
+#let contents = block(above: 1.4em, breakable: false, {
+  set par(leading: 0.48em, spacing: 0.48em)
+  outline(title: none, target: heading.where(level: 2))
 })
 #let note(body) = {
   block(inset: (left: 0.8em, y: 0.3em), stroke: (left: 1.5pt + luma(150)), text(9.3pt, body))
@@ -164,11 +174,11 @@ class _Page(TypesetPage):
         self.close(document)
 
     def all(self, document: Document) -> Iterator[str]:
-        """The blocks of a document, the closing ones on one page where they fit one."""
+        """The blocks of a document; the closing ones begin a page where little is left of the one before."""
         before, end = before_closing(document.blocks)
         yield from self.blocks(before)
         if end:
-            yield "#on-one-page["
+            yield "#closing["
             yield from self.blocks(end)
             yield "]"
 
@@ -261,16 +271,19 @@ class _Page(TypesetPage):
         yield f"#note[*Note.* {self.prose(parts)}]"
 
     def table(self, table: Table) -> Iterator[str]:
-        cells = [self.cell(cell) for row in (table.header, *table.rows) for cell in row]
-        columns = len(table.header)
+        cells = [[self.cell(cell) for cell in row] for row in (table.header, *table.rows)]
+        widths = "auto, " * len(table.header)
+        breakable = "false"
+        if len(table.rows) > _MOST_ROWS:
+            widths, breakable = f"0pt, {widths}", "true"
+            cells = [[*held, *row] for held, row in zip(_held(len(table.rows)), cells, strict=True)]
+        header, *rows = map(", ".join, cells)
         side = "left" if prose_columns(table) else "center + horizon"
-        breakable = "true" if len(table.rows) > _MOST_ROWS else "false"
         yield (
             f"#block(breakable: {breakable}, width: 100%, "
-            f"align(center, table(columns: {columns}, stroke: none, align: {side}, "
+            f"align(center, table(columns: ({widths}), stroke: none, align: {side}, "
             f"inset: (x: 0.8em, y: 0.35em), "
-            f"table.header({', '.join(cells[:columns])}, table.hline(stroke: 0.5pt)), "
-            f"{', '.join(cells[columns:])})))"
+            f"table.header({header}, table.hline(stroke: 0.5pt)), {', '.join(rows)})))"
         )
 
     def cell(self, cell: Inline) -> str:
@@ -289,6 +302,17 @@ class _Page(TypesetPage):
 
     def verbatim(self, text: str) -> str:
         return f"#raw({quoted(visible(text))});"
+
+
+def _held(count: int) -> Iterator[list[str]]:
+    """The first cells of a table on several pages: two hold its first and its last rows each on one page."""
+    holds = f"table.cell(rowspan: {_HELD}, breakable: false, inset: 0pt)[]"
+    yield ["[]"]
+    for row in range(count):
+        if row in (0, count - _HELD):
+            yield [holds]
+        else:
+            yield ["[]"] if _HELD <= row < count - _HELD else []
 
 
 def _displayed(text: str) -> str:

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from dynsolve.document import Document, Heading, Text
+from dynsolve.render.typst import render
 from dynsolve.solution.reports import Format
 from tests.cli.running import dynsolve_afresh
 from tests.reports.tools import FEWEST_LINES, HOSTILE_PROBLEM, SEEN, lines_of, made, text_of, words_of
@@ -85,13 +87,24 @@ def test_no_line_of_a_sentence_ends_with_a_sign_between_two_parts(name: str, tmp
     assert [line for line in lines if line.rstrip().endswith(("=", "−", "+"))] == []
 
 
-def test_the_summary_is_on_one_page(tmp_path: Path) -> None:
+def written(paragraphs: int, closing: int, pdf: Path) -> list[list[str]]:
+    """The lines on the pages of a document with paragraphs of a word before its summary, and in that."""
+    words = [Text((f"Word{k}.",)) for k in range(paragraphs)]
+    summary = [Heading("Summary", closing=True), *(Text((f"Result{k}.",)) for k in range(closing))]
+    pdf.write_bytes(render(Document((Heading("Title", 1), *words, *summary))))
+    return lines_of(pdf)
+
+
+@pytest.mark.parametrize(("filled", "page_of_summary"), [(0.3, 1), (0.6, 1), (0.9, 2)])
+def test_the_summary_is_on_one_page_unless_that_left_much_of_another_empty(
+    filled: float, page_of_summary: int, tmp_path: Path
+) -> None:
+    """One that takes half a page begins where a fifth is left; where less is, on a page of its own."""
     pdf = tmp_path / "report.pdf"
-    pdf.write_bytes(made(next(path for path in LIBRARY if path.stem == "elbow-3r"), Format.PDF))
-    *before, last = lines_of(pdf)
-    summary = [line.strip() for line in last]
-    assert summary.index("Summary") < summary.index("Verification")
-    assert not any(line.strip() == "Summary" for page in before for line in page)
+    room = len(written(200, 0, pdf)[0])
+    pages = written(round(filled * room), room // 2, pdf)
+    found = [k for k, page in enumerate(pages, 1) if any(line.strip() == "Summary" for line in page)]
+    assert found == [page_of_summary]
 
 
 def test_no_page_begins_with_a_note(tmp_path: Path) -> None:

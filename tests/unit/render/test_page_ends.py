@@ -10,12 +10,16 @@ from dynsolve.render.page_ends import before_closing, introduces
 MATRIX = Formula(equation(Letter("A"), Matrix(((Number(1),), (Number(0),)))))
 SHORT = Formula(equation(Symbol("h1"), read("l1").tree))
 RESULT = Formula(SHORT.node, label="h")
+LAW = Formula(SHORT.node, source="§7.3")
 TABLE = Table(("a",), (("b",),))
 
 
 def test_what_stays_with_the_block_after_it() -> None:
     cases: list[tuple[Block, Block, bool]] = [
-        (SHORT, SHORT, True),
+        (SHORT, RESULT, True),
+        (SHORT, SHORT, False),
+        (LAW, SHORT, True),
+        (LAW, Text(("Of this arm:",)), False),
         (SHORT, MATRIX, False),
         (MATRIX, SHORT, False),
         (RESULT, SHORT, False),
