@@ -82,11 +82,13 @@ def _step(step: Step, style: Style) -> Step:
     return replace(
         step,
         why=tuple(map(inline, step.why)),
+        further=formulas(step.further),
         working=formulas(step.working),
         lines=tuple(
             replace(line, by=tuple(map(inline, line.by)), formulas=formulas(line.formulas))
             for line in step.lines
         ),
+        concluding=tuple(map(inline, step.concluding)),
         result=formulas(step.result),
         notes=tuple(tuple(map(inline, note)) for note in step.notes),
         table=table,

@@ -79,7 +79,9 @@ def _by_frame_0(context: Context, body: Body, letter: Letter, value: Matrix, wri
     by = ("From there along the body's own axes, by ", axes, *_made_of(context, body, seen))
     in_letters = Product((Transpose(Parenthesized(axes)), in_frame))
     second = Product((Transpose(context.show(seen)), context.show(along)))
-    yield Line((*by, *_with(context, seen, along), ":"), (equation(whole, in_letters, second, own),))
+    by += (*_with(context, seen, along), ":")
+    rows = tuple(f"A{joint.index}" for joint in context.robot.path(body.link))
+    yield Line(by, (equation(whole, in_letters, second, own),), rows)
 
 
 def _made_of(context: Context, body: Body, seen: Matrix) -> Prose:

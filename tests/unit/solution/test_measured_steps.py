@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
@@ -52,6 +53,24 @@ def test_given_numbers_have_their_units() -> None:
     assert shown(found["P1"].further[0]) == "𝐠₀ = [[0, -9.81, 0]]ᵀ m/s²"
     assert shown(found["A1"].working[0]) == "θ = q₁⋆, d = 0, a = 0.5 m, α = 0"
     assert shown(found["rc2"].further[0]) == "𝐫_{1,c2}² = [[0.15], [0], [0]] m"
+
+
+def test_a_given_number_of_many_digits_is_rounded_where_it_is_printed() -> None:
+    problem = """
+dh: [{theta: q1*, a: 0.5}]
+masses: [{mass: 1.5, link: 1, center: {near: [0.12345678, 0, 0]}, inertia: {zz: 0.02}}]
+gravity: [0, -9.81, 0]
+"""
+    solution = solved(problem)
+    style = replace(solution.style, digits=6)
+    found = {step.id: step for step in measured_steps(solution.explain(), solution.robot, style)}
+    (given,) = found["rc1"].further
+    assert to_unicode(given, style).endswith(" ≈ [[0.123457], [0], [0]] m")
+
+
+def test_a_line_keeps_the_steps_that_go_into_it() -> None:
+    (line,) = (line for line in steps()["Kw1"].lines if line.uses)
+    assert line.uses == ("I_body1",)
 
 
 def test_of_a_sum_the_number_that_comes_out_has_its_unit() -> None:
