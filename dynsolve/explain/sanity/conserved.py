@@ -45,7 +45,7 @@ def _step(context: Context, energy: Line | None) -> Step | None:
         return None
     by: Prose = energy.by if energy else ()
     of_momenta = _of_momenta(context, free) if free else ()
-    momenta = (equation(_momentum(q), _written(context, q)) for q in free)
+    momenta = (equation(_momentum(q), _written(context, q)) for q in free if not _stands_above(context, q))
     return Step(
         id="conserved",
         stage=Stage.VECTORIZED,
@@ -179,6 +179,12 @@ def _shifts_all(context: Context, q: Coordinate) -> bool:
     turned = [row[k] for name in names if f"Jw{name}" in values.rules for row in values[f"Jw{name}"].rows]
     fixed = not any(ring.depends_on_coordinates(entry) for shift in shifts for entry in shift)
     return len(shifts) == 1 and fixed and all(entry.is_zero for entry in turned)
+
+
+def _stands_above(context: Context, q: Coordinate) -> bool:
+    """Whether the equation that is referred to is the momentum as it would be written here."""
+    from_lagrangian = context.robot.questions.method is Method.LAGRANGE
+    return from_lagrangian and context.is_short and cost(context.form(f"dLdqd{q.index}")) <= LONGEST
 
 
 def _written(context: Context, q: Coordinate) -> Node:

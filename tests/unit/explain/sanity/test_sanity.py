@@ -241,6 +241,14 @@ def test_the_momentum_of_a_sliding_joint_is_linear() -> None:
     assert "the linear momentum along z₀ of the arm" in words(free.concluding)
 
 
+def test_a_momentum_that_stands_above_as_it_is_is_not_written_again() -> None:
+    short, long = (check(problem, "conserved") for problem in ("in3140-rp", "elbow-3r"))
+    assert short is not None and long is not None
+    assert short.result == ()
+    (shown,) = long.result
+    assert to_unicode(shown, solved("elbow-3r").style) == "∂ℒ/∂θ̇₁ = d₁₁ θ̇₁"
+
+
 def test_the_determinant_of_the_planar_arm() -> None:
     step = check("planar-2r", "definite")
     assert step is not None
