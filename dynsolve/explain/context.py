@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
@@ -22,7 +23,8 @@ from dynsolve.robot.model import Body, Convention, Robot
 class Context:
     """A robot with its derivation, exact and as trees, and whether the two ways to D, C, g agree.
 
-    `normals` are those of a drawing that the table was found from.
+    `normals` are those of a drawing that the table was found from, `lengths` values in m as the
+    file has them.
     """
 
     robot: Robot
@@ -30,6 +32,7 @@ class Context:
     forms: Forms
     agreement: Agreement | None = None
     normals: Normals | None = None
+    lengths: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def wanted(self) -> frozenset[str]:

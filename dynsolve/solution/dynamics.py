@@ -137,7 +137,9 @@ class Dynamics:
     def _context(self) -> Context:
         from dynsolve.explain.context import Context
 
-        return Context(self.robot, self.values, self.forms, self.agreement, self.problem.normals)
+        problem, units = self.problem, self.problem.units
+        lengths = {name: text for name, text in problem.written.items() if units.get(name, "m") == "m"}
+        return Context(self.robot, self.values, self.forms, self.agreement, problem.normals, lengths)
 
     def explain(
         self, stages: Iterable[str] | None = None, short: Abbreviated | None = None

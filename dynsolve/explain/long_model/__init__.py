@@ -8,6 +8,7 @@ links stay the products they are, which would fill pages written out.
     model       what the changes are made from: the robot, its names, and d_ij, c_ijk and g_k by name
     general     what is said once for all links, bodies and coordinates
     frames      the last frame, and the axes of the others
+    zero_pose   a check of the last frame with all joint angles 0
     halves      where a long product of frames is parted
     body_jacobians  the kinetic energy of a body, and the Jacobian of one worked out
     energies    the energies, the Lagrangian and the forces

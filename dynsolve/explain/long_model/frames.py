@@ -13,6 +13,7 @@ from dynsolve.explain.jacobian_columns import ZERO, coordinate_column
 from dynsolve.explain.kinematics import OUTWARDS
 from dynsolve.explain.long_model.halves import halves, product
 from dynsolve.explain.long_model.model import Change, LongModel
+from dynsolve.explain.long_model.zero_pose import at_zero_angles
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.identities import said
 from dynsolve.explain.working.products import used_in_product
@@ -64,6 +65,7 @@ def last_frame(model: LongModel, step: Step) -> Step:
             ),
         ),
         concluding=("With ", *said(whole), ", their product:") if whole else ("Their product:",),
+        notes=(*step.notes, *((check,) if (check := at_zero_angles(context)) else ())),
     )
 
 

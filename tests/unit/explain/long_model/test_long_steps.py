@@ -140,6 +140,25 @@ def test_the_last_frame_by_two_halves(problem: str) -> None:
     assert first == solution.values["H3"] and first @ second == solution.values["H6"]
 
 
+@pytest.mark.parametrize(
+    ("problem", "check"),
+    [
+        ("stanford-6", "0, d₂ and d₆ + d₃."),
+        pytest.param(
+            "puma560",
+            "a₂ + a₃ = 0.4521, -d₃ = -0.15005 and d₄ = 0.4318 (in m).",
+            marks=pytest.mark.slow,
+        ),
+    ],
+)
+def test_where_the_end_is_with_all_angles_0(problem: str, check: str) -> None:
+    """By hand: the lengths of the table along its axes, which only the right angles turn."""
+    told = said(steps(problem)["H6"], problem).partition("To check: ")[2]
+    assert normalize("NFKC", told) == normalize(
+        "NFKC", f"with all joint angles 0 the entries of o₆ are {check}"
+    )
+
+
 @pytest.mark.parametrize("problem", LONG)
 def test_the_jacobian_of_one_body(problem: str) -> None:
     """Spong, Hutchinson, Vidyasagar, section 7.2.2: the columns are those of the mass centre's velocity."""
