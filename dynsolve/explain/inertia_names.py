@@ -96,12 +96,16 @@ class InertiaNames:
         for step in steps:
             named = step.id == "K" or (step.stage in _AFTER and step.id not in _BODY_BY_BODY)
             written = self._in_step(step) if named else step
-            if written != step and self.slopes and _DIFFERENTIATED.match(step.id):
+            if self.slopes and _DIFFERENTIATED.match(step.id) and self._names_in(written.result):
                 written = replace(written, names=(*written.names, INERTIAS))
             if written != step and not defined:
                 defined = True
                 written = replace(written, lines=(*written.lines, self.line()))
             yield written
+
+    def _names_in(self, nodes: Iterable[Node]) -> bool:
+        """Whether formulas are written in the names."""
+        return not self.symbols.isdisjoint(walk(*nodes))
 
     def _in_step(self, step: Step) -> Step:
         """A step in the names; its last line is left out where only the order of the result differs."""
