@@ -11,8 +11,9 @@ of sines, cosines and these.
 2. What then recurs is named σ₁, σ₂, ... (`explain.recurring`): h₁, h₂, ... are heights.
 
 A short model needs no constants; unless names are asked for, its Christoffel symbols alone get them
-(`explain.symbol_names`).  What recurs in it gets a name alone; if that is one
-term, it is the books' h: h = -m₂ l₁ l_c2 s₂ of the planar elbow.
+(`explain.symbol_names`), and its long sums of masses and lengths (`explain.inertia_names`).
+What recurs in it gets a name alone; if that is one term, it is the books' h:
+h = -m₂ l₁ l_c2 s₂ of the planar elbow.
 """
 
 from __future__ import annotations
