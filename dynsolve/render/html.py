@@ -33,9 +33,10 @@ from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
-from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
+from dynsolve.render.line_breaking import FormulaSplitter, Notation, narrow_with_neighbours, together
 from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
+from dynsolve.render.parentheses import HEIGHTS, height_around
 from dynsolve.render.prose import typographic, visible
 from dynsolve.render.references import levels, numbered, with_results
 from dynsolve.render.typesetting import listed
@@ -86,17 +87,36 @@ def _switch(level: str) -> str:
     return f"{inputs}\n"
 
 
+def _fence(sign: str, height: float) -> str:
+    """A parenthesis of a height in em."""
+    if height <= FLAT:
+        return f'<mo stretchy="false">{sign}</mo>'
+    size = f'minsize="{height:.2f}em" maxsize="{height:.2f}em"'
+    form = "prefix" if sign == "(" else "postfix"
+    return f'<mo form="{form}" stretchy="true" symmetric="true" {size}>{sign}</mo>'
+
+
+def _around(text: str) -> float:
+    return height_around(text, [_fence("(", height) for height in HEIGHTS])
+
+
+class _Printer(MathMLPrinter):
+    """MathML for a page: parentheses are larger than those in them."""
+
+    def parenthesized(self, text: str) -> str:
+        """The text in parentheses."""
+        whole = super().parenthesized(text)
+        height = _around(text)
+        if height == FLAT or "stretchy" not in whole.partition(">")[0]:
+            return whole
+        return row(f"{_fence('(', height)}{text}{_fence(')', height)}")
+
+
 def html_notation(printer: MathMLPrinter) -> Notation:
     """The signs of a formula in MathML."""
 
-    def fence(sign: str, height: float) -> str:
-        if height <= FLAT:
-            return f'<mo stretchy="false">{sign}</mo>'
-        size = f'minsize="{height:.1f}em" maxsize="{height:.1f}em"'
-        return f'<mo stretchy="true" symmetric="true" {size}>{sign}</mo>'
-
     def closed(height: float, exponent: Node | None) -> str:
-        sign = fence(")", height)
+        sign = _fence(")", height)
         if exponent is None:
             return sign
         return f"<msup>{row(sign)}{row(printer.text(exponent))}</msup>"  # alone in a row it is stretched
@@ -108,8 +128,9 @@ def html_notation(printer: MathMLPrinter) -> Notation:
         lead=MINUS,
         times="",
         relation=lambda sign: f'<mo form="infix">{escape(sign)}</mo>',
-        opened=lambda height: fence("(", height),
+        opened=lambda height: _fence("(", height),
         closed=closed,
+        around=_around,
         joined="".join,
     )
 
@@ -127,7 +148,7 @@ class _Page(MarkupPage):
     """Turns blocks into HTML, and remembers what the contents and the styles need."""
 
     def __init__(self, style: Style, document: Document) -> None:
-        printer = MathMLPrinter(style)
+        printer = _Printer(style)
         super().__init__(printer, numbered(document))
         self.levels = range(1, len(_LEVELS) + 1) if len(levels(document)) > 1 else range(1)
         self.numbers = {level: numbered(document, level or None) for level in self.levels}
@@ -300,7 +321,7 @@ class _Page(MarkupPage):
 
     def in_pieces(self, node: Node) -> str:
         """A formula between whose pieces a line may end."""
-        parts = together(self.splitter.pieces(node), _WHOLE, "".join)
+        parts = together(narrow_with_neighbours(self.splitter.pieces(node), "".join), _WHOLE, "".join)
         return "<wbr>".join(math(part.text, display=True) for part in parts)
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:

@@ -28,6 +28,7 @@ from dynsolve.render.latex_text import latex_text
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import SHORT, TypesetPage, prose_columns
 from dynsolve.render.page_ends import before_closing, introduces
+from dynsolve.render.parentheses import HEIGHTS, height_around
 from dynsolve.render.references import is_long, numbered, running_title, sections, slug
 
 PAGE = 46.9
@@ -45,7 +46,7 @@ _MARGIN = 0.8
 _QUAD = 0.9  # what a comma between formulas takes more in LaTeX
 _STAYS = r"\begingroup\postdisplaypenalty=10000"
 _STRUT = r"\rule[-1.7ex]{0pt}{4.7ex}"
-_FENCES = ((FLAT, ""), (1.8, "Big"), (2.4, "bigg"))
+_FENCES = ((FLAT, ""), (HEIGHTS[1], "big"), (1.8, "Big"), (2.4, "bigg"))
 """The sizes of parentheses, each up to a height in em."""
 _ROW_SPACES = ((r"\left", r"\\[9pt]"), (r"\dfrac", r"\\[6pt]"))
 """How a row of a matrix ends that holds high parentheses, or fractions; counted from the foot of a line."""
@@ -121,15 +122,21 @@ def _is_title(block: Block) -> bool:
     return isinstance(block, Heading) and block.level == 1
 
 
+def _fence(sign: str, side: str, height: float) -> str:
+    """A parenthesis of a height in em."""
+    size = next((size for most, size in _FENCES if height <= most), "Bigg")
+    return f"\\{size}{side}{sign}" if size else sign
+
+
+def _around(text: str) -> float:
+    return height_around(text, [_fence("(", "l", height) for height in HEIGHTS])
+
+
 def latex_notation(printer: LatexPrinter) -> Notation:
     """The signs of a formula in LaTeX."""
 
-    def fence(sign: str, side: str, height: float) -> str:
-        size = next((size for most, size in _FENCES if height <= most), "Bigg")
-        return f"\\{size}{side}{sign}" if size else sign
-
     def closed(height: float, exponent: Node | None) -> str:
-        text = fence(")", "r", height)
+        text = _fence(")", "r", height)
         return text if exponent is None else f"{text}^{{{printer.text(exponent)}}}"
 
     return Notation(
@@ -139,8 +146,9 @@ def latex_notation(printer: LatexPrinter) -> Notation:
         lead="-",
         times=r"{} \cdot",
         relation=lambda sign: "{} " + SIGNS.get(sign, sign),
-        opened=lambda height: fence("(", "l", height),
+        opened=lambda height: _fence("(", "l", height),
         closed=closed,
+        around=_around,
         joined=" ".join,
     )
 
@@ -155,6 +163,14 @@ class _Printer(LatexPrinter):
 
     Rows of a matrix with fractions or high parentheses do not touch the rows beside them.
     """
+
+    def parenthesized(self, text: str) -> str:
+        """The text in parentheses, which are larger than those in it."""
+        whole = super().parenthesized(text)
+        height = _around(text)
+        if height == FLAT or whole[0] != "(":
+            return whole
+        return f"{_fence('(', 'l', height)}{text}{_fence(')', 'r', height)}"
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
         lines = [" & ".join(row).replace(r"\frac", r"\dfrac") for row in rows]

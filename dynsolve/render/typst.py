@@ -28,6 +28,7 @@ from dynsolve.render.columns import Columns
 from dynsolve.render.line_breaking import Notation
 from dynsolve.render.page import SHORT, TypesetPage, prose_columns
 from dynsolve.render.page_ends import before_closing, introduces, runs_of_equations
+from dynsolve.render.parentheses import HEIGHTS, height_around
 from dynsolve.render.prose import typographic, visible
 from dynsolve.render.references import is_long, numbered, running_title
 from dynsolve.render.typesetting import Line
@@ -125,14 +126,20 @@ def to_typst_document(document: Document, style: Style = PLAIN) -> str:
     return preamble + "\n".join(page.all(document)) + "\n"
 
 
+def _fence(sign: str, height: float) -> str:
+    """A parenthesis of a height in em."""
+    return f"lr(size: #{height:.2f}em, \\{sign})" if height > FLAT else f"\\{sign}"
+
+
+def _around(text: str) -> float:
+    return height_around(text, [_fence("(", height) for height in HEIGHTS])
+
+
 def typst_notation(printer: TypstPrinter) -> Notation:
     """The signs of a formula in Typst."""
 
-    def fence(sign: str, height: float) -> str:
-        return f"lr(size: #{height:.2f}em, \\{sign})" if height > FLAT else f"\\{sign}"
-
     def closed(height: float, exponent: Node | None) -> str:
-        sign = fence(")", height)
+        sign = _fence(")", height)
         return sign if exponent is None else f"{sign}^({printer.text(exponent)})"
 
     return Notation(
@@ -142,8 +149,9 @@ def typst_notation(printer: TypstPrinter) -> Notation:
         lead="-",
         times='class("binary", dot.op)',
         relation=lambda sign: "\\/" if sign == "/" else sign,  # unescaped it sets a fraction
-        opened=lambda height: fence("(", height),
+        opened=lambda height: _fence("(", height),
         closed=closed,
+        around=_around,
         joined=" ".join,
     )
 
@@ -153,6 +161,14 @@ class _Printer(TypstPrinter):
 
     Entries do not touch the brackets, nor fractions those of the next row.
     """
+
+    def parenthesized(self, text: str) -> str:
+        """The text in parentheses, which are larger than those in it."""
+        whole = super().parenthesized(text)
+        height = _around(text)
+        if height == FLAT or not whole.startswith("\\("):
+            return whole
+        return f"{_fence('(', height)} {text} {_fence(')', height)}"
 
     def _bracketed(self, rows: Sequence[Sequence[str]]) -> str:
         shown = [[_displayed(cell) if "frac(" in cell else cell for cell in row] for row in rows]

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dynsolve.document import Formula
+from dynsolve.document import Document, Formula
 from dynsolve.notation.extent import Ruler
 from dynsolve.notation.latex import LatexPrinter
 from dynsolve.notation.text import read
 from dynsolve.notation.tree import Letter, Matrix, Number, Product, Relation, Symbol, equation
 from dynsolve.notation.typst import TypstPrinter
-from dynsolve.render.latex import latex_notation
+from dynsolve.render.latex import latex_notation, render_fragment
 from dynsolve.render.line_breaking import FormulaSplitter, Piece, lines, together
 from dynsolve.render.typesetting import INDENT, INSIDE, Typesetter
 from dynsolve.render.typst import typst_notation
@@ -50,22 +51,32 @@ def test_joined_pieces_are_the_same_formula(parts: list[Piece]) -> None:
     assert all(piece.width <= 12 or piece.text == "x" for piece in joined)
 
 
+def bare(text: str) -> str:
+    """A formula without blanks and the sizes of its parentheses."""
+    return re.sub(r"\{\}| |\\left|\\right|\\[bB]ig[lr]", "", text)
+
+
 def test_pieces_are_the_formula() -> None:
     node = read(LONG).tree
     text = " ".join(piece.text for piece in splitter().pieces(node))
-    plain = LatexPrinter().text(node)
-    assert text.replace("{} ", "").replace(" ", "").replace(r"\Bigl", "").replace(r"\Bigr", "") == (
-        plain.replace(" ", "").replace(r"\left", "").replace(r"\right", "")
-    )
+    assert bare(text) == bare(LatexPrinter().text(node))
+
+
+@pytest.mark.parametrize("terms", [1, 30])
+def test_parentheses_are_larger_than_those_in_them(terms: int) -> None:
+    """Also where they are written for a line that may end in them."""
+    inner = " + ".join(f"e{k}" for k in range(terms))
+    node = read(f"m1*(a1 + b1*(c1 + d1*(f1 + {inner})))").tree
+    shown = render_fragment(Document((Formula(node),))).partition(r"\begin{")[2]
+    assert re.findall(r"(\\[bB]igl)?\(", shown) == [r"\Bigl", r"\bigl", ""]
+    assert re.findall(r"(\\[bB]igr)?\)", shown) == ["", r"\bigr", r"\Bigr"]
 
 
 def test_a_denominator_that_fits_no_line_stands_behind_a_slash() -> None:
     node = read("-(a + b)/(m1*q1^2 + (I1 + I2)*c)").tree
     setting = [FormulaSplitter(latex_notation(LatexPrinter()), Ruler(), 6, most) for most in (5, 50)]
-    broken, whole = ["".join(piece.text for piece in one.pieces(node)).replace(" ", "") for one in setting]
-    assert r"\frac" not in broken and ")/(" in broken.replace("{}", "").replace(r"\left", "").replace(
-        r"\right", ""
-    )
+    broken, whole = ["".join(piece.text for piece in one.pieces(node)) for one in setting]
+    assert r"\frac" not in broken and ")/(" in bare(broken)
     assert r"\frac" in whole
 
 
