@@ -34,7 +34,7 @@ from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
 from dynsolve.robot.model import Body, JointType
 
-LONGEST_ENTRY = 40
+LONGEST_ENTRY = 30
 """The operations in an entry of a body's Jacobian up to which its columns are worked out."""
 
 _I, _J = Symbol("i"), Symbol("j")
