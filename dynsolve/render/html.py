@@ -33,7 +33,7 @@ from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
-from dynsolve.render.line_breaking import FormulaSplitter, Notation, narrow_with_neighbours, together
+from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
 from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
 from dynsolve.render.parentheses import HEIGHTS, height_around
@@ -321,7 +321,7 @@ class _Page(MarkupPage):
 
     def in_pieces(self, node: Node) -> str:
         """A formula between whose pieces a line may end."""
-        parts = together(narrow_with_neighbours(self.splitter.pieces(node), "".join), _WHOLE, "".join)
+        parts = together(self.splitter.pieces(node), _WHOLE, "".join)
         return "<wbr>".join(math(part.text, display=True) for part in parts)
 
     def entry_by_entry(self, node: Node, matrix: Matrix, formula: Formula) -> Iterator[str]:

@@ -7,8 +7,7 @@ gives the text of a tree and a few signs, this module says where they may be par
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
-from itertools import zip_longest
+from dataclasses import dataclass, field
 
 from dynsolve.notation.extent import BINARY, FLAT, PARENTHESIS, RELATION, Ruler
 from dynsolve.notation.tree import (
@@ -33,8 +32,6 @@ RELATION_BREAK, SUM_BREAK, FACTOR_BREAK = 0, 1, 3
 _DEEPER = 2
 _FINE = 11.0
 """Terms and factors that are narrower than this, in em, stay whole."""
-_NARROW = 6.0
-"""A column of rates is no wider, in em."""
 _FRACTION = 32.0
 """Denominators that are wider than this, in em, stand behind a slash, where they may be broken."""
 
@@ -261,27 +258,6 @@ def together(pieces: Sequence[Piece], most: float, join: Callable[[Sequence[str]
         text = join([piece.text for piece in group])
         joined.append(Piece(text, sum(piece.width for piece in group), pieces[i].depth))
         i = end
-    return joined
-
-
-def narrow_with_neighbours(pieces: Sequence[Piece], join: Callable[[Sequence[str]], str]) -> list[Piece]:
-    """The pieces, a narrow factor or member of a chain together with the piece before it.
-
-    So no line holds only a column of rates, or = τ.
-
-    >>> parts = [Piece("D", 20), Piece("q", 3, 3, 0, "*"), Piece("+ g", 3, 1), Piece("= t", 3, 0)]
-    >>> [piece.text for piece in narrow_with_neighbours(parts, "".join)]
-    ['Dq', '+ g= t']
-    """
-    joined: list[Piece] = []
-    for piece, after in zip_longest(pieces, pieces[1:]):
-        ends = after is None or after.depth == RELATION_BREAK or after.depth < piece.depth
-        if joined and ends and piece.width <= _NARROW and (piece.sign or piece.depth == RELATION_BREAK):
-            before = joined[-1]
-            text, width = join([before.text, piece.text]), before.width + piece.width
-            joined[-1] = replace(before, text=text, width=width)
-        else:
-            joined.append(piece)
     return joined
 
 
