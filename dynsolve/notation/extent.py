@@ -31,6 +31,7 @@ from dynsolve.notation.tree import (
     Reference,
     Relation,
     Row,
+    Slashed,
     Sum,
     Symbol,
     Transpose,
@@ -76,6 +77,7 @@ COLUMN_SPACE = 1.0
 _FRACTION_SPACE = 0.24
 _THIN = 0.17
 _ROOT = 0.9
+_STROKE = 1.7  # with the signs of a differential above and below
 _SUM_SIGN = 1.45
 _DOT = 0.73
 
@@ -130,7 +132,7 @@ class Ruler:
                 return sum(max(map(self.height, row)) + _ROW_SPACE for row in rows)
             case BigSum(body):
                 return max(self.height(body), _SUM_HEIGHT)
-            case Letter() | Words():
+            case Letter() | Words() | Slashed():
                 return _LINE
         return max(map(self.height, children(node)), default=_LINE)
 
@@ -199,6 +201,8 @@ class Ruler:
             case Parenthesized(argument):
                 tall = self.height(argument) > _LARGEST
                 return self.width(argument) + 2 * (_BUILT_PARENTHESIS if tall else TALL_PARENTHESIS)
+            case Slashed(fraction):
+                return sum(map(self._factor, children(fraction))) + _STROKE
             case Relation(parts):
                 return sum(map(self.width, parts)) + RELATION * (len(parts) - 1)
         raise TypeError(f"{type(node).__name__} has no width")

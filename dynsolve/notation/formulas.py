@@ -41,6 +41,7 @@ from dynsolve.notation.tree import (
     Reference,
     Relation,
     Row,
+    Slashed,
     Sum,
     Symbol,
     Transpose,
@@ -114,6 +115,10 @@ class FormulaPrinter(Printer):
     def _fraction(self, above: str, below: str) -> str:
         """above / below"""
         raise NotImplementedError
+
+    def _stroke(self, above: str, below: str) -> str:
+        """above / below in a line of words, whose parentheses are set."""
+        return f"{above}/{below}"
 
     def _root(self, argument: Node) -> str:
         """The square root."""
@@ -320,6 +325,20 @@ class FormulaPrinter(Printer):
         of = self.text(node.of)
         inner = of if isinstance(node.of, Parenthesized) else self.parenthesized(of)
         return self._fraction(d, below) + self.after_operator + inner
+
+    def _slashed(self, node: Slashed) -> str:
+        match node.fraction:
+            case Quotient(numerator, denominator):
+                return self._stroke(self._summand(numerator), self._below_stroke(denominator))
+            case Derivative(of, by, total) if of is not None:
+                d = self.differentials[total]
+                return self._stroke(self._differential(d, of), self._differential(d, by))
+        return self.text(node.fraction)
+
+    def _below_stroke(self, node: Node) -> str:
+        """What stands behind a stroke: a product there needs parentheses."""
+        text = self.text(node)
+        return self.parenthesized(text) if type(node) in self.compound else text
 
     def _relation(self, node: Relation) -> str:
         text = self.text(node.parts[0]) if node.parts else ""

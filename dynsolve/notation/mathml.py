@@ -108,6 +108,9 @@ class MathMLPrinter(FormulaPrinter):
     def _fraction(self, above: str, below: str) -> str:
         return f"<mfrac>{above}{below}</mfrac>"
 
+    def _stroke(self, above: str, below: str) -> str:
+        return row(f'{above}<mo form="infix" lspace="0" rspace="0">/</mo>{below}')
+
     def _root(self, argument: Node) -> str:
         return f"<msqrt>{self.text(argument)}</msqrt>"
 

@@ -239,6 +239,13 @@ class Parenthesized(Node):
 
 
 @node_class
+class Slashed(Node):
+    """A `Quotient` or a `Derivative` with a stroke, a/b, as it stands in a line of words."""
+
+    fraction: Node
+
+
+@node_class
 class Relation(Node):
     """part₁ sign₁ part₂ sign₂ ...: an equation or a chain of them."""
 

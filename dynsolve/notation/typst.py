@@ -89,6 +89,9 @@ class TypstPrinter(FormulaPrinter):
     def _fraction(self, above: str, below: str) -> str:
         return f"frac({above}, {below})"
 
+    def _stroke(self, above: str, below: str) -> str:
+        return rf"{above}\/{below}"
+
     def _root(self, argument: Node) -> str:
         return f"sqrt({self.text(argument)})"
 

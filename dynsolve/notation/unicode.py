@@ -45,6 +45,7 @@ from dynsolve.notation.tree import (
     Quotient,
     Relation,
     Row,
+    Slashed,
     Sum,
     Symbol,
     Words,
@@ -222,6 +223,9 @@ class UnicodePrinter(FormulaPrinter):
     def _big_sum(self, node: BigSum) -> str:
         below = f"{self._index(node.index)}={self._index(node.lower)}"
         return f"{self._scripted('Σ', below, self._index(node.upper))} {self._summand(node.body)}"
+
+    def _slashed(self, node: Slashed) -> str:
+        return self.text(node.fraction)
 
     # -- Parentheses on one line -------------------------------------------------------------------------
 

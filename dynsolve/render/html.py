@@ -32,9 +32,9 @@ from dynsolve.document import (
 from dynsolve.notation.extent import FLAT, Ruler
 from dynsolve.notation.mathml import MINUS, MathMLPrinter, row
 from dynsolve.notation.printing import PLAIN, Style
-from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
+from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
 from dynsolve.render.line_breaking import FormulaSplitter, Notation, together
-from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
+from dynsolve.render.matrices import entry_equations, holds_matrix
 from dynsolve.render.page import MarkupPage, prose_columns
 from dynsolve.render.parentheses import HEIGHTS, height_around
 from dynsolve.render.prose import typographic, visible
@@ -329,9 +329,8 @@ class _Page(MarkupPage):
         if isinstance(node, Relation) and len(node.parts) > 2 and not any(map(holds_matrix, node.parts[:-1])):
             yield self.broken(Relation(node.parts[:-1], node.signs[:-1]))
         yield '<div class="columns">'
-        for value, places in entries_by_value(matrix):
-            names = [entry_name(i, j, matrix, left, formula) for i, j in places]
-            yield self.broken(equation(*names, value))
+        for chain in entry_equations(matrix, left, formula):
+            yield self.broken(chain)
         yield "</div>"
 
     def contents(self) -> str:

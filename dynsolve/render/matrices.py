@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from dynsolve.document import Formula
-from dynsolve.notation.tree import ZERO, Entry, Letter, Matrix, Node, Number, Row, Words
+from dynsolve.notation.tree import ZERO, Entry, Letter, Matrix, Node, Number, Relation, Row, Words, equation
 from dynsolve.notation.walk import children, walk
 
 _SHALLOW = 4
+_OTHERS = Words("every other entry")
 
 
 def holds_matrix(node: Node, depth: int = _SHALLOW) -> bool:
@@ -34,6 +37,21 @@ def entries_by_value(matrix: Matrix) -> list[tuple[Node, list[tuple[int, int]]]]
             places.setdefault(entry, []).append((i, j))
     zeros = places.pop(ZERO, None)
     return [*places.items(), *([(ZERO, zeros)] if zeros else [])]
+
+
+def entry_equations(matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[Relation]:
+    """`d_12 = d_21 = ...`: equal entries in one chain, those that are 0 last.
+
+    Zeros of what has no letter of its own, (A - B)_12, are told in words: their names are long.
+    """
+    found = entries_by_value(matrix)
+    for value, places in found:
+        names = [entry_name(i, j, matrix, left, formula) for i, j in places]
+        first = names[0]
+        has_letter = not isinstance(first, Entry) or isinstance(first.of, Letter)
+        if value == ZERO and len(names) > 1 < len(found) and not has_letter:
+            names = [_OTHERS]
+        yield equation(*names, value)
 
 
 def given_name(i: int, j: int, matrix: Matrix, formula: Formula) -> Node | None:

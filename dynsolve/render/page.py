@@ -39,6 +39,7 @@ from dynsolve.render.matrices import height, holds_matrix
 from dynsolve.render.page_ends import LAST_OF_DISPLAY, LAST_OF_DOCUMENT, closing
 from dynsolve.render.prose import ProseWriter
 from dynsolve.render.references import after_references, runs, unfolded, with_results
+from dynsolve.render.strokes import in_line
 from dynsolve.render.typesetting import Line, Typesetter, listed
 
 _Piece = TypeVar("_Piece")
@@ -164,7 +165,7 @@ class Page(ABC, Generic[_Piece]):
                 return self.verbatim(text)
             case Reference():
                 return self.referred(part, self.labels)
-        return self.inline(part)
+        return self.inline(in_line(part))
 
     @abstractmethod
     def words(self, text: str) -> str:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from dynsolve.document import Formula
 from dynsolve.notation.tree import Letter, Matrix, Node, Relation, Row
 from dynsolve.notation.unicode import UnicodePrinter, width
-from dynsolve.render.matrices import entries_by_value, entry_name
+from dynsolve.render.matrices import entry_equations
 from dynsolve.render.terminal_boxes import TextBox, beside, boxed, matrix_box, matrix_width, pieces
 from dynsolve.render.terminal_breaking import break_sum
 from dynsolve.render.typesetting import listed
@@ -143,9 +143,8 @@ def _entry_by_entry(matrix: Matrix, formula: Formula, printer: UnicodePrinter, r
     """`d₁₂ = ...` a line for each entry; equal ones in one chain, those that are 0 last."""
     lines: list[str] = []
     left = formula.node.parts[0] if isinstance(formula.node, Relation) else None
-    for value, places in entries_by_value(matrix):
-        names = [printer.text(entry_name(i, j, matrix, left, formula)) for i, j in places]
-        text = " = ".join((*names, printer.text(value)))
+    for chain in entry_equations(matrix, left, formula):
+        text = " = ".join(map(printer.text, chain.parts))
         first, *others = break_sum(text, room - 2, room - _HANG - 2)
         lines += ["  " + first, *("  " + " " * _HANG + other for other in others)]
     return lines

@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 
 from dynsolve.document import Formula
 from dynsolve.notation.extent import RELATION, Ruler
-from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words, equation
+from dynsolve.notation.tree import Matrix, Node, Relation, Row, Words
 from dynsolve.render.line_breaking import FACTOR_BREAK, FormulaSplitter, Notation, Piece, lines
-from dynsolve.render.matrices import entries_by_value, entry_name, holds_matrix
+from dynsolve.render.matrices import entry_equations, holds_matrix
 
 INDENT = 2.0
 """How far a line is moved in that goes on with a member, in em."""
@@ -145,9 +145,8 @@ class Typesetter:
 
     def _each_entry(self, matrix: Matrix, left: Node | None, formula: Formula) -> Iterator[list[Line]]:
         """`d_12 = ...` for each entry; equal ones in one chain, those that are 0 last."""
-        for value, places in entries_by_value(matrix):
-            names = [entry_name(i, j, matrix, left, formula) for i, j in places]
-            yield list(self._level(equation(*names, value)))
+        for chain in entry_equations(matrix, left, formula):
+            yield list(self._level(chain))
 
     def equations(self, nodes: Sequence[Node]) -> list[Line]:
         """The lines of equations without matrices, level at their first equals sign."""

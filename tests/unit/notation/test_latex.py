@@ -23,6 +23,7 @@ from dynsolve.notation.tree import (
     Product,
     Relation,
     Row,
+    Slashed,
     Sum,
     Symbol,
     Transpose,
@@ -88,6 +89,9 @@ TEXTBOOK = [
     (Transpose(Letter("J", sub=i)), "J_{i}^{T}"),
     (Transpose(Letter("R", sub=Number(1), sup=Number(0))), "(R_{1}^{0})^{T}"),
     (Cross(Letter("z"), Parenthesized(Sum((Symbol("a"), Negative(Symbol("b")))))), r"z \times (a - b)"),
+    (Slashed(RATE), r"\partial \mathcal{L}/\partial \dot{\theta}_{1}"),
+    (Slashed(read("m1*(a + b)/(2*l1)").tree), r"m_{1} (a + b)/(2 l_{1})"),
+    (Slashed(read("(a + b)/2").tree), r"(a + b)/2"),
     (RATE, r"\frac{\partial \mathcal{L}}{\partial \dot{\theta}_{1}}"),
     (
         Derivative(RATE, t, total=True),

@@ -20,6 +20,7 @@ from dynsolve.notation.tree import (
     Number,
     Power,
     Row,
+    Slashed,
     Symbol,
     Transpose,
     Words,
@@ -54,6 +55,11 @@ def test_mathml_is_well_formed_and_every_script_has_its_parts(name: str) -> None
         (Power(Symbol("l1"), Number(2)), "<msubsup><mi>l</mi><mn>1</mn><mn>2</mn></msubsup>"),
         (Letter("D", style="bold"), '<mi mathvariant="normal" class="v">D</mi>'),
         (Words("<b>"), "<mtext>&lt;b&gt;</mtext>"),
+        (
+            Slashed(read("l1/2").tree),
+            '<mrow><msub><mi>l</mi><mn>1</mn></msub><mo form="infix" lspace="0" rspace="0">/</mo>'
+            "<mn>2</mn></mrow>",
+        ),
     ],
 )
 def test_mathml(node: Node, mathml: str) -> None:

@@ -53,6 +53,7 @@ ONE_OF_EACH: list[tuple[Node, tuple[Node, ...]]] = [
     (tree.BigSum(A, B, TWO, C), (A, B, TWO, C)),
     (tree.Integral(A, B, TWO, C), (A, B, TWO, C)),
     (tree.Parenthesized(A), (A,)),
+    (tree.Slashed(A), (A,)),
     (tree.Relation((A, B, C), ("=", "≈")), (A, B, C)),
 ]
 """A node of each class, and its parts."""
