@@ -85,12 +85,21 @@ def typeset(source: str, folder: Path) -> Typeset:
     options = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
     command = [program, *options, "-draftmode", "report.tex"]
     done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
-    first = (folder / "report.aux").read_bytes() if done.returncode == 0 else b""
+    first = _references(folder, source) if done.returncode == 0 else {}
     if done.returncode == 0:
         done = subprocess.run([program, *options, "report.tex"], cwd=folder, capture_output=True, check=False)
     log = (folder / "report.log").read_text(encoding="utf-8", errors="replace")
-    settled = done.returncode == 0 and (folder / "report.aux").read_bytes() == first
+    settled = done.returncode == 0 and _references(folder, source) == first
     return Typeset(done.returncode, log, folder / "report.pdf", settled)
+
+
+def _references(folder: Path, source: str) -> dict[str, tuple[str, str]]:
+    """What a run found for the next to print: the number of each label, and the pages of the contents."""
+    found = re.findall(
+        r"\\newlabel\{(.*?)\}\{\{(.*?)\}\{(.*?)\}\}", (folder / "report.aux").read_text(encoding="utf-8")
+    )
+    paged = set(re.findall(r"\\contentsrow\{.*\}\{(.*?)\}", source))
+    return {label: (number, page if label in paged else "") for label, number, page in found}
 
 
 def text_of(pdf: Path) -> str:
