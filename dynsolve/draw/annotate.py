@@ -15,7 +15,7 @@ from dynsolve.draw.labels import Wanted
 from dynsolve.draw.occupied import Taken
 from dynsolve.draw.parts import TUBE
 from dynsolve.draw.paths import Path
-from dynsolve.draw.pose import AXIS, Pose
+from dynsolve.draw.pose import ARC, AXIS, MANY, Pose
 from dynsolve.draw.typography import typeset
 from dynsolve.draw.vectors import (
     Point,
@@ -33,6 +33,9 @@ _END_ON = 0.06
 
 _ALONG = 0.99
 """The cosine from which gravity acts along an axis."""
+
+_PAST_ARC = 12.0
+"""How far the tip of an axis is on paper from the arc of an angle, which is not to cut its head."""
 
 _SAME = 5.0
 MARK = 6.0
@@ -121,7 +124,8 @@ def axis_arrow(origin: Point, axis: Vector, pose: Pose, notes: Notes) -> Point:
     if _is_end_on(axis, pose):
         notes.taken.add([Path(paths.circle(origin, MARK))])  # drawn last, by `axes_end_on`
         return origin
-    tip = (origin[0] + x * AXIS, origin[1] + y * AXIS)
+    reach = reach_of_axis((x, y), pose)
+    tip = (origin[0] + x * reach, origin[1] + y * reach)
     back = (tip[0] - x / math.hypot(x, y) * 6.0, tip[1] - y / math.hypot(x, y) * 6.0)
     notes.draw(
         Path(paths.line(origin, back), paths.WHITE, 4.2),
@@ -137,6 +141,12 @@ def axes_end_on(pose: Pose, notes: Notes) -> None:
         for axis in (frame.x, frame.z):
             if _is_end_on(axis, pose):
                 axis_end_on(pose.view.point(frame.origin), dot(axis, pose.view.toward) > 0, notes)
+
+
+def reach_of_axis(direction: Point, pose: Pose) -> float:
+    """How long an axis is drawn that has this direction on paper: beyond an arc, with its whole head."""
+    has_arcs = len(pose.skeleton.legs) <= MANY
+    return max(AXIS, ARC + _PAST_ARC / math.hypot(*direction)) if has_arcs else AXIS
 
 
 def _is_end_on(axis: Vector, pose: Pose) -> bool:

@@ -18,7 +18,7 @@ from dynsolve.draw.annotate import Notes
 from dynsolve.draw.drawn_lengths import turned_alone
 from dynsolve.draw.parts import RADIUS, JointBody
 from dynsolve.draw.paths import Path
-from dynsolve.draw.pose import MANY, Pose
+from dynsolve.draw.pose import ARC, MANY, Pose
 from dynsolve.draw.skeleton import Leg
 from dynsolve.draw.vectors import (
     NEAR,
@@ -44,9 +44,6 @@ _ARC = 31.0
 _WIDER = 10.0
 """How much wider the arc of a further angle about the same point is."""
 
-_WIDE = 34.0
-"""The radius of an arc in space, which its joint's body is not to hide."""
-
 _SMALL = 0.3
 """A smaller angle in space is shown by its sense alone."""
 
@@ -61,6 +58,9 @@ _CLEAR = 28.0
 
 _ALIKE = 1 - 1e-6
 """The cosine from which two directions are one."""
+
+_OFF_SHAFT = 3.0
+"""How far from the axis at which an arc in space begins it is drawn over what lies under it."""
 
 _PARTS = (0.5, 0.35, 0.65, 0.2, 0.8)
 """Where along an arc its name may stand, best first."""
@@ -93,12 +93,17 @@ def _turning(pose: Pose) -> Iterator[tuple[JointBody, Leg]]:
             yield part, pose.skeleton.legs[part.row - 1]
 
 
-def has_parallels(pose: Pose) -> bool:
-    """Whether a dashed line shows a direction of some angle."""
-    return any(
-        (pose.view.flat or not _has_ring(pose, leg)) and any(_unseen(leg, _center(pose, part, leg), pose))
-        for part, leg in _turning(pose)
-    )
+def parallels(robot: Robot, pose: Pose) -> list[int | None]:
+    """For every dashed line the frame whose x axis it is parallel to, None where it is to none."""
+    found: list[int | None] = []
+    for part, leg in _turning(pose):
+        if pose.view.flat or not _has_ring(pose, leg):
+            ends = (part.row, leg.after), (robot.joints[part.row - 1].parent, leg.before)
+            found += (
+                next((frame for frame, x in ends if dot(x, direction) > _ALIKE), None)
+                for direction in _unseen(leg, _center(pose, part, leg), pose)
+            )
+    return found
 
 
 def has_offsets(pose: Pose) -> bool:
@@ -199,21 +204,27 @@ def _angle_in_space(pose: Pose, part: JointBody, leg: Leg, node: Node, notes: No
     center = view.point(middle)
     side = cross(leg.axis, leg.before)
     for direction in _unseen(leg, middle, pose):
-        tip = view.point(along(middle, direction, view.space(_WIDE + _BEYOND)))
+        tip = view.point(along(middle, direction, view.space(ARC + _BEYOND)))
         line = Path(paths.line(center, tip), paths.GREY, 0.9, dashed=True)
         notes.draw(line, behind=dot(direction, view.toward) < 0)
     _offset(middle, leg, pose, notes)
-    p, q = scaled(view.direction(leg.before), _WIDE), scaled(view.direction(side), _WIDE)
+    p, q = scaled(view.direction(leg.before), ARC), scaled(view.direction(side), ARC)
     angle = leg.turn
     short = angle - min(0.25, angle / 2)
     for start, end, behind in _seen(leg.before, side, view.toward, short):
         arc = paths.arc(center, p, q, start, end)
-        halo = () if behind else (Path(arc, paths.WHITE, 3.6),)
+        halo = () if behind else (_halo(center, p, q, start, end),)
         notes.draw(*halo, Path(arc, paths.VARIABLE, 1.4), behind=behind)
     notes.draw(_head(center, p, q, angle, short), behind=_depth(leg.before, side, view.toward, angle) < 0)
     places = sorted(_PARTS, key=lambda part_of: _depth(leg.before, side, view.toward, angle * part_of) < 0)
     anchors = [paths.on_ellipse(center, p, q, angle * part_of) for part_of in places]
     notes.label(node, anchors, _from_to(center, anchors[0]), paths.VARIABLE, "variable")
+
+
+def _halo(center: Point, p: Point, q: Point, start: float, end: float) -> Path:
+    """The white edge of an arc, which leaves the axis whole at which the arc begins."""
+    clear = start if start else min(_OFF_SHAFT / ARC, end)
+    return Path(paths.arc(center, p, q, clear, end), paths.WHITE, 3.6)
 
 
 def _depth(first: Vector, second: Vector, toward: Vector, t: float) -> float:

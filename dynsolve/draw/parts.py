@@ -26,7 +26,10 @@ _CLEAR = 36.0
 """The least distance between the centres of two parts."""
 
 _BASE_END = 24.0
-"""How far from its foot the part of a joint stands that turns a long link: at the base end of that link."""
+"""How far from its foot the part of a joint stands that turns a long link: at the base end of that link.
+
+The first one stands on the ground.
+"""
 
 _PEDESTAL = 46.0
 _ROOM = 44.0
@@ -100,7 +103,8 @@ def _places(pose: Skeleton, row: int, leg: Leg, view: View, up: Vector, first: b
     if leg.type is JointType.PRISMATIC:
         return ahead
     if abs(span) * view.size > _ROOM:
-        near_the_foot = [math.copysign(view.space(away), span) for away in (_BASE_END, _CLEAR)]
+        base_end = HALF_HEIGHT if first else _BASE_END
+        near_the_foot = [math.copysign(view.space(away), span) for away in (base_end, _CLEAR)]
         middle = [span * part for part in (0.5, 0.3, 0.7)]
         return [along(leg.foot, leg.axis, away) for away in (*near_the_foot, *middle)] + ahead
     upright = dot(leg.axis, up)

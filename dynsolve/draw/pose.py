@@ -33,6 +33,9 @@ from dynsolve.robot.model import JointType, Robot
 AXIS = 44.0
 """How long the axes of frames are drawn."""
 
+ARC = 28.0
+"""The radius of the arc of an angle in space, which its joint's body is not to hide."""
+
 MANY = 4
 """A robot with more rows than that has more to write beside it than there is room for."""
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from dynsolve.derivation.drawn_motion import drawn_coordinates
 from dynsolve.draw import annotate, paths
 from dynsolve.draw.drawn_lengths import RobotNumbers, numbers
-from dynsolve.draw.joint_angles import has_offsets, has_parallels, joint_angles, names_of_angles
+from dynsolve.draw.joint_angles import has_offsets, joint_angles, names_of_angles, parallels
 from dynsolve.draw.labels import Label, place
 from dynsolve.draw.lengths import Length, dimensions, row_lengths
 from dynsolve.draw.occupied import Box, Taken, bounds
@@ -22,6 +22,7 @@ from dynsolve.draw.springs import SPRINGS, joint_springs, springs
 from dynsolve.draw.thicknesses import thicknesses
 from dynsolve.draw.vectors import NEAR, Point, dot
 from dynsolve.draw.world_frame import WORLD, has_world, moves, world_frame
+from dynsolve.notation.characters import SUBSCRIPT_DIGITS
 from dynsolve.notation.printing import Style
 from dynsolve.notation.tree import Node, Number, Product, Quotient, Symbol
 from dynsolve.problem.model import Problem
@@ -36,9 +37,12 @@ SLIDE = 0.9
 
 CAPTION = "The manipulator with its frames; not to scale."
 PARALLELS = "Dashed grey lines at a joint are parallel to the directions between which its angle is measured."
+"""Said where one of them is parallel to no x axis, since degrees are added to its angle."""
+
 OFFSETS = "What the table adds to an angle is drawn beyond its arrow, in grey."
 OFF_LINKS = "A black dashed line leads from an origin to a mass centre that lies off its link."
 
+_SUBSCRIPTS = str.maketrans("0123456789", SUBSCRIPT_DIGITS)
 _STAR = Style(star=True, decimal=True)
 _PLAIN = Style(decimal=True)
 
@@ -94,14 +98,30 @@ def scene(problem: Problem, star: bool = True) -> Scene:
 
 def _caption(robot: Robot, values: RobotNumbers, pose: Pose) -> str:
     """What stands under the picture, with what its lines are that are not always there."""
+    dashed = parallels(robot, pose)
     said = (
         (WORLD, has_world(robot, values)),
-        (PARALLELS, has_parallels(pose)),
+        (_parallel(dashed), bool(dashed)),
         (OFFSETS, has_offsets(pose)),
         (OFF_LINKS, annotate.has_masses_off_links(pose)),
         (SPRINGS, bool(joint_springs(robot, values, pose))),
     )
     return " ".join([CAPTION, *(sentence for sentence, holds in said if holds)])
+
+
+def _parallel(frames: Sequence[int | None]) -> str:
+    """To the x axes of which frames the dashed lines are parallel.
+
+    >>> _parallel([1])
+    'The dashed grey line is parallel to 𝐱₁.'
+    >>> _parallel([1, 3, 4])
+    'The dashed grey lines are parallel to 𝐱₁, 𝐱₃ and 𝐱₄.'
+    """
+    if None in frames:
+        return PARALLELS
+    axes = [f"𝐱{str(frame).translate(_SUBSCRIPTS)}" for frame in dict.fromkeys(frames)]
+    named = " and ".join([", ".join(axes[:-1]), axes[-1]] if len(axes) > 1 else axes)
+    return f"The dashed grey {'line is' if len(frames) == 1 else 'lines are'} parallel to {named}."
 
 
 def as_drawn(problem: Problem, values: RobotNumbers) -> list[float] | None:

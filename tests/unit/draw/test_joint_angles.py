@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from dynsolve.draw.annotate import Notes
+from dynsolve.draw.annotate import Notes, reach_of_axis
 from dynsolve.draw.drawn_lengths import numbers
-from dynsolve.draw.joint_angles import has_offsets, has_parallels, joint_angles, names_of_angles
+from dynsolve.draw.joint_angles import has_offsets, joint_angles, names_of_angles, parallels
 from dynsolve.draw.occupied import Taken
 from dynsolve.draw.orientation import orientation
 from dynsolve.draw.paths import GREY, VARIABLE, flattened
@@ -22,6 +22,9 @@ from dynsolve.problem import load, read_problem
 from dynsolve.problem.model import Problem
 from dynsolve.robot.model import JointType
 from tests.support import LIBRARY
+
+HEAD = 9.0
+"""The length of the head of an axis."""
 
 OFFSET = b"dh: [{theta: q1* + 90deg, a: l1}, {theta: q2* - 30deg, a: l2}]"
 TURNED_DOWN = b"base: Rx(180deg)\ndh: [{theta: q1*, a: l1}, {theta: q2* + 90deg, a: l2}]"
@@ -118,9 +121,26 @@ def test_a_waist_has_its_angle_about_the_origin_of_the_base() -> None:
 
 
 def test_lines_that_are_parallel_to_axes_are_said() -> None:
-    pose, notes = shown(library("spherical-rrp"))
-    dashed = [path for path in (*notes.paths, *notes.behind) if path.dashed and path.stroke == GREY]
-    assert has_parallels(pose) and dashed
-    for name in ("planar-2r", "five-bar"):
-        flat, none = shown(library(name))
-        assert not has_parallels(flat) and not [path for path in none.paths if path.dashed]
+    """As many as are dashed, and each in the direction of the axis that is named."""
+    for name, lines in (("crustcrawler-2r", 1), ("elbow-3r", 1), ("planar-2r", 0), ("five-bar", 0)):
+        problem = library(name)
+        pose, notes = shown(problem)
+        dashed = [path for path in (*notes.paths, *notes.behind) if path.dashed and path.stroke == GREY]
+        named = parallels(problem.robot, pose)
+        assert len(named) == len(dashed) == lines
+        for frame, path in zip(named, dashed, strict=True):
+            assert frame is not None
+            (x0, y0), (x1, y1) = (points[0] for _, points in path.commands)
+            x, y = pose.view.direction(pose.skeleton.frames[frame].x)
+            assert (x1 - x0) * y == pytest.approx((y1 - y0) * x, abs=1e-6)
+
+
+def test_the_head_of_an_axis_is_beyond_the_arc_that_begins_on_it() -> None:
+    pose, notes = shown(library("elbow-3r"))
+    leg = pose.skeleton.legs[0]
+    origin = pose.view.point(leg.center)
+    x, y = pose.view.direction(leg.before)
+    starts = [path.commands[0][1][0] for path in notes.paths if path.stroke == VARIABLE]
+    on_axis = [p for p in starts if abs((p[0] - origin[0]) * y - (p[1] - origin[1]) * x) < 1e-6]
+    (start,) = (math.dist(origin, point) for point in on_axis)
+    assert start < reach_of_axis((x, y), pose) * math.hypot(x, y) - HEAD
