@@ -90,7 +90,7 @@ _MACROS = r"""\providecommand{\formulasource}[1]{\footnotesize #1}
 \providecommand{\putclosingpage}{\nobreak \ifdim\ht\closingpage>\textheight\else
   \ifdim\ht\closingpage>.25\textheight
   \ifdim\ht\closingpage>\dimexpr\pagegoal-\pagetotal\relax
-  \ifdim\dimexpr\pagegoal-\pagetotal\relax<.2\textheight\newpage\fi\fi\fi\fi\unvbox\closingpage}
+  \ifdim\dimexpr\pagegoal-\pagetotal\relax<.35\textheight\newpage\fi\fi\fi\fi\unvbox\closingpage}
 """
 
 

@@ -88,7 +88,7 @@ _PREAMBLE = """#set document(title: {title}, date: none)
   align: (x, y) => if x == count { right + horizon } else { left + horizon })
 #let closing(body) = v(1.6em, weak: true) + layout(size => {
   let needed = measure(block(width: size.width, body)).height
-  let begun = calc.min(needed, 0.2 * size.height)
+  let begun = calc.min(needed, (if needed > size.height { 0.2 } else { 0.35 }) * size.height)
   block(breakable: false, spacing: 0pt, height: begun)
   v(-begun)
   body

@@ -95,11 +95,11 @@ def written(paragraphs: int, closing: int, pdf: Path) -> list[list[str]]:
     return lines_of(pdf)
 
 
-@pytest.mark.parametrize(("filled", "page_of_summary"), [(0.3, 1), (0.6, 1), (0.9, 2)])
+@pytest.mark.parametrize(("filled", "page_of_summary"), [(0.3, 1), (0.55, 1), (0.75, 2), (0.9, 2)])
 def test_the_summary_is_on_one_page_unless_that_left_much_of_another_empty(
     filled: float, page_of_summary: int, tmp_path: Path
 ) -> None:
-    """One that takes half a page begins where a fifth is left; where less is, on a page of its own."""
+    """One that takes half a page begins where a third is left; where less is, on a page of its own."""
     pdf = tmp_path / "report.pdf"
     room = len(written(200, 0, pdf)[0])
     pages = written(round(filled * room), room // 2, pdf)
