@@ -33,7 +33,7 @@ from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Coordinate, JointType, Robot
 
 LONGEST = 14
-"""The operations up to which the value of a term stands beside its name."""
+"""The operations up to which the values of terms stand beside their names."""
 
 
 class Kind(StrEnum):
@@ -128,14 +128,13 @@ def terms_step(context: Context) -> Iterator[Step]:
         if total != context.values[f"tau{q.index}"]:
             return
     kinds = dict.fromkeys(term.kind for _, terms in found for term in terms)
-    known = Dimensions(robot.ring, robot)
-    units_known = _fit(context, known, found)
+    whole = _written_whole(context, [term for _, terms in found for term in terms])
     holds = "the joint" if context.robot.has_table else "the force of the coordinate"
     forces = Reference(tuple(f"tau{q.index}" for q in robot.coordinates), " of ")
     why = [_MEANINGS[kind].format(holds=holds) for kind in Kind if kind in _told(kinds)]
-    checked = _said_of_units(robot.coordinates) if units_known else ()
-    header = (_named(robot), "term", "what it is", *(("unit",) if units_known else ()))
-    rows = [row for q, terms in found for row in _rows(context, q, terms, known if units_known else None)]
+    checked = _said_of_units(robot.coordinates) if _units_fit(context, found) else ()
+    header = (_named(robot), "term", "what it is")
+    rows = [row for q, terms in found for row in _rows(context, q, terms, whole)]
     yield Step(
         id="terms",
         stage=Stage.VECTORIZED,
@@ -171,11 +170,12 @@ def _twice(context: Context) -> Prose:
 
 
 def _rows(
-    context: Context, q: Coordinate, terms: list[Term], known: Dimensions | None
+    context: Context, q: Coordinate, terms: list[Term], whole: frozenset[int]
 ) -> Iterator[tuple[Inline, ...]]:
     for place, term in enumerate(terms):
-        unit: Prose = () if known is None else (_unit(context, known, term),)
-        yield (letters.force(q) if place == 0 else "", _written(context, term), str(term.kind), *unit)
+        name = name_of_term(context, term)
+        form = equation(name, context.show(value_of_term(context, term))) if _order(term) in whole else name
+        yield (letters.force(q) if place == 0 else "", form, str(term.kind))
 
 
 def rates_of(context: Context, term: Term) -> list[tuple[Node, int]]:
@@ -190,37 +190,32 @@ def name_of_term(context: Context, term: Term) -> Node:
     return times(term.count, [(term.letter, 1), *rates_of(context, term)])
 
 
-def _written(context: Context, term: Term) -> Node:
-    """The term by its name, and its value where that is short."""
-    name = name_of_term(context, term)
-    value = context.show(value_of_term(context, term))
-    return equation(name, value) if cost(value) <= LONGEST else name
+def _written_whole(context: Context, terms: Iterable[Term]) -> frozenset[int]:
+    """Terms of which order in the rates have their values beside their names: of an order all, or none."""
+    orders, long = set[int](), set[int]()
+    for term in terms:
+        orders.add(_order(term))
+        if cost(context.show(value_of_term(context, term))) > LONGEST:
+            long.add(_order(term))
+    return frozenset(orders - long)
+
+
+def _order(term: Term) -> int:
+    """1 of a term with an acceleration, 2 of one with two rates, 0 without."""
+    return len(term.rates)
 
 
 # -- units -----------------------------------------------------------------------------------------
 
 
-def _fit(context: Context, known: Dimensions, found: list[tuple[Coordinate, list[Term]]]) -> bool:
+def _units_fit(context: Context, found: list[tuple[Coordinate, list[Term]]]) -> bool:
     """Whether every term is known to have the unit of its force."""
+    known = Dimensions(context.robot.ring, context.robot)
     for q, terms in found:
         wanted = units.ENERGY if q.type is JointType.REVOLUTE else units.FORCE
         if any(known.of(value_of_term(context, term)) != wanted for term in terms):
             return False
     return True
-
-
-def _unit(context: Context, known: Dimensions, term: Term) -> Node:
-    """The unit of the factor, and of the rates it is multiplied by."""
-    factor, whole = known.of(term.factor), known.of(value_of_term(context, term))
-    assert factor is not None and whole is not None
-    if not term.rates:
-        return units.node(_force_unit(whole))
-    rest = units.times(whole, factor, -1)
-    return units.node(f"{units.si(factor) or '1'} · {units.si(rest)}")
-
-
-def _force_unit(dim: units.Dimension) -> str:
-    return "N m" if dim == units.ENERGY else units.si(dim)
 
 
 def _said_of_units(coordinates: tuple[Coordinate, ...]) -> Prose:
@@ -230,4 +225,4 @@ def _said_of_units(coordinates: tuple[Coordinate, ...]) -> Prose:
         said.append((units.node("kg m^2/s^2 = N m"), " in a torque (an angle is a number)"))
     if JointType.PRISMATIC in kinds:
         said.append((units.node("kg m/s^2 = N"), " in a force"))
-    return (" The factor times the rates or the acceleration gives ", *listed(said), ".")
+    return (" Each term has the unit of its force: ", *listed(said), ".")

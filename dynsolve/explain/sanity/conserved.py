@@ -63,36 +63,36 @@ def _step(context: Context, energy: Line | None) -> Step | None:
 
 
 def _of_energy(context: Context) -> Line | None:
-    """d/dt (K + P) = q̇ᵀ (D q̈ + ½ Ḋ q̇ + g) = q̇ᵀ (τ + ½ N q̇) = q̇ᵀ τ; None where D and g are given otherwise."""
+    """d/dt (K + P) = q̇ᵀ (D q̈ + ½ Ḋ q̇ + g) = q̇ᵀ (D q̈ + C q̇ + g + ½ N q̇) = q̇ᵀ τ, of energies."""
     asked = context.robot.questions
     if context.robot.given is not None or asked.method is not Method.LAGRANGE or asked.constraints:
         return None
-    half, N = letters.HALF, letters.bold("N")
+    half, N, rate_of_inertia = letters.HALF, letters.bold("N"), letters.bold("D", dots=1)
+    inertial, coriolis = Product((letters.D, letters.QDD)), Product((letters.C, letters.QD))
+    acting = sum_of(_acting(context))
     powers = [
-        Sum(
-            (
-                Product((letters.D, letters.QDD)),
-                Product((half, letters.bold("D", dots=1), letters.QD)),
-                letters.G,
-            )
-        ),
-        sum_of([*_acting(context), Product((half, N, letters.QD))]),
-        sum_of(_acting(context)),
+        Sum((inertial, Product((half, rate_of_inertia, letters.QD)), letters.G)),
+        Sum((inertial, coriolis, letters.G, Product((half, N, letters.QD)))),
+        acting,
     ]
     rate = letters.time_derivative(Sum((letters.K, letters.P)))
     kinetic = equation(letters.K, Product((half, letters.transposed_product(letters.QD, letters.D))))
     slope = equation(letters.G, letters.partial_derivative(letters.P, letters.Q))
+    splitting = equation(rate_of_inertia, Sum((Product((Number(2), letters.C)), N)))
     by: Prose = (
-        "By ",
+        "The rate of the energy follows from ",
         kinetic,
-        " and ",
+        " (",
+        letters.D,
+        " is symmetric) and ",
         slope,
-        ", the equations of motion, and ",
     )
+    by += ("; into it are put ", splitting, ", ")
+    by += (equation(Sum((inertial, coriolis, letters.G)), acting), " and ")
     by += (
         equation(letters.transposed_product(letters.QD, N), Number(0)),
-        Reference(("skew-2",)),
-        " the rate of the energy is:",
+        Reference(("skew-2",), " by "),
+        ":",
     )
     return Line(by, (equation(rate, *map(_power, powers)),))
 
@@ -148,7 +148,7 @@ def _of_momenta(context: Context, free: list[Coordinate]) -> Prose:
     )
     why += (" says" if one else "s say", f" that the {'momentum' if one else 'momenta'} ")
     why += (
-        *listed([(_momentum(q), Reference((f"dLdqd{q.index}",)), *_named(context, q)) for q in free]),
+        *listed([(_momentum(q), Reference((f"dLdqd{q.index}",), " in "), *_named(context, q)) for q in free]),
         " is" if one else " are",
     )
     return (*why, " conserved.")

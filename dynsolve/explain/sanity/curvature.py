@@ -16,9 +16,7 @@ from dynsolve.explain.sanity.balance import Zero, at_zeros
 from dynsolve.explain.sanity.definite import determinant
 from dynsolve.explain.sanity.pose import Pose, at
 from dynsolve.explain.sanity.sign import is_positive, with_lengths
-from dynsolve.notation.build import cost
 from dynsolve.notation.tree import (
-    Matrix,
     Negative,
     Node,
     Number,
@@ -26,9 +24,13 @@ from dynsolve.notation.tree import (
     Product,
     Sum,
     Symbol,
+    Words,
     equation,
 )
 from dynsolve.quantities import letters
+
+DET = Words("det")
+"""The determinant of the second derivatives."""
 
 MOST_SHOWN = 2
 """Of up to so many angles the minors are shown with the derivatives that they are made of."""
@@ -81,22 +83,31 @@ def kind_of(signs: Sequence[int]) -> Kind | None:
     return Kind.SADDLE if rules_out_both and signs[-1] else None
 
 
-def shown(context: Context, names: Sequence[str], known: Sequence[Zero]) -> Iterator[Node]:
-    """The last second derivative, and the determinant of two with the derivatives put in."""
-    first, *others = map(context.show, minors(context, names, known))
-    yield equation(_slope(context, names[-1], names[-1]), first)
-    if others:
-        second = _second(context, names, known)
-        letters_of = [[_slope(context, i, j) for j in names] for i in names]
-        values = [[[context.show(entry * sign) for entry in row] for row in second] for sign in (1, -1)]
-        shorter = min(values, key=lambda rows: cost(Sum((*rows[0], *rows[1]))))  # (-a)(-c) is a c
-        yield equation(_determinant(letters_of), _determinant(shorter), *others)
+def shown(context: Context, names: Sequence[str], known: Sequence[Zero] | None) -> Iterator[Node]:
+    """The second derivatives; where rows of g are 0 the determinant of two, too."""
+    second = _second(context, names, known or ())
+    for value, slopes in _by_value(context, names, second):
+        yield equation(*slopes, context.show(value))
+    if known is None or len(names) == 1:
+        return
+    letters_of = [[_slope(context, i, j) for j in names] for i in names]
+    last = context.show(minors(context, names, known)[-1])
+    yield equation(DET, _determinant(letters_of), last)
 
 
-def matrix_shown(context: Context, names: Sequence[str]) -> Node:
-    """∂g/∂q, the matrix of all second derivatives of P, whatever the pose."""
-    rows = tuple(tuple(map(context.show, row)) for row in _second(context, names, ()))
-    return equation(letters.partial_derivative(letters.G, letters.Q), Matrix(rows))
+def _by_value(
+    context: Context, names: Sequence[str], second: Sequence[Sequence[Expr]]
+) -> Iterator[tuple[Expr, list[Node]]]:
+    """The values of the second derivatives, each with all derivatives that have it."""
+    found: list[tuple[Expr, list[Node]]] = []
+    for name, row in zip(names, second, strict=True):
+        for by, value in zip(names, row, strict=True):
+            slopes = next((slopes for known, slopes in found if known == value), None)
+            if slopes is None:
+                slopes = []
+                found.append((value, slopes))
+            slopes.append(_slope(context, name, by))
+    yield from found
 
 
 def slope_of_last(context: Context, names: Sequence[str]) -> Node:

@@ -20,7 +20,7 @@ from dynsolve.explain.forms import is_numeric
 from dynsolve.explain.sanity.determinant import MULTIPLIED_OUT, Determinant, determinant_of_two, said_of
 from dynsolve.explain.sanity.sign import is_positive, masses_and_moments
 from dynsolve.explain.step import Line, Step
-from dynsolve.explain.writing import listed, spong
+from dynsolve.explain.writing import listed, spong, sum_of
 from dynsolve.notation.build import cost, times
 from dynsolve.notation.tree import (
     ZERO,
@@ -31,6 +31,7 @@ from dynsolve.notation.tree import (
     Number,
     Power,
     Product,
+    Relation,
     Row,
     Sum,
     Symbol,
@@ -90,15 +91,21 @@ def _by_entries(context: Context) -> _Shown | None:
     if not determinants:
         return (*why, " All other entries are zero, so ", letters.D, " is positive definite."), (), ()
     if len(firsts) > 1:
-        why += (" Coordinates that are not coupled have no entry in common, so each block counts by itself.",)
-    why += (f" The determinant{'s' * (len(determinants) > 1)} below ",)
+        parts = listed([_block(context, block) for block in blocks(D)])
+        why += (
+            " ",
+            letters.D,
+            " consists of ",
+            *parts,
+            ", not coupled with each other: each counts by itself.",
+        )
+    several = len(determinants) > 1
     why += (
-        "are" if len(determinants) > 1 else "is",
-        " positive, too, so ",
-        letters.D,
-        " is positive definite ",
+        " The determinants below are" if several else " The determinant below is",
+        " positive, too: no term of ",
     )
-    why += ("(Sylvester's criterion); ", *said_of(determinants), ":")
+    why += ("their last lines" if several else "its last line", " is negative, and not all can be 0. So ")
+    why += (letters.D, " is positive definite (Sylvester's criterion); ", *said_of(determinants), ":")
     return why, tuple(each.line for each in determinants), ()
 
 
@@ -107,19 +114,32 @@ def _diagonal(context: Context, places: Sequence[int]) -> Prose:
     names: list[Node] = [letters.entry("d", k + 1, k + 1) for k in places]
     one = len(places) == 1
     if all(_is_positive(context, context.show(context.values["D"][k, k])) for k in places):
-        whose, where = ("its", "") if one else ("their", " in either" if len(names) == 2 else " in any")
-        seen = f"none of {whose} terms is negative, and not all are zero{where}"
-        return (
-            *listed(names),
-            Reference(("D",)),
-            f" {'is' if one else 'are'} positive: {seen}.",
-        )
+        least = [_least(context, k) for k in places]
+        return ("On the diagonal of ", letters.D, Reference(("D",), " in "), ", ", *listed(least), ".")
     i = Symbol("i")
     rate, entry = Letter("q", i, dots=1), Letter("d", Row((i, i)))
     why: Prose = ("No body adds anything negative to ", entry, ", which is ", Product((Number(2), letters.K)))
     why += (" where ", equation(rate, Number(1)), " and the other rates are 0. ")
-    why += (*listed(names), Reference(("D",)), f" {'is' if one else 'are'} positive: ")
+    why += (*listed(names), Reference(("D",), " in "), f" {'is' if one else 'are'} positive: ")
     return (*why, *listed(tuple(_adding(context, k) for k in places)), ".")
+
+
+def _least(context: Context, k: int) -> Node:
+    """d_kk ≥ I > 0, where other terms may be 0; d_kk > 0 where none may."""
+    name, form = letters.entry("d", k + 1, k + 1), context.show(context.values["D"][k, k])
+    sure = [term for term in form.terms if _is_positive(context, term)] if isinstance(form, Sum) else []
+    if not isinstance(form, Sum) or not sure or len(sure) == len(form.terms):
+        return Relation((name, ZERO), (">",))
+    return Relation((name, sum_of(sure), ZERO), ("≥", ">"))
+
+
+def _block(context: Context, block: Sequence[int]) -> Prose:
+    """d₁₁, or the 2×2 block of θ₂ and θ₃"""
+    if len(block) == 1:
+        return (letters.entry("d", block[0] + 1, block[0] + 1),)
+    size = len(block)
+    names = [Symbol(context.robot.coordinates[k].name) for k in block]
+    return (f"the {size}×{size} block of ", *listed(names))
 
 
 def _adding(context: Context, k: int) -> Prose:

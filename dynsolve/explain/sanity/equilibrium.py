@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dynsolve.document import Inline, Prose, Reference, Table
+from dynsolve.explain.closing import driving_side
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity import balance, cases, curvature
 from dynsolve.explain.sanity.curvature import Kind
@@ -97,22 +98,25 @@ def _told_of_all(
     table = tuple((side_by_side(written(pose)), *row) for pose, row in zip(zero, told, strict=True))
     shown = (_second_derivatives(context, names, rows),) if shows else ()
     concluding: Prose = (_all(zero), *_free(context, zero[0]), ". ", *_by_minors(context, names))
-    why = (*_assumed(context), *_rows_of(rows))
+    why = (*_at_rest(context), *_assumed(context), *_rows_of(context, rows))
     return _step(why, (*lines, *shown), concluding, Table(_header(context, names), table))
 
 
-def _rows_of(rows: Sequence[balance.Zero] | None) -> Prose:
+def _at_rest(context: Context) -> Prose:
+    """What an equilibrium is."""
+    at_rest = equation(driving_side(context), letters.bold("0"))
+    zero = equation(letters.G, letters.bold("0"))
+    return (f"In an equilibrium the {context.machine} stays at rest with ", at_rest, ", so ", zero, ". ")
+
+
+def _rows_of(context: Context, rows: Sequence[balance.Zero] | None) -> Prose:
     """How the rows of g are gone through."""
+    found = (letters.G, Reference(("g",), " in "))
     if rows is None:
-        return ("A row of ", letters.G, Reference(("g",)), " is 0 where one of its factors is:")
-    if len(rows) == 1:
-        return ("Of ", letters.G, Reference(("g",)), " one row varies:")
-    return (
-        "The rows of ",
-        letters.G,
-        Reference(("g",)),
-        ", from the last row up, each result put into the row above:",
-    )
+        return ("A row of ", *found, " is 0 where one of its factors is:")
+    if len(rows) == 1 and context.robot.n > 1:
+        return ("Of the entries of ", *found, " only ", letters.entry("g", rows[0].row + 1), " is not 0:")
+    return ("The rows of ", *found, ", from the last row up, each result put into the row above:")
 
 
 def _by_minors(context: Context, names: Sequence[str]) -> Prose:
@@ -129,14 +133,19 @@ def _by_minors(context: Context, names: Sequence[str]) -> Prose:
 
 
 def _second_derivatives(context: Context, names: Sequence[str], rows: Sequence[balance.Zero] | None) -> Line:
-    if rows is None:
-        by: Prose = ("The second derivatives of ", letters.P, ", with det their determinant:")
-        return Line(by, (curvature.matrix_shown(context, names),))
-    derivatives = tuple(curvature.shown(context, names, rows))
     if len(names) == 1:
-        return Line(("The second derivative of ", letters.P, ":"), derivatives)
-    by = (" with respect to ", Symbol(names[-1]), ", and det, the determinant of the matrix of them all:")
-    return Line(("The second derivative of ", letters.P, *by), derivatives)
+        return Line(
+            ("The second derivative of ", letters.P, ":"), tuple(curvature.shown(context, names, rows))
+        )
+    of_some: Prose = ()
+    if len(names) < context.robot.n:
+        of_some = (
+            " with respect to ",
+            *listed([Symbol(name) for name in names]),
+            ", on which alone it depends",
+        )
+    by = ("The entries of the Hessian matrix of ", letters.P, *of_some, "; det is its determinant:")
+    return Line(by, tuple(curvature.shown(context, names, rows)))
 
 
 def _header(context: Context, names: Sequence[str]) -> tuple[Inline, ...]:

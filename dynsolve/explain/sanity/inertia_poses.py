@@ -41,11 +41,13 @@ def inertia_poses_step(context: Context) -> Step | None:
     one = len(shown) == 1
     why: Prose = (*listed(names), f" {'is the moment' if one else 'are the moments'} of inertia about ")
     numbers = [str(_joint(context, q).index) for q in shown]
-    why += (*listed(joints), f" of all that joint {numbers[0]} moves, the joints after it held: " if one else
-            f" of all that joints {and_joined(numbers)} move, the joints after them held: ")  # fmt: skip
-    why += ("each mass times the square of its distance from the axis, and the moments of the bodies",)
-    why += (" and rotors. " if context.robot.actions.motors else ". ",)
-    why += ("In simple poses:",)
+    moved = f"joint {numbers[0]} moves, the joints after it held: "
+    if not one:
+        moved = f"joints {and_joined(numbers)} move, respectively, the joints after them held: "
+    why += (*listed(joints), f" of all that {moved}")
+    why += ("each mass times the square of its distance from the axis, and each body's moment of inertia ",)
+    why += ("about the parallel axis through its mass centre",)
+    why += (", and those of the rotors. " if context.robot.actions.motors else ". ", "In simple poses:")
     return Step(
         id="inertia_poses",
         stage=Stage.VECTORIZED,
@@ -116,19 +118,27 @@ def _summed(context: Context, q: Coordinate, pose: Pose) -> Node:
         linear, angular = (at(context.robot.ring, values[f"D{part}{body.name}"][k, k], pose) for part in "vw")
         if not linear.is_zero:
             in_numbers = linear.is_number and body.mass.is_number
-            terms.append(_mass_at_a_distance(context, body, linear) if in_numbers else context.show(linear))
+            terms.append(_mass_at_a_distance(context, body, k, pose) if in_numbers else context.show(linear))
         terms += [] if angular.is_zero else [context.show(angular)]
     rotors = at(context.robot.ring, values["Dm"][k, k], pose) if context.robot.actions.motors else None
     return sum_of([*terms, *([] if rotors is None or rotors.is_zero else [context.show(rotors)])])
 
 
-def _mass_at_a_distance(context: Context, body: Body, moment: Expr) -> Node:
-    """1.2·0.65², or 1.2·0.2725 where the distance has no exact decimals."""
-    squared = moment.number / body.mass.number
-    root = Fraction(isqrt(squared.numerator), isqrt(squared.denominator))
-    distance = context.show(moment.ring.constant(root))
-    factor = Power(distance, Number(2)) if root**2 == squared else context.show(moment.ring.constant(squared))
-    return Product((context.show(body.mass), factor))
+def _mass_at_a_distance(context: Context, body: Body, k: int, pose: Pose) -> Node:
+    """1.2·0.65², or 1.2 (0.5² + 0.15²) along the base's axes where the distance has no exact decimals."""
+    ring = context.robot.ring
+    there = {q.name: 0 for q in context.robot.coordinates} | dict(pose)
+    along = [at(ring, row[k], there) for row in context.values[f"Jv{body.name}"].rows]
+    squared = sum((part * part for part in along), start=ring.zero)
+    root = Fraction(isqrt(squared.number.numerator), isqrt(squared.number.denominator))
+    if root**2 == squared.number:
+        along = [ring.constant(root)]
+    elif not all(part.is_number for part in along):
+        return Product((context.show(body.mass), context.show(squared)))
+    squares = [
+        Power(context.show(ring.constant(abs(part.number))), Number(2)) for part in along if not part.is_zero
+    ]
+    return Product((context.show(body.mass), sum_of(squares)))
 
 
 def _simple(names: Sequence[str]) -> Iterator[Pose]:

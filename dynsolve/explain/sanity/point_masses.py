@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
+from dynsolve.explain.body_parts import angular_name
 from dynsolve.explain.context import Context
 from dynsolve.explain.sanity.inertia_poses import inertia_poses_step
 from dynsolve.explain.step import Step
-from dynsolve.explain.writing import is_small, listed, spong
+from dynsolve.explain.writing import is_small, listed, spong, sum_of
 from dynsolve.notation.tree import (
     Letter,
     Negative,
@@ -37,6 +38,9 @@ def point_masses_step(context: Context) -> Step | None:
         return None
     left_over = values["D"] - points
     varies = any(robot.ring.depends_on_coordinates(entry) for entry in left_over.entries)
+    turning = [body for body in robot.bodies if not values[f"Dw{body.name}"].is_zero]
+    parts = [angular_name(body) for body in turning]
+    parts += [letters.DM] if robot.actions.motors else []
     rest = context.show(left_over)
     if not is_small(rest) or (not varies and inertia_poses_step(context) is not None):
         return None
@@ -46,7 +50,7 @@ def point_masses_step(context: Context) -> Step | None:
         title="Check: point masses",
         why=_why(context),
         source=spong("7.2"),
-        result=(equation(Sum((letters.D, Negative(letters.D_POINTS))), rest),),
+        result=(equation(Sum((letters.D, Negative(letters.D_POINTS))), sum_of(parts), rest),),
         is_task=False,
     )
 
@@ -65,8 +69,8 @@ def _why(context: Context) -> Prose:
         Product((Letter("m", Symbol("i")), Transpose(jv), jv)),
         ". What is left over of ",
         letters.D,
-        Reference(("D",)),
-        " has a moment of inertia in each term",
+        Reference(("D",), " in "),
+        f" is what the turning of the bodies{rotors} adds",
     )
     sliding = [Symbol(q.name) for q in robot.coordinates if q.type is JointType.PRISMATIC]
     if robot.has_table and sliding and not robot.actions.motors:

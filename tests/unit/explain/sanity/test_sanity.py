@@ -102,15 +102,15 @@ def test_a_moment_of_inertia_in_letters_is_told_body_by_body() -> None:
 
 def test_where_the_planar_arm_hangs_and_where_it_stands() -> None:
     assert said("planar-2r", "equilibrium") == (
-        "Let all parameters be positive. The rows of g, from the last row up, each result put into the row "
-        "above:"
+        "In an equilibrium the arm stays at rest with τ = 0, so g = 0. Let all parameters be positive. The "
+        "rows of g, from the last row up, each result put into the row above:"
     )
     assert lines("planar-2r", "equilibrium") == [
         "g₂ = m₂ g l_c2 c₁₂ = 0, so c₁₂ = 0, q₁ + q₂ = 90° or -90°",
         "g₁ = g (m₁ l_c1 + m₂ l₁) c₁ = 0, so c₁ = 0, q₁ = 90° or -90°",
-        "∂g₂/∂q₂ = -m₂ g l_c2 s₁₂",
-        "(∂g₁/∂q₁) ∂g₂/∂q₂ - (∂g₁/∂q₂)² = g ((m₁ l_c1 + m₂ l₁) s₁ + m₂ l_c2 s₁₂) m₂ g l_c2 s₁₂"
-        " - (m₂ g l_c2 s₁₂)² = m₂ g² l_c2 (m₁ l_c1 + m₂ l₁) s₁ s₁₂",
+        "∂g₁/∂q₁ = -g ((m₁ l_c1 + m₂ l₁) s₁ + m₂ l_c2 s₁₂)",
+        "∂g₁/∂q₂ = ∂g₂/∂q₁ = ∂g₂/∂q₂ = -m₂ g l_c2 s₁₂",
+        "det = (∂g₁/∂q₁) ∂g₂/∂q₂ - (∂g₁/∂q₂)² = m₂ g² l_c2 (m₁ l_c1 + m₂ l₁) s₁ s₁₂",
     ]
     assert rows("planar-2r", "equilibrium") == [
         ["q₁ = 90°, q₂ = 0", "< 0", "> 0", "maximum: the arm stands upright", "unstable"],
@@ -133,7 +133,7 @@ def test_a_waist_is_balanced_in_any_pose() -> None:
 
 
 def test_one_second_derivative_tells_of_one_angle() -> None:
-    assert said("crustcrawler-2r", "equilibrium").endswith("Of g one row varies:")
+    assert said("crustcrawler-2r", "equilibrium").endswith("Of the entries of g only g₂ is not 0:")
     assert rows("crustcrawler-2r", "equilibrium") == [
         ["θ₂ = 90°", "< 0", "maximum", "unstable"],
         ["θ₂ = -90°", "> 0", "minimum", "stable in θ₂"],
@@ -256,8 +256,8 @@ def test_the_determinant_of_the_planar_arm() -> None:
     assert to_unicode(shown, solved("planar-2r").style).startswith("d₁₁ d₂₂ - d₁₂² = ")
     assert "d₁₁ is positive: body 1 adds m₁ l_c1² + I₁ to d₁₁." in said("planar-2r", "definite")
     assert said("in3140-rp", "definite") == (
-        "Let all parameters be positive. d₁₁ and d₂₂ are positive: none of their terms is negative, and not "
-        "all are zero in either. All other entries are zero, so D is positive definite."
+        "Let all parameters be positive. On the diagonal of D, d₁₁ ≥ I_1zz > 0 and d₂₂ > 0. All other "
+        "entries are zero, so D is positive definite."
     )
 
 
@@ -281,9 +281,9 @@ def test_without_moments_of_inertia_the_linear_parts_are_left() -> None:
     assert step is not None
     style = solved("in3140-rp").style
     (rest,) = (to_unicode(node, style) for node in step.result)
-    assert rest == "𝐃 - 𝐃_points = [[I_1zz, 0], [0, 0]]"
+    assert rest == "𝐃 - 𝐃_points = 𝐉_ω1ᵀ 𝓘₁ 𝐉_ω1 = [[I_1zz, 0], [0, 0]]"
     assert said("in3140-rp", "point_masses").endswith(
-        "in each term, and nothing for L₂, which turns no body:"
+        "turning of the bodies adds, and nothing for L₂, which turns no body:"
     )
 
 
@@ -314,6 +314,10 @@ def test_a_moment_of_inertia_in_numbers_is_summed_up() -> None:
     """Masses 2.5, 1.2 and 0.75 at 0.25, 0.5 + 0.15 and 0.5 + 0.4 of the axis."""
     assert rows("numeric-2r", "inertia_poses")[0][-1] == (
         "d₁₁ = 2.5 (0.25)² + 0.0520833 + 1.2 (0.65)² + 0.02 + 0.75 (0.9)² = 1.34283 kg m²"
+    )
+    assert rows("numeric-2r", "inertia_poses")[1][-1] == (  # bent: the distances by Pythagoras
+        "d₁₁ = 2.5 (0.25)² + 0.0520833 + 1.2 ((0.15)² + (0.5)²) + 0.02 + 0.75 ((0.4)² + (0.5)²)"
+        " = 0.862833 kg m²"
     )
     assert check("numeric-2r", "point_masses") is None
 
