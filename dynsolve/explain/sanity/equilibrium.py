@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from dynsolve.algebra.matrix import cross
+from dynsolve.derivation.kinematics import origin
 from dynsolve.document import Inline, Prose, Reference, Table
 from dynsolve.explain.closing import driving_side
 from dynsolve.explain.context import Context
@@ -155,7 +157,7 @@ def _header(context: Context, names: Sequence[str]) -> tuple[Inline, ...]:
 
 
 def _signs(signs: Sequence[int], shows: bool) -> tuple[str, ...]:
-    return tuple("> 0" if sign > 0 else "< 0" for sign in signs) if shows else ()
+    return tuple({1: "> 0", 0: "", -1: "< 0"}[sign] for sign in signs) if shows else ()
 
 
 def _all(zero: Sequence[Pose]) -> str:
@@ -177,14 +179,25 @@ def _free(context: Context, pose: Pose) -> Prose:
 def _told(context: Context, pose: Pose, kind: Kind) -> tuple[Inline, Inline]:
     """What P has in a pose, and how stable that is."""
     whole = len(pose) == context.robot.n
+    is_upright = whole and _is_vertical(context, pose)
     match kind:
         case Kind.MINIMUM:
-            hangs = f"{kind}: the {context.machine} hangs"
-            return (hangs, "stable") if whole else (kind.value, _stable_in(pose))
+            what = f"{kind}: the {context.machine} hangs" if is_upright else kind.value
+            return what, "stable" if whole else _stable_in(pose)
         case Kind.MAXIMUM:
-            return f"{kind}: the {context.machine} stands upright" if whole else kind.value, "unstable"
+            return f"{kind}: the {context.machine} stands upright" if is_upright else kind.value, "unstable"
         case Kind.SADDLE:
             return kind.value, "unstable"
+
+
+def _is_vertical(context: Context, pose: Pose) -> bool:
+    """Whether all origins and mass centres lie on one vertical line."""
+    values, ring, gravity = context.values, context.robot.ring, context.robot.gravity
+    frames = [values[name] for k in range(len(context.robot.joints) + 1) if (name := f"H{k}") in values]
+    mass_centres = [values[f"rc{body.name}"] for body in context.robot.bodies]
+    first, *others = (*(origin(H) for H in frames), *mass_centres)
+    offsets = ((point - first).map(lambda x: at(ring, x, pose)) for point in others)
+    return all(cross(offset, gravity).is_zero for offset in offsets)
 
 
 def _stable_in(pose: Pose) -> Row:

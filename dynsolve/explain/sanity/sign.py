@@ -90,6 +90,6 @@ def is_positive(node: Node, positive: Names, constant: Names) -> bool:
             return all(is_positive(part, positive, constant) for part in parts)
         case Quotient(numerator, denominator):
             return is_positive(numerator, positive, constant) and is_positive(denominator, positive, constant)
-        case Parenthesized(argument):
+        case Parenthesized(argument) | Function("sqrt", argument):
             return is_positive(argument, positive, constant)
     return isinstance(node, Symbol) and is_nonnegative(node, positive)

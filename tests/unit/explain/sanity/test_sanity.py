@@ -167,6 +167,16 @@ def test_a_row_with_two_factors_is_zero_in_two_cases() -> None:
         ("q₁ = 0, q₂ = -90°", "saddle point"),
         ("q₁ = 180°, q₂ = -90°", "saddle point"),
     ]
+    assert [row[1] for row in rows(TILTED_BASE, "equilibrium")] == [
+        "< 0", "> 0", "> 0", "< 0",
+        "< 0", "< 0", "> 0", "> 0",  # -m₂ g l_c2 (s₁ c₂ + √3 s₂)/2
+    ]  # fmt: skip
+
+
+def test_an_arm_hangs_only_where_all_of_it_is_vertical() -> None:
+    leaning = TILTED_BASE.replace("{theta: q1*}", "{theta: q1*, d: d1}")
+    said = [row[3] for row in rows(leaning, "equilibrium")]
+    assert said == ["maximum", "minimum", "minimum", "maximum", *["saddle point"] * 4]
 
 
 def test_the_poses_of_all_cases_are_those_of_a_search() -> None:
