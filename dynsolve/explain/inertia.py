@@ -11,7 +11,7 @@ from dynsolve.algebra import matrix as algebra
 from dynsolve.derivation import inertia
 from dynsolve.document import Prose
 from dynsolve.explain import given_axes
-from dynsolve.explain.citations import LYNCH_PARK
+from dynsolve.explain.citations import GIVEN, LYNCH_PARK
 from dynsolve.explain.context import Context
 from dynsolve.explain.density import density_step
 from dynsolve.explain.mass_centers import mass_center_step
@@ -139,9 +139,9 @@ def _left_out(context: Context, body: Body) -> Prose:
     axes = listed(
         [_axis(context, body, name, f"its {name}") for i, name in enumerate("xyz") if i not in still]
     )
-    what = "that axis" if len(still) == 2 else "these axes"
+    what, along = ("that axis", "is along") if len(still) == 2 else ("these axes", "has components along")
     return (
-        " The body turns about ",
+        f" The angular velocity of the body {along} ",
         *axes,
         f" alone, so only what belongs to {what} enters; the other entries are set to 0.",
     )
@@ -249,7 +249,7 @@ def _rotation(context: Context, body: Body, tells: bool) -> Step:
         title=f"Orientation of {name_of(body)}",
         why=why,
         formula=None if formula is None else equation(rotation, formula),
-        source=spong("7.2.1"),
+        source=GIVEN if body.axes.kind is AxesKind.BASE else spong("7.2.1"),
         working=_turned_back(context, body, rotation),
         result=(equation(rotation, context.form(f"R{body.name}")),),
         notes=notes,
@@ -326,8 +326,8 @@ def _base_tensor(context: Context, body: Body) -> Step:
         stage=STAGE,
         title=f"Inertia tensor of {name_of(body)} in {context.ground} coordinates",
         why=(
-            letters.bold("omega"),
-            f" is written in {context.ground} coordinates, so the tensor must be too: ",
+            letters.of_body("omega", body, "bold"),
+            f" will be written in {context.ground} coordinates, so the tensor must be, too: ",
             R,
             f" leads from the body's axes to those of the {context.ground}.",
             *turning.why,

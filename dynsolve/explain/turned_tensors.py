@@ -42,7 +42,11 @@ def turning_of(context: Context, body: Body, R: Letter) -> Turning:
         tensor = context.values[f"I_body{body.name}"]
         alone = sum(not entry.is_zero for entry in tensor.entries) == 1
         kept = f"the moment about {axis} alone enters" if alone else f"the moments across {axis} are equal"
-        why = (f" Here it turns about {axis}, and {kept}, so the tensor stays as it is.",)
+        why = (
+            " Here ",
+            R,
+            f" is a rotation about {axis}, and {kept}, so the tensor stays as it is.",
+        )
         return Turning((), why, same=letters.tensor(context.robot, body))
     lines = tuple(_turned(context, body))
     is_kept = context.form(f"I{body.name}") == context.form(f"I_body{body.name}")

@@ -149,10 +149,12 @@ def coriolis(model: LongModel, step: Step) -> Step:
     )
     why += ("centrifugal terms (a rate squared) and Coriolis terms (a product of two rates). ",)
     told = "One entry, written out, shows how each is made"
-    why += (
-        (f"{told}; those that are zero follow it." if zero else f"{told}.",) if full else ("There are none.",)
-    )
+    why += (f"{told}; {_zeros_follow(zero)}." if zero else f"{told}.",) if full else ("There are none.",)
     return replace(step, why=why, result=tuple(shown), entries=())
+
+
+def _zeros_follow(zero: Sequence[Node]) -> str:
+    return "one that is zero follows it" if len(zero) == 1 else "those that are zero follow it"
 
 
 def coriolis_entries(model: LongModel, step: Step) -> Step:

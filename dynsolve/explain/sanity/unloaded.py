@@ -34,7 +34,7 @@ def unloaded_step(context: Context) -> Step | None:
     return Step(
         id="unloaded",
         stage=Stage.VECTORIZED,
-        title="Check: joints that gravity does not load",
+        title=f"Check: {'a joint' if len(free) == 1 else 'joints'} that gravity does not load",
         why=why,
         source=spong("7.2.3"),
         is_task=False,

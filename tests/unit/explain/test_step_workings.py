@@ -220,7 +220,7 @@ TENSORS = [
     (
         "planar-2r",
         "1",
-        "along the axes of frame 1. The body turns about 𝐳₁ alone, so only what belongs to that axis",
+        "along the axes of frame 1. The angular velocity of the body is along 𝐳₁ alone, so only",
     ),
     (
         "elbow-3r",

@@ -213,9 +213,11 @@ def test_the_axis_that_points_up_is_named() -> None:
 
 
 def test_of_a_given_tensor_it_is_said_what_does_not_enter() -> None:
-    told = "The body turns about 𝐳₁ alone, so only what belongs to that axis enters; the other entries"
+    told = "The angular velocity of the body is along 𝐳₁ alone, so only what belongs to that axis enters"
     assert told in said(step("planar-2r", "I_body1").why, "planar-2r")
-    assert "turns about" not in said(step("elbow-3r", "I_body2").why, "elbow-3r")  # about all of its axes
+    assert "angular velocity" not in said(
+        step("elbow-3r", "I_body2").why, "elbow-3r"
+    )  # about all of its axes
     assert "turns about" not in said(step("rp-vertical", "I_body1").why, "rp-vertical")  # all are given
 
 
