@@ -195,8 +195,8 @@ def _is_vertical(context: Context, pose: Pose) -> bool:
     values, ring, gravity = context.values, context.robot.ring, context.robot.gravity
     frames = [values[name] for k in range(len(context.robot.joints) + 1) if (name := f"H{k}") in values]
     mass_centres = [values[f"rc{body.name}"] for body in context.robot.bodies]
-    first, *others = [*(origin(H) for H in frames), *mass_centres]
-    offsets = ((point - first).map(lambda x: at(ring, x, pose)) for point in others)
+    points = [origin(H) for H in frames] + mass_centres
+    offsets = ((point - points[0]).map(lambda x: at(ring, x, pose)) for point in points)
     return all(cross(offset, gravity).is_zero for offset in offsets)
 
 
