@@ -17,7 +17,7 @@ from dynsolve.explain.working.identities import Identity, said
 from dynsolve.explain.working.own_axes import turned
 from dynsolve.explain.working.products import used_in_product
 from dynsolve.explain.working.rotational import along_own_axes, factor_of_identity
-from dynsolve.explain.writing import spong, sum_of
+from dynsolve.explain.writing import name_of, spong, sum_of
 from dynsolve.notation.build import number_in_front
 from dynsolve.notation.tree import ZERO, Node, Parenthesized, Product, Symbol, equation
 from dynsolve.quantities import letters
@@ -42,16 +42,19 @@ def part_steps(context: Context, body: Body) -> Iterator[Step]:
         columns: Prose = ("Entry ", i, ", ", j, " is the mass times the scalar product of columns ", i)
         columns += (" and ", j, " of ", letters.jv(body), ".")
         yield _worked_out(context, body, _named_part(step, "linear", columns, linear), turns=False)
-        own: Prose = ("As for its kinetic energy, along the body's own axes.",)
-        step = replace(_named_part(step, "rotational", own, angular), id=f"Dw{body.name}", uses=())
+        own: Prose = (f"As for the rotational kinetic energy of {name_of(body)}.",)
+        tensor = () if along_own_axes(context, body) else (f"Jv{body.name}#2", f"I{body.name}")
+        step = replace(_named_part(step, "rotational", own, angular), id=f"Dw{body.name}", uses=tensor)
         yield _turned(context, body, step)
     else:
         yield _worked_out(context, body, step, turns=_turns(context, body))
 
 
 def _is_in_two(context: Context, body: Body) -> bool:
-    """Whether the rotational part is a step of its own."""
-    return not context.values[f"Jv{body.name}"].is_zero and along_own_axes(context, body)
+    """Whether the rotational part is a step of its own: where it is turned, or the matrices are large."""
+    if context.values[f"Jv{body.name}"].is_zero or not _turns(context, body):
+        return False
+    return along_own_axes(context, body) or context.robot.n > BESIDE
 
 
 def _step(context: Context, body: Body) -> Step:
@@ -80,7 +83,7 @@ def _turns(context: Context, body: Body) -> bool:
 def _uses(context: Context, body: Body) -> tuple[str, ...]:
     """What goes into the first product; into both, where the second needs nothing but matrices put in."""
     b = body.name
-    if _turns(context, body) and not along_own_axes(context, body):
+    if _turns(context, body) and not (along_own_axes(context, body) or _is_in_two(context, body)):
         return f"Jv{b}", f"I{b}"
     return () if context.values[f"Jv{b}"].is_zero else (f"Jv{b}#1",)
 

@@ -9,7 +9,15 @@ from dynsolve.document import Prose
 from dynsolve.explain.acting import acting_steps
 from dynsolve.explain.context import Context
 from dynsolve.explain.given_model import energy_steps
-from dynsolve.explain.jacobian_columns import BESIDE, ZERO, coordinate_column, crosses, end_of, read_off
+from dynsolve.explain.jacobian_columns import (
+    BESIDE,
+    ZERO,
+    coordinate_column,
+    crosses,
+    end_of,
+    parallel,
+    read_off,
+)
 from dynsolve.explain.placed_bodies import jacobians_step
 from dynsolve.explain.potential import potential_steps
 from dynsolve.explain.rotational_energy import rotational_step
@@ -135,7 +143,7 @@ def _jacobians(context: Context, body: Body) -> Step:
         id=f"Jv{b}",
         stage=STAGE,
         title=f"Jacobian{'s' * bool(turning)} of the mass centre of {name_of(body)}",
-        why=_jacobians_why(context, late),
+        why=(*_jacobians_why(context, late), *_zero_column(context, body)),
         formula=side_by_side([linear, *turning]) if beside else linear,
         source=spong("7.2.2"),
         further=() if beside else turning,
@@ -157,6 +165,13 @@ def _read_off(context: Context, body: Body) -> Prose:
     if not (context.is_short and context.robot.has_table) or _is_at_the_end(context, body):
         return ()
     return read_off(context, body.link, context.values[f"rc{body.name}"])
+
+
+def _zero_column(context: Context, body: Body) -> Prose:
+    """Why a column of which no product is shown is zero."""
+    if not context.is_short:
+        return ()
+    return parallel(context, body.link, letters.rc(body), context.values[f"rc{body.name}"])
 
 
 def _jacobians_why(context: Context, late: Sequence[Node]) -> Prose:

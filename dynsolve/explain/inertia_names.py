@@ -45,6 +45,12 @@ _BODY_BY_BODY = frozenset({"inertia_poses", "point_masses"})
 INERTIAS = "inertia-names"
 """The label of the names' definitions."""
 
+DERIVATIVES = "inertia-derivatives"
+"""The label of the names' derivatives."""
+
+_COLLECTED = frozenset({"D_sum", "g"})
+"""The steps that are worked out anew from what stands before the names."""
+
 _DIFFERENTIATED = re.compile(r"ddt\d|dLdq\d|christoffel")
 """The steps in which a named sum is differentiated."""
 
@@ -83,12 +89,12 @@ class InertiaNames:
         """The names."""
         return frozenset(one.name for one in self.definitions)
 
-    def line(self) -> Line:
-        """Where the names are defined."""
+    def lines(self) -> Iterator[Line]:
+        """Where the names are defined, and the derivatives that follow from that."""
         defined = (equation(one.name, one.meaning) for one in self.definitions)
-        return Line(
-            ("What comes up again and again below is named once:",), (*defined, *self.slopes), label=INERTIAS
-        )
+        yield Line(("Abbreviations:",), tuple(defined), label=INERTIAS)
+        if self.slopes:
+            yield Line(("Hence:",), self.slopes, label=DERIVATIVES)
 
     def in_steps(self, steps: Iterable[Step]) -> Iterator[Step]:
         """The steps from the total kinetic energy on with the names, defined in the first that has one."""
@@ -96,12 +102,26 @@ class InertiaNames:
         for step in steps:
             named = step.id == "K" or (step.stage in _AFTER and step.id not in _BODY_BY_BODY)
             written = self._in_step(step) if named else step
-            if self.slopes and _DIFFERENTIATED.match(step.id) and self._names_in(written.result):
-                written = replace(written, names=(*written.names, INERTIAS))
+            if self._names_in(written.result):
+                written = replace(written, names=(*written.names, *self._used_in(step)))
             if written != step and not defined:
                 defined = True
-                written = replace(written, lines=(*written.lines, self.line()))
+                written = self._defining(step, written)
             yield written
+
+    def _used_in(self, step: Step) -> Iterator[str]:
+        """The labels of what a step needs to be written in the names."""
+        if self.slopes and _DIFFERENTIATED.match(step.id):
+            yield DERIVATIVES
+        elif step.id in _COLLECTED:
+            yield INERTIAS
+
+    def _defining(self, step: Step, written: Step) -> Step:
+        """The step that defines the names: its result stands before them without any, if it was collected."""
+        if not step.concluding:
+            return replace(written, lines=(*written.lines, *self.lines()))
+        collected = Line(step.concluding, step.result)
+        return replace(written, lines=(*written.lines, collected, *self.lines()), concluding=("With these:",))
 
     def _names_in(self, nodes: Iterable[Node]) -> bool:
         """Whether formulas are written in the names."""

@@ -67,7 +67,7 @@ def squared(context: Context, body: Body) -> Node:
     form = context.show(value)
     assert isinstance(form, tree.Matrix)
     entries = [row[0] for row in _written(context, value, form).rows if row[0] != Number(0)]
-    return _energy(context, body, factor, sum_of([Power(entry, Number(2)) for entry in entries]))
+    return _energy(context, body, factor, sum_of([Power(without_signs(x), Number(2)) for x in entries]))
 
 
 def _with_factor(context: Context, body: Body) -> tuple[Expr, Matrix]:
@@ -205,8 +205,9 @@ def _from_components(
     lines: list[tuple[Prose, Node]] = []
     if factor is None and velocity != context.values[f"v{body.name}"]:
         lines.append((("The squares of its entries:",), _sum_of_squares(context, components)))
-    while (found := squares.turned(ring, components)) is not None and not _is_plain(found):
-        components = squares.exchanged(components, found)
+    turned = False  # where one pair of squares is exchanged the next is too, plain as it may be
+    while (found := squares.turned(ring, components)) is not None and (turned or not _is_plain(found)):
+        components, turned = squares.exchanged(components, found), True
         lines.append((_turn(context, found), _sum_of_squares(context, components)))
     if any(squares.has_roots(x) for x in components):
         return None

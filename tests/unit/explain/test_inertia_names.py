@@ -85,3 +85,11 @@ def test_they_are_defined_before_they_are_used(detail: Detail, stages: list[str]
     nodes = list(displayed(solution_document(solved(BOX), detail, stages).blocks))
     uses = [node for node in nodes if not names.isdisjoint(walk(node))]
     assert isinstance(uses[0], Relation) and uses[0].parts[0] in names
+
+
+def test_the_kinetic_energy_is_collected_before_the_names_are_put_in() -> None:
+    step = steps(BOX)["K"]
+    assert ["".join(map(str, line.by)) for line in step.lines[2:]] == ["Abbreviations:", "Hence:"]
+    collected = shown(BOX, step.lines[1].formulas[0])
+    assert "(m₂ (4l₂² - b²)/12 + m₃ ((d₃ - l₃/2)² + l₃²/12) + m₄ d₃²) c₂²" in collected
+    assert step.concluding == ("With these:",)
