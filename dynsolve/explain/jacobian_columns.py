@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 
 from dynsolve.algebra import matrix as algebra
@@ -22,11 +22,9 @@ from dynsolve.notation.tree import (
     Matrix,
     Negative,
     Node,
-    Number,
     Parenthesized,
     Product,
     Sum,
-    Symbol,
     equation,
     number,
 )
@@ -123,8 +121,8 @@ def read_off(context: Context, link: int, point: algebra.Matrix) -> Prose:
         z = axis(context.values[f"H{i}"])
         if not algebra.cross(z, lever).is_zero:
             signs = [[entry.number for entry in row] for row in algebra.skew(z).rows]
-            turned = map(_signed_letter, signs)
-            return (" ", letters.z(i), " × (", *_apart(_COORDINATES), ") is (", *_apart(turned), ").")
+            turned = ", ".join(map(_signed_letter, signs))
+            return (" ", letters.z(i), f" × (x, y, z) is ({turned}).")
     return ()
 
 
@@ -141,20 +139,10 @@ def parallel(context: Context, link: int, name: Node, point: algebra.Matrix) -> 
     return ()
 
 
-def _apart(entries: Iterable[Node]) -> Prose:
-    """x, y, z"""
-    return tuple(part for entry in entries for part in (", ", entry))[1:]
-
-
-_COORDINATES = tuple(map(Symbol, "xyz"))
-
-
-def _signed_letter(row: Sequence[Fraction]) -> Node:
+def _signed_letter(row: Sequence[Fraction]) -> str:
     """The coordinate that a row of 0 and one ±1 takes, as it is written: -y."""
-    found = (
-        Negative(name) if sign < 0 else name for sign, name in zip(row, _COORDINATES, strict=True) if sign
-    )
-    return next(found, Number(0))
+    found = (("-" if sign < 0 else "") + name for sign, name in zip(row, "xyz", strict=True) if sign)
+    return next(found, "0")
 
 
 def joints_moved(context: Context, k: int, link: int) -> list[tuple[Fraction, Joint]]:
