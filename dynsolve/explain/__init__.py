@@ -38,8 +38,10 @@ Everything a step is made from is in its `Context`; `writing` has what several s
     entry_formulas
                 energies, momenta and forces in the entries of D and g and the Christoffel symbols
     statement   what is given and what is to be found
-    hypotheses  what it rests on: joints, mass centres, gravity, friction, values
-    shapes      what uniform shapes are called
+    hypotheses  what it rests on: joints, gravity, friction, values
+    given_bodies
+                what is given of each body: mass, dimensions, mass centre, moments of inertia
+    shapes      what uniform shapes and their dimensions are called
     style       how a robot's formulas look: s_1 for sin θ_1
     short_arms  which arms are worked out line by line
     widths      how wide formulas are as text

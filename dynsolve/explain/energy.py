@@ -197,7 +197,7 @@ def _at_the_end(context: Context, body: Body, step: Step) -> Step:
     same += [] if body.is_point else [equation(letters.jw(body), letters.JW)]
     return replace(
         step,
-        why=("The mass centre is ", context.end, ", ", center, ", so nothing is to be worked out."),
+        why=("The mass centre is ", context.end, ", ", center, ", so its Jacobian is known."),
         formula=side_by_side(same),
         further=(),
         working=(),

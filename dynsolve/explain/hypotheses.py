@@ -1,24 +1,21 @@
-"""What an exercise takes for granted and its solution rests on: where mass centres are, gravity, friction.
+"""What an exercise takes for granted and its solution rests on: its joints, gravity, friction, values.
 
 A drawing or the text of an exercise says it; here it is said in the words of the problem file.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
-from dynsolve.algebra.expr import Expr
 from dynsolve.document import Prose
 from dynsolve.explain.forms import Forms
-from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
 from dynsolve.explain.potential import leads_with_minus
 from dynsolve.explain.roles import roles
-from dynsolve.explain.shapes import SHAPES
-from dynsolve.explain.writing import and_joined, listed, measured, name_of, side_by_side
-from dynsolve.notation.tree import Letter, Negative, Node, Number, Row, Symbol, Words, equation
+from dynsolve.explain.writing import and_joined, listed, measured
+from dynsolve.notation.tree import Letter, Negative, Node, Number, Symbol, Words, equation
 from dynsolve.quantities import letters
 from dynsolve.robot import units
-from dynsolve.robot.model import Body, JointType, Robot
+from dynsolve.robot.model import JointType, Robot
 
 _KINDS = {JointType.REVOLUTE: "revolute", JointType.PRISMATIC: "prismatic"}
 
@@ -32,76 +29,6 @@ def joints(robot: Robot) -> str:
     if len(types) == len(found):
         return f" with {' and '.join(f'a {word}' for word in found)} joint" if found else ""
     return f" with {' and '.join(found)} joints"
-
-
-# -- the bodies ------------------------------------------------------------------------------------
-
-
-def of_body(forms: Forms, body: Body) -> Prose:
-    """body 2 in link 2, a uniform slender rod of mass m₂, its mass centre half-way along the link"""
-    told: Prose = (f"{name_of(body)} in link {body.link},",)
-    if body.density is not None:
-        return (*told, " a rod whose density varies")
-    if body.is_point:
-        return (*told, " a point", *_mass(forms, body), " ", *_center(forms, body))
-    if body.shape is not None and body.shape.formulas:
-        told += (f" a uniform {SHAPES[body.shape.kind]}",)
-    return (*told, *_mass(forms, body), ", its mass centre ", *_center(forms, body))
-
-
-def _mass(forms: Forms, body: Body) -> Prose:
-    if body.mass.is_zero:
-        return (" without mass",)
-    return (" of mass ", measured(forms.of(body.mass), "kg"))
-
-
-def _center(forms: Forms, body: Body) -> Prose:
-    """at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁"""
-    near, far = ends(forms.robot, body)
-    if body.center_written == "tip":
-        return ("at ", letters.o(far))
-    if body.center.is_zero:
-        return ("at ", letters.o(body.link))
-    if body.center_written == "midpoint":
-        return ("half-way along the link",)
-    fraction = part_of_the_way(body) if is_given_by(body, "along") else None
-    if fraction is not None:
-        return (fraction, " of the way from ", letters.o(near), " to ", letters.o(far))
-    start, place = body.link, body.center
-    end = other_end(forms.robot, body)
-    if end is not None:  # it is given from there
-        start, place = end[0], body.center - end[1]
-    return _place(forms, place.entries, start, body.link)
-
-
-def _place(forms: Forms, entries: Sequence[Expr], start: int, frame: int) -> Prose:
-    """Where a vector leads from an origin: along an axis of a frame, or by its coordinates there."""
-    along = [(axis, entry) for axis, entry in zip("xyz", entries, strict=True) if not entry.is_zero]
-    if not along:
-        return ("at ", letters.o(start))
-    if len(along) > 1:
-        at = Row((Words("("), side_by_side([forms.of(entry) for entry in entries]), Words(")")))
-        return ("at ", at, " from ", letters.o(start), f" along the axes of frame {frame}")
-    ((axis, entry),) = along
-    unit: Node = Letter(axis, Number(frame), style="bold")
-    shown = forms.of(entry)
-    if isinstance(shown, Negative):
-        shown, unit = shown.argument, Negative(unit)
-    return ("at ", measured(shown, "m"), " from ", letters.o(start), " along ", unit)
-
-
-def of_tensors(robot: Robot) -> Prose:
-    """The inertia tensors of bodies 1 and 2 are given, too; nothing where shapes tell them."""
-    given = [
-        body
-        for body in robot.bodies
-        if not (body.is_point or body.density or (body.shape is not None and body.shape.formulas))
-    ]
-    if not given:
-        return ()
-    if len(given) == 1:
-        return (f"The inertia tensor of {name_of(given[0])} is given, too. ",)
-    return (f"The inertia tensors of bodies {and_joined([body.name for body in given])} are given, too. ",)
 
 
 # -- the base --------------------------------------------------------------------------------------

@@ -113,7 +113,7 @@ class Notation:
         rows = tuple(
             (line.sign, line.words, unit_node(line.unit) if line.unit else "") for line in self.lines
         )
-        return Table(("Sign", "Meaning", "Unit"), rows)
+        return Table(("Symbol", "Meaning", "Unit"), rows)
 
     @property
     def sentence(self) -> Prose:
@@ -208,7 +208,7 @@ def _counting(occurring: set[Kind]) -> Iterator[Inline]:
     if "t" in names:
         yield from ("A dot is the derivative with respect to the time ", Symbol("t"), ". ")
     if TRANSPOSED in occurring:
-        yield "A raised T transposes. "
+        yield "A superscript T denotes the transpose. "
 
 
 def _numbers(style: Style) -> Iterator[Inline]:

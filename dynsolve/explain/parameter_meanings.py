@@ -8,7 +8,7 @@ own number, are told in one line with i (`told_together`).
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from string import ascii_letters, digits
 
@@ -16,6 +16,7 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.algebra.positivity import is_positive
 from dynsolve.explain.roles import Role, names_in, roles
+from dynsolve.explain.shapes import DIMENSIONS
 from dynsolve.explain.writing import and_joined
 from dynsolve.notation.names import split
 from dynsolve.notation.unicode import lowered
@@ -23,14 +24,6 @@ from dynsolve.quantities import letters
 from dynsolve.robot.model import Body, Convention, Joint, Robot
 
 AXES = "xyz"
-
-_DIMENSIONS = {
-    "radius": "radius",
-    "length": "length",
-    "outer": "outer radius",
-    "inner": "inner radius",
-}
-"""The dimensions of uniform shapes, by their keys in a file; those of a box are its sides along the axes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +70,22 @@ def meanings(robot: Robot) -> dict[str, tuple[Role, str, Meaning]]:
     for role, name, meaning in (*_of_table(robot), *_of_bodies(robot)):
         found.setdefault((role, name), {})[meaning] = None
     return {
-        name: (role, unit, _as_one(role, tuple(found.get((role, name), (Meaning(""),)))))
+        name: (role, unit, _with_shape(_of_role(found, role, name), _of_role(found, Role.SHAPE, name)))
+        if role is Role.LENGTH
+        else (role, unit, _of_role(found, role, name))
         for name, (role, unit) in roles(robot).items()
     }
+
+
+def _of_role(found: Mapping[tuple[Role, str], Iterable[Meaning]], role: Role, name: str) -> Meaning:
+    return _as_one(role, tuple(found.get((role, name), (Meaning(""),))))
+
+
+def _with_shape(row: Meaning, shape: Meaning) -> Meaning:
+    """A length of the table that is a dimension of a body, too: height of o_1 above o_0; length of body 1"""
+    if not (row.words and shape.words):
+        return row
+    return replace(row, words=f"{row.words}; {shape.words}", body=shape.body, axes=shape.axes)
 
 
 def _as_one(role: Role, places: Sequence[Meaning]) -> Meaning:
@@ -176,7 +182,7 @@ def _of_bodies(robot: Robot) -> Iterator[tuple[Role, str, Meaning]]:
 def _dimension(body: Body, key: str) -> Meaning:
     if key in AXES:
         return Meaning("side of body {body} along its {axes}", body=body.name, axes=(key,))
-    return Meaning(f"{_DIMENSIONS[key]} of body {{body}}", body=body.name)
+    return Meaning(f"{DIMENSIONS[key]} of body {{body}}", body=body.name)
 
 
 def _moments(body: Body) -> Iterator[tuple[Role, str, Meaning]]:

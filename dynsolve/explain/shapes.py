@@ -1,4 +1,4 @@
-"""What uniform shapes are called in a sentence."""
+"""What uniform shapes and their dimensions are called in a sentence."""
 
 SHAPES = {
     "box": "rectangular solid",
@@ -9,3 +9,11 @@ SHAPES = {
     "sphere": "solid sphere",
     "shell": "thin spherical shell",
 }
+
+DIMENSIONS = {
+    "radius": "radius",
+    "length": "length",
+    "outer": "outer radius",
+    "inner": "inner radius",
+}
+"""Their dimensions, by their keys in a file; those of a box are its sides along the axes."""

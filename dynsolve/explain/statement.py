@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from dynsolve.document import Prose
-from dynsolve.explain import hypotheses
+from dynsolve.explain import given_bodies, hypotheses
 from dynsolve.explain.forms import Forms
 from dynsolve.explain.writing import listed, machine
 from dynsolve.notation.tree import Node
@@ -59,7 +59,7 @@ def statement(forms: Forms, problem: Problem) -> Iterator[Prose]:
             "Given: ",
             *_given(forms),
             ". ",
-            *(hypotheses.of_tensors(forms.robot) if len(forms.robot.bodies) <= MOST_BODIES else ()),
+            *(given_bodies.of_tensors(forms) if len(forms.robot.bodies) <= MOST_BODIES else ()),
             *hypotheses.of_base(forms),
             *hypotheses.of_forces(forms),
             *values,
@@ -75,7 +75,7 @@ def _given(forms: Forms) -> Prose:
     what = f"the table of the {machine(robot)}{hypotheses.joints(robot)} (1.1)"
     if len(robot.bodies) > MOST_BODIES:
         return (f"{what}, and mass, mass centre and inertia tensor of {len(robot.bodies)} rigid bodies",)
-    told = [hypotheses.of_body(forms, body) for body in robot.bodies]
+    told = [given_bodies.of_body(forms, body) for body in robot.bodies]
     count = "one rigid body" if len(told) == 1 else f"{_COUNTS[len(told)]} rigid bodies"
     parts: Prose = told[0]
     for each in told[1:]:

@@ -119,11 +119,11 @@ def _kinematics(robot: Robot, ground: str) -> Iterator[Line]:
     )
     about_z = Letter("R", Row((Words("z"), Words(","), Row((Symbol("theta"),)))), style="bold")
     yield _line(about_z, "rotation by an angle about an axis: 3×3 matrix")
-    yield _line([Symbol("U"), Symbol("V")], "expressions of an identity, given where they stand")
+    yield _line([Symbol("U"), Symbol("V")], "abbreviations within one identity")
     yield _line(_numbered("A"), "matrix of row i: frame i seen from frame i-1")
     frame, turned = Letter("H", _I, above, "bold"), Letter("R", _I, above, "bold")
     yield _each([(frame, "frame i"), (turned, "orientation of frame i")], f", seen from {ground}")
-    yield _each([(_numbered(axis), f"axis {axis}") for axis in "xyz"], " of frame i")
+    yield _each([(_numbered(axis), f"{axis}-axis") for axis in "xyz"], " of frame i")
     yield _line(_numbered("o"), "origin of frame i", "m")
     yield _line(letters.bold("0"), "zero vector or matrix")
     coordinates = [(letters.Q, "column of the coordinates"), (Letter("q", _I), "coordinate i")]

@@ -75,10 +75,11 @@ def solution_document(
         *_numbers(solution, detail, stages),
         *summary_blocks(solution.robot, steps, short, is_short=solution.is_short),
     )
+    stated = tuple(_statement(solution, detail, stages))
     return Document((
         *_opening(solution, _sources(steps, detail, short)),
-        *_statement(solution, detail, stages),
-        *_notation(solution, derivation, detail, short),
+        *stated,
+        *_notation(solution, (*stated, *derivation), detail, short),
         *derivation,
         *_closing(solution),
     ))  # fmt: skip
@@ -91,10 +92,10 @@ def _statement(solution: Dynamics, detail: Detail, stages: Iterable[str] | None)
 
 
 def _notation(
-    solution: Dynamics, derivation: tuple[Block, ...], detail: Detail, short: Abbreviated | None
+    solution: Dynamics, shown: tuple[Block, ...], detail: Detail, short: Abbreviated | None
 ) -> Iterator[Block]:
-    """Every sign that occurs in the derivation, with its meaning and unit; in brief in one paragraph."""
-    told = notation(solution.robot, solution.style, derivation, short)
+    """Every sign that occurs in what is shown, with its meaning and unit; in brief in one paragraph."""
+    told = notation(solution.robot, solution.style, shown, short)
     if not told.lines:
         return
     if detail is Detail.BRIEF:

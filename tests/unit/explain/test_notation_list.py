@@ -103,7 +103,7 @@ def test_nothing_is_listed_that_is_not_printed(problem: str, detail: Detail) -> 
     printed = [
         replace(block, entries=()) if isinstance(block, Formula) else block
         for block in unfolded(document(problem, detail).blocks)
-        if not (isinstance(block, Table) and block.header[0] == "Sign")
+        if not (isinstance(block, Table) and block.header[0] == "Symbol")
     ]
     kinds = kinds_in(formulas_in(printed), solution.style)
     listed = {kind_of(sign, solution.style): to_unicode(sign) for line in told.lines for sign in line.signs}
@@ -157,7 +157,7 @@ def lines(problem: str, detail: Detail = Detail.NORMAL) -> dict[str, tuple[str, 
     (table,) = (
         block
         for block in document(problem, detail).blocks
-        if isinstance(block, Table) and block.header[0] == "Sign"
+        if isinstance(block, Table) and block.header[0] == "Symbol"
     )
     return {cell(row[0]): (cell(row[1]), cell(row[2])) for row in table.rows}
 
@@ -189,7 +189,7 @@ MEANINGS = [
      "kinetic energy, its part of translation, its part of rotation, potential energy of body i", "J"),
     ("planar-2r", "𝐈ᵢ^b", "inertia tensor of body i about its mass centre, along its axes", "kg m²"),
     ("elbow-3r", "𝐈ᵢ", "inertia tensor of body i about its mass centre, along its axes", "kg m²"),
-    ("elbow-3r", "U, V", "expressions of an identity, given where they stand", ""),
+    ("elbow-3r", "U, V", "abbreviations within one identity", ""),
     ("in3140-rp", "s₁, c₁", "s₁ = sin θ₁, c₁ = cos θ₁", ""),
     ("in3140-rp", "τᵢ, fᵢ",
      "generalized force i: a torque at a revolute joint, a force (fᵢ) at a prismatic one", "N m or N"),

@@ -18,8 +18,8 @@ CASES = [
         "in3140-rp",
         "Given: the table of the arm with a revolute and a prismatic joint (1.1) and two rigid bodies: "
         "body 1 in link 1, of mass m₁, its mass centre half-way along the link; body 2 in link 2, a point of "
-        "mass m₂ at 𝐨₂. The inertia tensor of body 1 is given, too. Gravity g acts along -𝐳₀; there is no "
-        "friction.",
+        "mass m₂ at 𝐨₂. The moment of inertia of body 1 about the axis through its mass centre parallel to "
+        "𝐳₀ is I_1zz. Gravity g acts along -𝐳₀; there is no friction.",
         "To be found: the generalized forces 𝛕, the inertia matrix 𝐃, the matrix of Coriolis and centrifugal "
         "terms 𝐂 and the gravity terms 𝐠.",
     ),
@@ -101,9 +101,36 @@ def test_the_statement_says_how_the_base_is_placed(base: str, told: str) -> None
     assert told in given
 
 
-def test_the_statement_says_which_tensors_are_given() -> None:
-    assert "The inertia tensors of bodies 1 and 2 are given, too." in stated(solved("planar-2r"))[0]
-    assert "given, too" not in stated(solved("crustcrawler-2r"))[0], "shapes tell them"
+MOMENTS = [
+    ("numeric-2r", "about the axis through its mass centre parallel to 𝐳₂ is 0.02 kg m². "),
+    ("planar-2r", "of body 1 I₁, parallel to 𝐳₁; of body 2 I₂, parallel to 𝐳₂. "),
+    (
+        "spherical-rrp",
+        "of body 1 I₁, parallel to 𝐳₀; of body 2 I₂, parallel to 𝐱₂ and 𝐲₂; the other entries of the tensors "
+        "are 0. ",
+    ),
+]
+
+
+@pytest.mark.parametrize(("problem", "told"), MOMENTS)
+def test_the_statement_says_which_moments_are_given(problem: str, told: str) -> None:
+    assert told in stated(solved(problem))[0]
+
+
+SHAPES = [
+    ("{cylinder: {radius: r, length: h}}", "solid cylinder of mass m, radius r and length h along 𝐱₁, its"),
+    ("{box: {x: b, y: b, z: h}}", "solid of mass m and sides b, b and h along 𝐱₁, 𝐲₁ and 𝐳₁, its"),
+    ("{sphere: {radius: 0.1}}", "solid sphere of mass m and radius 1/10 m, its"),
+    ("{disk: {radius: r}}", "thin disk of mass m and radius r, its axis along 𝐳₁, its"),
+]
+
+
+@pytest.mark.parametrize(("shape", "told"), SHAPES)
+def test_the_statement_says_how_large_a_shape_is(shape: str, told: str) -> None:
+    body = f"{{mass: m, link: 1, center: midpoint, shape: {shape}}}"
+    (given, *_) = stated(solved(f"dh: [{{theta: q1*, a: l1}}]\nmasses: [{body}]"))
+    assert told in given
+    assert "oment of inertia" not in given, "the shape tells it"
 
 
 ACTING = [

@@ -1,0 +1,169 @@
+"""What an exercise says of a body: its mass, the dimensions of its shape, its mass centre, its moments.
+
+It is said before the solution, so that the problem can be solved from it alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dynsolve.algebra.expr import Expr
+from dynsolve.document import Inline, Prose
+from dynsolve.explain.forms import Forms
+from dynsolve.explain.inertia import has_link_axes, is_moved
+from dynsolve.explain.mass_centers import ends, is_given_by, other_end, part_of_the_way
+from dynsolve.explain.shapes import DIMENSIONS, SHAPES
+from dynsolve.explain.writing import listed, measured, name_of, side_by_side
+from dynsolve.notation.tree import Letter, Negative, Node, Number, Row, Words
+from dynsolve.quantities import letters
+from dynsolve.robot.model import Body
+from dynsolve.robot.shapes import Shape
+
+AXES = "xyz"
+
+
+def of_body(forms: Forms, body: Body) -> Prose:
+    """body 2 in link 2, a uniform slender rod of mass m₂ and length l₂ along 𝐱₂, its mass centre at 𝐨₁"""
+    told: Prose = (f"{name_of(body)} in link {body.link},",)
+    if body.density is not None:
+        return (*told, " a rod whose density varies")
+    if body.is_point:
+        return (*told, " a point", *_mass(forms, body), " ", *_center(forms, body))
+    if body.shape is not None and body.shape.formulas:
+        told += (f" a uniform {SHAPES[body.shape.kind]}", *_sized(forms, body, body.shape))
+    else:
+        told += _mass(forms, body)
+    return (*told, ", its mass centre ", *_center(forms, body))
+
+
+def _mass(forms: Forms, body: Body) -> Prose:
+    if body.mass.is_zero:
+        return (" without mass",)
+    return (" of mass ", measured(forms.of(body.mass), "kg"))
+
+
+# -- shapes ----------------------------------------------------------------------------------------
+
+
+def _sized(forms: Forms, body: Body, shape: Shape) -> Prose:
+    """of mass m₁, radius r₁ and length l₁ along 𝐲₁; of a box: and sides b, b and c along 𝐱₁, 𝐲₁ and 𝐳₁"""
+    sizes = {key: measured(forms.of(value), "m") for key, value in shape.dimensions}
+    if not set(sizes) <= set(DIMENSIONS):
+        along = listed([axis_of(forms, body, axis) for axis in sizes])
+        return (*_mass(forms, body), " and sides ", *listed(list(sizes.values())), " along ", *along)
+    parts: list[Prose] = [_mass(forms, body), *((f"{DIMENSIONS[key]} ", size) for key, size in sizes.items())]
+    if not shape.axis:
+        return listed(parts)
+    along = axis_of(forms, body, shape.axis)
+    return (*listed(parts), " along " if "length" in sizes else ", its axis along ", *along)
+
+
+def axis_of(forms: Forms, body: Body, name: str) -> Prose:
+    """𝐳₁ of a body with the axes of frame 1; 𝐳₀ where it always is this; else its z-axis."""
+    if has_link_axes(body):
+        return (Letter(name, Number(body.link), style="bold"),)
+    place, seen = AXES.index(name), forms.values[f"R{body.name}"]
+    base = seen.identity(forms.robot.ring, 3)
+    if not letters.has_base(forms.robot) and all(seen[i, place] == base[i, place] for i in range(3)):
+        return (Letter(name, Number(0), style="bold"),)
+    return (f"its {name}-axis",)
+
+
+# -- mass centres ----------------------------------------------------------------------------------
+
+
+def _center(forms: Forms, body: Body) -> Prose:
+    """at 𝐨₂; at l_c1 from 𝐨₀ along 𝐱₁"""
+    near, far = ends(forms.robot, body)
+    if body.center_written == "tip":
+        return ("at ", letters.o(far))
+    if body.center.is_zero:
+        return ("at ", letters.o(body.link))
+    if body.center_written == "midpoint":
+        return ("half-way along the link",)
+    fraction = part_of_the_way(body) if is_given_by(body, "along") else None
+    if fraction is not None:
+        return (fraction, " of the way from ", letters.o(near), " to ", letters.o(far))
+    start, place = body.link, body.center
+    end = other_end(forms.robot, body)
+    if end is not None:  # it is given from there
+        start, place = end[0], body.center - end[1]
+    return _place(forms, place.entries, start, body.link)
+
+
+def _place(forms: Forms, entries: Sequence[Expr], start: int, frame: int) -> Prose:
+    """Where a vector leads from an origin: along an axis of a frame, or by its coordinates there."""
+    along = [(axis, entry) for axis, entry in zip(AXES, entries, strict=True) if not entry.is_zero]
+    if not along:
+        return ("at ", letters.o(start))
+    if len(along) > 1:
+        at = Row((Words("("), side_by_side([forms.of(entry) for entry in entries]), Words(")")))
+        return ("at ", at, " from ", letters.o(start), f" along the axes of frame {frame}")
+    ((axis, entry),) = along
+    unit: Node = Letter(axis, Number(frame), style="bold")
+    shown = forms.of(entry)
+    if isinstance(shown, Negative):
+        shown, unit = shown.argument, Negative(unit)
+    return ("at ", measured(shown, "m"), " from ", letters.o(start), " along ", unit)
+
+
+# -- tensors ---------------------------------------------------------------------------------------
+
+
+def of_tensors(forms: Forms) -> Prose:
+    """Which moments of inertia are given, about which axes; nothing where shapes tell them."""
+    given = [
+        body
+        for body in forms.robot.bodies
+        if not (body.is_point or body.density or (body.shape is not None and body.shape.formulas))
+    ]
+    plain = [body for body in given if _is_diagonal(body) and not is_moved(body)]
+    return (*_moments(forms, plain), *(part for b in given if b not in plain for part in _tensor(forms, b)))
+
+
+def _tensor(forms: Forms, body: Body) -> Prose:
+    """Of a tensor with products of inertia, or about another point: that it is given, and about what."""
+    point: Inline = letters.o(body.link if body.about == "origin" else ends(forms.robot, body)[0])
+    about: Prose = (point,) if is_moved(body) else ("its mass centre",)
+    axes = f"the axes of frame {body.link}" if has_link_axes(body) else "its own axes"
+    return (f"The inertia tensor of {name_of(body)} about ", *about, f" along {axes} is given, too. ")
+
+
+def _moments(forms: Forms, bodies: Sequence[Body]) -> Prose:
+    """Moments of inertia about axes through the mass centres: of body 1 I₁, parallel to 𝐳₁; ..."""
+    found = [(body, value, axes) for body in bodies for value, axes in _by_value(forms, body)]
+    if not found:
+        return ()
+    if len(found) == 1 and len(found[0][2]) == 1:
+        ((body, value, (axis,)),) = found
+        what = f"The moment of inertia of {name_of(body)} about the axis through its mass centre parallel to "
+        return (what, *axis, " is ", value, ". ")
+    told: Prose = ()
+    for body in bodies:
+        own = [(value, axes) for one, value, axes in found if one is body]
+        if own:
+            axes = listed([axis for _, several in own for axis in several])
+            values = listed([value for value, _ in own])
+            told += ("; " if told else "", f"of {name_of(body)} ", *values, ", parallel to ", *axes)
+    several = any(len(own) > 1 for own in (_nonzero(body) for body in bodies))
+    rest = "; the other entries of the tensors are 0" if several else ""
+    return ("Moments of inertia about axes through the mass centres: ", *told, f"{rest}. ")
+
+
+def _by_value(forms: Forms, body: Body) -> list[tuple[Node, list[Prose]]]:
+    """The moments that are not 0, each with the axes about which it is."""
+    axes: dict[Expr, list[Prose]] = {}
+    for axis, value in _nonzero(body):
+        axes.setdefault(value, []).append(axis_of(forms, body, axis))
+    return [(measured(forms.of(value), "kg m^2"), own) for value, own in axes.items()]
+
+
+def _nonzero(body: Body) -> list[tuple[str, Expr]]:
+    assert body.inertia is not None
+    return [(axis, body.inertia[i, i]) for i, axis in enumerate(AXES) if not body.inertia[i, i].is_zero]
+
+
+def _is_diagonal(body: Body) -> bool:
+    """Whether a tensor has no products of inertia."""
+    assert body.inertia is not None
+    return all(body.inertia[i, j].is_zero for i in range(3) for j in range(3) if i != j)
