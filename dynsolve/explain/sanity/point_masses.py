@@ -41,7 +41,7 @@ def point_masses_step(context: Context) -> Step | None:
     turning = [body for body in robot.bodies if not values[f"Dw{body.name}"].is_zero]
     parts = [angular_name(body) for body in turning]
     parts += [letters.DM] if robot.actions.motors else []
-    rest = context.show(left_over)
+    name, rest = Sum((letters.D, Negative(letters.D_POINTS))), context.show(left_over)
     if not is_small(rest) or (not varies and inertia_poses_step(context) is not None):
         return None
     return Step(
@@ -49,8 +49,9 @@ def point_masses_step(context: Context) -> Step | None:
         stage=Stage.VECTORIZED,
         title="Check: point masses",
         why=_why(context),
+        formula=equation(name, sum_of(parts)),
         source=spong("7.2"),
-        result=(equation(Sum((letters.D, Negative(letters.D_POINTS))), sum_of(parts), rest),),
+        result=(equation(name, rest),),
         is_task=False,
     )
 

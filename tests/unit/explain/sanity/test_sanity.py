@@ -291,7 +291,9 @@ def test_without_moments_of_inertia_the_linear_parts_are_left() -> None:
     assert step is not None
     style = solved("in3140-rp").style
     (rest,) = (to_unicode(node, style) for node in step.result)
-    assert rest == "𝐃 - 𝐃_points = 𝐉_ω1ᵀ 𝓘₁ 𝐉_ω1 = [[I_1zz, 0], [0, 0]]"
+    assert step.formula is not None
+    assert to_unicode(step.formula, style) == "𝐃 - 𝐃_points = 𝐉_ω1ᵀ 𝓘₁ 𝐉_ω1"
+    assert rest == "𝐃 - 𝐃_points = [[I_1zz, 0], [0, 0]]"
     assert said("in3140-rp", "point_masses").endswith(
         "turning of the bodies adds, and nothing for L₂, which turns no body:"
     )

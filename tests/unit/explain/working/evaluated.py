@@ -56,6 +56,7 @@ def has_letters(node: Node) -> bool:
 
 
 def members(ring: Ring, formula: Node) -> list[Value]:
-    """The values of those members of an equation that have one."""
+    """The values of those members of an equation that have one; a name in words (det) has none."""
     parts = formula.parts if isinstance(formula, Relation) else (formula,)
-    return [scalar(evaluated(ring, part)) for part in parts if not has_letters(part)]
+    named = [part for part in parts if not has_letters(part) and not isinstance(part, tree.Words)]
+    return [scalar(evaluated(ring, part)) for part in named]
