@@ -35,12 +35,11 @@ from dynsolve.explain.recurring import Definition, name_recurring
 from dynsolve.notation import tree
 from dynsolve.notation.build import cost, negated, times, total
 from dynsolve.notation.tree import Negative, Node, Product, Sum, Symbol
-from dynsolve.notation.walk import with_children
 
 if TYPE_CHECKING:
     from dynsolve.explain.inertia_names import InertiaNames
 
-__all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "expanded", "is_long"]
+__all__ = ["Abbreviate", "Abbreviated", "Definition", "abbreviate", "is_long"]
 
 LONG = 1500
 """The operations in D, C and g together from which on names make them readable: some five pages."""
@@ -236,30 +235,3 @@ def _leading_with_plus(
 def free_names(letter: str, taken: set[str]) -> Iterator[Symbol]:
     """letter1, letter2, ..., without names that the problem uses."""
     return (Symbol(f"{letter}{k}") for k in count(1) if f"{letter}{k}" not in taken)
-
-
-def expanded_once(definitions: Sequence[Definition], node: Node) -> Node:
-    """A tree with the meanings put in for the names that stand in it, as they were defined."""
-    meanings: dict[Node, Node] = {definition.name: definition.meaning for definition in definitions}
-
-    def put(part: Node) -> Node:
-        return meanings.get(part, part) if isinstance(part, Symbol) else with_children(part, put)
-
-    return put(node)
-
-
-def expanded(definitions: Sequence[Definition], nodes: Sequence[Node]) -> list[Node]:
-    """Trees with the meanings put back for the names; what recurs is shared and not repeated."""
-    meanings: dict[Node, Node] = {}
-    done: dict[Node, Node] = {}
-
-    def put(node: Node) -> Node:
-        found = done.get(node)
-        if found is None:
-            found = meanings.get(node, node) if isinstance(node, Symbol) else with_children(node, put)
-            done[node] = found
-        return found
-
-    for definition in definitions:
-        meanings[definition.name] = put(definition.meaning)
-    return [put(node) for node in nodes]

@@ -17,9 +17,8 @@ from dataclasses import dataclass, replace
 
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Inline, Prose
-from dynsolve.explain.abbreviations import expanded
 from dynsolve.explain.forms import Forms, is_numeric
-from dynsolve.explain.recurring import Definition
+from dynsolve.explain.recurring import Definition, expanded
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of

@@ -328,3 +328,30 @@ def _ordered(part: _Key, terms: Mapping[Symbol, tuple[Node, ...]], users: Sequen
     """The terms of a part in the order of the first sum that holds it."""
     order = [split_sign(t)[1] for t in terms[users[0]]]
     return sorted(part, key=lambda t: order.index(split_sign(t)[1]))
+
+
+def expanded_once(definitions: Sequence[Definition], node: Node) -> Node:
+    """A tree with the meanings put in for the names that stand in it, as they were defined."""
+    meanings: dict[Node, Node] = {definition.name: definition.meaning for definition in definitions}
+
+    def put(part: Node) -> Node:
+        return meanings.get(part, part) if isinstance(part, Symbol) else with_children(part, put)
+
+    return put(node)
+
+
+def expanded(definitions: Sequence[Definition], nodes: Sequence[Node]) -> list[Node]:
+    """Trees with the meanings put back for the names; what recurs is shared and not repeated."""
+    meanings: dict[Node, Node] = {}
+    done: dict[Node, Node] = {}
+
+    def put(node: Node) -> Node:
+        found = done.get(node)
+        if found is None:
+            found = meanings.get(node, node) if isinstance(node, Symbol) else with_children(node, put)
+            done[node] = found
+        return found
+
+    for definition in definitions:
+        meanings[definition.name] = put(definition.meaning)
+    return [put(node) for node in nodes]

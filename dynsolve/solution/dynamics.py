@@ -194,7 +194,7 @@ class Dynamics:
 
     def _verified(self, short: Abbreviated) -> Abbreviated:
         """The model in names, compared with the independent computation."""
-        from dynsolve.explain.abbreviations import expanded
+        from dynsolve.explain.recurring import expanded
 
         D, C, g = expanded(short.definitions, [short.D, short.C, short.g])
         verify(self.robot, {"D": D, "C": C, "g": g}, self.verification.states)

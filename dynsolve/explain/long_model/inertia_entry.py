@@ -9,10 +9,10 @@ from itertools import chain
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose
-from dynsolve.explain.abbreviations import expanded_once
 from dynsolve.explain.inertia import has_link_axes, is_moved
 from dynsolve.explain.long_model.body_share import BodyShare
 from dynsolve.explain.long_model.model import LongModel
+from dynsolve.explain.recurring import expanded_once
 from dynsolve.explain.step import Line, Step
 from dynsolve.explain.writing import listed, spong
 from dynsolve.notation.build import total

@@ -11,8 +11,8 @@ from functools import cached_property
 
 from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.ring_values import value_of
-from dynsolve.explain.abbreviations import Definition, expanded
 from dynsolve.explain.long_model.model import LongModel
+from dynsolve.explain.recurring import Definition, expanded
 from dynsolve.explain.working.differentiation import by_symbol, differentiated
 from dynsolve.notation.build import negated, times, total
 from dynsolve.notation.tree import ZERO, Derivative, Negative, Node, Product, Relation, Sum, Symbol, equation

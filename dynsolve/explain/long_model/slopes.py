@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from dynsolve.document import Prose
-from dynsolve.explain.abbreviations import expanded_once
 from dynsolve.explain.christoffel import in_slopes
 from dynsolve.explain.entry_formulas import pairs
 from dynsolve.explain.long_model.model import LongModel
 from dynsolve.explain.long_model.name_slopes import NameSlopes
+from dynsolve.explain.recurring import expanded_once
 from dynsolve.explain.step import Line
 from dynsolve.notation.build import negated, total
 from dynsolve.notation.tree import (

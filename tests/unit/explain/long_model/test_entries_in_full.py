@@ -8,7 +8,8 @@ from dynsolve.algebra.expr import Expr
 from dynsolve.algebra.matrix import cross
 from dynsolve.algebra.ring_values import value_of
 from dynsolve.derivation.kinematics import axis, origin, rotation
-from dynsolve.explain.abbreviations import Abbreviated, expanded
+from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.explain.recurring import expanded
 from dynsolve.explain.step import Step
 from dynsolve.notation.tree import Cross, Derivative, Letter, Matrix, Node, Relation, Row, Symbol
 from dynsolve.notation.unicode import to_unicode
