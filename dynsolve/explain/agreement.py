@@ -31,14 +31,18 @@ STAGE = Stage.VECTORIZED
 
 SKEW = Sum((letters.bold("D", dots=1), Negative(Product((Number(2), letters.C)))))
 
+ROWS = "Cqd-rows"
+"""The label of the rows of C q̇ that are compared."""
+
 
 def agreement_step(context: Context) -> Step:
     """Whether D, C q̇ and g, read off from the forces, are those assembled directly."""
     agreed = context.agreement or agreement(context.robot, context.values)
     coriolis = Product((letters.C, letters.QD))
+    rows = coriolis_rows(context, label=ROWS) if agreed.coriolis else ()
     verdicts = (
         ((letters.D, Reference(("D", "D_sum"), " in ")), agreed.inertia),
-        ((coriolis, Reference(("Cqd", "C"), " in ")), agreed.coriolis),
+        ((coriolis, Reference(("Cqd", ROWS if rows else "C"), " in ")), agreed.coriolis),
         ((letters.G, Reference(("Cqd-2", "g"), " in ")), agreed.gravity),
     )
     same = [name for name, holds in verdicts if holds]
@@ -54,7 +58,7 @@ def agreement_step(context: Context) -> Step:
         title="Both ways agree" if not wrong else "The two ways differ",
         why=why,
         source=spong("7.3"),
-        lines=coriolis_rows(context) if agreed.coriolis else (),
+        lines=rows,
         uses=("christoffel", "C"),
         is_task=False,
     )

@@ -7,10 +7,8 @@ from dataclasses import replace
 
 from dynsolve.algebra.matrix import Matrix
 from dynsolve.document import Prose, Reference
-from dynsolve.explain.closing import WIDEST
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Detail, Line, Step
-from dynsolve.explain.widths import matrix_width
 from dynsolve.explain.working.column_products import of_columns
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.identities import Identity, said
@@ -128,8 +126,6 @@ def sum_step(context: Context) -> Step | None:
     parts = _summands(context)
     if len(parts) < 2:
         return None
-    forms = [context.matrix(name) for name in parts]
-    fits = sum(matrix_width(context, form) for form in forms) <= WIDEST
     same = context.values["D"] == context.values["D_direct"]
     who = "body" if len(context.robot.bodies) == 1 else "bodies"
     who += " and the rotors" if context.robot.actions.motors else ""
@@ -147,8 +143,8 @@ def sum_step(context: Context) -> Step | None:
             ", entry by entry." if same else ".",
         ),
         source=spong("7.2.2"),
-        result=(equation(letters.D, sum_of(forms)),) if fits else tuple(_summed_entries(context, parts)),
-        listed=not fits,
+        result=tuple(_summed_entries(context, parts)),
+        listed=True,
         uses=tuple(_added_in(context)),
         is_task=False,
     )

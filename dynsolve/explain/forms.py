@@ -9,6 +9,7 @@ Christoffel symbols (∂d_kj/∂q_i = c_ijk + c_ikj), I_base from R.
 from __future__ import annotations
 
 from functools import cached_property
+from itertools import combinations_with_replacement
 from typing import TYPE_CHECKING
 
 from dynsolve.algebra.compact.compactor import Compactor
@@ -18,9 +19,9 @@ from dynsolve.algebra.matrix import Matrix
 from dynsolve.derivation.graph import Derivation, Skipped
 from dynsolve.explain.entry_formulas import EntryFormulas, coriolis_matrix
 from dynsolve.notation import tree
-from dynsolve.notation.build import cost, negated, number_in_front, times, total
-from dynsolve.notation.tree import ZERO, Node, Symbol
-from dynsolve.quantities import families
+from dynsolve.notation.build import cost, factors_of, negated, number_in_front, split_sign, times, total
+from dynsolve.notation.tree import ZERO, Node, Product, Symbol
+from dynsolve.quantities import families, letters
 from dynsolve.quantities.action_families import KM, PS
 from dynsolve.quantities.index import quantities
 from dynsolve.quantities.model_families import PARAMETERS, REFERENCE
@@ -36,7 +37,10 @@ LONG = 300
 LONG_REGRESSOR = 1500
 """From this number of terms on a regressor is written in the first way that is tried."""
 
-_ENERGIES = (families.KV, families.KW, families.K_BODY, families.K, PS, KM)
+_KINETIC = (families.KV, families.KW, families.K_BODY, families.K, KM)
+"""Of decimals, too, they keep their ½: what is beside it are then the digits of D."""
+
+_ENERGIES = (*_KINETIC, PS)
 """Their ½ stands in front, as in their definitions."""
 
 _SHORT = 5
@@ -120,6 +124,8 @@ class Forms:
         quantity = quantities(self.robot).of_rule(name)
         if quantity is not None and quantity.family is families.DLDQD and is_numeric(self.robot):
             return self._momentum_in_decimals(value)
+        if quantity is not None and quantity.family in _KINETIC and is_numeric(self.robot):
+            return self._kinetic_in_decimals(value)
         if name == "tau":
             return tree.column(*(self(f"tau{q.index}") for q in self.robot.coordinates))
         if name == "L":
@@ -143,6 +149,27 @@ class Forms:
         slopes = [Expr(ring, momentum.poly.derivative(ring.symbol_indices[(q.name, 1)])) for q in rates]
         terms = zip(map(self.of, slopes), rates, strict=True)
         return total([times(1, [(slope, 1), (rate, 1)], decimal=True) for slope, rate in terms])
+
+    def _kinetic_in_decimals(self, energy: Expr) -> Node:
+        """½ (d_11 q̇_1² + 2 d_12 q̇_1 q̇_2 + …), each d_kj as it is rounded elsewhere; 0 of no energy."""
+        ring, names = energy.ring, self.robot.ring.names
+        inner = self.of(energy * 2)
+        if inner == ZERO:
+            return ZERO
+        if isinstance(inner, tree.Sum):
+            rates = [ring.symbol_indices[(name, 1)] for name in names]
+            terms: list[Node] = []
+            for j, k in combinations_with_replacement(range(len(names)), 2):
+                entry = self.of(Expr(ring, energy.poly.derivative(rates[j]).derivative(rates[k])))
+                first, second = Symbol(names[j], 1), Symbol(names[k], 1)
+                if entry != ZERO and j == k:
+                    terms.append(times(1, [(entry, 1), (first, 2)], decimal=True))
+                elif entry != ZERO:
+                    sign, bare = split_sign(entry)
+                    double = Product((tree.Number(2), *factors_of(bare), first, second))
+                    terms.append(double if sign > 0 else negated(double))
+            inner = total(terms)
+        return Product((letters.HALF, *factors_of(inner)))
 
     # -- long values from their parts --------------------------------------------------------------
 

@@ -23,7 +23,19 @@ from dynsolve.explain.step import Line, Step
 from dynsolve.explain.working.derivatives import are_alike
 from dynsolve.explain.working.differentiation import by_symbol, differentiated, product_of
 from dynsolve.notation.build import cost, negated, total
-from dynsolve.notation.tree import Function, Negative, Node, Product, Relation, Sum, Symbol, equation
+from dynsolve.notation.tree import (
+    Entry,
+    Function,
+    Letter,
+    Matrix,
+    Negative,
+    Node,
+    Product,
+    Relation,
+    Sum,
+    Symbol,
+    equation,
+)
 from dynsolve.notation.walk import children, walk, with_children
 from dynsolve.quantities import letters
 from dynsolve.quantities.stages import Stage
@@ -48,7 +60,7 @@ DERIVATIVES = "inertia-derivatives"
 """The label of the names' derivatives."""
 
 _COLLECTED = frozenset({"D_sum", "g"})
-"""The steps that are worked out anew from what stands before the names."""
+"""The steps that are worked out anew from what stands before the names, and end in these."""
 
 _DIFFERENTIATED = re.compile(r"ddt\d|dLdq\d|christoffel")
 """The steps in which a named sum is differentiated."""
@@ -130,8 +142,9 @@ class InertiaNames:
         """A step in the names; its last line is left out where only the order of the result differs."""
         lines = step.lines  # the plain sum of K stands before the names are defined
         if step.id != "K":
-            lines = tuple(replace(line, formulas=tuple(map(self.put, line.formulas))) for line in lines)
-        result = tuple(map(self.put, step.result))
+            put = self._last if step.id in _COLLECTED else self.put
+            lines = tuple(replace(line, formulas=tuple(map(put, line.formulas))) for line in lines)
+        result = tuple(map(self._last if step.id in _COLLECTED else self.put, step.result))
         written = replace(
             step,
             why=self._prose(step.why),
@@ -144,8 +157,22 @@ class InertiaNames:
         alike = written != step and lines and result and are_alike(lines[-1].formulas[-1], result[0])
         return replace(written, lines=lines[:-1], concluding=()) if alike else written
 
+    def _last(self, node: Node) -> Node:
+        """An equation whose last member is in the names: beside the sum as it stands, or in its place."""
+        if not isinstance(node, Relation):
+            return self.put(node)
+        *before, last = node.parts
+        named = self.put(last)
+        is_alone = named != last and not isinstance(last, Matrix) and all(map(_is_letter, before))
+        return equation(*before, *([last] if is_alone else []), named)
+
     def _prose(self, parts: tuple[Inline, ...]) -> Prose:
         return tuple(self.put(part) if isinstance(part, Node) else part for part in parts)
+
+
+def _is_letter(node: Node) -> bool:
+    """Whether a member of an equation names a quantity."""
+    return isinstance(node, Letter | Entry)
 
 
 def _exchanged(node: Node, exchange: _Exchange) -> Node:

@@ -12,7 +12,7 @@ from dynsolve.algebra.compact.matrix_factor import matrix_factor
 from dynsolve.explain.context import Context
 from dynsolve.explain.step import Step
 from dynsolve.explain.widths import matrix_width
-from dynsolve.notation.build import number_in_front
+from dynsolve.notation.build import factors_of, number_in_front
 from dynsolve.notation.tree import Matrix, Node, Number, Product, Quotient, Relation, Transpose
 
 WIDEST = 50
@@ -38,7 +38,7 @@ def _written(context: Context, node: Node) -> Node:
             return replace(node, parts=tuple(_written(context, part) for part in parts))
         case Matrix():
             found = _factored(context, node)
-            return node if found is None else Product((*_factors(found[0]), found[1]))
+            return node if found is None else Product((*factors_of(found[0]), found[1]))
         case Product():
             factors = tuple(_flat(node))
             if not any(isinstance(factor, Number | Quotient) for factor in factors):
@@ -75,11 +75,7 @@ def _product(context: Context, factors: tuple[Node, ...]) -> Node | None:
         return None
     collector = context.forms.compactor.collector
     front = number_in_front(collector.product(*collector.decompose(Product(tuple(scalars))), ()))
-    return Product((*_factors(front), *matrices))
-
-
-def _factors(node: Node) -> tuple[Node, ...]:
-    return node.factors if isinstance(node, Product) else (node,)
+    return Product((*factors_of(front), *matrices))
 
 
 def _factored(context: Context, matrix: Matrix) -> tuple[Node, Matrix] | None:

@@ -15,7 +15,7 @@ from dynsolve.explain.matrix_factors import with_factors_in_front
 from dynsolve.explain.sanity import sanity_steps
 from dynsolve.explain.step import Detail, Step
 from dynsolve.explain.terms import terms_step
-from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums
+from dynsolve.explain.working.derivatives import coriolis_rows, coriolis_sums, gravity_rows
 from dynsolve.explain.writing import and_joined, are_counted, listed, spong, sum_of, turns
 from dynsolve.notation.tree import (
     BigSum,
@@ -94,7 +94,7 @@ def _inertia(context: Context) -> Step:
             " Here it is diagonal: there is no coupling inertia." if _is_diagonal(context) else "",
         ),
         formula=equation(_d(_I, _J), letters.partial_derivative(Letter("tau", _I), Letter("q", _J, dots=2))),
-        source=spong("7.3"),
+        source=f"from {spong('7.3')}",
         result=(equation(letters.D, context.form("D")),),
         uses=_forces(context),
         entries=_names(context, "d"),
@@ -320,6 +320,7 @@ def _gravity(context: Context) -> Step:
         why=why,
         formula=equation(Letter("g", _K), letters.partial_derivative(letters.P, Letter("q", _K))),
         source=spong("7.3"),
+        lines=gravity_rows(context),
         result=(equation(letters.G, context.form("g")),),
         notes=() if still else tuple(_turned_base(context)),
         uses=("P",),

@@ -79,6 +79,11 @@ def split_sign(node: Node) -> tuple[int, Node]:
     return (-1, node.argument) if isinstance(node, Negative) else (1, node)
 
 
+def factors_of(node: Node) -> tuple[Node, ...]:
+    """The factors of a product; anything else is its own one."""
+    return node.factors if isinstance(node, Product) else (node,)
+
+
 def total(terms: Sequence[Node]) -> Node:
     """The sum of terms, flattened; it starts with a plus where that leaves the rates in their order.
 

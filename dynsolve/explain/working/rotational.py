@@ -19,7 +19,7 @@ from dynsolve.explain.working.kinetic import collected, without_signs
 from dynsolve.explain.working.proved import SILENT, Way, chain
 from dynsolve.explain.writing import sum_of
 from dynsolve.notation import tree
-from dynsolve.notation.build import number_in_front, times
+from dynsolve.notation.build import factors_of, number_in_front, times
 from dynsolve.notation.tree import ONE, ZERO, Node, Product, equation
 from dynsolve.quantities import letters
 from dynsolve.robot.model import Body
@@ -90,13 +90,9 @@ def _with_factor(context: Context, tensor: Matrix) -> tuple[tuple[Node, ...], tr
     form, factor = context.show(tensor), factor_of_identity(tensor)
     assert isinstance(form, tree.Matrix)
     if factor is not None:
-        return _factors(number_in_front(context.show(factor))), None
+        return factors_of(number_in_front(context.show(factor))), None
     found = matrix_factor(context.forms.compactor.collector, form)
-    return ((), form) if found is None else (_factors(found[0]), found[1])
-
-
-def _factors(node: Node) -> tuple[Node, ...]:
-    return node.factors if isinstance(node, Product) else (node,)
+    return ((), form) if found is None else (factors_of(found[0]), found[1])
 
 
 def _lines(context: Context, body: Body, w: Matrix, tensor: Matrix) -> Way:

@@ -63,10 +63,29 @@ def test_their_derivatives(problem: str, slopes: list[str]) -> None:
 def test_results_in_names_mean_the_same(problem: str, name: str) -> None:
     values, step = known(problem), steps(problem)[name]
     wanted = evaluate(solved(problem).forms(name), values)
-    lines = [line.formulas[0] for line in step.lines if name != "K"]
+    lines = [line.formulas[0] for line in step.lines if name not in ("K", "g")]
     for node in (*lines, step.result[0]):
         found = evaluate(last(node), values)
         assert_same(found, wanted) if isinstance(found, list) else assert_same([found], [wanted])
+
+
+@pytest.mark.parametrize(("problem", "name", "row"), [
+    (BOX, "g", "g₂ = ∂𝒫/∂θ₂ = m₂ g l₂ c₂/2 + m₃ g (d₃ - l₃/2) c₂ + m₄ g d₃ c₂ = g (m₂ l₂/2 + σ₃) c₂"),
+    (BOX, "g", "g₃ = ∂𝒫/∂d₃ = m₃ g s₂ + m₄ g s₂ = g (m₃ + m₄) s₂"),
+    ("spherical-rrp", "D_sum", "d₁₁ = I₁ + m₂ l_c2² c₂² + I₂ c₂² + m₃ d₃² c₂² = I₁ + σ₁ c₂²"),
+    ("spherical-rrp", "D_sum", "d₂₂ = m₂ l_c2² + I₂ + m₃ d₃² = σ₁"),
+])  # fmt: skip
+def test_a_sum_stands_before_its_name(problem: str, name: str, row: str) -> None:
+    """What is worked out anew is the plain sum, and the name only what it comes to."""
+    step, values = steps(problem)[name], known(problem)
+    rows = {
+        shown(problem, node): node
+        for node in (*(n for line in step.lines for n in line.formulas), *step.result)
+    }
+    relation = rows[row]
+    assert isinstance(relation, Relation)
+    plain, named = relation.parts[-2:]
+    assert evaluate(plain, values) == pytest.approx(evaluate(named, values))
 
 
 def test_a_line_that_only_sorts_is_left_out() -> None:
