@@ -9,9 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from dynsolve.algebra.ring_values import value_of
 from dynsolve.document import Block, Inline, Prose, Table
-from dynsolve.explain.abbreviations import Abbreviated
+from dynsolve.explain.abbreviations import Abbreviated, Definition
 from dynsolve.explain.parameter_meanings import meanings, told_together
+from dynsolve.explain.recurring import expanded
 from dynsolve.explain.roles import Role
 from dynsolve.explain.sign_kinds import TRANSPOSED, Kind, formulas_in, kind_of, kinds_in
 from dynsolve.explain.signs import shorthands
@@ -21,9 +23,11 @@ from dynsolve.notation.characters import GREEK
 from dynsolve.notation.printing import PLAIN, Style
 from dynsolve.notation.tree import Function, Letter, Node, Product, Row, Sum, Symbol, Words, equation
 from dynsolve.quantities import letters
+from dynsolve.robot.dimensions import Dimensions
 from dynsolve.robot.model import Convention, JointType, Robot
 from dynsolve.robot.shapes import MASS
 from dynsolve.robot.units import node as unit_node
+from dynsolve.robot.units import si
 
 COUNTING = ("i", "j", "k", "n", "t")
 """The names that every textbook counts with, and time: told in a sentence."""
@@ -179,12 +183,24 @@ def _of_abbreviations(robot: Robot, short: Abbreviated | None) -> Iterator[Line]
             [d.name.name for d in short.constants], "inertial constants, see Abbreviations", BY_ENTRY
         )
     if short is not None and short.sums:
-        names = [d.name.name for d in short.sums]
         if short.at_symbols:
-            meaning = "abbreviations, defined where they first occur"
-            yield _named(names, meaning, of_inertias(robot))
+            yield from _of_shorthands(robot, short.sums)
         else:
+            names = [d.name.name for d in short.sums]
             yield _named(names, "recurring terms, see Abbreviations", BY_ENTRY)
+
+
+def _of_shorthands(robot: Robot, definitions: Sequence[Definition]) -> Iterator[Line]:
+    """The names that are defined where they first occur, those of one unit in a line."""
+    by_unit: dict[str, list[str]] = {}
+    known = Dimensions(robot.ring, robot)
+    for one, meaning in zip(definitions, expanded(definitions, [d.meaning for d in definitions]), strict=True):
+        found = known.of(value_of(robot.ring, meaning)) if known.known else None
+        unit = of_inertias(robot) if found is None else si(found)
+        by_unit.setdefault(unit, []).append(one.name.name)
+    for unit, names in by_unit.items():
+        several = "abbreviations, defined where they first occur"
+        yield _named(names, several if len(names) > 1 else "abbreviation, defined where it first occurs", unit)
 
 
 def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
