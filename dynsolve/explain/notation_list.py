@@ -194,13 +194,17 @@ def _of_shorthands(robot: Robot, definitions: Sequence[Definition]) -> Iterator[
     """The names that are defined where they first occur, those of one unit in a line."""
     by_unit: dict[str, list[str]] = {}
     known = Dimensions(robot.ring, robot)
-    for one, meaning in zip(definitions, expanded(definitions, [d.meaning for d in definitions]), strict=True):
+    for one, meaning in zip(
+        definitions, expanded(definitions, [d.meaning for d in definitions]), strict=True
+    ):
         found = known.of(value_of(robot.ring, meaning)) if known.known else None
         unit = of_inertias(robot) if found is None else si(found)
         by_unit.setdefault(unit, []).append(one.name.name)
     for unit, names in by_unit.items():
         several = "abbreviations, defined where they first occur"
-        yield _named(names, several if len(names) > 1 else "abbreviation, defined where it first occurs", unit)
+        yield _named(
+            names, several if len(names) > 1 else "abbreviation, defined where it first occurs", unit
+        )
 
 
 def _of_shapes(robot: Robot, occurring: set[Kind]) -> Iterator[Line]:
